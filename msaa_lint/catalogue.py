@@ -1,0 +1,114 @@
+"""The rules there are: the pages of the catalogue, and a user's own."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+from .condition import Wrong, check
+from .diagnostics import diagnostic
+from .finding import Finding, RuleInfo, Span
+from .page import Rule, read_page, split
+
+EDITIONS = ("2026.1",)
+"""In their order; a rule of a later edition than the one pinned is off."""
+
+
+class Catalogue(NamedTuple):
+    """Rules by code, and what is wrong with the pages that could not be used."""
+
+    rules: tuple[Rule, ...]
+    problems: tuple[Finding, ...]
+
+
+def folder() -> str:
+    """Where the built-in pages stand: inside the installed package, or at the top of a checkout."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    installed = os.path.join(here, "rules")
+    return installed if os.path.isdir(installed) else os.path.join(os.path.dirname(here), "rules")
+
+
+def pages(path: str) -> list[str]:
+    """The pages at a path: itself, or those of a folder (not its README), sorted."""
+    if not os.path.isdir(path):
+        return [path]
+    return [os.path.join(path, name) for name in sorted(os.listdir(path)) if name.endswith(".md") and name != "README.md"]
+
+
+def load(own: Sequence[str] = ()) -> Catalogue:
+    """The built-in rules, and those of the given pages and folders of pages.
+
+    Built-in conditions are checked by the tests, a user's here: a misspelt fact is an error of the page, at its place.
+    """
+    rules: list[Rule] = []
+    problems: list[Finding] = []
+    for path in pages(folder()):
+        page = read_page(path, f"rules/{os.path.basename(path)}")
+        problems.extend(page.problems)
+        if page.rule is not None:
+            rules.append(page.rule)
+    for path in (page for each in own for page in pages(each)):
+        shown = os.path.relpath(path).replace(os.sep, "/")
+        page = read_page(path, shown)
+        problems.extend(page.problems)
+        if page.rule is None:
+            continue
+        found = [*conflicts(page.rule, rules), *check_rule(page.rule)]
+        problems.extend(found)
+        if not found:
+            rules.append(page.rule)
+    return Catalogue(tuple(sorted(rules, key=lambda rule: rule.code)), tuple(problems))
+
+
+def conflicts(rule: Rule, others: Iterable[Rule]) -> list[Finding]:
+    """A page whose code or name another rule has already."""
+    found = []
+    for other in others:
+        if rule.code == other.code or rule.name == other.name:
+            shared = f"code {rule.code}" if rule.code == other.code else f"name {rule.name}"
+            message = f"rule page `{rule.name}`: the {shared} is `{other.name}`'s already"
+            found.append(diagnostic("MSAA921", message, rule.source.name, Span(0, 3), rule.name))
+    return found
+
+
+def check_rule(rule: Rule) -> list[Finding]:
+    """What is wrong with a rule's conditions and the facts that its texts name."""
+    from .facts.table import SUBJECTS
+
+    found = []
+    for when in (rule.when, *(case.when for case in rule.cases)):
+        try:
+            check(when, rule.subject)
+        except Wrong as error:
+            start = rule.source.text.find(when)
+            begin = rule.condition_at.start if start < 0 else start + (error.offset or 0)
+            end = rule.condition_at.end if error.offset is None else begin + 1
+            found.append(diagnostic("MSAA921", f"rule page `{rule.name}`: {error}", rule.source.name, Span(begin, end), rule.name))
+    known = {fact.name for fact in SUBJECTS[rule.subject]}
+    named = [*rule.at, *(fact for fact, _ in rule.labels), *placeholders(rule.message), *placeholders(rule.help)]
+    for text in (text for _, text in rule.labels):
+        named.extend(placeholders(text))
+    for name in dict.fromkeys(named):
+        if name not in known:
+            message = f"rule page `{rule.name}`: there is no fact {name} of {rule.subject}"
+            found.append(diagnostic("MSAA921", message, rule.source.name, rule.condition_at, rule.name))
+    return found
+
+
+def placeholders(text: str) -> list[str]:
+    """The facts that a text names in braces."""
+    parts = text.split("{")[1:]
+    return [part[: part.index("}")] for part in parts if "}" in part]
+
+
+def markdown(rule: Rule) -> str:
+    """A rule's page without its front matter."""
+    return split(rule.source.text)[1].lstrip("\n")
+
+
+def info(rule: Rule, severity: str | None = None, full: bool = True) -> RuleInfo:
+    """What reports say of a rule; `full` with its page."""
+    text = markdown(rule) if full else ""
+    severity = severity or rule.severity
+    return RuleInfo(rule.code, rule.name, severity, rule.confidence, rule.summary, text, rule.references, rule.fix is not None)

@@ -1,0 +1,152 @@
+"""Conditions of rules: CEL, the Common Expression Language, over the facts of one subject.
+
+CEL's `&&` and `||` take an error for an answer where the other side decides, so that a fact that is absent is exactly an unknown of
+three-valued logic (CEL specification, "Logical operators").
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from cel_expr_python import cel
+
+from .facts.table import FACTS, SUBJECTS, WORDS
+
+_STRING = re.compile(r'"(?:[^"\\]|\\.)*"|\'(?:[^\'\\]|\\.)*\'')
+_FACT = re.compile(r"\b[a-z]+\.[a-z_0-9]+\b(?!\s*\()")
+_MACRO = re.compile(r"\.\s*(?:all|exists|exists_one|map|filter)\s*\(")
+_MEETS = re.compile(
+    r"(?P<fact>\b[a-z]+\.[a-z_0-9]+)\s*(?:==|!=)\s*(?P<one>\x00\d+\x00)"
+    r"|(?P<left>\x00\d+\x00)\s*(?:==|!=|in)\s*(?P<of>\b[a-z]+\.[a-z_0-9]+)"
+    r"|(?P<among>\b[a-z]+\.[a-z_0-9]+)\s+in\s+\[(?P<many>[^\]]*)\]"
+)
+_MARK = re.compile(r"\x00(\d+)\x00")
+_MAX_MACROS = 2
+
+_environments: dict[str, Any] = {}
+
+
+class Wrong(ValueError):
+    """A condition that cannot be used: what is wrong, and where in its text (None: all of it)."""
+
+    def __init__(self, message: str, offset: int | None = None) -> None:
+        super().__init__(message)
+        self.offset = offset
+
+
+class Condition:
+    """A compiled condition. `facts` are the facts that it names."""
+
+    __slots__ = ("_program", "facts", "text")
+
+    def __init__(self, text: str, subject: str) -> None:
+        self.text = text
+        self.facts = named(text)
+        try:
+            self._program = _environment(subject).compile(text)
+        except RuntimeError as error:
+            raise _explained(error, text, subject) from None
+
+    def holds(self, activation: Any) -> bool | None:
+        """True or false; None where it hangs on a fact that is absent. ArithmeticError where it cannot be worked out at all."""
+        result = self._program.eval(activation)
+        value = result.plain_value()
+        if isinstance(value, bool):
+            return value
+        if "No value with name" in str(value):
+            return None
+        raise ArithmeticError(str(value))
+
+
+def activation(subject: str, facts: Mapping[str, Any]) -> Any:
+    """The facts of one subject in the form that conditions about its kind are worked out with."""
+    return _environment(subject).Activation(facts)
+
+
+def check(text: str, subject: str) -> None:
+    """Raises `Wrong` where a condition cannot be used: a misspelt fact, a wrong type, a text that its fact never has.
+
+    For pages as they are loaded; a condition that passes compiles.
+    """
+    if len(_MACRO.findall(_STRING.sub("''", text))) > _MAX_MACROS:
+        raise Wrong(f"at most {_MAX_MACROS} of all, exists, exists_one, map and filter may stand in a condition")
+    Condition(text, subject)
+    for fact, literal, offset in literals(text):
+        words = _words(fact)
+        if words is not None and literal not in words:
+            from .vulkan.names import nearest
+
+            close = nearest(literal, words)
+            hint = f"; did you mean {close!r}?" if close else ""
+            raise Wrong(f"{fact} is never {literal!r}{hint}", offset)
+
+
+def named(text: str) -> tuple[str, ...]:
+    """The facts that a condition names, in their order."""
+    return tuple(dict.fromkeys(name for name in _FACT.findall(_STRING.sub("''", text)) if name in FACTS))
+
+
+def literals(text: str) -> list[tuple[str, str, int]]:
+    """Every text that a condition compares a fact with, and its offset."""
+    found: list[tuple[str, int]] = []
+
+    def mark(match: re.Match[str]) -> str:
+        found.append((match[0][1:-1], match.start()))
+        return f"\x00{len(found) - 1}\x00"
+
+    marked = _STRING.sub(mark, text)
+    out = []
+    for match in _MEETS.finditer(marked):
+        fact = match["fact"] or match["of"] or match["among"]
+        for index in _MARK.findall(match["one"] or match["left"] or match["many"]):
+            literal, offset = found[int(index)]
+            out.append((fact, literal, offset))
+    return out
+
+
+def _words(fact: str) -> frozenset[str] | None:
+    """The texts that a fact can have, where they are a Vulkan enum's or ours."""
+    enum = FACTS[fact].enum if fact in FACTS else ""
+    if not enum:
+        return None
+    if enum in WORDS:
+        return frozenset(WORDS[enum])
+    from .vulkan.enums import VALUES
+
+    return frozenset(VALUES[enum])
+
+
+def _environment(subject: str) -> Any:
+    if subject not in _environments:
+        types = {
+            "BOOL": cel.Type.BOOL,
+            "INT": cel.Type.INT,
+            "DOUBLE": cel.Type.DOUBLE,
+            "STRING": cel.Type.STRING,
+            "LIST": cel.Type.List(cel.Type.STRING),
+            "INTS": cel.Type.List(cel.Type.INT),
+        }
+        _environments[subject] = cel.NewEnv(variables={fact.name: types[fact.type] for fact in SUBJECTS[subject]})
+    return _environments[subject]
+
+
+def _explained(error: RuntimeError, text: str, subject: str) -> Wrong:
+    """The compiler's first complaint, in our words where it is a misspelt fact."""
+    match = re.search(r"<input>:(\d+):(\d+): (.*)", str(error))
+    if match is None:
+        return Wrong(str(error).splitlines()[0][:200])
+    lines = text.splitlines(keepends=True)
+    offset = sum(len(line) for line in lines[: int(match[1]) - 1]) + int(match[2]) - 1
+    undeclared = re.search(r"undeclared reference to '([^']*)'", match[3])
+    if undeclared is None:
+        return Wrong(match[3], offset)
+    from .vulkan.names import nearest
+
+    name = undeclared[1]
+    known = [fact.name for fact in SUBJECTS[subject]]
+    word = re.match(r"[a-z_A-Z0-9.]+", text[max(offset - len(name.split(".")[0]), 0) :])
+    close = nearest(word[0] if word and word[0].startswith(name) else name, known)
+    hint = f"; did you mean {close}?" if close else ""
+    return Wrong(f"there is no fact {name} of {subject}{hint}", offset)

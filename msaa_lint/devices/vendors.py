@@ -1,0 +1,26 @@
+"""GPU vendors by their PCI or Khronos id."""
+
+from __future__ import annotations
+
+VENDORS = {
+    0x1002: "amd",
+    0x1010: "img",
+    0x106B: "apple",
+    0x10DE: "nvidia",
+    0x13B5: "arm",
+    0x144D: "samsung",
+    0x14E4: "broadcom",
+    0x19E5: "huawei",
+    0x5143: "qualcomm",
+    0x8086: "intel",
+    0x10005: "mesa",
+}
+"""VkPhysicalDeviceProperties::vendorID, and the name that a description has for the vendor."""
+
+TILERS = ("apple", "arm", "broadcom", "huawei", "img", "qualcomm", "samsung")
+"""Vendors of mobile GPUs, whose devices are counted as tile-based."""
+
+
+def vendor_of(vendor_id: int) -> str | None:
+    """The vendor's name in a description; None where it has none."""
+    return VENDORS.get(vendor_id)

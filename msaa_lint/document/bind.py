@@ -1,0 +1,377 @@
+"""Tree to records: every member by its shape, every mistake with its place and the nearest right word.
+
+Two spellings are read. The description format is strict: an unknown key is an error. The structures that tools dump (`dumped`) keep C's
+names (`pAttachments`, `attachmentCount`, `pNext`), write "NULL", "VK_TRUE" and numbers as strings, and have members we do not ask for.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from ..finding import Label, Span
+from ..source.tree import Node
+from ..vulkan.names import from_value, nearest, parse_flags
+from .record import Record, Shape
+from .records import RECORDS, AttachmentReference, Command
+from .scalars import ATTACHMENT_UNUSED, enumerant, sample_count
+
+MAX_PROBLEMS = 50
+"""Problems of one document that are told; the rest would only bury them."""
+
+
+class Problem(NamedTuple):
+    """A mistake in the description itself, a 9xx finding to be."""
+
+    code: str
+    message: str
+    span: Span
+    path: str
+    labels: tuple[Label, ...] = ()
+    help: str = ""
+
+
+class Mention(NamedTuple):
+    """A name that must stand in a section: checked once the whole description is read."""
+
+    section: str
+    name: str
+    node: Node
+    path: str
+
+
+PNEXT = {
+    "SUBPASS_DESCRIPTION_DEPTH_STENCIL_RESOLVE": "depthStencilResolve",
+    "MULTISAMPLED_RENDER_TO_SINGLE_SAMPLED_INFO": "multisampledRenderToSingleSampled",
+    "PIPELINE_RENDERING_CREATE_INFO": "rendering",
+}
+"""Structures of a pNext chain, by sType without its prefix and vendor suffix, and the member they are in a description."""
+
+OTHER_NAMES = {"pDepthStencilResolveAttachment": "attachment"}
+_NULLS = ("NULL", "VK_NULL_HANDLE")
+
+
+class Binder:
+    """Reads the records of one document. `problems` and `mentions` fill as it goes."""
+
+    def __init__(self, dumped: bool = False) -> None:
+        self.dumped = dumped
+        self.problems: list[Problem] = []
+        self.mentions: list[Mention] = []
+
+    def report(self, code: str, message: str, span: Span, path: str, help: str = "") -> None:
+        """Notes a problem."""
+        if len(self.problems) < MAX_PROBLEMS:
+            self.problems.append(Problem(code, message, span, path, (), help))
+
+    def record(self, kind: type[Record], node: Node, path: str, key: str, head: Span | None = None) -> Any:
+        """The record of that kind that a mapping holds."""
+        made = kind(node, path, key, head if head is not None else head_of(node))
+        absent = kind.ABSENT
+        for name in kind.SHAPE:
+            setattr(made, name, absent.get(name))
+        if node.kind != "mapping":
+            self.wrong(node, path, "a mapping")
+            return made
+        for key_text, value in node.value.items():
+            name = self.dumped_name(kind, key_text) if self.dumped else key_text
+            if name is None:
+                continue
+            found = kind.SHAPE.get(name)
+            if found is None:
+                self.unknown_key(kind, node.keys[key_text], path)
+            elif not (self.dumped and is_null(value)):
+                made.spelled[name] = (node.keys[key_text], value)
+                setattr(made, name, self.value(found, value, f"{path}.{key_text}" if path else key_text, key_text, node.keys[key_text].span))
+        if self.dumped and "pNext" in node.value:
+            self.chain(made, node.value["pNext"])
+        return made
+
+    def chain(self, record: Record, node: Node) -> None:
+        """Members of a record that a pNext chain holds."""
+        path = f"{record.path}.pNext"
+        while node.kind == "mapping":
+            kind = node.value.get("sType")
+            stype = str(kind.value).removeprefix("VK_STRUCTURE_TYPE_") if kind is not None else ""
+            name = PNEXT.get(stype.removesuffix("_KHR").removesuffix("_EXT"))
+            if name in record.SHAPE:
+                key = node.keys["sType"]
+                record.spelled[name] = (key, node)
+                setattr(record, name, self.value(record.SHAPE[name], node, path, name, key.span))
+            following = node.value.get("pNext")
+            if following is None:
+                break
+            path += ".pNext"
+            node = following
+
+    @staticmethod
+    def dumped_name(kind: type[Record], key: str) -> str | None:
+        """The member that a C name states; None for counts, sType and what no rule asks for."""
+        name = OTHER_NAMES.get(key)
+        if name is None:
+            name = key[1].lower() + key[2:] if len(key) > 1 and key[0] == "p" and key[1].isupper() else key
+        return name if name in kind.SHAPE else None
+
+    def unknown_key(self, kind: type[Record], key: Node, path: str) -> None:
+        close = nearest(key.text, kind.SHAPE)
+        where = path or "a description"
+        help = f"did you mean `{close}`?" if close else f"it may hold {', '.join(sorted(kind.SHAPE))}"
+        self.report("MSAA902", f"unknown key `{shortened(key.text)}` in {where}", key.span, f"{path}.{shortened(key.text)}".lstrip("."), help)
+
+    def wrong(self, node: Node, path: str, wanted: str, help: str = "") -> None:
+        """Notes a value of the wrong type, or that no member of its type has."""
+        seen = {"mapping": "a mapping", "sequence": "a list"}.get(node.kind) or _shown(node)
+        self.report("MSAA903", f"{wanted} is due here, not {seen}", head_of(node), path, help)
+
+    def value(self, shape: Shape, node: Node, path: str, key: str, head: Span | None = None) -> Any:
+        """What a node holds by a shape; None (unknown) where it is wrong, which is noted."""
+        kind = shape[0]
+        if kind == "enum":
+            return self.enumerant(shape[1], node, path)
+        if kind == "flags":
+            return self.flags(shape[1], node, path)
+        if kind == "record":
+            return self.record(RECORDS[shape[1]], node, path, key, head)
+        if kind == "list":
+            return self.items(shape[1], node, path)
+        if kind == "slot":
+            return self.slot(node, path, key, head)
+        if kind == "bool":
+            return self.boolean(node, path)
+        if kind == "samples":
+            count = sample_count(node.text if self.dumped else node.value)
+            if count is None:
+                self.wrong(node, path, "a sample count (1, 2, 4, 8, 16, 32, 64)")
+            return count
+        if kind == "int":
+            return self.integer(shape[1], shape[2], node, path)
+        if kind == "number":
+            return self.number(shape[1], node, path)
+        if kind == "text":
+            if node.kind != "scalar" or not isinstance(node.value, str):
+                return self.wrong(node, path, "a text", _quote_hint(node))
+            return node.value
+        if kind == "name":
+            return self.name(shape[1], node, path)
+        if kind == "word":
+            return self.word(shape[1], node, path)
+        if kind == "map":
+            return self.mapping(shape[1], node, path)
+        if kind == "counted":
+            if node.kind == "sequence":
+                return self.items(shape[1], node, path)
+            return tuple(v for v in self.mapping(shape[1], node, path).values())
+        if kind == "null":
+            return None if node.kind == "scalar" and node.value is None else self.value(shape[1], node, path, key, head)
+        if kind == "either":
+            return self.either(shape[1:], node, path, key, head)
+        return self.command(node, path, key)
+
+    def items(self, shape: Shape, node: Node, path: str) -> tuple[Any, ...]:
+        if node.kind != "sequence":
+            self.wrong(node, path, "a list")
+            return ()
+        return tuple(self.value(shape, item, f"{path}[{n}]", str(n)) for n, item in enumerate(node.value))
+
+    def mapping(self, shape: Shape, node: Node, path: str) -> dict[str, Any]:
+        if node.kind != "mapping":
+            self.wrong(node, path, "a mapping of names")
+            return {}
+        return {
+            name: self.value(shape, value, f"{path}.{shortened(name)}", name, node.keys[name].span) for name, value in node.value.items()
+        }
+
+    def either(self, shapes: tuple[Shape, ...], node: Node, path: str, key: str, head: Span | None) -> Any:
+        for shape in shapes:
+            if _fits(shape, node):
+                return self.value(shape, node, path, key, head)
+        self.wrong(node, path, " or ".join(_wanted(shape) for shape in shapes))
+        return None
+
+    def enumerant(self, enum: str, node: Node, path: str) -> str | None:
+        text = node.text if node.kind == "scalar" else None
+        name = enumerant(enum, text) if text else None
+        if name is None and self.dumped and text is not None and text.isdigit():
+            name = from_value(enum.partition("|")[0], int(text))
+        if name is None:
+            if text is None or node.value is None:
+                self.wrong(node, path, f"one of {enum}")
+            elif not self.dumped:
+                self.no_enumerant(enum, text, node, path)
+        return name
+
+    def no_enumerant(self, enum: str, text: str, node: Node, path: str) -> None:
+        from ..vulkan.enums import ENUMS
+
+        close = nearest(text, [name for each in enum.split("|") for name in dict.fromkeys(ENUMS[each].values())])
+        help = f"did you mean `{close}`?" if close else ""
+        self.report("MSAA903", f"`{shortened(text)}` is no {enum.replace('|', ' or ')}", node.span, path, help)
+
+    def flags(self, enum: str, node: Node, path: str) -> tuple[str, ...] | None:
+        if node.kind == "sequence":
+            bits = [self.enumerant(enum, item, f"{path}[{n}]") for n, item in enumerate(node.value)]
+            return tuple(dict.fromkeys(bit for bit in bits if bit is not None and bit != "NONE")) if None not in bits else None
+        plain = isinstance(node.value, str) or (isinstance(node.value, int) and (self.dumped or node.text == "0"))
+        if node.kind != "scalar" or not plain:
+            self.wrong(node, path, f"a list of {enum}")
+            return None
+        try:
+            return tuple(parse_flags(enum, node.text))
+        except ValueError as error:
+            if not self.dumped:
+                self.no_enumerant(enum, str(error), node, path)
+            return None
+
+    def boolean(self, node: Node, path: str) -> bool | None:
+        if isinstance(node.value, bool):
+            return node.value
+        if self.dumped and node.kind == "scalar" and node.text in ("VK_TRUE", "VK_FALSE", "1", "0", "true", "false"):
+            return node.text in ("VK_TRUE", "1", "true")
+        self.wrong(node, path, "true or false", _quote_hint(node))
+        return None
+
+    def integer(self, low: int | None, high: int | None, node: Node, path: str) -> int | None:
+        value = node.value
+        if self.dumped and isinstance(value, str) and value.isdigit():
+            value = int(value)
+        if isinstance(value, bool) or not isinstance(value, int):
+            return self.wrong(node, path, "a whole number")
+        if (low is not None and value < low) or (high is not None and value > high):
+            return self.wrong(node, path, f"a whole number from {low} to {high}")
+        return value
+
+    def number(self, above_zero: bool, node: Node, path: str) -> float | None:
+        value = node.value
+        if self.dumped and node.kind == "scalar":
+            try:
+                value = float(node.text)
+            except ValueError:
+                value = None
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not _finite(value):
+            return self.wrong(node, path, "a finite number")
+        if above_zero and value <= 0:
+            return self.wrong(node, path, "a number above 0")
+        return value
+
+    def name(self, section: str, node: Node, path: str) -> str | None:
+        if node.kind != "scalar" or node.value is None or isinstance(node.value, (bool, float)):
+            return self.wrong(node, path, f"the name of an entry of `{section}`", _quote_hint(node))
+        self.mentions.append(Mention(section, node.text, node, path))
+        return node.text
+
+    def word(self, words: tuple[Any, ...], node: Node, path: str) -> Any:
+        if node.kind == "scalar" and not isinstance(node.value, bool) and node.value in words:
+            return node.value
+        close = nearest(node.text, [w for w in words if isinstance(w, str)]) if node.kind == "scalar" else None
+        return self.wrong(node, path, f"one of {', '.join(str(word) for word in words)}", f"did you mean `{close}`?" if close else "")
+
+    def slot(self, node: Node, path: str, key: str, head: Span | None) -> AttachmentReference:
+        """An attachment of the same pass: a name, an index, `{attachment, layout}`, or null."""
+        if node.kind == "mapping":
+            made: AttachmentReference = self.record(AttachmentReference, node, path, key, head)
+            if isinstance(made.attachment, str) and made.attachment.isdigit():
+                made.attachment = int(made.attachment)
+        else:
+            made = AttachmentReference(node, path, key, node.span)
+            made.attachment, made.layout = None, None
+            if node.kind != "scalar" or isinstance(node.value, (bool, float)):
+                self.wrong(node, path, "an attachment: a name, an index, {attachment, layout} or null")
+            elif node.value is not None:
+                made.attachment = node.value if isinstance(node.value, int) else node.text
+        if made.attachment in (ATTACHMENT_UNUSED, "VK_ATTACHMENT_UNUSED", "ATTACHMENT_UNUSED", "UNUSED"):
+            made.attachment = None
+        return made
+
+    def command(self, node: Node, path: str, key: str) -> Command | None:
+        """A recorded command: a mapping with one key, or a bare word for one without parameters."""
+        kind, parameters, span = "", None, head_of(node)
+        if node.kind == "mapping" and len(node.value) == 1:
+            kind, parameters = next(iter(node.value.items()))
+            span = node.keys[kind].span
+        elif node.kind == "scalar" and isinstance(node.value, str):
+            kind = node.value
+        else:
+            return self.wrong(node, path, "one command")
+        shape = Command.SHAPE.get(kind)
+        if shape is None:
+            close = nearest(kind, Command.SHAPE)
+            help = f"did you mean `{close}`?" if close else f"it is one of {', '.join(Command.SHAPE)}"
+            self.report("MSAA902", f"unknown command `{shortened(kind)}`", span, path, help)
+            return None
+        made = Command(node, f"{path}.{kind}", key, span)
+        made.kind = kind
+        made.body = None
+        if parameters is None or (parameters.kind == "scalar" and parameters.value is None):
+            if shape != ("record", "Nothing"):
+                self.wrong(node, made.path, f"`{kind}` with its parameters")
+                return None
+            return made
+        made.body = self.value(shape, parameters, made.path, kind, span)
+        return made if made.body is not None else None
+
+
+def head_of(node: Node) -> Span:
+    """Where a reader sees a value: a scalar whole, a mapping's first key, a list's first character."""
+    if node.kind == "scalar":
+        return node.span
+    if node.kind == "mapping" and node.keys:
+        return next(iter(node.keys.values())).span
+    return Span(node.start, min(node.start + 1, node.end))
+
+
+def is_null(node: Node) -> bool:
+    """Whether a tool's dump means a null pointer."""
+    return node.kind == "scalar" and (node.value is None or node.text in _NULLS)
+
+
+def shortened(text: str, limit: int = 80) -> str:
+    """A text of the input as messages quote it."""
+    return text if len(text) <= limit else text[: limit - 1] + "…"
+
+
+def _shown(node: Node) -> str:
+    return "nothing" if node.value is None else f"`{shortened(node.text)}`"
+
+
+def _finite(value: int | float) -> bool:
+    return isinstance(value, int) or math.isfinite(value)
+
+
+def _quote_hint(node: Node) -> str:
+    """What to say of the words that YAML 1.1 took for booleans, and of numbers that were meant as names."""
+    if node.kind != "scalar":
+        return ""
+    if isinstance(node.value, str) and node.plain and node.text.lower() in ("yes", "no", "on", "off", "y", "n"):
+        return "YAML 1.2 knows only `true` and `false`"
+    if not isinstance(node.value, str) and node.value is not None:
+        return f'quote it: "{shortened(node.text, 20)}"'
+    return ""
+
+
+def _fits(shape: Shape, node: Node) -> bool:
+    """Whether a node is of the kind that a shape asks for, whatever its value."""
+    kind = shape[0]
+    if kind in ("record", "map"):
+        return node.kind == "mapping"
+    if kind == "list":
+        return node.kind == "sequence"
+    if kind == "word":
+        return node.kind == "scalar" and node.value in shape[1] and not isinstance(node.value, bool)
+    if kind == "int":
+        return isinstance(node.value, int) and not isinstance(node.value, bool)
+    if kind == "number":
+        return isinstance(node.value, (int, float)) and not isinstance(node.value, bool)
+    if kind == "bool":
+        return isinstance(node.value, bool)
+    return node.kind == "scalar" and isinstance(node.value, str)
+
+
+def _wanted(shape: Shape) -> str:
+    words = {"record": "a mapping", "map": "a mapping", "list": "a list", "int": "a whole number", "number": "a number", "bool": "true or false"}
+    if shape[0] == "word":
+        return ", ".join(str(word) for word in shape[1])
+    if shape[0] == "name":
+        return f"the name of an entry of `{shape[1]}`"
+    return words.get(shape[0], "a text")
+
+

@@ -1,0 +1,121 @@
+"""Documents times rules: one input read, judged, and its suppressions applied."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+from .catalogue import Catalogue
+from .diagnostics import diagnostic
+from .document.document import Document
+from .finding import Finding, RuleInfo, Suppressed, Undecided
+from .judge import Judge
+from .page import Rule
+from .source.text import Source, Unreadable, decode
+from .source.tree import Limits, parse
+
+Severity = Callable[[Rule, str, str | None], str | None]
+
+
+class Linted(NamedTuple):
+    """What one input gave. `source` is None where it could not be decoded."""
+
+    file: str
+    source: Source | None
+    findings: list[Finding]
+    undecided: list[Undecided]
+    suppressed: list[Suppressed]
+
+
+class Engine:
+    """Rules made ready once, for any number of inputs."""
+
+    def __init__(self, catalogue: Catalogue) -> None:
+        self.catalogue = catalogue
+        self.judge = Judge(catalogue.rules)
+
+    def lint(
+        self,
+        data: bytes,
+        file: str,
+        severity: Severity,
+        *,
+        limits: Limits | None = None,
+        format: str | None = None,
+        device: str | None = None,
+        ignores: bool = True,
+    ) -> Linted:
+        """The findings of one input, in the order of their places.
+
+        `format` names a reader where content does not tell; `device` the profile for descriptions that state none; `ignores` says whether
+        suppression comments count.
+        """
+        try:
+            source = Source(file, decode(data))
+        except Unreadable as error:
+            return Linted(file, None, [diagnostic("MSAA901", str(error), file)], [], [])
+        parsed = parse(source, limits or Limits())
+        findings = [diagnostic(p.code, p.message, file, p.span, "", tuple(p.labels)) for p in parsed.problems]
+        undecided: list[Undecided] = []
+        if not parsed.documents and not parsed.problems:
+            findings.append(diagnostic("MSAA901", "the input is empty", file))
+        for number, root in enumerate(parsed.documents):
+            document = _document(source, root, format)
+            prefix = f"documents[{number}]." if len(parsed.documents) > 1 else ""
+            found, unknown = self._judge(document, file, severity, device, bool(parsed.problems))
+            findings.extend(_within(found, prefix))
+            undecided.extend(u._replace(subject=prefix + u.subject) for u in unknown)
+        suppressed: list[Suppressed] = []
+        if ignores and "msaa-lint:" in source.text:
+            findings, suppressed = self._suppress(findings, source, parsed.documents, severity)
+        findings.sort(key=place_order)
+        return Linted(file, source, findings, undecided, suppressed)
+
+    def _judge(
+        self, document: Document, file: str, severity: Severity, device: str | None, broken: bool
+    ) -> tuple[list[Finding], list[Undecided]]:
+        """A document's own mistakes; where it has none, what the rules say. What was misread is not judged."""
+        if document.problems or broken:
+            return [diagnostic(p.code, p.message, file, p.span, p.path, p.labels, p.help) for p in document.problems], []
+        from .facts.subjects import subjects
+
+        verdicts = self.judge.judge(subjects(document, device), file, severity)
+        return verdicts.findings, verdicts.undecided
+
+    def _suppress(
+        self, findings: Sequence[Finding], source: Source, documents: Sequence[object], severity: Severity
+    ) -> tuple[list[Finding], list[Suppressed]]:
+        from .source.comments import comments
+        from .suppressions import apply
+
+        enabled = {rule.name for rule in self.catalogue.rules if severity(rule, rule.severity, None) is not None}
+        kept, suppressed, extra = apply(findings, comments(source, documents), source, self.catalogue.rules, enabled)
+        return [*kept, *extra], suppressed
+
+
+def _document(source: Source, root: object, format: str | None) -> Document:
+    from . import readers
+
+    return readers.read(source, root, format)  # type: ignore[arg-type]
+
+
+def _within(findings: list[Finding], prefix: str) -> list[Finding]:
+    return [found._replace(subject=prefix + found.subject) for found in findings] if prefix else findings
+
+
+def place_order(found: Finding) -> tuple[int, int, str, str]:
+    """Findings of one file by their place, then by code."""
+    span = found.span
+    return (span.start, span.end, found.code, found.message) if span is not None else (-1, -1, found.code, found.message)
+
+
+def rule_infos(catalogue: Catalogue, severity: Severity, full: bool) -> list[RuleInfo]:
+    """What reports say of the enabled rules, by code."""
+    from .catalogue import info
+
+    out = []
+    for rule in catalogue.rules:
+        weight = severity(rule, rule.severity, None)
+        if weight is not None:
+            out.append(info(rule, weight, full))
+    return out

@@ -1,0 +1,68 @@
+"""Facts of attachments, of their aspects, and of the pass around them."""
+
+from __future__ import annotations
+
+from ..document.records import AttachmentDescription, BeginRendering
+from .facts import Facts
+from .frame import RENDERING, Aspect, Attachment, Pass
+from .timeline import Timeline
+
+
+def pass_facts(each: Pass) -> Facts:
+    """What holds for all of a pass."""
+    facts = Facts()
+    facts.put("pass.kind", each.kind)
+    facts.put("pass.name", each.name)
+    facts.put("pass.partial_area", each.partial_area)
+    facts.put("pass.custom_resolve", each.custom_resolve)
+    suspends = each.kind == RENDERING and isinstance(each.record, BeginRendering) and "SUSPENDING" in each.record.flags
+    facts.put("pass.suspends", suspends)
+    return facts
+
+
+def attachment_facts(attachment: Attachment) -> Facts:
+    """What is known of an attachment in its pass."""
+    facts = Facts()
+    record = attachment.record
+    target = attachment.target
+    facts.put("attachment.name", attachment.name, record.head)
+    format_at, samples_at = record.head, record.head
+    for name in ("format", "samples"):
+        stated = record if record.states(name) else target.record if target is not None and target.record.states(name) else record
+        at = stated.place(name) if stated.states(name) else record.place("image")
+        format_at, samples_at = (at, samples_at) if name == "format" else (format_at, at)
+    facts.put("attachment.format", attachment.format.name if attachment.format is not None else None, format_at)
+    facts.put("attachment.samples", attachment.samples, samples_at)
+    facts.put("attachment.used", attachment.used)
+    facts.put("attachment.drawn", attachment.drawn)
+    facts.put("attachment.is_resolve_target", bool(attachment.resolve))
+    facts.put("attachment.read_as_input", bool(attachment.input))
+    if isinstance(record, AttachmentDescription):
+        facts.put("attachment.initial_layout", record.initialLayout, record.place("initialLayout"))
+        facts.put("attachment.final_layout", record.finalLayout, record.place("finalLayout"))
+    return facts
+
+
+def aspect_facts(each: Pass, attachment: Attachment, aspect: Aspect, timeline: Timeline) -> Facts:
+    """What is known of one aspect: its operations, who resolves it, who reads it later."""
+    facts = Facts()
+    record = attachment.record
+    facts.put("aspect.name", aspect.name, record.head)
+    facts.put("aspect.load", aspect.load, record.place(aspect.load_member))
+    facts.put("aspect.store", aspect.store, record.place(aspect.store_member))
+    if isinstance(record, AttachmentDescription):
+        separate = aspect.name == "stencil" and record.stencilInitialLayout is not None
+        layout = record.stencilInitialLayout if separate else record.initialLayout
+        facts.put("aspect.initial_layout", layout, record.place("stencilInitialLayout" if separate else "initialLayout"))
+    resolves = [r for s in each.subpasses for r in s.resolves if r.source is attachment and r.aspect == aspect.name]
+    modes = [resolve.mode for resolve in resolves]
+    resolved: bool | None = any(mode not in (None, "NONE") for mode in modes)
+    if not resolved and None in modes:
+        resolved = None
+    facts.put("aspect.resolved", resolved, resolves[0].target_at if resolves else None)
+    over: set[str] = set().union(*attachment.resolve.values())
+    facts.put("aspect.resolved_over", True if aspect.name in over else None if "?" in over or (over and aspect.name is None) else False)
+    read_later = timeline.read_later(each, attachment, aspect)
+    facts.put("aspect.read_later", read_later)
+    facts.put("aspect.readers_known", read_later is not None)
+    return facts

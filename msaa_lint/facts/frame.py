@@ -1,0 +1,433 @@
+"""The frame as Vulkan sees it: passes of both kinds in one form, with their attachments, resolves and images joined.
+
+A pass is a VkRenderPass or one vkCmdBeginRendering. What the description does not say stays None here too.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from ..document.document import Document
+from ..document.record import Record
+from ..document.records import (
+    AttachmentDescription,
+    AttachmentReference,
+    BeginRendering,
+    BeginRenderPass,
+    Command,
+    Image,
+    Pipeline,
+    RenderingAttachment,
+    RenderPass,
+    Subpass,
+)
+from ..finding import Span
+from ..vulkan.formats import Format, format_of
+
+RENDER_PASS = "renderPass"
+RENDERING = "rendering"
+
+
+class Target:
+    """An image that is rendered to. An attachment that names no image has one of its own, of which only that much is known."""
+
+    __slots__ = ("format", "image", "path", "record", "samples")
+
+    def __init__(self, record: Record, image: Image | None, format: str | None, samples: int | None) -> None:
+        self.record = record
+        self.image = image
+        self.path = record.path
+        self.format: Format | None = format_of(format) if format is not None else None
+        self.samples = samples
+
+    @property
+    def name(self) -> str:
+        return self.record.key
+
+
+class Aspect(NamedTuple):
+    """One aspect of an attachment, with its own load and store operation, and the members that state them.
+
+    `name` is None where the format, and with it what `loadOp` means, is unknown.
+    """
+
+    name: str | None
+    load: str | None
+    store: str | None
+    load_member: str
+    store_member: str
+
+
+class Attachment:
+    """One attachment of a pass. The role sets hold the subpasses (0 in dynamic rendering) that use it so."""
+
+    __slots__ = ("aspects", "color", "depth_stencil", "format", "index", "input", "name", "preserve", "record", "resolve", "samples", "targets")
+
+    def __init__(self, record: AttachmentDescription | RenderingAttachment, name: str, index: int, targets: list[Target]) -> None:
+        self.record = record
+        self.name = name
+        self.index = index
+        self.targets = targets
+        self.format: Format | None = None
+        self.samples: int | None = None
+        self.aspects: list[Aspect] = []
+        self.color: set[int] = set()
+        self.depth_stencil: set[int] = set()
+        self.resolve: dict[int, set[str]] = {}
+        """By subpass: the aspects that a resolve with a mode overwrites here. The mode may be unknown: then `?` stands among them."""
+        self.input: set[int] = set()
+        self.preserve: set[int] = set()
+
+    @property
+    def used(self) -> bool:
+        """Whether a subpass refers to it at all."""
+        return bool(self.color or self.depth_stencil or self.resolve or self.input)
+
+    @property
+    def drawn(self) -> bool:
+        """Whether a subpass draws to it."""
+        return bool(self.color or self.depth_stencil)
+
+    @property
+    def target(self) -> Target | None:
+        """Its image, where it is one and the same whenever the pass is begun."""
+        return self.targets[0] if len({id(t.record) for t in self.targets}) == 1 else None
+
+
+class Resolve:
+    """One resolve of one aspect: in a subpass, at the end of a dynamic rendering, or by vkCmdResolveImage.
+
+    `record` states it; `mode` is None where unknown; `places` are (record, member) pairs for mode, source and target.
+    """
+
+    __slots__ = (
+        "aspect", "kind", "mode", "mode_at", "pair", "path", "record", "source", "source_at", "source_image", "subpass",
+        "target", "target_at", "target_image", "within",
+    )  # fmt: skip
+
+    def __init__(self, kind: str, aspect: str, record: Record, path: str) -> None:
+        self.kind = kind
+        self.aspect = aspect
+        self.record = record
+        self.path = path
+        self.within: Pass | None = None
+        self.subpass = 0
+        self.mode: str | None = None
+        self.mode_at: Span = record.head
+        self.source: Attachment | None = None
+        self.source_image: Target | None = None
+        self.source_at: Span = record.head
+        self.target: Attachment | None = None
+        self.target_image: Target | None = None
+        self.target_at: Span = record.head
+        self.pair: Resolve | None = None
+        """The resolve of the other aspect by the same structure."""
+
+
+class PassSubpass:
+    """A subpass; a dynamic rendering has one."""
+
+    __slots__ = ("color", "depth_stencil", "index", "path", "record", "resolves", "single_sampled", "single_sampled_count", "within")
+
+    def __init__(self, within: Pass, record: Subpass | BeginRendering, index: int) -> None:
+        self.within = within
+        self.record = record
+        self.index = index
+        self.path = record.path
+        self.color: list[Attachment | None] = []
+        self.depth_stencil: list[Attachment] = []
+        self.resolves: list[Resolve] = []
+        chained = record.multisampledRenderToSingleSampled
+        self.single_sampled = chained is not None and chained.multisampledRenderToSingleSampledEnable is not False
+        self.single_sampled_count = chained.rasterizationSamples if chained is not None and self.single_sampled else None
+
+
+class Pass:
+    """A render pass or a dynamic rendering. `begun` are the positions in the frame's commands where it begins."""
+
+    __slots__ = ("attachments", "begun", "kind", "name", "partial_area", "path", "record", "subpasses")
+
+    def __init__(self, kind: str, name: str, record: RenderPass | BeginRendering) -> None:
+        self.kind = kind
+        self.name = name
+        self.record = record
+        self.path = record.path
+        self.attachments: list[Attachment] = []
+        self.subpasses: list[PassSubpass] = []
+        self.begun: list[int] = []
+        self.partial_area = False
+
+    @property
+    def custom_resolve(self) -> bool:
+        """Whether a subpass (or the rendering) resolves by its own shader."""
+        flags = [flag for subpass in self.subpasses for flag in subpass.record.flags]
+        return any(flag.startswith(("CUSTOM_RESOLVE", "SHADER_RESOLVE")) for flag in flags)
+
+
+class Frame:
+    """All of a description, joined."""
+
+    __slots__ = ("commands", "description", "document", "passes", "pipelines", "resolve_commands", "targets")
+
+    def __init__(self, document: Document) -> None:
+        self.document = document
+        self.description = document.description
+        self.targets: dict[str, Target] = {
+            name: Target(image, image, image.format, image.samples) for name, image in self.description.images.items()
+        }
+        self.commands: tuple[Command, ...] = tuple(c for c in self.description.commands or () if c is not None)
+        self.passes: list[Pass] = []
+        self.pipelines: list[tuple[Pipeline, Pass | None]] = []
+        self.resolve_commands: list[tuple[int, Resolve]] = []
+        self._render_passes()
+        self._renderings()
+        self._commands()
+        for pipeline in self.description.pipelines.values():
+            self.pipelines.append((pipeline, self.render_pass(pipeline.renderPass)))
+
+    @property
+    def all_targets(self) -> list[Target]:
+        """The images, then those that stand for attachments without one."""
+        implied = [t for p in self.passes for a in p.attachments for t in a.targets if t.image is None]
+        return [*self.targets.values(), *implied]
+
+    @property
+    def has_commands(self) -> bool:
+        return self.description.commands is not None
+
+    def render_pass(self, name: str | None) -> Pass | None:
+        return next((p for p in self.passes if p.kind == RENDER_PASS and p.name == name), None)
+
+    def target(self, name: str | None) -> Target | None:
+        return self.targets.get(name) if name is not None else None
+
+    def _render_passes(self) -> None:
+        for name, record in self.description.renderPasses.items():
+            made = Pass(RENDER_PASS, name, record)
+            for index, description in enumerate(record.attachments):
+                made.attachments.append(self._described(name, description, index))
+            named = {a.name: a for a in made.attachments}
+            made.subpasses = [self._subpass(made, subpass, n, named) for n, subpass in enumerate(record.subpasses)]
+            for attachment in made.attachments:
+                attachment.aspects = _aspects(attachment)
+            self.passes.append(made)
+
+    def _described(self, render_pass: str, description: AttachmentDescription, index: int) -> Attachment:
+        targets = [t for t in (self.targets.get(n) for n in self._bound(render_pass, index)) if t is not None]
+        if not targets and description.image is not None:
+            targets = [t for t in (self.target(description.image),) if t is not None]
+        if not targets:
+            targets = [Target(description, None, description.format, description.samples)]
+        made = Attachment(description, description.key, index, targets)
+        only = made.target
+        made.format = format_of(description.format) if description.format is not None else only.format if only is not None else None
+        made.samples = description.samples if description.samples is not None else only.samples if only is not None else None
+        return made
+
+    def _bound(self, render_pass: str, index: int) -> list[str]:
+        """The images that framebuffers bind to an attachment: those the commands begin it with, else the only one for it."""
+        framebuffers = self.description.framebuffers
+        begun: list[str] = []
+        for command in self.commands:
+            if isinstance(command.body, BeginRenderPass) and command.body.renderPass == render_pass and command.body.framebuffer is not None:
+                stated = command.body.framebuffer
+                begun.extend([stated] if isinstance(stated, str) else stated)
+        used = [framebuffers[name] for name in dict.fromkeys(begun) if name in framebuffers]
+        if not begun:
+            own = [f for f in framebuffers.values() if f.renderPass == render_pass]
+            used = own if len(own) == 1 else []
+        names = [f.attachments[index] for f in used if index < len(f.attachments)]
+        return [name for name in dict.fromkeys(names) if name is not None]
+
+    def _subpass(self, within: Pass, record: Subpass, index: int, named: dict[str, Attachment]) -> PassSubpass:
+        made = PassSubpass(within, record, index)
+
+        def find(reference: AttachmentReference | None) -> Attachment | None:
+            if reference is None or reference.attachment is None:
+                return None
+            if isinstance(reference.attachment, int):
+                return within.attachments[reference.attachment] if reference.attachment < len(within.attachments) else None
+            return named.get(reference.attachment)
+
+        for reference in record.colorAttachments:
+            attachment = find(reference)
+            made.color.append(attachment)
+            if attachment is not None:
+                attachment.color.add(index)
+        for reference in record.inputAttachments:
+            if (attachment := find(reference)) is not None:
+                attachment.input.add(index)
+        for reference in record.preserveAttachments:
+            if (attachment := find(reference)) is not None:
+                attachment.preserve.add(index)
+        depth_stencil = find(record.depthStencilAttachment)
+        if depth_stencil is not None:
+            made.depth_stencil.append(depth_stencil)
+            depth_stencil.depth_stencil.add(index)
+        for n, reference in enumerate(record.resolveAttachments):
+            target = find(reference)
+            if target is None:
+                continue
+            resolve = Resolve("subpass", "color", record, f"{record.path}.resolveAttachments[{n}]")
+            resolve.source = made.color[n] if n < len(made.color) else None
+            resolve.target = target
+            resolve.mode = "AVERAGE"
+            if resolve.source is not None and resolve.source.format is not None and resolve.source.format.numeric in ("UINT", "SINT"):
+                resolve.mode = "SAMPLE_ZERO"
+            resolve.target_at = resolve.mode_at = reference.node.span if reference.node.kind == "scalar" else reference.head
+            resolve.source_at = record.colorAttachments[n].place("attachment") if n < len(record.colorAttachments) else resolve.target_at
+            target.resolve.setdefault(index, set()).add("color")
+            self._joined(made, resolve, index)
+        chained = record.depthStencilResolve
+        if chained is not None and (target := find(chained.attachment)) is not None:
+            self._depth_stencil_resolve(made, depth_stencil, target, index)
+        return made
+
+    def _depth_stencil_resolve(self, made: PassSubpass, source: Attachment | None, target: Attachment, index: int) -> None:
+        record = made.record
+        assert isinstance(record, Subpass) and record.depthStencilResolve is not None
+        chained = record.depthStencilResolve
+        pair: Resolve | None = None
+        target.resolve.setdefault(index, set())
+        for aspect, mode, member in (
+            ("depth", chained.depthResolveMode, "depthResolveMode"),
+            ("stencil", chained.stencilResolveMode, "stencilResolveMode"),
+        ):
+            # A mode for an aspect that the target's format lacks is ignored (VUID-VkSubpassDescriptionDepthStencilResolve-...-03178).
+            if target.format is not None and aspect not in target.format.aspects:
+                continue
+            resolve = Resolve("subpass", aspect, chained, chained.path)
+            resolve.source, resolve.target, resolve.mode = source, target, mode
+            resolve.mode_at = chained.place(member)
+            resolve.target_at = chained.place("attachment")
+            resolve.source_at = record.place("depthStencilAttachment")
+            if mode != "NONE":
+                target.resolve[index].add(aspect if mode is not None else "?")
+            if pair is not None:
+                resolve.pair, pair.pair = pair, resolve
+            pair = resolve
+            self._joined(made, resolve, index)
+
+    @staticmethod
+    def _joined(made: PassSubpass, resolve: Resolve, index: int) -> None:
+        resolve.within = made.within
+        resolve.subpass = index
+        resolve.source_image = resolve.source.target if resolve.source is not None else None
+        resolve.target_image = resolve.target.target if resolve.target is not None else None
+        made.resolves.append(resolve)
+
+    def _renderings(self) -> None:
+        number = 0
+        for position, command in enumerate(self.commands):
+            if isinstance(command.body, BeginRendering):
+                made = Pass(RENDERING, f"rendering{number}", command.body)
+                made.begun.append(position)
+                number += 1
+                self._rendering(made, command.body)
+                self.passes.append(made)
+
+    def _rendering(self, made: Pass, record: BeginRendering) -> None:
+        subpass = PassSubpass(made, record, 0)
+        made.subpasses = [subpass]
+        stated = [("color", a) for a in record.colorAttachments]
+        stated += [("depth", record.depthAttachment), ("stencil", record.stencilAttachment)]
+        pair: Resolve | None = None
+        for aspect, info in stated:
+            if info is None or info.image is None:
+                if aspect == "color":
+                    subpass.color.append(None)
+                continue
+            target = self.target(info.image)
+            attachment = Attachment(info, info.image, len(made.attachments), [target] if target is not None else [])
+            if target is not None:
+                attachment.format, attachment.samples = target.format, target.samples
+            attachment.aspects = [Aspect(aspect, info.loadOp, info.storeOp, "loadOp", "storeOp")]
+            made.attachments.append(attachment)
+            (attachment.color if aspect == "color" else attachment.depth_stencil).add(0)
+            if aspect == "color":
+                subpass.color.append(attachment)
+            else:
+                subpass.depth_stencil.append(attachment)
+            if info.resolveImage is None and info.resolveMode in (None, "NONE"):
+                continue
+            resolve = Resolve(RENDERING, aspect, info, info.path)
+            resolve.source, resolve.mode = attachment, info.resolveMode
+            resolve.mode_at = info.place("resolveMode", "resolveImage")
+            resolve.source_at = info.place("image")
+            resolve.target_at = info.place("resolveImage", "resolveMode")
+            self._joined(subpass, resolve, 0)
+            resolve.target_image = self.target(info.resolveImage)
+            if aspect != "color":
+                if pair is not None:
+                    resolve.pair, pair.pair = pair, resolve
+                pair = resolve
+
+    def _commands(self) -> None:
+        for position, command in enumerate(self.commands):
+            body = command.body
+            if isinstance(body, BeginRenderPass):
+                begun = self.render_pass(body.renderPass)
+                if begun is not None:
+                    begun.begun.append(position)
+                    begun.partial_area = begun.partial_area or self._partial(body, begun)
+            elif command.kind == "resolveImage" and body is not None:
+                self.resolve_commands.append((position, self._resolve_command(command)))
+        for each in self.passes:
+            if each.kind == RENDERING:
+                each.partial_area = self._partial(each.record, each)
+
+    def _resolve_command(self, command: Command) -> Resolve:
+        body = command.body
+        assert isinstance(body, Record)
+        source, target = self.target(getattr(body, "srcImage", None)), self.target(getattr(body, "dstImage", None))
+        aspect = "depth" if source is not None and source.format is not None and "color" not in source.format.aspects else "color"
+        resolve = Resolve("command", aspect, body, command.path)
+        resolve.mode_at = command.head
+        resolve.source_image, resolve.target_image = source, target
+        resolve.source_at, resolve.target_at = body.place("srcImage"), body.place("dstImage")
+        if aspect == "color" and source is not None and source.format is not None and source.format.numeric not in ("UINT", "SINT"):
+            resolve.mode = "AVERAGE"
+        return resolve
+
+    def _partial(self, record: Record, begun: Pass) -> bool:
+        """Whether a stated render area is known to be smaller than what it renders to."""
+        area = getattr(record, "renderArea", None)
+        if area is None:
+            return False
+        width, height = self._size(record, begun)
+        return bool(
+            area.x or area.y
+            or (area.width is not None and width is not None and area.width < width)
+            or (area.height is not None and height is not None and area.height < height)
+        )  # fmt: skip
+
+    def _size(self, record: Record, begun: Pass) -> tuple[int | None, int | None]:
+        if isinstance(record, BeginRenderPass):
+            names = [record.framebuffer] if isinstance(record.framebuffer, str) else list(record.framebuffer or ())
+            for name in names:
+                framebuffer = self.description.framebuffers.get(name)
+                if framebuffer is not None and framebuffer.width is not None:
+                    return framebuffer.width, framebuffer.height
+        for attachment in begun.attachments:
+            for target in attachment.targets:
+                if target.image is not None and target.image.extent is not None:
+                    return target.image.extent.width, target.image.extent.height
+        size = self.description.frame
+        return (size.width, size.height) if size is not None else (None, None)
+
+
+def _aspects(attachment: Attachment) -> list[Aspect]:
+    """The aspects of a described attachment; what its use tells of them where its format is unknown."""
+    record = attachment.record
+    assert isinstance(record, AttachmentDescription)
+    if attachment.format is not None:
+        names: tuple[str | None, ...] = attachment.format.aspects
+    else:
+        names = ("color",) if attachment.color or any("color" in aspects for aspects in attachment.resolve.values()) else (None,)
+    made = []
+    for name in names:
+        if name == "stencil":
+            made.append(Aspect(name, record.stencilLoadOp, record.stencilStoreOp, "stencilLoadOp", "stencilStoreOp"))
+        else:
+            made.append(Aspect(name, record.loadOp, record.storeOp, "loadOp", "storeOp"))
+    return made

@@ -1,0 +1,68 @@
+"""From a document to everything that rules judge in it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ..devices import DeviceProfile
+from ..document.document import Document
+from .attachment import aspect_facts, attachment_facts, pass_facts
+from .dependency import external_dependencies
+from .facts import Facts, Subject
+from .frame import Attachment, Frame
+from .image import image_facts
+from .pipeline import pipeline_facts, subpass_of
+from .resolve import command_facts, resolve_facts
+from .subpass import subpass_facts
+from .surroundings import profile, surroundings
+from .timeline import Timeline
+
+
+def subjects(document: Document, default_device: str | None = None) -> Iterator[Subject]:
+    """The subjects of a document with their facts, in the order of the document's sections. Each fact is found once."""
+    device = profile(document.description, default_device)
+    frame = Frame(document)
+    timeline = Timeline(frame)
+    around = surroundings(document.description, device)
+    images: dict[int, Facts] = {}
+    for target in frame.all_targets:
+        facts = image_facts(target, frame, timeline, device)
+        images[id(target.record)] = facts
+        yield Subject("image", target.path, target.record.head, Facts(around, facts))
+    of_subpass: dict[str, Facts] = {}
+    for each in frame.passes:
+        shared = Facts(around, pass_facts(each))
+        for attachment in each.attachments:
+            base = Facts(shared, _image_of(attachment, images), attachment_facts(attachment))
+            yield Subject("attachment", attachment.record.path, attachment.record.head, base)
+            for aspect in attachment.aspects:
+                facts = Facts(base, aspect_facts(each, attachment, aspect, timeline))
+                yield Subject("aspect", attachment.record.path, attachment.record.head, facts)
+        for subpass in each.subpasses:
+            own = Facts(shared, subpass_facts(subpass, frame))
+            of_subpass[subpass.path] = own
+            yield Subject("subpass", subpass.path, subpass.record.head, own)
+            for resolve in subpass.resolves:
+                yield Subject("resolve", resolve.path, resolve.record.head, Facts(shared, resolve_facts(resolve, device)))
+        for dependency, facts in external_dependencies(each):
+            yield Subject("dependency", dependency.path, dependency.head, Facts(shared, facts))
+    for position, resolve in frame.resolve_commands:
+        facts = Facts(around, resolve_facts(resolve, device))
+        command_facts(facts, resolve, position, frame, timeline)
+        yield Subject("resolve", resolve.path, resolve.record.head, facts)
+    for pipeline, within in frame.pipelines:
+        drawn_in = subpass_of(pipeline, within)
+        base = of_subpass[drawn_in.path] if drawn_in is not None else around
+        yield Subject("pipeline", pipeline.path, pipeline.head, Facts(base, pipeline_facts(pipeline, drawn_in, frame)))
+
+
+def _image_of(attachment: Attachment, images: dict[int, Facts]) -> Facts:
+    """The facts of an attachment's image; of several that alternate, those on which all agree."""
+    every = [images[id(target.record)] for target in attachment.targets if id(target.record) in images]
+    if len(every) <= 1:
+        return every[0] if every else Facts()
+    common = Facts()
+    for name, value in every[0].values.items():
+        if all(other.values.get(name) == value for other in every[1:]):
+            common.put(name, value, every[0].places.get(name))
+    return common

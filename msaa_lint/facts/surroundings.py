@@ -1,0 +1,124 @@
+"""What holds for the whole frame: its size, the device, what the application enables, the scene."""
+
+from __future__ import annotations
+
+from ..devices import DeviceProfile, builtin
+from ..document.records import Description, Device
+from .facts import Facts
+
+MIXED_SAMPLES = frozenset({"VK_AMD_mixed_attachment_samples", "VK_NV_framebuffer_mixed_samples"})
+
+DEFAULT_EFFICIENT_SAMPLES = 4
+"""What Arm's and Imagination's guides advise as the most without a measurement, and the validation layer's constant for both."""
+
+
+def profile(description: Description, default: str | None = None) -> DeviceProfile | None:
+    """The device that a description names or describes, else the one of that name; None where there is none."""
+    stated = description.device
+    if isinstance(stated, Device):
+        return described(stated)
+    name = stated if stated is not None else default
+    return builtin(name) if name is not None else None
+
+
+def described(device: Device) -> DeviceProfile:
+    """A device mapping as a profile."""
+    counts = device.sampleCounts
+    return DeviceProfile(
+        name=device.name or "the described device",
+        vendor=device.vendor,
+        tiler=device.tiler,
+        color_samples=counts.color if counts is not None else None,
+        depth_samples=counts.depth if counts is not None else None,
+        stencil_samples=counts.stencil if counts is not None else None,
+        integer_samples=counts.integer if counts is not None else None,
+        memory_types=device.memoryTypes,
+        depth_resolve_modes=device.depthResolveModes,
+        stencil_resolve_modes=device.stencilResolveModes,
+        independent_resolve=device.independentResolve,
+        independent_resolve_none=device.independentResolveNone,
+        features=device.features,
+        extensions=device.extensions,
+        api_version=device.apiVersion,
+        max_efficient_samples=device.maxEfficientSamples,
+    )
+
+
+def surroundings(description: Description, device: DeviceProfile | None) -> Facts:
+    """The facts that every subject shares."""
+    facts = Facts()
+    size = description.frame
+    if size is not None:
+        facts.put("frame.width", size.width, size.place("width"))
+        facts.put("frame.height", size.height, size.place("height"))
+        facts.put("frame.fps", float(size.fps) if size.fps is not None else None, size.place("fps"))
+    facts.put("frame.has_commands", description.commands is not None)
+    _device(facts, device)
+    _enabled(facts, description, device)
+    scene = description.scene
+    if scene is not None:
+        facts.put("scene.color", scene.color, scene.place("color"))
+        facts.put("scene.peak", float(scene.peak) if scene.peak is not None else None, scene.place("peak"))
+        facts.put("scene.tone_mapping", scene.toneMapping, scene.place("toneMapping"))
+        facts.put("scene.depth", scene.depth, scene.place("depth"))
+        facts.put("scene.depth_resolve_wants", scene.depthResolveWants, scene.place("depthResolveWants"))
+    return facts
+
+
+def _device(facts: Facts, device: DeviceProfile | None) -> None:
+    facts.put("device.known", device is not None and not device.minimum)
+    facts.put("device.minimum", device is not None and device.minimum)
+    efficient = device.max_efficient_samples if device is not None else None
+    facts.put("device.max_efficient_samples", efficient if efficient is not None else DEFAULT_EFFICIENT_SAMPLES)
+    if device is None:
+        facts.put("device.lazy_memory_known", False)
+        return
+    facts.put("device.name", device.name)
+    facts.put("device.vendor", device.vendor)
+    facts.put("device.tiler", device.tiler)
+    lazy = any("LAZILY_ALLOCATED" in flags for flags in device.memory_types) if device.memory_types is not None else None
+    if device.minimum and lazy is False:
+        lazy = None
+    facts.put("device.lazy_memory", lazy)
+    facts.put("device.lazy_memory_known", lazy is not None)
+    facts.put("device.sample_rate_shading", offers(device, device.features, "sampleRateShading"))
+
+
+def offers(device: DeviceProfile, listed: tuple[str, ...] | None, name: str) -> bool | None:
+    """Whether a device's list has a name; unknown where it is not stated, and where a class of devices does not promise it."""
+    if listed is None:
+        return None
+    return True if name in listed else (None if device.minimum else False)
+
+
+def _enabled(facts: Facts, description: Description, device: DeviceProfile | None) -> None:
+    enabled = description.enabled
+    extensions = enabled.extensions if enabled is not None else None
+    features = enabled.features if enabled is not None else None
+    if enabled is not None and features is not None:
+        facts.put("enabled.sample_rate_shading", "sampleRateShading" in features, enabled.place("features"))
+    stated = extensions if extensions is not None else device.extensions if device is not None else None
+    facts.put("enabled.mixed_samples", stated is not None and not MIXED_SAMPLES.isdisjoint(stated))
+    version = enabled.apiVersion if enabled is not None else None
+    if extensions is None and version is None and device is not None:
+        extensions, version = device.extensions, device.api_version
+        if device.minimum:
+            extensions = extensions if extensions is not None and "VK_KHR_depth_stencil_resolve" in extensions else None
+    facts.put("enabled.depth_stencil_resolve", _depth_stencil_resolve(extensions, version))
+
+
+def _depth_stencil_resolve(extensions: tuple[str, ...] | None, version: str | None) -> bool | None:
+    """Core in Vulkan 1.2, an extension before; unknown unless both are stated, or either says yes."""
+    number = _version(version)
+    if number is not None and number >= (1, 2):
+        return True
+    if extensions is not None and "VK_KHR_depth_stencil_resolve" in extensions:
+        return True
+    return False if number is not None and extensions is not None else None
+
+
+def _version(text: str | None) -> tuple[int, int] | None:
+    parts = (text or "").split(".")
+    if len(parts) < 2 or not all(part.isdigit() and len(part) < 6 for part in parts[:2]):
+        return None
+    return int(parts[0]), int(parts[1])

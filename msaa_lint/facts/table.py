@@ -1,0 +1,197 @@
+"""Every fact that a rule may ask, with its type and what it means. `docs/facts.md` and `msaa-lint facts` are made from this.
+
+A fact that the input does not state is absent; a rule whose condition hangs on an absent fact stays undecided.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Fact(NamedTuple):
+    """`type` is BOOL, INT, DOUBLE, STRING, LIST (of text) or INTS; `enum` the Vulkan enum (or our words) that its texts come from."""
+
+    name: str
+    type: str
+    doc: str
+    enum: str = ""
+
+
+WORDS: dict[str, tuple[str, ...]] = {
+    "aspect": ("color", "depth", "stencil"),
+    "pass kind": ("renderPass", "rendering"),
+    "resolve kind": ("subpass", "rendering", "command"),
+    "encoding": ("LINEAR", "GAMMA", "DATA"),
+    "scene color": ("LDR", "HDR"),
+    "tone mapping": ("AFTER_RESOLVE", "IN_PASS", "NONE"),
+    "depth direction": ("STANDARD", "REVERSED"),
+    "wants": ("ANY", "NEAREST", "FARTHEST"),
+    "numeric": ("UNORM", "SNORM", "USCALED", "SSCALED", "UINT", "SINT", "UFLOAT", "SFLOAT", "SRGB", "SFIXED5", "BOOL"),
+    "vendor": (
+        "arm", "img", "amd", "nvidia", "qualcomm", "apple", "intel", "broadcom", "samsung", "mesa", "khronos", "huawei",
+    ),
+}  # fmt: skip
+"""The words of facts whose texts are ours, not a Vulkan enum's."""
+
+_FRAME = (
+    Fact("frame.width", "INT", "width of the frame in pixels"),
+    Fact("frame.height", "INT", "height of the frame in pixels"),
+    Fact("frame.fps", "DOUBLE", "frames a second"),
+    Fact("frame.has_commands", "BOOL", "the description records commands"),
+)
+_DEVICE = (
+    Fact("device.known", "BOOL", "the device is named or described, and is one device, not a class with guaranteed minimums"),
+    Fact("device.minimum", "BOOL", "a class of devices: what it does not list is not guaranteed"),
+    Fact("device.name", "STRING", "the device's name"),
+    Fact("device.vendor", "STRING", "who makes it", "vendor"),
+    Fact("device.tiler", "BOOL", "it renders tile by tile"),
+    Fact("device.lazy_memory", "BOOL", "it offers LAZILY_ALLOCATED memory"),
+    Fact("device.lazy_memory_known", "BOOL", "its memory types are stated"),
+    Fact("device.max_efficient_samples", "INT", "the largest count that keeps full throughput: 4 unless the device says otherwise"),
+    Fact("device.sample_rate_shading", "BOOL", "it offers the feature sampleRateShading"),
+)
+_ENABLED = (
+    Fact("enabled.sample_rate_shading", "BOOL", "the application enables sampleRateShading"),
+    Fact("enabled.depth_stencil_resolve", "BOOL", "Vulkan 1.2 or VK_KHR_depth_stencil_resolve is enabled; where that is not stated: offered"),
+    Fact("enabled.mixed_samples", "BOOL", "VK_AMD_mixed_attachment_samples or VK_NV_framebuffer_mixed_samples is stated; never unknown"),
+)
+_SCENE = (
+    Fact("scene.color", "STRING", "LDR or HDR", "scene color"),
+    Fact("scene.peak", "DOUBLE", "the brightest value, in units of display white"),
+    Fact("scene.tone_mapping", "STRING", "where tone mapping happens", "tone mapping"),
+    Fact("scene.depth", "STRING", "the direction of depth: STANDARD is 0 near, REVERSED is 1 near", "depth direction"),
+    Fact("scene.depth_resolve_wants", "STRING", "what the reader of resolved depth needs", "wants"),
+)
+_IMAGE = (
+    Fact("image.name", "STRING", "the image's name; the attachment's, where it stands for one without an image"),
+    Fact("image.stated", "BOOL", "it stands in `images`; false where it stands for an attachment that names none"),
+    Fact("image.format", "STRING", "its format", "VkFormat"),
+    Fact("image.samples", "INT", "samples a texel"),
+    Fact("image.is_color", "BOOL", "its format has a colour aspect"),
+    Fact("image.numeric", "STRING", "the numeric type of its colour", "numeric"),
+    Fact("image.is_half_float", "BOOL", "every component is a 16-bit float"),
+    Fact("image.type", "STRING", "its dimensions", "VkImageType"),
+    Fact("image.tiling", "STRING", "its tiling", "VkImageTiling"),
+    Fact("image.mip_levels", "INT", "its mip levels"),
+    Fact("image.flags", "LIST", "its creation flags", "VkImageCreateFlagBits"),
+    Fact("image.sharing_mode", "STRING", "its sharing mode", "VkSharingMode"),
+    Fact("image.usage", "LIST", "its usage", "VkImageUsageFlagBits"),
+    Fact("image.memory", "LIST", "the property flags of the memory it is bound to", "VkMemoryPropertyFlagBits"),
+    Fact("image.transient", "BOOL", "its usage has TRANSIENT_ATTACHMENT"),
+    Fact("image.lazily_allocated", "BOOL", "its memory is LAZILY_ALLOCATED"),
+    Fact("image.attachment_usage", "BOOL", "its usage has COLOR_ATTACHMENT, DEPTH_STENCIL_ATTACHMENT or INPUT_ATTACHMENT"),
+    Fact("image.transient_conflicts", "LIST", "usages it has that Vulkan forbids beside TRANSIENT_ATTACHMENT", "VkImageUsageFlagBits"),
+    Fact("image.presentable", "BOOL", "it belongs to a swapchain"),
+    Fact("image.encoding", "STRING", "what its values mean", "encoding"),
+    Fact("image.is_render_target", "BOOL", "a pass draws or resolves to it, or its usage allows that"),
+    Fact("image.read", "BOOL", "something other than a resolve inside a pass reads it"),
+    Fact("image.loaded", "BOOL", "a pass loads an aspect of it"),
+    Fact("image.supported", "BOOL", "the device offers its sample count for its aspects"),
+    Fact("image.supported_samples", "INTS", "the counts that the device offers for its aspects"),
+    Fact("image.averaged_by_reader", "BOOL", "a shader that reads it is stated to average its samples"),
+    Fact("image.share_of_devices", "INT", "per cent of 2,035 devices in reports that offer its sample count"),
+    Fact("image.share_of_tilers", "INT", "per cent of the tile-based ones among them that do"),
+)
+_PASS = (
+    Fact("pass.kind", "STRING", "a VkRenderPass or a vkCmdBeginRendering", "pass kind"),
+    Fact("pass.name", "STRING", "the render pass's name"),
+    Fact("pass.partial_area", "BOOL", "it is begun with a stated render area smaller than its images"),
+    Fact("pass.custom_resolve", "BOOL", "a subpass of it resolves by its own shader"),
+    Fact("pass.suspends", "BOOL", "a rendering that is suspended: what is left of it comes later"),
+)
+_ATTACHMENT = (
+    Fact("attachment.name", "STRING", "its name, or its index"),
+    Fact("attachment.format", "STRING", "its format", "VkFormat"),
+    Fact("attachment.samples", "INT", "samples a texel"),
+    Fact("attachment.used", "BOOL", "a subpass refers to it as colour, depth-stencil, resolve target or input"),
+    Fact("attachment.drawn", "BOOL", "a subpass draws to it: it is a colour or depth-stencil attachment"),
+    Fact("attachment.is_resolve_target", "BOOL", "a resolve writes it"),
+    Fact("attachment.read_as_input", "BOOL", "a subpass reads it as input attachment"),
+    Fact("attachment.initial_layout", "STRING", "its layout when the pass begins", "VkImageLayout"),
+    Fact("attachment.final_layout", "STRING", "its layout when the pass ends", "VkImageLayout"),
+)
+_ASPECT = (
+    Fact("aspect.name", "STRING", "which aspect", "aspect"),
+    Fact("aspect.load", "STRING", "its load operation: stencilLoadOp for stencil, else loadOp", "VkAttachmentLoadOp"),
+    Fact("aspect.store", "STRING", "its store operation: stencilStoreOp for stencil, else storeOp", "VkAttachmentStoreOp"),
+    Fact("aspect.initial_layout", "STRING", "its layout when the pass begins", "VkImageLayout"),
+    Fact("aspect.resolved", "BOOL", "a resolve with a mode other than NONE reads it in the pass"),
+    Fact("aspect.resolved_over", "BOOL", "a resolve in the pass overwrites it"),
+    Fact("aspect.read_later", "BOOL", "something after the pass, or the pass itself in the next frame, reads what it stores"),
+    Fact("aspect.readers_known", "BOOL", "the description says whether anything reads it later; never unknown"),
+)
+_SUBPASS = (
+    Fact("subpass.index", "INT", "its index; 0 in dynamic rendering"),
+    Fact("subpass.samples", "INT", "the sample count its attachments share, or the one it renders to single-sampled ones with"),
+    Fact("subpass.color_samples", "INTS", "the distinct known counts of its colour attachments"),
+    Fact("subpass.depth_stencil_samples", "INT", "the count of its depth-stencil attachment"),
+    Fact("subpass.mixed_color_samples", "BOOL", "two colour attachments differ in samples"),
+    Fact("subpass.depth_below_color", "BOOL", "the depth-stencil count is below a colour count"),
+    Fact("subpass.depth_above_color", "BOOL", "the depth-stencil count is above a colour count"),
+    Fact("subpass.differs_from_single_sampled_count", "BOOL", "render to single-sampled: an attachment has neither one sample nor the stated count"),
+    Fact("subpass.has_pipelines", "BOOL", "the description is whole and lists pipelines for it"),
+    Fact("subpass.partial_coverage", "BOOL", "some pipeline of it can cover a pixel in part"),
+)
+_RESOLVE = (
+    Fact("resolve.kind", "STRING", "in a subpass, at the end of a rendering, or vkCmdResolveImage", "resolve kind"),
+    Fact("resolve.aspect", "STRING", "which aspect", "aspect"),
+    Fact("resolve.mode", "STRING", "its mode; AVERAGE where Vulkan fixes it for a colour format", "VkResolveModeFlagBits"),
+    Fact("resolve.has_source", "BOOL", "the attachment or image that it reads is stated"),
+    Fact("resolve.has_target", "BOOL", "the attachment or image that it writes is stated"),
+    Fact("resolve.source", "STRING", "the name of what it reads"),
+    Fact("resolve.target", "STRING", "the name of what it writes"),
+    Fact("resolve.source_samples", "INT", "samples a texel of what it reads"),
+    Fact("resolve.target_samples", "INT", "samples a texel of what it writes"),
+    Fact("resolve.source_format", "STRING", "the format it reads", "VkFormat"),
+    Fact("resolve.target_format", "STRING", "the format it writes", "VkFormat"),
+    Fact("resolve.source_numeric", "STRING", "the numeric type of the colour it reads", "numeric"),
+    Fact("resolve.source_encoding", "STRING", "what the values it reads mean", "encoding"),
+    Fact("resolve.source_is_data", "BOOL", "the values are stated to be no colour; never unknown"),
+    Fact("resolve.formats_match", "BOOL", "Vulkan allows the two formats together"),
+    Fact("resolve.single_sampled_render", "BOOL", "it belongs to a pass that renders multisampled to single-sampled attachments"),
+    Fact("resolve.first_of_pair", "BOOL", "it is the first aspect of its structure: a rule on the pair asks this, to fire once"),
+    Fact("resolve.all_modes_none", "BOOL", "the modes of all its structure's aspects are NONE"),
+    Fact("resolve.mode_supported", "BOOL", "the device offers its mode"),
+    Fact("resolve.supported_modes", "LIST", "the modes that the device offers for its aspect", "VkResolveModeFlagBits"),
+    Fact("resolve.pair_supported", "BOOL", "the device offers the two aspects' modes together (independentResolve, independentResolveNone)"),
+    Fact("resolve.pass_could_resolve", "BOOL", "a command: the source was last written by a pass that does not resolve it, and could"),
+    Fact("resolve.writer", "STRING", "a command: the pass that last wrote the source"),
+    Fact("resolve.share_of_tilers", "INT", "depth and stencil: per cent of tile-based devices in reports that offer the mode"),
+)
+_PIPELINE = (
+    Fact("pipeline.name", "STRING", "its name"),
+    Fact("pipeline.rasterization_samples", "INT", "rasterizationSamples; unknown where it is dynamic state"),
+    Fact("pipeline.attachment_samples", "INT", "the sample count that its subpass or rendering has"),
+    Fact("pipeline.sample_shading", "BOOL", "sampleShadingEnable"),
+    Fact("pipeline.min_sample_shading", "DOUBLE", "minSampleShading"),
+    Fact("pipeline.shaded_samples", "INT", "fragment shader runs a pixel that sample shading demands: max(ceil(minSampleShading * samples), 1)"),
+    Fact("pipeline.alpha_to_coverage", "BOOL", "alphaToCoverageEnable"),
+    Fact("pipeline.blends_first", "BOOL", "blending is on for colour attachment 0"),
+    Fact("pipeline.dropped_samples", "INT", "samples below the count that sampleMask clears; 0 without a mask"),
+    Fact("pipeline.blended_float_formats", "LIST", "formats of float colour attachments that it blends into and writes", "VkFormat"),
+    Fact("pipeline.rasterizer_discard", "BOOL", "rasterizerDiscardEnable"),
+)
+_DEPENDENCY = (
+    Fact("dependency.stages", "LIST", "the source stages of all dependencies from EXTERNAL into the subpass", "VkPipelineStageFlagBits2"),
+    Fact("dependency.accesses", "LIST", "their source accesses", "VkAccessFlagBits2"),
+    Fact("dependency.makes_writes_available", "BOOL", "a write access is among them"),
+    Fact("dependency.waits_for_late_tests", "BOOL", "LATE_FRAGMENT_TESTS, or a stage that includes it, is among the source stages"),
+    Fact("dependency.subpass", "INT", "the subpass they lead into"),
+    Fact("dependency.multisampled", "BOOL", "that subpass is the first to use a multisampled attachment"),
+    Fact("dependency.multisampled_depth_stencil", "BOOL", "that subpass is the first to use a multisampled depth-stencil attachment"),
+)
+
+GLOBAL = (*_FRAME, *_DEVICE, *_ENABLED, *_SCENE)
+
+SUBJECTS: dict[str, tuple[Fact, ...]] = {
+    "image": (*_IMAGE, *GLOBAL),
+    "attachment": (*_ATTACHMENT, *_IMAGE, *_PASS, *GLOBAL),
+    "aspect": (*_ASPECT, *_ATTACHMENT, *_IMAGE, *_PASS, *GLOBAL),
+    "subpass": (*_SUBPASS, *_PASS, *GLOBAL),
+    "resolve": (*_RESOLVE, *_PASS, *GLOBAL),
+    "pipeline": (*_PIPELINE, *_SUBPASS, *_PASS, *GLOBAL),
+    "dependency": (*_DEPENDENCY, *_PASS, *GLOBAL),
+}
+"""The facts that a rule about each kind of subject may ask."""
+
+FACTS: dict[str, Fact] = {fact.name: fact for facts in SUBJECTS.values() for fact in facts}

@@ -1,0 +1,150 @@
+"""Subjects and rules to findings."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple
+
+from .condition import Condition, activation
+from .diagnostics import diagnostic
+from .facts.facts import Facts, Subject
+from .finding import Finding, Fix, Label, Span, Undecided
+from .page import Case, Rule
+
+_PLACEHOLDER = re.compile(r"\{([a-z_.0-9]+)\}")
+_EVEN = re.compile(r"\.0$")
+
+
+class Verdicts(NamedTuple):
+    """What the rules said of a document."""
+
+    findings: list[Finding]
+    undecided: list[Undecided]
+
+
+class Judge:
+    """Rules made ready: conditions are compiled once, when a subject of their kind first comes."""
+
+    def __init__(self, rules: Iterable[Rule]) -> None:
+        self._by_subject: dict[str, list[Rule]] = {}
+        for rule in rules:
+            self._by_subject.setdefault(rule.subject, []).append(rule)
+        self._conditions: dict[str, Condition] = {}
+        self._asked: dict[str, frozenset[str]] = {}
+
+    def judge(
+        self, subjects: Iterable[Subject], file: str, severity: Callable[[Rule, str, str | None], str | None]
+    ) -> Verdicts:
+        """The findings and undecided rules of a document's subjects.
+
+        `severity(rule, suggested, vendor)` gives what a finding weighs, None where the rule is off for the file.
+        """
+        findings: list[Finding] = []
+        undecided: list[Undecided] = []
+        for subject in subjects:
+            rules = self._by_subject.get(subject.kind)
+            if not rules:
+                continue
+            values = subject.facts.values
+            asked = self._facts_asked(subject.kind, rules)
+            ready = activation(subject.kind, {name: value for name, value in values.items() if name in asked})
+            fired: list[tuple[Rule, Finding]] = []
+            for rule in rules:
+                if severity(rule, rule.severity, None) is None:
+                    continue
+                try:
+                    answer = self._condition(rule.when, subject.kind).holds(ready)
+                except ArithmeticError as error:
+                    findings.append(_failed(rule, error, file))
+                    continue
+                if answer:
+                    case = self._case(rule, subject, ready)
+                    suggested = case.severity or rule.severity if case is not None else rule.severity
+                    vendor = values.get("device.vendor")
+                    weight = severity(rule, suggested, vendor if isinstance(vendor, str) else None)
+                    if weight is not None:
+                        fired.append((rule, finding(rule, case, subject, file, weight)))
+                elif answer is None:
+                    missing = tuple(name for name in self._condition(rule.when, subject.kind).facts if name not in values)
+                    undecided.append(Undecided(rule.code, rule.name, file, subject.path, missing))
+            findings.extend(_one_cause(fired))
+        return Verdicts(_distinct(findings), undecided)
+
+    def _condition(self, text: str, subject: str) -> Condition:
+        key = f"{subject}:{text}"
+        if key not in self._conditions:
+            self._conditions[key] = Condition(text, subject)
+        return self._conditions[key]
+
+    def _facts_asked(self, kind: str, rules: Sequence[Rule]) -> frozenset[str]:
+        if kind not in self._asked:
+            texts = [text for rule in rules for text in (rule.when, *(case.when for case in rule.cases))]
+            self._asked[kind] = frozenset(name for text in texts for name in self._condition(text, kind).facts)
+        return self._asked[kind]
+
+    def _case(self, rule: Rule, subject: Subject, ready: object) -> Case | None:
+        return next((case for case in rule.cases if self._condition(case.when, subject.kind).holds(ready)), None)
+
+
+def finding(rule: Rule, case: Case | None, subject: Subject, file: str, severity: str) -> Finding:
+    """The finding of a rule for a subject: its texts filled in, at the place of the fact that the page names."""
+    facts = subject.facts
+    message = case.message if case is not None and case.message is not None else rule.message
+    confidence = case.confidence if case is not None and case.confidence is not None else rule.confidence
+    span = _place(rule.at, facts) or subject.head
+    labels = []
+    for fact, text in rule.labels:
+        place = facts.places.get(fact)
+        if place is not None and place != span and fact in facts.values:
+            labels.append(Label(place, filled(text, facts)))
+    mend = Fix(rule.fix.title, rule.fix.safe) if rule.fix is not None else None
+    help = filled(rule.help, facts)
+    return Finding(
+        rule.code, rule.name, severity, confidence, filled(message, facts), file, span, subject.path, tuple(labels), (), help, mend
+    )
+
+
+def filled(text: str, facts: Facts) -> str:
+    """A page's text with the facts that it names in braces."""
+    return _PLACEHOLDER.sub(lambda match: _worded(facts.values.get(match[1])), text)
+
+
+def _worded(value: object) -> str:
+    if value is None:
+        return "unknown"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, list):
+        return ", ".join(str(item) for item in value)
+    return _EVEN.sub("", str(value)) if isinstance(value, float) else str(value)
+
+
+def _place(names: Sequence[str], facts: Facts) -> Span | None:
+    return next((facts.places[name] for name in names if name in facts.places), None)
+
+
+def _one_cause(fired: list[tuple[Rule, Finding]]) -> list[Finding]:
+    """The findings about one subject, those left out that a more specific one supersedes; it says so in a note."""
+    names = {rule.name for rule, _ in fired}
+    dropped = {name for rule, _ in fired for name in rule.supersedes if name in names}
+    kept = []
+    for rule, found in fired:
+        if rule.name in dropped:
+            continue
+        covered = tuple(f"covers {other.rule} ({other.code}) too" for r, other in fired if r.name in rule.supersedes)
+        kept.append(found._replace(notes=(*found.notes, *covered)) if covered else found)
+    return kept
+
+
+def _distinct(findings: list[Finding]) -> list[Finding]:
+    """Each place and message of a rule once: a structure that two aspects share is one mistake."""
+    seen: dict[tuple[str, Span | None, str], Finding] = {}
+    for found in findings:
+        seen.setdefault((found.code, found.span, found.message), found)
+    return list(seen.values())
+
+
+def _failed(rule: Rule, error: ArithmeticError, file: str) -> Finding:
+    message = f"the condition of `{rule.name}` cannot be worked out: {str(error)[:200]}"
+    return diagnostic("MSAA921", message, rule.source.name, rule.condition_at, rule.name, help=f"met in {file}")

@@ -1,0 +1,245 @@
+"""A rule's page: YAML front matter, then Markdown."""
+
+from __future__ import annotations
+
+import os
+from typing import NamedTuple
+
+from .diagnostics import diagnostic
+from .finding import CONFIDENCES, SEVERITIES, Finding, Span
+from .source.text import Source, Unreadable, decode
+from .source.tree import Limits, Node, parse, read
+
+FENCE = "---"
+MAX_PAGE = 1 << 20
+MAX_CONDITION = 2000
+"""Characters of a condition: a user's page may come from an untrusted branch, and what CEL does is bounded by what it is given."""
+
+
+class Case(NamedTuple):
+    """What changes where a rule fires and `when` holds as well; the first case that holds is taken."""
+
+    when: str
+    severity: str | None
+    confidence: str | None
+    message: str | None
+
+
+class Mend(NamedTuple):
+    """A fix, in terms of the subject's members: `set` gives a member a value, `add` and `remove` change a list."""
+
+    title: str
+    safe: bool
+    set: tuple[tuple[str, str], ...]
+    add: tuple[tuple[str, str], ...]
+    remove: tuple[tuple[str, str], ...]
+
+
+class Rule(NamedTuple):
+    """A rule, as its page's front matter states it. `when` and the cases are CEL; `at` and the labels name facts, whose places they point to."""
+
+    code: str
+    name: str
+    severity: str
+    confidence: str
+    subject: str
+    when: str
+    message: str
+    at: tuple[str, ...]
+    labels: tuple[tuple[str, str], ...]
+    cases: tuple[Case, ...]
+    help: str
+    fix: Mend | None
+    vendors: tuple[str, ...]
+    edition: str
+    references: tuple[str, ...]
+    supersedes: tuple[str, ...]
+    summary: str
+    path: str
+    condition_at: Span
+    source: Source
+
+
+class Page(NamedTuple):
+    """A page as it was read: the rule, if it could be, and what is wrong with it."""
+
+    rule: Rule | None
+    problems: tuple[Finding, ...]
+
+
+KEYS = (
+    "code", "severity", "confidence", "subject", "when", "message", "at", "labels", "cases", "help", "fix", "vendors", "edition",
+    "references", "supersedes",
+)  # fmt: skip
+REQUIRED = ("code", "severity", "subject", "when", "message")
+
+
+def read_page(path: str, shown: str) -> Page:
+    """The rule that a page states. `shown` is the path as messages name it."""
+    name = os.path.basename(path).removesuffix(".md")
+    try:
+        text = decode(read(path, Limits(bytes=MAX_PAGE)))
+    except (OSError, Unreadable) as error:
+        return Page(None, (diagnostic("MSAA921", f"the rule page cannot be read: {error}", shown),))
+    source = Source(shown, text)
+    front, body = split(text)
+    if front is None:
+        return Page(None, (diagnostic("MSAA921", "a rule page begins with front matter between two lines of ---", shown, Span(0, 0)),))
+    parsed = parse(Source(shown, front), Limits())
+    if parsed.problems:
+        found = [diagnostic("MSAA921", p.message, shown, p.span, name, tuple(p.labels)) for p in parsed.problems]
+        return Page(None, tuple(found))
+    reading = _Reading(shown, name, source)
+    root = parsed.documents[0] if parsed.documents else None
+    if root is None or root.kind != "mapping":
+        reading.wrong(Span(0, 0), "the front matter is a mapping")
+        return Page(None, tuple(reading.problems))
+    rule = reading.rule(root, body, path)
+    return Page(rule if not reading.problems else None, tuple(reading.problems))
+
+
+def split(text: str) -> tuple[str | None, str]:
+    """The front matter, at its offsets (what stands before it is blank), and the Markdown after it."""
+    lines = text.splitlines(keepends=True)
+    if not lines or lines[0].rstrip() != FENCE:
+        return None, text
+    offset = len(lines[0])
+    for line in lines[1:]:
+        if line.rstrip() == FENCE:
+            return " " * (len(lines[0]) - 1) + "\n" + text[len(lines[0]) : offset], text[offset + len(line) :]
+        offset += len(line)
+    return None, text
+
+
+def first_sentence(body: str) -> str:
+    """What a page says first: the first sentence of its first paragraph."""
+    paragraph: list[str] = []
+    for line in body.splitlines():
+        text = line.strip()
+        if text.startswith(("#", "```")) and not paragraph:
+            continue
+        if not text:
+            if paragraph:
+                break
+            continue
+        paragraph.append(text)
+    joined = " ".join(paragraph)
+    end = joined.find(". ")
+    return joined if end < 0 else joined[: end + 1]
+
+
+class _Reading:
+    """One page while its front matter is read."""
+
+    def __init__(self, shown: str, name: str, source: Source) -> None:
+        self.shown = shown
+        self.name = name
+        self.source = source
+        self.problems: list[Finding] = []
+
+    def wrong(self, span: Span, message: str, help: str = "") -> None:
+        self.problems.append(diagnostic("MSAA921", f"rule page `{self.name}`: {message}", self.shown, span, self.name, (), help))
+
+    def rule(self, root: Node, body: str, path: str) -> Rule | None:
+        from .facts.table import SUBJECTS
+
+        members: dict[str, Node] = root.value
+        for key in members:
+            if key not in KEYS:
+                self.unknown(root.keys[key], KEYS)
+        missing = [key for key in REQUIRED if key not in members]
+        if missing:
+            self.wrong(Span(0, len(FENCE)), f"the front matter lacks {', '.join(missing)}")
+            return None
+        self.one_of(members["subject"], tuple(SUBJECTS))
+        self.one_of(members["severity"], SEVERITIES)
+        if "confidence" in members:
+            self.one_of(members["confidence"], CONFIDENCES)
+        when = members["when"]
+        if len(when.text) > MAX_CONDITION:
+            self.wrong(when.span, f"a condition has at most {MAX_CONDITION} characters")
+        at = members.get("at")
+        return Rule(
+            code=self.text(members["code"]),
+            name=self.name,
+            severity=members["severity"].text,
+            confidence=members["confidence"].text if "confidence" in members else "high",
+            subject=members["subject"].text,
+            when=self.text(when),
+            message=self.text(members["message"]),
+            at=() if at is None else self.texts(at) if at.kind == "sequence" else (self.text(at),),
+            labels=self.pairs(members.get("labels")),
+            cases=tuple(self.case(node) for node in self.items(members.get("cases"))),
+            help=self.text(members["help"]) if "help" in members else "",
+            fix=self.mend(members["fix"]) if "fix" in members else None,
+            vendors=self.texts(members.get("vendors")),
+            edition=self.text(members["edition"]) if "edition" in members else "",
+            references=self.texts(members.get("references")),
+            supersedes=self.texts(members.get("supersedes")),
+            summary=first_sentence(body),
+            path=path,
+            condition_at=when.span,
+            source=self.source,
+        )
+
+    def unknown(self, key: Node, known: tuple[str, ...]) -> None:
+        from .vulkan.names import nearest
+
+        close = nearest(key.text, known)
+        self.wrong(key.span, f"unknown key `{key.text[:80]}`", f"did you mean `{close}`?" if close else f"it may have {', '.join(known)}")
+
+    def text(self, node: Node) -> str:
+        if node.kind != "scalar" or node.value is None:
+            self.wrong(node.span, "a text is due here")
+            return ""
+        return node.text.strip()
+
+    def one_of(self, node: Node, words: tuple[str, ...]) -> None:
+        if node.kind != "scalar" or node.text not in words:
+            self.wrong(node.span, f"one of {', '.join(words)} is due here")
+
+    def items(self, node: Node | None) -> list[Node]:
+        if node is None:
+            return []
+        if node.kind != "sequence":
+            self.wrong(node.span, "a list is due here")
+            return []
+        return list(node.value)
+
+    def texts(self, node: Node | None) -> tuple[str, ...]:
+        return tuple(self.text(item) for item in self.items(node))
+
+    def pairs(self, node: Node | None) -> tuple[tuple[str, str], ...]:
+        if node is None:
+            return ()
+        if node.kind != "mapping":
+            self.wrong(node.span, "a mapping is due here")
+            return ()
+        return tuple((key, self.text(value)) for key, value in node.value.items())
+
+    def case(self, node: Node) -> Case:
+        known = ("when", "severity", "confidence", "message")
+        if node.kind != "mapping" or "when" not in node.value:
+            self.wrong(node.span, "a case is a mapping with `when` and what it changes")
+            return Case("", None, None, None)
+        for key in node.value:
+            if key not in known:
+                self.unknown(node.keys[key], known)
+        given = {key: self.text(value) for key, value in node.value.items()}
+        if "severity" in given:
+            self.one_of(node.value["severity"], SEVERITIES)
+        if "confidence" in given:
+            self.one_of(node.value["confidence"], CONFIDENCES)
+        return Case(given["when"], given.get("severity"), given.get("confidence"), given.get("message"))
+
+    def mend(self, node: Node) -> Mend | None:
+        known = ("title", "safety", "set", "add", "remove")
+        if node.kind != "mapping" or "title" not in node.value or "safety" not in node.value:
+            self.wrong(node.span, "a fix is a mapping with `title`, `safety` (safe or unsafe) and what it changes")
+            return None
+        for key in node.value:
+            if key not in known:
+                self.unknown(node.keys[key], known)
+        self.one_of(node.value["safety"], ("safe", "unsafe"))
+        changes = [self.pairs(node.value.get(key)) for key in ("set", "add", "remove")]
+        return Mend(self.text(node.value["title"]), node.value["safety"].text == "safe", *changes)

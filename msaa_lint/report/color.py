@@ -1,0 +1,12 @@
+"""Terminal colours of the text outputs, as SGR sequences."""
+
+from __future__ import annotations
+
+BOLD = "1"
+SECONDARY = "1;34"
+SEVERITY = {"error": "1;31", "warning": "1;33", "note": "1;36"}
+
+
+def paint(text: str, style: str, color: bool) -> str:
+    """`text` in `style`, or as it is without `color`."""
+    return f"\x1b[{style}m{text}\x1b[0m" if color and text and style else text

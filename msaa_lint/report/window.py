@@ -1,0 +1,134 @@
+"""The part of a source line that fits on a terminal, with a cell for each character.
+
+A line may be 64 MiB long: nothing here looks further than the window.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+from .escape import pieces
+
+CUT = "..."
+_LINE_END = re.compile(r"[\r\n]")
+_TAB = "    "
+# More marks than this on one letter are no script's, but cover the lines above and below.
+_MOST_COMBINING = 4
+
+
+class Window(NamedTuple):
+    """`text` as shown. `cells[i]` is the cell where the source character at offset `start + i` begins, its last entry where the text ends.
+
+    `cut` says that the line goes on behind the window.
+    """
+
+    start: int
+    text: str
+    cells: list[int]
+    cut: bool
+
+    @property
+    def end(self) -> int:
+        """The offset after the last character shown."""
+        return self.start + len(self.cells) - 1
+
+    def cell(self, offset: int) -> int:
+        """The cell of the character at `offset`, or the nearest edge of the window."""
+        return self.cells[max(0, min(offset - self.start, len(self.cells) - 1))]
+
+    def shows(self, offset: int) -> bool:
+        """Whether the character at `offset`, or the end of the line there, is inside."""
+        return offset < self.end or (offset == self.end and not self.cut)
+
+
+def line_end(text: str, offset: int, longest: int) -> int | None:
+    """Where the line that `offset` is on ends, None where that is more than `longest` characters away."""
+    found = _LINE_END.search(text, offset, min(len(text), offset + longest))
+    if found:
+        return found.start()
+    return len(text) if len(text) <= offset + longest else None
+
+
+def window(text: str, line_start: int, focus: int, width: int) -> Window:
+    """The whole line from `line_start` if it fits into `width` cells, else the part around the character at `focus`, with `...` where cut.
+
+    `width` 0 never cuts.
+    """
+    if not width:
+        end = line_end(text, line_start, len(text))
+        assert end is not None
+        return _lay(text, line_start, end, 0, "", "")
+    # A shown cell stands for at most this many characters, as combining marks are limited.
+    reach = (width + 1) * (_MOST_COMBINING + 1)
+    end = line_end(text, line_start, reach)
+    if end is not None:
+        whole = _lay(text, line_start, end, 0, "", "")
+        if whole.cells[-1] <= width:
+            return whole
+    room = width - len(CUT)
+    start = line_start
+    if focus - line_start > reach or _lay(text, line_start, focus, 0, "", "").cells[-1] > room * 2 // 3:
+        start = _back(text, line_start, focus, room // 3)
+    before = CUT if start > line_start else ""
+    end = line_end(text, start, reach)
+    rest = _lay(text, start, start + reach if end is None else end, 0, before, "")
+    if end is not None and rest.cells[-1] <= width:
+        return rest
+    return _lay(text, start, start + reach if end is None else end, room, before, CUT)
+
+
+def _back(text: str, line_start: int, focus: int, room: int) -> int:
+    """The first character from which the text before `focus` takes no more than `room` cells."""
+    start = max(line_start, focus - room)
+    shown, widths = _measure(text[start:focus])
+    total = sum(widths)
+    while total > room and start < focus:
+        total -= widths[start - focus + len(shown)]
+        start += 1
+    return start
+
+
+def _lay(text: str, start: int, end: int, room: int, before: str, after: str) -> Window:
+    """The characters from `start` on up to `end`, or as many as end by cell `room` (0: all), between `before` and `after`."""
+    shown, widths = _measure(text[start:end])
+    cells = [len(before)]
+    for width in widths:
+        if room and cells[-1] + width > room:
+            break
+        cells.append(cells[-1] + width)
+    return Window(start, before + "".join(shown[: len(cells) - 1]) + after, cells, bool(after))
+
+
+def _measure(text: str) -> tuple[list[str], list[int]]:
+    """What to show for each character, and how many cells it takes."""
+    shown = pieces(text)
+    if text.isascii():
+        for i, c in enumerate(text if "\t" in text else ""):
+            if c == "\t":
+                shown[i] = _TAB
+        return shown, [len(piece) for piece in shown]
+    from unicodedata import category, east_asian_width
+
+    widths = []
+    combining = 0
+    for i, c in enumerate(text):
+        if c == "\t":
+            shown[i] = _TAB
+        width = len(shown[i])
+        if width == 1 and not c.isascii():
+            if category(c) in ("Mn", "Me"):
+                combining += 1
+                # At the start of the window a mark would fall on the gutter.
+                if combining > _MOST_COMBINING or i == 0:
+                    shown[i] = f"\\u{ord(c):04x}" if ord(c) < 0x10000 else f"\\U{ord(c):08x}"
+                    width = len(shown[i])
+                else:
+                    width = 0
+            else:
+                combining = 0
+                width = 2 if east_asian_width(c) in "WF" else 1
+        else:
+            combining = 0
+        widths.append(width)
+    return shown, widths

@@ -1,0 +1,159 @@
+"""The spellings of enumerants: full names, short names, numbers, and the nearest name to a wrong one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from .enums import ALIASES, BITLESS, PREFIXES, VALUES
+
+VENDORS = ("AMD", "ANDROID", "ARM", "EXT", "HUAWEI", "IMG", "INTEL", "KHR", "NV", "NVX", "QCOM", "VALVE")
+
+MAX_WORD = 128
+"""Longer words are no name and have no nearest one: likeness is quadratic in the length."""
+
+MAX_WORDS = 2000
+"""As many words are looked at for likeness."""
+
+_AFTER_BIT = ("", *(f"_{vendor}" for vendor in VENDORS))
+
+
+def parse_enum(enum: str, text: str) -> str | None:
+    """The canonical short name of an enumerant; None where the text is none of `enum` (a name of `enums.VALUES`).
+
+    The type's prefix, or only its `VK_`, and for flag bits `_BIT` may be left out. Names are told by case, as in Vulkan.
+    """
+    values, aliases = VALUES[enum], ALIASES.get(enum)
+    if text in values:
+        return text
+    if aliases is not None and text in aliases:
+        return aliases[text]
+    if len(text) > MAX_WORD:
+        return None
+    name, prefix = text, PREFIXES[enum]
+    if name.startswith(prefix):
+        name = name[len(prefix) :]
+    elif name.startswith(prefix[3:]):
+        name = name[len(prefix) - 3 :]
+    if len(name) < len(text) and enum.endswith("2"):
+        name = name.removeprefix("2_")
+    if "FlagBits" in enum:
+        bare = _without_bit(name)
+        if bare != name and bare in BITLESS.get(enum, ()):
+            return None
+        name = bare
+    if name in values:
+        return name
+    return aliases.get(name) if aliases is not None else None
+
+
+def from_value(enum: str, value: int) -> str | None:
+    """The canonical short name of a value; None where the enum has no such value."""
+    for name, known in VALUES[enum].items():
+        if known == value:
+            return name
+    return None
+
+
+def flag_names(enum: str, mask: int) -> list[str] | None:
+    """The canonical short names of the bits of a mask, lowest first; None where a bit is unknown. No bits are no names."""
+    if mask == 0:
+        return []
+    if not 0 < mask < 1 << 64:
+        return None
+    whole = from_value(enum, mask)
+    if whole is not None:
+        return [whole]
+    found = []
+    for name, value in VALUES[enum].items():
+        if mask & value and value & (value - 1) == 0:
+            found.append((value, name))
+            mask &= ~value
+    return [name for _, name in sorted(found)] if mask == 0 else None
+
+
+def parse_flags(enum: str, text: str) -> list[str]:
+    """The canonical short names in `A | B`, `0`, `0x11`, `17` or `17 (A | B)`, each once, in their order.
+
+    A name of no bits (`NONE`) is no name. ValueError, with the part that is unknown as its text, where one is.
+    """
+    text = text.strip()
+    if text.endswith(")"):
+        text, _, names = text[:-1].partition("(")
+        parse_flags(enum, names)
+    found: dict[str, None] = {}
+    for part in text.split("|") if text else ():
+        word = part.strip()
+        name = parse_enum(enum, word)
+        if name is None:
+            mask = _mask(word) if "FlagBits" in enum else None
+            bits = flag_names(enum, mask) if mask is not None else None
+            if bits is None:
+                raise ValueError(word)
+            found.update(dict.fromkeys(bits))
+        elif VALUES[enum][name] or "FlagBits" not in enum:
+            found[name] = None
+    return list(found)
+
+
+def _mask(word: str) -> int | None:
+    """A decimal or hexadecimal number of at most 64 bits."""
+    if len(word) > 20 or not word.isascii() or not word.isalnum():
+        return None
+    try:
+        # `0` and not 10: a leading zero, which is octal in C, is refused.
+        value = int(word, 0)
+    except ValueError:
+        return None
+    return value if value < 1 << 64 else None
+
+
+def nearest(word: str, words: Iterable[str]) -> str | None:
+    """What was most likely meant by a word that is none of `words`; None where nothing is near.
+
+    First what differs by case or separators only, then by Vulkan's prefix, `_BIT` or a vendor's suffix only, then what begins with the
+    word, then what differs by a few letters.
+    """
+    if len(word) > MAX_WORD:
+        return None
+    known = list(words)
+    for plain in (_plain, _bare):
+        wanted = plain(word)
+        for candidate in known:
+            if wanted and plain(candidate) == wanted:
+                return candidate
+    wanted = _bare(word)
+    if len(wanted) >= 3:
+        longer = [candidate for candidate in known if _bare(candidate).startswith(wanted)]
+        if longer:
+            return min(longer, key=len)
+    import difflib
+
+    by_key: dict[str, str] = {}
+    for candidate in known[:MAX_WORDS]:
+        if len(candidate) <= MAX_WORD:
+            by_key.setdefault(_bare(candidate), candidate)
+    close = difflib.get_close_matches(wanted, by_key, n=1, cutoff=0.7)
+    return by_key[close[0]] if close else None
+
+
+def _plain(word: str) -> str:
+    """The letters and digits, in one case."""
+    return "".join(filter(str.isalnum, word.upper()))
+
+
+def _bare(word: str) -> str:
+    """The same of a name without the prefix of its type, `_BIT` and a vendor's suffix."""
+    name = "_".join(word.upper().replace("-", " ").split())
+    prefix = max((p for p in PREFIXES.values() if name.startswith(p)), key=len, default="")
+    name = name[len(prefix) :]
+    if prefix:
+        name = name.removeprefix("2_")
+    name = _without_bit(name)
+    head, _, vendor = name.rpartition("_")
+    return _plain(head if vendor in VENDORS else name)
+
+
+def _without_bit(name: str) -> str:
+    """`CUSTOM_RESOLVE_EXT` of `CUSTOM_RESOLVE_BIT_EXT`."""
+    head, bit, tail = name.rpartition("_BIT")
+    return head + tail if bit and tail in _AFTER_BIT else name
