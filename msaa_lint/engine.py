@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from .catalogue import Catalogue
+from .devices import DeviceProfile
 from .diagnostics import diagnostic
 from .document.document import Document
 from .finding import Finding, RuleInfo, Suppressed, Undecided
@@ -42,7 +43,7 @@ class Engine:
         *,
         limits: Limits | None = None,
         format: str | None = None,
-        device: str | None = None,
+        device: DeviceProfile | None = None,
         ignores: bool = True,
     ) -> Linted:
         """The findings of one input, in the order of their places.
@@ -72,7 +73,7 @@ class Engine:
         return Linted(file, source, findings, undecided, suppressed)
 
     def _judge(
-        self, document: Document, file: str, severity: Severity, device: str | None, broken: bool
+        self, document: Document, file: str, severity: Severity, device: DeviceProfile | None, broken: bool
     ) -> tuple[list[Finding], list[Undecided]]:
         """A document's own mistakes; where it has none, what the rules say. What was misread is not judged."""
         if document.problems or broken:

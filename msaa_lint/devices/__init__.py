@@ -1,16 +1,18 @@
 """Devices: what one offers, and the built-in profiles that a description names."""
 
-from __future__ import annotations
+# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
+from typing import TYPE_CHECKING, NamedTuple
 
-from typing import NamedTuple
+if TYPE_CHECKING:
+    from .builtin import Row
 
 
 class DeviceProfile(NamedTuple):
     """What a device offers. None is unknown, never "nothing".
 
-    Names are canonical short ones (`SAMPLE_ZERO`, `LAZILY_ALLOCATED`); features and extensions are Vulkan's whole names. `features` and
-    `extensions` of a built-in profile are those that bear on multisampling and rendering. `minimum` marks a class of devices: it holds what
-    all of them guarantee, and what it does not list is "not guaranteed" rather than "not offered". `source` says where the facts are from.
+    Names are canonical short ones (`SAMPLE_ZERO`, `LAZILY_ALLOCATED`); features and extensions are Vulkan's whole names. `minimum` marks a
+    class of devices: it holds what all of them guarantee, and what it does not list is "not guaranteed" rather than "not offered".
+    `source` says where the facts are from. Of built-in profiles, `builtin.py` says which features and extensions are recorded.
     """
 
     name: str
@@ -53,19 +55,29 @@ def builtin(name: str) -> DeviceProfile | None:
     return None if row is None else _profile(row)
 
 
-def _profile(row: dict[str, object]) -> DeviceProfile:
+def _profile(row: "Row") -> DeviceProfile:
     from ..vulkan.names import flag_names
 
-    fields: dict[str, object] = {}
-    for key, value in row.items():
-        if key.endswith("_samples") and key != "max_efficient_samples":
-            assert isinstance(value, int)
-            value = sample_counts(value)
-        elif key.endswith("_modes"):
-            assert isinstance(value, int)
-            value = tuple(flag_names("VkResolveModeFlagBits", value) or ())
-        elif key == "memory_types":
-            assert isinstance(value, tuple)
-            value = tuple(tuple(flag_names("VkMemoryPropertyFlagBits", mask) or ()) for mask in value)
-        fields[key] = value
-    return DeviceProfile(**fields)  # type: ignore[arg-type]
+    color, depth, stencil, integer = row["counts"]
+    depth_modes, stencil_modes, independent, independent_none = row["resolve"]
+    memory = row.get("memory")
+    return DeviceProfile(
+        name=row["name"],
+        vendor=row["vendor"],
+        tiler=row.get("tiler"),
+        color_samples=sample_counts(color),
+        depth_samples=sample_counts(depth),
+        stencil_samples=sample_counts(stencil),
+        integer_samples=None if integer is None else sample_counts(integer),
+        memory_types=None if memory is None else tuple(tuple(flag_names("VkMemoryPropertyFlagBits", mask) or ()) for mask in memory),
+        depth_resolve_modes=tuple(flag_names("VkResolveModeFlagBits", depth_modes) or ()),
+        stencil_resolve_modes=tuple(flag_names("VkResolveModeFlagBits", stencil_modes) or ()),
+        independent_resolve=independent,
+        independent_resolve_none=independent_none,
+        features=("sampleRateShading",) if row.get("sample_rate_shading", True) else (),
+        extensions=row["extensions"],
+        api_version=row["api"],
+        max_efficient_samples=row.get("efficient"),
+        minimum=row.get("minimum", False),
+        source=row["source"],
+    )

@@ -18,7 +18,7 @@ from .surroundings import profile, surroundings
 from .timeline import Timeline
 
 
-def subjects(document: Document, default_device: str | None = None) -> Iterator[Subject]:
+def subjects(document: Document, default_device: DeviceProfile | None = None) -> Iterator[Subject]:
     """The subjects of a document with their facts, in the order of the document's sections. Each fact is found once."""
     device = profile(document.description, default_device)
     frame = Frame(document)

@@ -12,13 +12,12 @@ DEFAULT_EFFICIENT_SAMPLES = 4
 """What Arm's and Imagination's guides advise as the most without a measurement, and the validation layer's constant for both."""
 
 
-def profile(description: Description, default: str | None = None) -> DeviceProfile | None:
-    """The device that a description names or describes, else the one of that name; None where there is none."""
+def profile(description: Description, default: DeviceProfile | None = None) -> DeviceProfile | None:
+    """The device that a description names or describes, else the given one."""
     stated = description.device
     if isinstance(stated, Device):
         return described(stated)
-    name = stated if stated is not None else default
-    return builtin(name) if name is not None else None
+    return builtin(stated) if stated is not None else default
 
 
 def described(device: Device) -> DeviceProfile:

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from .color import SECONDARY, paint
-from .escape import shown
 from .window import CUT, Window, line_end, window
 
 if TYPE_CHECKING:
@@ -24,7 +23,7 @@ _Row = list[tuple[str, str]]  # pieces of a line, each with its style
 
 
 class Mark(NamedTuple):
-    """A place to underline: offsets, half-open, and what is said of it (may be empty)."""
+    """A place to underline: offsets, half-open, and what is said of it, already visible (may be empty)."""
 
     start: int
     end: int
@@ -97,7 +96,7 @@ def _add_between(text: str, first: int, last: int, starts: dict[int, int]) -> No
 
 
 def _line(text: str, number: int, start: int, marks: list[Mark], arms: list[_Arm], digits: int, margin: list[str], room: int) -> list[_Row]:
-    """One source line with its marks; more than once where these are too far apart for one window. Opens and closes the bars of `margin`."""
+    """One source line with its marks; more than once where one window cannot hold them. Opens and closes the bars of `margin`."""
     rows = []
     while True:
         view = window(text, start, min([mark.start for mark in marks] + [arm.offset for arm in arms], default=start), room)
@@ -134,7 +133,7 @@ def _underlines(view: Window, marks: list[Mark]) -> list[_Row]:
         row[start:end] = [("^" if mark.primary else "-", mark.style)] * (end - start)
     beside = max(places, key=lambda place: (place[1], place[0], place[2].text))
     if beside[2].text:
-        row = [*row, (" " + shown(beside[2].text), beside[2].style)]
+        row = [*row, (" " + beside[2].text, beside[2].style)]
     below = sorted((place for place in places if place is not beside and place[2].text), key=lambda place: (place[0], place[1]))
     rows = [row]
     if below:
@@ -142,7 +141,7 @@ def _underlines(view: Window, marks: list[Mark]) -> list[_Row]:
     while below:
         start, _, mark = below.pop()
         left = _connectors([place for place in below if place[0] < start])
-        rows.append([*left, (" " * (start - len(left)), ""), (shown(mark.text), mark.style)])
+        rows.append([*left, (" " * (start - len(left)), ""), (mark.text, mark.style)])
     return rows
 
 
@@ -156,7 +155,7 @@ def _connectors(places: list[tuple[int, int, Mark]]) -> _Row:
 def _arm(arm: _Arm, view: Window, bars: int) -> _Row:
     """From the bar in the margin to the first or last character of the mark."""
     reach = 2 * (bars - arm.bar) - 1 + view.cell(arm.offset)
-    said = "" if arm.opens or not arm.mark.text else " " + shown(arm.mark.text)
+    said = "" if arm.opens or not arm.mark.text else " " + arm.mark.text
     return [((" " if arm.opens else "|") + "_" * reach + ("^" if arm.mark.primary else "-") + said, arm.mark.style)]
 
 
@@ -175,9 +174,8 @@ def _bars(margin: Sequence[str]) -> _Row:
 def _joined(row: _Row, color: bool) -> str:
     while row and not row[-1][0].rstrip():
         row = row[:-1]
-    if not color:
-        return "".join(piece for piece, _ in row).rstrip()
     joined: _Row = []
+    row[-1] = (row[-1][0].rstrip(), row[-1][1])
     for piece, style in row:
         if joined and joined[-1][1] == style:
             joined[-1] = (joined[-1][0] + piece, style)

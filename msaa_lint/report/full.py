@@ -54,11 +54,12 @@ def paragraph(finding: Finding, result: Result, options: Options, rules: Set[str
 def marks(finding: Finding) -> list[Mark]:
     """The primary mark and the labels. A label at the finding's own place is what the primary mark says."""
     assert finding.span is not None
-    own = "; ".join(label.text for label in finding.labels if label.span == finding.span)
+    own = "; ".join(shown(label.text) for label in finding.labels if label.span == finding.span)
     said: dict[tuple[int, int], str] = {}
     for label in finding.labels:
         if label.span != finding.span:
-            said[label.span] = f"{said[label.span]}; {label.text}" if label.span in said else label.text
+            text = shown(label.text)
+            said[label.span] = f"{said[label.span]}; {text}" if label.span in said else text
     primary = Mark(*finding.span, own, SEVERITY[finding.severity], True)
     return [primary, *(Mark(*span, text, SECONDARY, False) for span, text in said.items())]
 

@@ -60,7 +60,7 @@ def _command(finding: Finding, result: Result, options: Options) -> str:
 
 
 def _region(source: Source, start: int, end: int) -> dict[str, str | int]:
-    """Lines, and columns where there is one line: with several GitHub refuses them. It shows no annotation below the last line with text."""
+    """Lines, and columns where it is one line, as GitHub wants them; never below the last line with text, where it shows nothing."""
     text = source.text
     start = min(start, len(text))
     end = max(start, min(end, len(text)))

@@ -17,7 +17,7 @@ _ESCAPES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;",
 
 
 def render(result: Result, out: Write, options: Options) -> None:
-    """Prints the document. An input that could not be used is an error, a note a passing case with its text as output, the rest failures."""
+    """Prints the document. An unusable input is an error, a note a passing case that prints it, the rest are failures."""
     suites: dict[str, list[Finding]] = {file: [] for file in result.files}
     for finding in result.findings:
         suites.setdefault(finding.file, []).append(finding)

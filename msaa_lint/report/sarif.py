@@ -28,6 +28,17 @@ LONGEST_NAME = 255
 
 _PROBLEM = {"error": "error", "warning": "warning", "note": "recommendation"}
 _KIND = {"inline": "inSource", "baseline": "external"}
+_FAMILY = {
+    "1": "sample-counts",
+    "2": "load-store",
+    "3": "resolve",
+    "4": "memory",
+    "5": "shading",
+    "6": "synchronization",
+    "7": "numbers",
+    "8": "source",
+    "9": "input",
+}
 _SEMANTIC_VERSION = re.compile(r"\d+\.\d+\.\d+(-[0-9A-Za-z.-]+)?(\+[0-9A-Za-z.-]+)?")
 _LINK = re.compile(r"https://[!-~]+")
 
@@ -46,16 +57,16 @@ def render(result: Result, out: Write, options: Options) -> None:
     if options.version:
         key = "semanticVersion" if _SEMANTIC_VERSION.fullmatch(options.version) else "version"
         driver[key] = options.version
-    out(f'{{\n"$schema": "{SCHEMA}",\n"version": "2.1.0",\n"runs": [\n{{\n"tool": {{"driver": {dump(driver)[:-1]}, "rules": ')
+    out(f'{{\n"$schema": {dump(SCHEMA)},\n"version": "2.1.0",\n"runs": [{{\n')
+    out(f'"tool": {{"driver": {{{dump(driver)[1:-1]}, "rules": ')
     write_list(map(_descriptor, rules), out)
     out("}},\n")
     if options.sarif_category:
         out(f'"automationDetails": {dump({"id": f"msaa-lint/{whole(options.sarif_category)}/"})},\n')
-    out(
-        f'"columnKind": "unicodeCodePoints",\n"invocations": [{dump(_invocation(result, options, len(numbered) - len(kept)))}],\n"results": '
-    )
+    out('"columnKind": "unicodeCodePoints",\n')
+    out(f'"invocations": [{dump(_invocation(result, options, len(numbered) - len(kept)))}],\n"results": ')
     write_list((_result(finding, entry, name, index, result, options) for (finding, entry), name in kept), out)
-    out("\n}\n]\n}\n")
+    out("\n}]\n}\n")
 
 
 def _worst(
@@ -82,6 +93,7 @@ def _descriptor(rule: RuleInfo) -> dict[str, object]:
     links = [reference for reference in rule.references if _LINK.fullmatch(reference)]
     page = whole(rule.markdown.strip()) or summary
     seen = "\n".join(f"- {whole(reference)}" for reference in rule.references if reference not in page)
+    tags = ["msaa", "vulkan", *_family(rule)]
     made: dict[str, object] = {
         "id": shown(rule.code),
         "name": clip(shown(rule.name), LONGEST_NAME),
@@ -90,11 +102,20 @@ def _descriptor(rule: RuleInfo) -> dict[str, object]:
         # GitHub shows no helpUri, so the links are in the page too.
         "help": {"text": page, "markdown": f"{page}\n\nReferences:\n\n{seen}" if seen else page},
         "defaultConfiguration": {"level": rule.severity},
-        "properties": {"precision": rule.confidence, "problem.severity": _PROBLEM[rule.severity], "tags": ["msaa", "vulkan"]},
+        "properties": {
+            "precision": rule.confidence,
+            "problem.severity": _PROBLEM[rule.severity],
+            "tags": ["msaa", "vulkan", *_family(rule)],
+        },
     }
     if links:
         made["helpUri"] = links[0]
     return made
+
+
+def _family(rule: RuleInfo) -> list[str]:
+    found = re.fullmatch(r"MSAA(\d)\d\d", rule.code)
+    return [_FAMILY[found[1]]] if found and found[1] in _FAMILY else []
 
 
 def _invocation(result: Result, options: Options, left_out: int) -> dict[str, object]:
@@ -158,14 +179,16 @@ def _result(
 
 
 def _labels(finding: Finding, result: Result) -> list[tuple[str, dict[str, int]]]:
-    """What the labels say, and where."""
-    placed = [(_linkless(shown(label.text)), _region(result, finding.file, label.span)) for label in finding.labels[:MOST_LOCATIONS]]
+    """What the labels say, and where, but for those at the finding's own place."""
+    apart = [label for label in finding.labels if label.span != finding.span][:MOST_LOCATIONS]
+    placed = [(_linkless(shown(label.text)), _region(result, finding.file, label.span)) for label in apart]
     return [(text, region) for text, region in placed if region]
 
 
 def _message(finding: Finding, labels: list[str]) -> str:
-    """The message as a sentence of its own, which GitHub takes for the title; then the labels as links, and what helps."""
+    """The message as a sentence of its own, which GitHub takes for the title; then the labels, as links, and what helps."""
     parts = [_linkless(shown(finding.message))]
+    parts += [_linkless(shown(label.text)) for label in finding.labels[:MOST_LINKS] if label.span == finding.span]
     for n, text in enumerate(labels[:MOST_LINKS], 1):
         if text:
             escaped = text.replace("\\", "\\\\").replace("[", "\\[").replace("]", "\\]")

@@ -6,9 +6,10 @@ A line may be 64 MiB long: nothing here looks further than the window.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from typing import NamedTuple
 
-from .escape import pieces
+from .escape import pieces, visible
 
 CUT = "..."
 _LINE_END = re.compile(r"[\r\n]")
@@ -25,7 +26,7 @@ class Window(NamedTuple):
 
     start: int
     text: str
-    cells: list[int]
+    cells: Sequence[int]
     cut: bool
 
     @property
@@ -91,7 +92,11 @@ def _back(text: str, line_start: int, focus: int, room: int) -> int:
 
 def _lay(text: str, start: int, end: int, room: int, before: str, after: str) -> Window:
     """The characters from `start` on up to `end`, or as many as end by cell `room` (0: all), between `before` and `after`."""
-    shown, widths = _measure(text[start:end])
+    raw = text[start:end]
+    if raw.isascii() and raw == visible(raw):
+        count = min(len(raw), room - len(before)) if room else len(raw)
+        return Window(start, before + raw[:count] + after, range(len(before), len(before) + count + 1), bool(after))
+    shown, widths = _measure(raw)
     cells = [len(before)]
     for width in widths:
         if room and cells[-1] + width > room:

@@ -3,8 +3,6 @@
 Generated from the Vulkan registry, version 1.4.366, by `python -m msaa_lint.vulkan.generate`: do not edit.
 """
 
-from __future__ import annotations
-
 # fmt: off
 PREFIXES: dict[str, str] = {
     "VkAccessFlagBits2": "VK_ACCESS_",

@@ -1,4 +1,4 @@
-"""Writes `enums.py` and `formats.py` from the Vulkan registry, as PyPI's `vulkan-object` (a development dependency) carries it.
+"""Writes `enums.py` and `formats_table.py` from the Vulkan registry, as PyPI's `vulkan-object` (a development dependency) carries it.
 
     python -m msaa_lint.vulkan.generate [--check]
 
@@ -148,7 +148,6 @@ def header(registry: Any, doc: str) -> str:
     """The head of a generated module."""
     return (
         f'"""{doc}\n\nGenerated from the Vulkan registry, version {registry.headerVersionComplete}, by `{COMMAND}`: do not edit.\n"""\n\n'
-        "from __future__ import annotations\n\n"
     )
 
 
@@ -212,107 +211,17 @@ def _plane_bytes(form: Any, plane: int) -> int:
 
 
 def formats_source(registry: Any) -> str:
-    """The text of formats.py."""
+    """The text of formats_table.py."""
     rows = {name.removeprefix("VK_FORMAT_"): row(form) for name, form in registry.formats.items()}
     order = tables(registry)["VkFormat"].values
     rows = {name: rows[name] for name in order if name in rows}
-    out = [header(registry, "What the formats hold: bytes, components and their types."), FORMATS_CODE, "\n\n# fmt: off\n"]
+    out = [header(registry, "What the formats hold, a line each."), "# fmt: off\n"]
     out.append("ROWS: dict[str, str] = {\n" + "".join(f'    "{name}": "{text}",\n' for name, text in rows.items()) + "}\n")
     out.append('"""Bytes of a block, its extent, numeric type, components with their bits, compression or chroma subsampling."""\n\n')
     blends = packed((f'"{name}"' for name in ARM_FLOAT_BLEND), "    ")
     out.append(f"ARM_FLOAT_BLEND: frozenset[str] = frozenset((\n{blends}))\n")
     out.append('"""Float formats that Mali GPUs do not blend at full rate when multisampled (Khronos best-practices layer, Arm)."""\n')
     return "".join(out)
-
-
-FORMATS_CODE = '''from typing import NamedTuple
-
-
-class Format(NamedTuple):
-    """A VkFormat, by its canonical short name.
-
-    `bytes` is what one texel block takes as it is allocated: 4 for D24_UNORM_S8_UINT, where both aspects share a word, and by convention
-    5 for D32_SFLOAT_S8_UINT, whose aspects drivers keep apart (4 + 1). `block` is the block's extent in texels, (1, 1, 1) but for
-    compressed and chroma-subsampled formats. `numeric` is the colour's type (empty without colour), `components` the components in the
-    order of the name with their bits (0 where compressed); widths of depth and stencil are 0 and their types empty where there is none.
-    """
-
-    name: str
-    bytes: int
-    block: tuple[int, int, int]
-    aspects: tuple[str, ...]
-    numeric: str
-    components: tuple[tuple[str, int], ...]
-    depth_bits: int
-    depth_type: str
-    stencil_bits: int
-    stencil_type: str
-    compressed: bool
-    ycbcr: bool
-
-    @property
-    def is_srgb(self) -> bool:
-        """Whether the values are stored by the sRGB transfer function."""
-        return self.numeric == "SRGB"
-
-    @property
-    def is_integer(self) -> bool:
-        """Whether the colour is of integers, which cannot be averaged."""
-        return self.numeric in ("UINT", "SINT")
-
-    @property
-    def is_float16(self) -> bool:
-        """Whether every component of the colour is a 16-bit float."""
-        return self.numeric == "SFLOAT" and all(bits == 16 for _, bits in self.components)
-
-    @property
-    def arm_float_blend(self) -> bool:
-        """Whether it is of the float formats that Mali GPUs do not blend at full rate when multisampled."""
-        return self.name in ARM_FLOAT_BLEND
-
-    @property
-    def depth_bytes(self) -> int:
-        """What the depth aspect alone takes of a texel: 2, 3 or 4 bytes, 0 without depth."""
-        return self.depth_bits // 8
-
-    @property
-    def stencil_bytes(self) -> int:
-        """What the stencil aspect alone takes of a texel: 1 byte, 0 without stencil."""
-        return self.stencil_bits // 8
-
-
-def format_of(name: str) -> Format | None:
-    """The format of a canonical short name (`R8G8B8A8_UNORM`); None for UNDEFINED and what is no format."""
-    found = _known.get(name)
-    if found is None:
-        text = ROWS.get(name)
-        if text is None:
-            return None
-        found = _known[name] = _read(name, text)
-    return found
-
-
-_known: dict[str, Format] = {}
-
-
-def _read(name: str, text: str) -> Format:
-    size, extent, numeric, parts, scheme = text.split()
-    depth, stencil = (0, ""), (0, "")
-    components = []
-    for part in parts.split(","):
-        width, _, kind = part[1:].partition(":")
-        if kind and part[0] == "D":
-            depth = int(width), kind
-        elif kind:
-            stencil = int(width), kind
-        else:
-            components.append((part[0], int(width)))
-    x, y, z = map(int, extent.split("x"))
-    aspects = tuple(a for a, there in (("color", components), ("depth", depth[0]), ("stencil", stencil[0])) if there)
-    ycbcr = scheme.startswith("YCBCR")
-    kind = "" if numeric == "-" else numeric
-    return Format(name, int(size), (x, y, z), aspects, kind, tuple(components), *depth, *stencil, not ycbcr and scheme != "-", ycbcr)
-'''
 
 
 def stale(sources: Mapping[str, str]) -> list[str]:
@@ -334,7 +243,7 @@ def sources() -> dict[str, str]:
     from vulkan_object import get_vulkan_object
 
     registry = get_vulkan_object()
-    makers: dict[str, Callable[[Any], str]] = {"enums.py": enums_source, "formats.py": formats_source}
+    makers: dict[str, Callable[[Any], str]] = {"enums.py": enums_source, "formats_table.py": formats_source}
     return {os.path.join(HERE, name): make(registry) for name, make in makers.items()}
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import islice
 
 from .enums import ALIASES, BITLESS, PREFIXES, VALUES
 
@@ -11,8 +12,8 @@ VENDORS = ("AMD", "ANDROID", "ARM", "EXT", "HUAWEI", "IMG", "INTEL", "KHR", "NV"
 MAX_WORD = 128
 """Longer words are no name and have no nearest one: likeness is quadratic in the length."""
 
-MAX_WORDS = 2000
-"""As many words are looked at for likeness."""
+MAX_WORDS = 1000
+"""So many words are looked at for a nearest one: a hostile input may hold millions."""
 
 _AFTER_BIT = ("", *(f"_{vendor}" for vendor in VENDORS))
 
@@ -48,10 +49,13 @@ def parse_enum(enum: str, text: str) -> str | None:
 
 def from_value(enum: str, value: int) -> str | None:
     """The canonical short name of a value; None where the enum has no such value."""
-    for name, known in VALUES[enum].items():
-        if known == value:
-            return name
-    return None
+    by_value = _by_value.get(enum)
+    if by_value is None:
+        by_value = _by_value[enum] = {known: name for name, known in VALUES[enum].items()}
+    return by_value.get(value)
+
+
+_by_value: dict[str, dict[int, str]] = {}
 
 
 def flag_names(enum: str, mask: int) -> list[str] | None:
@@ -74,33 +78,40 @@ def flag_names(enum: str, mask: int) -> list[str] | None:
 def parse_flags(enum: str, text: str) -> list[str]:
     """The canonical short names in `A | B`, `0`, `0x11`, `17` or `17 (A | B)`, each once, in their order.
 
-    A name of no bits (`NONE`) is no name. ValueError, with the part that is unknown as its text, where one is.
+    A name of no bits (`NONE`) adds none. Of a number with names in parentheses the number counts. ValueError, with the part that is
+    unknown as its text, where one is.
     """
     text = text.strip()
     if text.endswith(")"):
-        text, _, names = text[:-1].partition("(")
-        parse_flags(enum, names)
+        number, opened, names = text[:-1].partition("(")
+        text = number.strip()
+        if not opened or _mask(text) is None:
+            raise ValueError(text or names)
+        if names.strip():
+            parse_flags(enum, names)
+    flags = "FlagBits" in enum
     found: dict[str, None] = {}
-    for part in text.split("|") if text else ():
+    for part in text.split("|"):
         word = part.strip()
         name = parse_enum(enum, word)
         if name is None:
-            mask = _mask(word) if "FlagBits" in enum else None
+            mask = _mask(word) if flags else None
             bits = flag_names(enum, mask) if mask is not None else None
             if bits is None:
                 raise ValueError(word)
             found.update(dict.fromkeys(bits))
-        elif VALUES[enum][name] or "FlagBits" not in enum:
+        elif VALUES[enum][name] or not flags:
             found[name] = None
     return list(found)
 
 
 def _mask(word: str) -> int | None:
-    """A decimal or hexadecimal number of at most 64 bits."""
+    """A decimal or hexadecimal number below 2^64; a leading zero, which is octal in C, makes it none."""
     if len(word) > 20 or not word.isascii() or not word.isalnum():
         return None
+    if not word.isdigit() and word[:2] not in ("0x", "0X"):
+        return None
     try:
-        # `0` and not 10: a leading zero, which is octal in C, is refused.
         value = int(word, 0)
     except ValueError:
         return None
@@ -110,29 +121,36 @@ def _mask(word: str) -> int | None:
 def nearest(word: str, words: Iterable[str]) -> str | None:
     """What was most likely meant by a word that is none of `words`; None where nothing is near.
 
-    First what differs by case or separators only, then by Vulkan's prefix, `_BIT` or a vendor's suffix only, then what begins with the
-    word, then what differs by a few letters.
+    First what differs by case or separators only, then by Vulkan's prefix, `_BIT` or a vendor's suffix only, then the shortest that begins
+    with the word, then a slip of a letter, then the first that has the word's letters in their order (`RGBA16F`), then a few letters.
     """
-    if len(word) > MAX_WORD:
+    bare = _bare(word) if len(word) <= MAX_WORD else ""
+    if not bare:
         return None
-    known = list(words)
-    for plain in (_plain, _bare):
-        wanted = plain(word)
-        for candidate in known:
-            if wanted and plain(candidate) == wanted:
-                return candidate
-    wanted = _bare(word)
-    if len(wanted) >= 3:
-        longer = [candidate for candidate in known if _bare(candidate).startswith(wanted)]
+    known = [candidate for candidate in islice(words, MAX_WORDS) if len(candidate) <= MAX_WORD]
+    plain = _plain(word)
+    for candidate in known:
+        if _plain(candidate) == plain:
+            return candidate
+    by_key: dict[str, str] = {}
+    for candidate in known:
+        by_key.setdefault(_bare(candidate), candidate)
+    if bare in by_key:
+        return by_key[bare]
+    if len(bare) >= 3:
+        longer = [candidate for key, candidate in by_key.items() if key.startswith(bare)]
         if longer:
             return min(longer, key=len)
     import difflib
 
-    by_key: dict[str, str] = {}
-    for candidate in known[:MAX_WORDS]:
-        if len(candidate) <= MAX_WORD:
-            by_key.setdefault(_bare(candidate), candidate)
-    close = difflib.get_close_matches(wanted, by_key, n=1, cutoff=0.7)
+    close = difflib.get_close_matches(bare, by_key, n=1, cutoff=0.7)
+    if close and difflib.SequenceMatcher(None, close[0], bare).ratio() > 0.9:
+        return by_key[close[0]]
+    if len(bare) >= 4:
+        for key, candidate in by_key.items():
+            letters = iter(key)
+            if all(letter in letters for letter in bare):
+                return candidate
     return by_key[close[0]] if close else None
 
 

@@ -1,0 +1,131 @@
+"""The command line as typer knows it: help, errors, suggestions, completion, and every command but a well-formed `check`."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from typing import Annotated, Any, Literal
+
+import typer
+
+from .. import __version__
+from .options import CHECK, Option
+
+app = typer.Typer(
+    name="msaa-lint",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    help="Finds the multisampling mistakes in a Vulkan frame that cost bandwidth, memory, power or correctness.",
+)
+
+
+def _version(asked: bool) -> None:
+    if asked:
+        typer.echo(f"msaa-lint {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def common(
+    version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")] = False,
+) -> None:
+    """What every command takes."""
+
+
+def _parameter(option: Option) -> inspect.Parameter:
+    """An option of the table as a parameter of a typer command."""
+    kinds: dict[str, Any] = {"flag": bool, "number": int, "text": str}
+    kind = Literal[option.choices] if option.kind == "choice" else kinds[option.kind]
+    default: Any = False if option.kind == "flag" else None
+    if option.many:
+        kind = list[kind]  # type: ignore[valid-type]
+    elif option.kind != "flag":
+        kind = kind | None
+    least = 1 if option.kind == "number" else None
+    stated = typer.Option(option.flag, help=option.help, metavar=option.metavar or None, show_default=False, min=least)
+    return inspect.Parameter(
+        option.name, inspect.Parameter.KEYWORD_ONLY, default=[] if option.many else default, annotation=Annotated[kind, stated]
+    )
+
+
+def _check(**given: Any) -> None:
+    """Lint descriptions, pipeline JSON and folders of them.
+
+    Exits with 0 where nothing is found, 1 where something is, 2 where an input, the configuration or the program failed.
+    """
+    from .check import check
+
+    paths = given.pop("paths")
+    raise typer.Exit(check({"paths": paths, **{name: value for name, value in given.items() if value not in (None, False, [])}}))
+
+
+def _from_table(command: Callable[..., None]) -> Callable[..., None]:
+    paths = Annotated[list[str], typer.Argument(metavar="PATH...", help="Files and folders; - is standard input.")]
+    first = inspect.Parameter("paths", inspect.Parameter.KEYWORD_ONLY, annotation=paths)
+    parameters = [first, *(_parameter(option) for option in CHECK)]
+    command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    command.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
+    return command
+
+
+app.command("check")(_from_table(_check))
+
+
+@app.command()
+def rule(
+    name: Annotated[str | None, typer.Argument(help="A rule's name or code.")] = None,
+    all_rules: Annotated[bool, typer.Option("--all", help="List every rule.")] = False,
+    output: Annotated[Literal["text", "markdown", "json"], typer.Option("--output", help="How to print.")] = "text",
+    rules: Annotated[list[str] | None, typer.Option("--rules", metavar="PATH", help="Pages or folders of your own.")] = None,
+) -> None:
+    """Explain a rule: why, what it costs, good and bad examples."""
+    from .rule import explain, listing
+
+    raise typer.Exit(listing(rules or [], output) if all_rules or name is None else explain(name, rules or [], output))
+
+
+@app.command()
+def facts(
+    path: Annotated[str | None, typer.Argument(help="An input; none: every fact that a rule may ask.")] = None,
+    output: Annotated[Literal["text", "json", "markdown"], typer.Option("--output", help="How to print.")] = "text",
+    profile: Annotated[str | None, typer.Option("--profile", metavar="NAME", help="The device of an input without one.")] = None,
+) -> None:
+    """Show what rules may ask, and what is known of each subject of an input."""
+    from .facts import of_input, reference
+
+    raise typer.Exit(reference(output) if path is None else of_input(path, output, profile))
+
+
+@app.command()
+def schema(
+    which: Annotated[Literal["description", "json-v1"], typer.Argument(help="Of the description format, or of --output json.")] = "description",
+) -> None:
+    """Print a JSON Schema."""
+    from .schema import schema as print_schema
+
+    raise typer.Exit(print_schema(which))
+
+
+@app.command()
+def baseline(
+    paths: Annotated[list[str], typer.Argument(metavar="PATH...", help="What to lint.")],
+    file: Annotated[str, typer.Option("--file", help="The baseline file.")] = "msaa-lint-baseline.json",
+    prune: Annotated[bool, typer.Option("--prune", help="Only take away what is no longer found.")] = False,
+    config: Annotated[str | None, typer.Option("--config", metavar="FILE", help="Use this configuration file.")] = None,
+    isolated: Annotated[bool, typer.Option("--isolated", help="Use no configuration file.")] = False,
+) -> None:
+    """Write down today's findings, so that only new ones are reported."""
+    from .baseline import baseline as write
+
+    raise typer.Exit(write(paths, file, prune, config, isolated))
+
+
+@app.command()
+def init(
+    folder: Annotated[str, typer.Argument(help="Where.")] = ".",
+) -> None:
+    """Write a commented configuration, a first description, and print the hook for pre-commit."""
+    from .init import init as write
+
+    raise typer.Exit(write(folder))

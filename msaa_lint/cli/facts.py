@@ -1,0 +1,122 @@
+"""`msaa-lint facts`: what rules may ask, and what is known of an input."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+
+from ..facts.facts import Subject
+from ..facts.table import FACTS, GLOBAL, SUBJECTS, Fact
+from ..report.escape import visible
+from ..source.text import Source, Unreadable, decode
+from ..source.tree import Limits, parse, read
+
+TYPES = {"BOOL": "bool", "INT": "int", "DOUBLE": "double", "STRING": "string", "LIST": "list(string)", "INTS": "list(int)"}
+
+
+def reference(output: str) -> int:
+    """Prints every fact by the subjects that have it."""
+    if output == "json":
+        import json
+
+        rows = [{"fact": f.name, "type": TYPES[f.type], "texts": f.enum, "subjects": _subjects(f), "meaning": f.doc} for f in FACTS.values()]
+        print(json.dumps(rows, indent=2))
+    elif output == "markdown":
+        print(document(), end="")
+    else:
+        for subject, facts in SUBJECTS.items():
+            print(f"{subject}:")
+            for fact in facts:
+                if fact not in GLOBAL:
+                    print(f"  {fact.name:42} {TYPES[fact.type]:13} {fact.doc}")
+        print("every subject:")
+        for fact in GLOBAL:
+            print(f"  {fact.name:42} {TYPES[fact.type]:13} {fact.doc}")
+    return 0
+
+
+def document() -> str:
+    """The reference page of all facts, as Markdown."""
+    out = [
+        "# Facts\n\nWhat a rule's condition may ask. Made by `msaa-lint facts --output markdown`: do not edit.\n\n"
+        "A fact that the input does not state is absent. A condition that hangs on an absent fact leaves its rule undecided; it never fires.\n"
+    ]
+    groups: dict[str, list[Fact]] = {}
+    for fact in FACTS.values():
+        groups.setdefault(fact.name.partition(".")[0], []).append(fact)
+    for group, facts in groups.items():
+        used = _subjects(facts[0])
+        of = "every subject" if len(used) == len(SUBJECTS) else ", ".join(used)
+        out.append(f"\n## {group}\n\nFor rules about: {of}.\n\n| fact | type | meaning |\n|---|---|---|\n")
+        for fact in facts:
+            texts = f" ({fact.enum})" if fact.enum.startswith("Vk") else ""
+            out.append(f"| `{fact.name}` | {TYPES[fact.type]} | {fact.doc}{texts} |\n")
+    return "".join(out)
+
+
+def _subjects(fact: Fact) -> list[str]:
+    return [subject for subject, facts in SUBJECTS.items() if fact in facts]
+
+
+def of_input(path: str, output: str, profile: str | None) -> int:
+    """Prints the facts of every subject of an input; 2 where it cannot be read."""
+    from ..profiles import device_of
+
+    try:
+        data = sys.stdin.buffer.read() if path == "-" else read(path, Limits())
+        source = Source(path, decode(data))
+    except (OSError, Unreadable) as error:
+        print(f"msaa-lint: {visible(path)}: {visible(str(error))}", file=sys.stderr)
+        return 2
+    parsed = parse(source, Limits())
+    for problem in parsed.problems:
+        print(f"msaa-lint: {visible(path)}: {visible(problem.message)}", file=sys.stderr)
+    rows = []
+    wrong = bool(parsed.problems)
+    for root in parsed.documents:
+        from .. import readers
+        from ..facts.subjects import subjects
+
+        document = readers.read(source, root)
+        for mistake in document.problems:
+            where = source.position(mistake.span.start)
+            print(f"msaa-lint: {visible(path)}:{where.line}:{where.column}: {visible(mistake.message)}", file=sys.stderr)
+        wrong = wrong or bool(document.problems)
+        if not document.problems:
+            rows.extend(_row(subject, source) for subject in subjects(document, device_of(profile)))
+    if output == "json":
+        import json
+
+        print(json.dumps(rows, indent=2, ensure_ascii=True))
+    else:
+        for line in _lines(rows):
+            print(line)
+    return 2 if wrong else 0
+
+
+def _row(subject: Subject, source: Source) -> dict[str, object]:
+    place = source.position(subject.head.start)
+    facts = {}
+    for fact in SUBJECTS[subject.kind]:
+        at = subject.facts.places.get(fact.name)
+        line = source.position(at.start).line if at is not None else None
+        facts[fact.name] = {"value": subject.facts.values.get(fact.name), "line": line}
+    return {"subject": subject.kind, "path": subject.path, "line": place.line, "column": place.column, "facts": facts}
+
+
+def _lines(rows: list[dict[str, object]]) -> Iterator[str]:
+    for row in rows:
+        yield f"{row['subject']} {visible(str(row['path']))} (line {row['line']})"
+        facts = row["facts"]
+        assert isinstance(facts, dict)
+        for name, fact in facts.items():
+            if name.partition(".")[0] in ("frame", "device", "enabled", "scene") and fact["value"] is None:
+                continue
+            shown = "unknown" if fact["value"] is None else visible(_worded(fact["value"]))
+            yield f"  {name:42} {shown}" + (f"  (line {fact['line']})" if fact["line"] is not None else "")
+
+
+def _worded(value: object) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return "[" + ", ".join(str(item) for item in value) + "]" if isinstance(value, list) else str(value)

@@ -1,0 +1,174 @@
+"""Globs as .gitignore writes them, matched in linear time: a configuration may come from a stranger's branch.
+
+`*` and `?` stop at `/`, `**` between slashes crosses folders, `[a-z]` and `[!a-z]` are one character, a backslash takes the next character
+as it is. A glob with a slash at its start or within counts from its root, any other at every depth; one that ends in a slash is a
+folder's. A match of a folder matches all that is in it. `!` in front turns a glob around.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import NamedTuple
+
+MAX_LENGTH = 256
+_ANY = "[^/]"
+
+
+class Glob(NamedTuple):
+    """A pattern, and the folder (absolute) that it counts from."""
+
+    pattern: str
+    root: str
+
+
+class Compiled(NamedTuple):
+    """`exact` matches the path itself, `below` also what is in it; both from the beginning, a folder's path ending in a slash."""
+
+    negated: bool
+    exact: re.Pattern[str]
+    below: re.Pattern[str]
+
+
+@lru_cache(maxsize=1024)
+def compiled(pattern: str) -> Compiled:
+    """A pattern made ready; ValueError, with what is wrong in words, where it can match nothing."""
+    negated = pattern.startswith("!")
+    text = pattern[1:] if negated else pattern
+    if len(text) > MAX_LENGTH:
+        raise ValueError(f"a glob has at most {MAX_LENGTH} characters")
+    if text.startswith("./"):
+        text = text[1:]
+    folder = text.endswith("/")
+    anchored = "/" in text[:-1]
+    parts = (text[:-1] if folder else text).removeprefix("/").split("/")
+    if "" in parts:
+        raise ValueError("an empty name in a glob")
+    if "." in parts or ".." in parts:
+        raise ValueError("a glob cannot leave its folder")
+    if parts[-1] == "**":
+        parts[-1] = "*"
+    if not anchored:
+        parts.insert(0, "**")
+    # Each run of names between two `**` is taken where it first fits. No later place can do better, so the group is atomic and never
+    # tried again: this is what keeps the time linear.
+    runs: list[list[str]] = [[]]
+    for part in parts:
+        if part == "**":
+            runs.append([])
+        else:
+            runs[-1].append(_name(part))
+    runs = [runs[0], *(run for run in runs[1:] if run)]
+    out = "".join(name + "/" for name in runs[0]) if len(runs) > 1 else "/".join(runs[0])
+    for run in runs[1:-1]:
+        out += "(?>(?:[^/]+/)*?" + "".join(name + "/" for name in run) + ")"
+    if len(runs) > 1:
+        out += "(?:[^/]+/)*?" + "/".join(runs[-1])
+    below, exact = ("/", r"/\Z") if folder else (r"(?:/|\Z)", r"/?\Z")
+    return Compiled(negated, re.compile(out + exact, re.DOTALL), re.compile(out + below, re.DOTALL))
+
+
+def _name(part: str) -> str:
+    """The expression of one name; each piece between two stars is taken where it first fits."""
+    pieces = [""]
+    at = 0
+    while at < len(part):
+        char = part[at]
+        at += 1
+        if char == "*":
+            if pieces[-1] or len(pieces) == 1:
+                pieces.append("")
+        elif char == "?":
+            pieces[-1] += _ANY
+        elif char == "[":
+            piece, at = _class(part, at)
+            pieces[-1] += piece
+        elif char == "\\":
+            if at == len(part):
+                raise ValueError("a glob ends in a backslash")
+            pieces[-1] += re.escape(part[at])
+            at += 1
+        else:
+            pieces[-1] += re.escape(char)
+    if len(pieces) == 1:
+        return pieces[0]
+    first, *middle, last = pieces
+    return first + "".join(f"(?>{_ANY}*?{piece})" for piece in middle) + f"{_ANY}*{last}"
+
+
+def _class(part: str, at: int) -> tuple[str, int]:
+    """`[...]` from after its bracket, and where it ends."""
+    negated = part[at : at + 1] in ("!", "^")
+    at += negated
+    chars: list[tuple[str, bool]] = []
+    while True:
+        if at >= len(part):
+            raise ValueError("a `[` without its `]` in a glob")
+        char = part[at]
+        at += 1
+        if char == "]" and chars:
+            break
+        if char == "\\" and at < len(part):
+            char, at = part[at], at + 1
+            chars.append((char, False))
+        else:
+            chars.append((char, char == "-"))
+    out = ""
+    i = 0
+    while i < len(chars):
+        if i + 2 < len(chars) and chars[i + 1][1]:
+            low, high = chars[i][0], chars[i + 2][0]
+            if low > high:
+                raise ValueError(f"`{low}-{high}` in a glob runs backwards")
+            out += f"{re.escape(low)}-{re.escape(high)}"
+            i += 3
+        else:
+            out += re.escape(chars[i][0])
+            i += 1
+    return f"(?!/)[{'^' if negated else ''}{out}]", at
+
+
+def relative(file: str, root: str) -> str:
+    """`file` from `root`, with `/`. A file outside is named from the folder that it shares with `root`."""
+    try:
+        path = os.path.relpath(file, root)
+    except ValueError:  # another drive of Windows, or a NUL
+        path = os.path.basename(file)
+    path = path.replace(os.sep, "/")
+    while path.startswith("../"):
+        path = path[3:]
+    return path
+
+
+def matches(file: str, glob: Glob) -> bool:
+    """Whether one glob matches a file; with `!`, whether it does not."""
+    ready = compiled(glob.pattern)
+    return (ready.below.match(relative(file, glob.root)) is not None) != ready.negated
+
+
+def excluding(file: str, globs: Sequence[Glob], folder: bool = False) -> Glob | None:
+    """The glob that excludes a file or folder, or one of the folders that it is in; None where none does.
+
+    The last glob that matches decides, so that a later `!` takes back; not in a folder that is excluded itself.
+    """
+    paths = {glob.root: relative(file, glob.root) + ("/" if folder else "") for glob in globs}
+    ready = [(glob, compiled(glob.pattern)) for glob in globs if paths[glob.root] != "./"]
+    if not any(each.negated for _, each in ready):
+        return next((glob for glob, each in ready if each.below.match(paths[glob.root])), None)
+    prefixes = {glob.root: _prefixes(paths[glob.root]) for glob, _ in ready}
+    for level in range(max(map(len, prefixes.values())), 0, -1):
+        for glob, each in reversed(ready):
+            own = prefixes[glob.root]
+            if level <= len(own) and each.exact.match(own[-level]):
+                if not each.negated:
+                    return glob
+                break
+    return None
+
+
+def _prefixes(path: str) -> list[str]:
+    """`a/`, `a/b/`, `a/b/c` of `a/b/c`."""
+    ends = [i + 1 for i, char in enumerate(path) if char == "/"]
+    return [path[:end] for end in ends if end < len(path)] + [path]

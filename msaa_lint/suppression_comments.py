@@ -1,0 +1,185 @@
+"""Reads suppression comments: what they name, where they count, and how one is taken out again."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+from .finding import Edit, Span
+from .settings import quoted
+
+if TYPE_CHECKING:
+    from .source.comments import Comment
+    from .source.text import Source
+
+WORDS = ("ignore", "ignore-file")
+HOW = "write `# msaa-lint: ignore[rule-name] reason`"
+
+_BEGINNING = re.compile(r"#\s*(msaa[-_ ]?lint)\b\s*(:)?\s*([A-Za-z_-]*)\s*", re.IGNORECASE)
+_BEFORE_REASON = " \t-–—:"
+
+
+class Entry(NamedTuple):
+    """One rule in the brackets, as it is written."""
+
+    name: str
+    span: Span
+
+
+class Directive(NamedTuple):
+    """One `ignore[...]`: what it names, the line that it counts on (None: the whole file), its reason, and its place.
+
+    `removal` is what goes with it where nothing of it is needed.
+    """
+
+    entries: tuple[Entry, ...]
+    line: int | None
+    reason: str
+    span: Span
+    removal: Span
+
+
+class Complain(Protocol):
+    """Takes what is wrong with a comment."""
+
+    def __call__(self, code: str, message: str, span: Span, help: str = "") -> None: ...
+
+
+def read(comments: Iterable[Comment], source: Source, complain: Complain) -> list[Directive]:
+    """The suppressions in comments, in the order of their places; what looks like one and is none is complained about."""
+    found: list[Directive] = []
+    lines = _Lines(source)
+    for comment in sorted(comments, key=lambda each: each.span.start):
+        starts = list(_BEGINNING.finditer(comment.text))
+        ends = [*(match.start() for match in starts[1:]), len(comment.text)]
+        own = [_read(comment, match, end, lines, complain) for match, end in zip(starts, ends, strict=bool(starts))]
+        found.extend(directive for directive in own if directive is not None)
+    return found
+
+
+def without(directive: Directive, entry: Entry, whole: bool) -> Edit:
+    """The edit that takes an entry out of a suppression, or with `whole` all of it."""
+    if whole:
+        return Edit(directive.removal, "")
+    at = directive.entries.index(entry)
+    if at + 1 < len(directive.entries):
+        return Edit(Span(entry.span.start, directive.entries[at + 1].span.start), "")
+    return Edit(Span(directive.entries[at - 1].span.end, entry.span.end), "")
+
+
+class _Lines:
+    """Where comments stand among the lines of a text."""
+
+    def __init__(self, source: Source) -> None:
+        self.source = source
+        self._run = (0, 0)
+        self._content: int | None = None
+
+    def alone(self, comment: Comment) -> bool:
+        at = self.source.position(comment.span.start)
+        return not self.source.line(at.line)[: at.column - 1].strip()
+
+    def covered(self, line: int) -> int:
+        """The first line after a comment alone on its line that does not begin with a comment too."""
+        first, after = self._run
+        if not first <= line < after:
+            after = line + 1
+            while after <= self.source.line_count and self.source.line(after).lstrip().startswith("#"):
+                after += 1
+            self._run = (line, after)
+        return after
+
+    def at_top(self, line: int) -> bool:
+        """Whether a line stands before all content."""
+        if self._content is None:
+            at = 1
+            while at <= self.source.line_count:
+                text = self.source.line(at).strip()
+                if text and not text.startswith(("#", "%")) and text != "---" and not text.startswith("--- #"):
+                    break
+                at += 1
+            self._content = at
+        return line < self._content
+
+
+def _read(comment: Comment, match: re.Match[str], end: int, lines: _Lines, complain: Complain) -> Directive | None:
+    """The suppression that begins at `match` and ends at `end` in a comment."""
+    base = comment.span.start
+    rest = comment.text[match.end() : end]
+    word = match[3].lower()
+    span = Span(base + match.start(), base + match.start() + len(comment.text[match.start() : end].rstrip()))
+    if match[1].lower() != "msaa-lint" or match[2] is None:
+        if rest.startswith("[") and word.startswith("i"):
+            complain("MSAA913", "not written as a suppression: it silences nothing", span, HOW)
+        return None
+    if word not in WORDS:
+        _unknown_word(match, base, complain)
+        return None
+    named = Span(span.start, base + match.end(3))
+    close = rest.find("]")
+    if not rest.startswith("["):
+        if rest.startswith(("(", "{", ":", "=")):
+            complain(
+                "MSAA913", f"`{word}` without square brackets: it silences nothing", span, f"write `# msaa-lint: {word}[rule-name] reason`"
+            )
+        else:
+            complain("MSAA913", f"`{word}` without a rule: it silences nothing", named, f"write `# msaa-lint: {word}[rule-name] reason`")
+        return None
+    if close < 0:
+        complain("MSAA913", "a suppression without its `]`: it silences nothing", span, HOW)
+        return None
+    entries = _entries(rest[1:close], base + match.end() + 1)
+    if not entries:
+        complain("MSAA913", f"`{word}[]` names no rule: it silences nothing", Span(span.start, base + match.end() + close + 1), HOW)
+        return None
+    position = lines.source.position(base)
+    alone = lines.alone(comment)
+    line: int | None = lines.covered(position.line) if alone else position.line
+    if word == "ignore-file":
+        if not (alone and lines.at_top(position.line)):
+            message = "`ignore-file` counts only among the comments at the top of a file: it silences nothing"
+            complain("MSAA911", message, span, "move it to the top, or write `ignore` here")
+            return None
+        line = None
+    reason = rest[close + 1 :].strip().lstrip(_BEFORE_REASON)
+    start = match.start() if comment.text[: match.start()].strip("# \t") else 0
+    whole = alone and start == 0 and end == len(comment.text)
+    return Directive(entries, line, reason, span, _removal(comment, start, end, whole, lines.source.text))
+
+
+def _unknown_word(match: re.Match[str], base: int, complain: Complain) -> None:
+    from .vulkan.names import nearest
+
+    close = nearest(match[3], WORDS)
+    help = f"did you mean `{close}`?" if close else "there are `ignore[rule-name]` and `ignore-file[rule-name]`"
+    span = Span(base + match.start(3), base + match.end(3)) if match[3] else Span(base + match.start(), base + match.end())
+    what = f"unknown word {quoted(match[3])}" if match[3] else "no word"
+    complain("MSAA913", f"{what} after `msaa-lint:`: it silences nothing", span, help)
+
+
+def _entries(text: str, start: int) -> tuple[Entry, ...]:
+    """What commas separate, each with its place."""
+    entries = []
+    for part in text.split(","):
+        name = part.strip()
+        if name:
+            at = start + len(part) - len(part.lstrip())
+            entries.append(Entry(name, Span(at, at + len(name))))
+        start += len(part) + 1
+    return tuple(entries)
+
+
+def _removal(comment: Comment, start: int, end: int, line: bool, text: str) -> Span:
+    """From the blanks before a suppression to its end; with its line where nothing else is on it."""
+    first, last = comment.span.start + start, comment.span.start + end
+    if start == 0 and end < len(comment.text):
+        return Span(first, last)
+    while first > 0 and text[first - 1] in " \t":
+        first -= 1
+    if line:
+        if text.startswith("\r\n", last):
+            last += 2
+        elif text[last : last + 1] in ("\n", "\r"):
+            last += 1
+    return Span(first, last)
