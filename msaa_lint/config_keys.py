@@ -18,6 +18,8 @@ LIMITS = {"depth": 100, "nodes": 1_000_000, "bytes": 64 << 20}
 MAX_ITEMS = 1000
 """Elements of a list or table: more is a mistake, or an attack."""
 
+MAX_GLOBS = 200
+
 SELECTOR = re.compile(r"[A-Za-z][A-Za-z0-9-]{0,99}\Z")
 MAX_PROBLEMS = 50
 """Findings of one file."""
@@ -103,10 +105,10 @@ class Reading:
         assert isinstance(value, dict)
         return value if self.few(path, len(value)) else {}
 
-    def few(self, path: Path, count: int) -> bool:
-        if count > MAX_ITEMS:
-            self.wrong(path, f"{count} elements where at most {MAX_ITEMS} are allowed")
-        return count <= MAX_ITEMS
+    def few(self, path: Path, count: int, most: int = MAX_ITEMS) -> bool:
+        if count > most:
+            self.wrong(path, f"{count} elements where at most {most} are allowed")
+        return count <= most
 
     def one_of(self, path: Path, value: object, words: Sequence[str]) -> str | None:
         if not self.typed(path, value, str, f"one of {', '.join(words)}"):
@@ -177,8 +179,11 @@ def _severity(reading: Reading, key: str, value: object) -> dict[str, str]:
 
 
 def _per_file(reading: Reading, key: str, value: object) -> dict[str, tuple[Glob, tuple[str, ...]]]:
-    read = {}
-    for name, rules in reading.table((key,), value, 'a table such as {"tests/**" = ["MSAA2"]}').items():
+    read: dict[str, tuple[Glob, tuple[str, ...]]] = {}
+    table = reading.table((key,), value, 'a table such as {"tests/**" = ["MSAA2"]}')
+    if not reading.few((key,), len(table), MAX_GLOBS):
+        return read
+    for name, rules in table.items():
         glob, selectors = reading.glob((key, name), name, True), reading.selectors((key, name), rules)
         if glob is not None and selectors is not None:
             read[name] = (glob, selectors)
@@ -187,7 +192,7 @@ def _per_file(reading: Reading, key: str, value: object) -> dict[str, tuple[Glob
 
 def _globs(reading: Reading, key: str, value: object) -> tuple[Glob, ...] | None:
     items = reading.texts((key,), value, "glob")
-    if items is None:
+    if items is None or not reading.few((key,), len(items), MAX_GLOBS):
         return None
     return tuple(glob for glob in (reading.glob(at, item) for at, item in items) if glob is not None)
 

@@ -20,6 +20,7 @@ MAYBE = (".yaml", ".yml", ".json")
 """Of those that are inputs if they look like one."""
 
 HEAD_BYTES = 64 << 10
+MAX_DEPTH = 64
 _PASSED_OVER = frozenset({"node_modules", "bower_components", "__pycache__", "__pypackages__", "site-packages", "venv", "CVS"})
 
 
@@ -85,11 +86,14 @@ class _Walk:
             self.notes.append(_excluded(top, glob))
             return
         project = project_root(top)
-        before, excluded, failed = len(self.findings), 0, False
+        before, excluded = len(self.findings), 0
         taken: list[str] = []
-        waiting = [top]
+        waiting = [(top, 0)]
         while waiting:
-            folder = waiting.pop()
+            folder, depth = waiting.pop()
+            if depth > MAX_DEPTH:
+                self.notes.append(f"{shown(folder)} is more than {MAX_DEPTH} folders deep: name it to lint it")
+                continue
             settings = self.settings_for(folder)
             try:
                 with os.scandir(folder) as entries:
@@ -104,7 +108,7 @@ class _Walk:
                 path = entry.name if folder == os.curdir else os.path.join(folder, entry.name)
                 if entry.is_dir(follow_symlinks=False):
                     if not (entry.name.startswith(".") or entry.name in _PASSED_OVER or excluding(path, settings.exclude, folder=True)):
-                        waiting.append(path)
+                        waiting.append((path, depth + 1))
                 elif self._is_input(entry, path, settings.include):
                     if excluding(path, settings.exclude):
                         excluded += 1
@@ -112,9 +116,8 @@ class _Walk:
                         self.notes.append(f"{shown(path)} is a link that leaves the project, or to no file: name it to lint it")
                     elif os.path.isfile(path):
                         taken.append(path)
-        failed = len(self.findings) > before
         self.files.update((shown(path), None) for path in taken)
-        if not taken and not failed:
+        if not taken and len(self.findings) == before:
             names = ", ".join("*" + ending for ending in ENDINGS)
             help = f"its inputs are excluded ({excluded})" if excluded else f"inputs are called {names}, or look like one; name others"
             self.findings.append(diagnostic("MSAA921", f"nothing to lint in {quoted(top)}", shown(top), help=help))

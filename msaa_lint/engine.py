@@ -13,7 +13,7 @@ from .finding import Finding, RuleInfo, Suppressed, Undecided
 from .judge import Judge
 from .page import Rule
 from .source.text import Source, Unreadable, decode
-from .source.tree import Limits, parse
+from .source.tree import Limits, Node, parse
 
 Severity = Callable[[Rule, str, str | None], str | None]
 
@@ -84,7 +84,7 @@ class Engine:
         return verdicts.findings, verdicts.undecided
 
     def _suppress(
-        self, findings: Sequence[Finding], source: Source, documents: Sequence[object], severity: Severity
+        self, findings: Sequence[Finding], source: Source, documents: Sequence[Node], severity: Severity
     ) -> tuple[list[Finding], list[Suppressed]]:
         from .source.comments import comments
         from .suppressions import apply
@@ -94,10 +94,10 @@ class Engine:
         return [*kept, *extra], suppressed
 
 
-def _document(source: Source, root: object, format: str | None) -> Document:
+def _document(source: Source, root: Node, format: str | None) -> Document:
     from . import readers
 
-    return readers.read(source, root, format)  # type: ignore[arg-type]
+    return readers.read(source, root, format)
 
 
 def _within(findings: list[Finding], prefix: str) -> list[Finding]:

@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 MAX_LENGTH = 256
 _ANY = "[^/]"
+_NAME = "[^/]+"
 
 
 class Glob(NamedTuple):
@@ -48,7 +49,8 @@ def compiled(pattern: str) -> Compiled:
         raise ValueError("an empty name in a glob")
     if "." in parts or ".." in parts:
         raise ValueError("a glob cannot leave its folder")
-    if parts[-1] == "**":
+    all_within = parts[-1] == "**"
+    if all_within:
         parts[-1] = "*"
     if not anchored:
         parts.insert(0, "**")
@@ -67,7 +69,8 @@ def compiled(pattern: str) -> Compiled:
     if len(runs) > 1:
         out += "(?:[^/]+/)*?" + "/".join(runs[-1])
     below, exact = ("/", r"/\Z") if folder else (r"(?:/|\Z)", r"/?\Z")
-    return Compiled(negated, re.compile(out + exact, re.DOTALL), re.compile(out + below, re.DOTALL))
+    whole = out.removesuffix(_NAME) + ".+" if all_within else out
+    return Compiled(negated, re.compile(whole + exact, re.DOTALL), re.compile(out + below, re.DOTALL))
 
 
 def _name(part: str) -> str:
@@ -94,6 +97,8 @@ def _name(part: str) -> str:
             pieces[-1] += re.escape(char)
     if len(pieces) == 1:
         return pieces[0]
+    if not any(pieces):
+        return _NAME
     first, *middle, last = pieces
     return first + "".join(f"(?>{_ANY}*?{piece})" for piece in middle) + f"{_ANY}*{last}"
 

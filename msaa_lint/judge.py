@@ -33,9 +33,7 @@ class Judge:
         self._conditions: dict[str, Condition] = {}
         self._asked: dict[str, frozenset[str]] = {}
 
-    def judge(
-        self, subjects: Iterable[Subject], file: str, severity: Callable[[Rule, str, str | None], str | None]
-    ) -> Verdicts:
+    def judge(self, subjects: Iterable[Subject], file: str, severity: Callable[[Rule, str, str | None], str | None]) -> Verdicts:
         """The findings and undecided rules of a document's subjects.
 
         `severity(rule, suggested, vendor)` gives what a finding weighs, None where the rule is off for the file.

@@ -36,7 +36,10 @@ class Mend(NamedTuple):
 
 
 class Rule(NamedTuple):
-    """A rule, as its page's front matter states it. `when` and the cases are CEL; `at` and the labels name facts, whose places they point to."""
+    """A rule, as its page's front matter states it.
+
+    `when` and the cases are CEL; `at` and the labels name facts, whose places they point to.
+    """
 
     code: str
     name: str

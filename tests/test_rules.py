@@ -77,7 +77,11 @@ def test_bad_example_fires_at_its_marks(example: Example) -> None:
     assert example.marks, "a bad example marks where"
     assert places(linted, example.rule) == sorted((mark.line, mark.column, mark.end_column) for mark in example.marks)
     for mark in example.marks:
-        at = [f for f in linted.findings if f.rule == example.rule and linted.source and linted.source.position(f.span.start)[:2] == (mark.line, mark.column)]
+        at = [
+            f
+            for f in linted.findings
+            if f.rule == example.rule and linted.source and linted.source.position(f.span.start)[:2] == (mark.line, mark.column)
+        ]
         if mark.severity is not None:
             assert at[0].severity == mark.severity
         if mark.confidence is not None:

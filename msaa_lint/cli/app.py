@@ -99,7 +99,9 @@ def facts(
 
 @app.command()
 def schema(
-    which: Annotated[Literal["description", "json-v1"], typer.Argument(help="Of the description format, or of --output json.")] = "description",
+    which: Annotated[
+        Literal["description", "json-v1"], typer.Argument(help="Of the description format, or of --output json.")
+    ] = "description",
 ) -> None:
     """Print a JSON Schema."""
     from .schema import schema as print_schema

@@ -19,7 +19,9 @@ def reference(output: str) -> int:
     if output == "json":
         import json
 
-        rows = [{"fact": f.name, "type": TYPES[f.type], "texts": f.enum, "subjects": _subjects(f), "meaning": f.doc} for f in FACTS.values()]
+        rows = [
+            {"fact": f.name, "type": TYPES[f.type], "texts": f.enum, "subjects": _subjects(f), "meaning": f.doc} for f in FACTS.values()
+        ]
         print(json.dumps(rows, indent=2))
     elif output == "markdown":
         print(document(), end="")
@@ -39,7 +41,8 @@ def document() -> str:
     """The reference page of all facts, as Markdown."""
     out = [
         "# Facts\n\nWhat a rule's condition may ask. Made by `msaa-lint facts --output markdown`: do not edit.\n\n"
-        "A fact that the input does not state is absent. A condition that hangs on an absent fact leaves its rule undecided; it never fires.\n"
+        "A fact that the input does not state is absent. "
+        "A condition that hangs on an absent fact leaves its rule undecided; it never fires.\n"
     ]
     groups: dict[str, list[Fact]] = {}
     for fact in FACTS.values():
@@ -71,7 +74,7 @@ def of_input(path: str, output: str, profile: str | None) -> int:
     parsed = parse(source, Limits())
     for problem in parsed.problems:
         print(f"msaa-lint: {visible(path)}: {visible(problem.message)}", file=sys.stderr)
-    rows = []
+    rows: list[dict[str, object]] = []
     wrong = bool(parsed.problems)
     for root in parsed.documents:
         from .. import readers

@@ -24,7 +24,12 @@ def description_schema() -> dict[str, object]:
 
     made = without_null(Description.model_json_schema())
     assert isinstance(made, dict)
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "$id": "urn:msaa-lint:description-v1", **made, "title": "msaa-lint description"}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$id": "urn:msaa-lint:description-v1",
+        **made,
+        "title": "msaa-lint description",
+    }
 
 
 _NULLABLE = ("attachment", "depthStencilAttachment", "items", "additionalProperties")

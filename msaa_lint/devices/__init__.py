@@ -4,7 +4,7 @@
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from .builtin import Row
+    from .builtin_profiles import Row
 
 
 class DeviceProfile(NamedTuple):
@@ -12,7 +12,7 @@ class DeviceProfile(NamedTuple):
 
     Names are canonical short ones (`SAMPLE_ZERO`, `LAZILY_ALLOCATED`); features and extensions are Vulkan's whole names. `minimum` marks a
     class of devices: it holds what all of them guarantee, and what it does not list is "not guaranteed" rather than "not offered".
-    `source` says where the facts are from. Of built-in profiles, `builtin.py` says which features and extensions are recorded.
+    `source` says where the facts are from. Of built-in profiles, `builtin_profiles.py` says which features and extensions are recorded.
     """
 
     name: str
@@ -42,14 +42,14 @@ def sample_counts(mask: int) -> tuple[int, ...]:
 
 def names() -> tuple[str, ...]:
     """The names of the built-in profiles."""
-    from .builtin import PROFILES
+    from .builtin_profiles import PROFILES
 
     return tuple(PROFILES)
 
 
 def builtin(name: str) -> DeviceProfile | None:
     """The built-in profile of a name, by case; None where there is none."""
-    from .builtin import PROFILES
+    from .builtin_profiles import PROFILES
 
     row = PROFILES.get(name)
     return None if row is None else _profile(row)

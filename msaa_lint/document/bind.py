@@ -68,8 +68,8 @@ class Binder:
         """The record of that kind that a mapping holds."""
         made = kind(node, path, key, head if head is not None else head_of(node))
         absent = kind.ABSENT
-        for name in kind.SHAPE:
-            setattr(made, name, absent.get(name))
+        for member in kind.SHAPE:
+            setattr(made, member, absent.get(member))
         if node.kind != "mapping":
             self.wrong(node, path, "a mapping")
             return made
@@ -82,7 +82,9 @@ class Binder:
                 self.unknown_key(kind, node.keys[key_text], path)
             elif not (self.dumped and is_null(value)):
                 made.spelled[name] = (node.keys[key_text], value)
-                setattr(made, name, self.value(found, value, f"{path}.{key_text}" if path else key_text, key_text, node.keys[key_text].span))
+                setattr(
+                    made, name, self.value(found, value, f"{path}.{key_text}" if path else key_text, key_text, node.keys[key_text].span)
+                )
         if self.dumped and "pNext" in node.value:
             self.chain(made, node.value["pNext"])
         return made
@@ -94,7 +96,7 @@ class Binder:
             kind = node.value.get("sType")
             stype = str(kind.value).removeprefix("VK_STRUCTURE_TYPE_") if kind is not None else ""
             name = PNEXT.get(stype.removesuffix("_KHR").removesuffix("_EXT"))
-            if name in record.SHAPE:
+            if name is not None and name in record.SHAPE:
                 key = node.keys["sType"]
                 record.spelled[name] = (key, node)
                 setattr(record, name, self.value(record.SHAPE[name], node, path, name, key.span))
@@ -116,7 +118,9 @@ class Binder:
         close = nearest(key.text, kind.SHAPE)
         where = path or "a description"
         help = f"did you mean `{close}`?" if close else f"it may hold {', '.join(sorted(kind.SHAPE))}"
-        self.report("MSAA902", f"unknown key `{shortened(key.text)}` in {where}", key.span, f"{path}.{shortened(key.text)}".lstrip("."), help)
+        self.report(
+            "MSAA902", f"unknown key `{shortened(key.text)}` in {where}", key.span, f"{path}.{shortened(key.text)}".lstrip("."), help
+        )
 
     def wrong(self, node: Node, path: str, wanted: str, help: str = "") -> None:
         """Notes a value of the wrong type, or that no member of its type has."""
@@ -148,9 +152,10 @@ class Binder:
         if kind == "number":
             return self.number(shape[1], node, path)
         if kind == "text":
-            if node.kind != "scalar" or not isinstance(node.value, str):
-                return self.wrong(node, path, "a text", _quote_hint(node))
-            return node.value
+            if node.kind != "scalar" or not (isinstance(node.value, str) or self.dumped):
+                self.wrong(node, path, "a text", _quote_hint(node))
+                return None
+            return node.text
         if kind == "name":
             return self.name(shape[1], node, path)
         if kind == "word":
@@ -235,9 +240,11 @@ class Binder:
         if self.dumped and isinstance(value, str) and value.isdigit():
             value = int(value)
         if isinstance(value, bool) or not isinstance(value, int):
-            return self.wrong(node, path, "a whole number")
+            self.wrong(node, path, "a whole number")
+            return None
         if (low is not None and value < low) or (high is not None and value > high):
-            return self.wrong(node, path, f"a whole number from {low} to {high}")
+            self.wrong(node, path, f"a whole number from {low} to {high}")
+            return None
         return value
 
     def number(self, above_zero: bool, node: Node, path: str) -> float | None:
@@ -248,14 +255,17 @@ class Binder:
             except ValueError:
                 value = None
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not _finite(value):
-            return self.wrong(node, path, "a finite number")
+            self.wrong(node, path, "a finite number")
+            return None
         if above_zero and value <= 0:
-            return self.wrong(node, path, "a number above 0")
+            self.wrong(node, path, "a number above 0")
+            return None
         return value
 
     def name(self, section: str, node: Node, path: str) -> str | None:
         if node.kind != "scalar" or node.value is None or isinstance(node.value, (bool, float)):
-            return self.wrong(node, path, f"the name of an entry of `{section}`", _quote_hint(node))
+            self.wrong(node, path, f"the name of an entry of `{section}`", _quote_hint(node))
+            return None
         self.mentions.append(Mention(section, node.text, node, path))
         return node.text
 
@@ -263,7 +273,8 @@ class Binder:
         if node.kind == "scalar" and not isinstance(node.value, bool) and node.value in words:
             return node.value
         close = nearest(node.text, [w for w in words if isinstance(w, str)]) if node.kind == "scalar" else None
-        return self.wrong(node, path, f"one of {', '.join(str(word) for word in words)}", f"did you mean `{close}`?" if close else "")
+        self.wrong(node, path, f"one of {', '.join(str(word) for word in words)}", f"did you mean `{close}`?" if close else "")
+        return None
 
     def slot(self, node: Node, path: str, key: str, head: Span | None) -> AttachmentReference:
         """An attachment of the same pass: a name, an index, `{attachment, layout}`, or null."""
@@ -291,7 +302,8 @@ class Binder:
         elif node.kind == "scalar" and isinstance(node.value, str):
             kind = node.value
         else:
-            return self.wrong(node, path, "one command")
+            self.wrong(node, path, "one command")
+            return None
         shape = Command.SHAPE.get(kind)
         if shape is None:
             close = nearest(kind, Command.SHAPE)
@@ -367,11 +379,16 @@ def _fits(shape: Shape, node: Node) -> bool:
 
 
 def _wanted(shape: Shape) -> str:
-    words = {"record": "a mapping", "map": "a mapping", "list": "a list", "int": "a whole number", "number": "a number", "bool": "true or false"}
+    words = {
+        "record": "a mapping",
+        "map": "a mapping",
+        "list": "a list",
+        "int": "a whole number",
+        "number": "a number",
+        "bool": "true or false",
+    }
     if shape[0] == "word":
         return ", ".join(str(word) for word in shape[1])
     if shape[0] == "name":
         return f"the name of an entry of `{shape[1]}`"
     return words.get(shape[0], "a text")
-
-

@@ -64,7 +64,7 @@ def shape(annotation: Any, metadata: list[Any]) -> tuple[tuple[Any, ...], str]:
         inner, python = shape(get_args(annotation)[1], [])
         return ("map", inner), f"dict[str, {python}]"
     if origin in (Union, types.UnionType):
-        return _union([arm for arm in get_args(annotation)], metadata)
+        return _union(list(get_args(annotation)), metadata)
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         if annotation is models.Command:
             return ("command",), "Command"

@@ -61,7 +61,20 @@ class Aspect(NamedTuple):
 class Attachment:
     """One attachment of a pass. The role sets hold the subpasses (0 in dynamic rendering) that use it so."""
 
-    __slots__ = ("aspects", "color", "depth_stencil", "format", "index", "input", "name", "preserve", "record", "resolve", "samples", "targets")
+    __slots__ = (
+        "aspects",
+        "color",
+        "depth_stencil",
+        "format",
+        "index",
+        "input",
+        "name",
+        "preserve",
+        "record",
+        "resolve",
+        "samples",
+        "targets",
+    )
 
     def __init__(self, record: AttachmentDescription | RenderingAttachment, name: str, index: int, targets: list[Target]) -> None:
         self.record = record
@@ -229,7 +242,11 @@ class Frame:
         framebuffers = self.description.framebuffers
         begun: list[str] = []
         for command in self.commands:
-            if isinstance(command.body, BeginRenderPass) and command.body.renderPass == render_pass and command.body.framebuffer is not None:
+            if (
+                isinstance(command.body, BeginRenderPass)
+                and command.body.renderPass == render_pass
+                and command.body.framebuffer is not None
+            ):
                 stated = command.body.framebuffer
                 begun.extend([stated] if isinstance(stated, str) else stated)
         used = [framebuffers[name] for name in dict.fromkeys(begun) if name in framebuffers]

@@ -54,7 +54,9 @@ def command_facts(facts: Facts, resolve: Resolve, position: int, frame: Frame, t
 
 def _last_writer(image: Target, position: int, frame: Frame, timeline: Timeline) -> tuple[Pass, bool] | None:
     """The pass begun last before a command that draws to the image, and whether nothing else wrote it in between."""
-    begins = sorted((at, each) for each in frame.passes for at in each.begun if any(a.drawn and image in a.targets for a in each.attachments))
+    begins = sorted(
+        (at, each) for each in frame.passes for at in each.begun if any(a.drawn and image in a.targets for a in each.attachments)
+    )
     before = [each for at, each in begins if at < position] or [each for _, each in begins]
     if not before:
         return None

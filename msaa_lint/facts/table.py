@@ -52,7 +52,9 @@ _DEVICE = (
 )
 _ENABLED = (
     Fact("enabled.sample_rate_shading", "BOOL", "the application enables sampleRateShading"),
-    Fact("enabled.depth_stencil_resolve", "BOOL", "Vulkan 1.2 or VK_KHR_depth_stencil_resolve is enabled; where that is not stated: offered"),
+    Fact(
+        "enabled.depth_stencil_resolve", "BOOL", "Vulkan 1.2 or VK_KHR_depth_stencil_resolve is enabled; where that is not stated: offered"
+    ),
     Fact("enabled.mixed_samples", "BOOL", "VK_AMD_mixed_attachment_samples or VK_NV_framebuffer_mixed_samples is stated; never unknown"),
 )
 _SCENE = (
@@ -128,7 +130,11 @@ _SUBPASS = (
     Fact("subpass.mixed_color_samples", "BOOL", "two colour attachments differ in samples"),
     Fact("subpass.depth_below_color", "BOOL", "the depth-stencil count is below a colour count"),
     Fact("subpass.depth_above_color", "BOOL", "the depth-stencil count is above a colour count"),
-    Fact("subpass.differs_from_single_sampled_count", "BOOL", "render to single-sampled: an attachment has neither one sample nor the stated count"),
+    Fact(
+        "subpass.differs_from_single_sampled_count",
+        "BOOL",
+        "render to single-sampled: an attachment has neither one sample nor the stated count",
+    ),
     Fact("subpass.has_pipelines", "BOOL", "the description is whole and lists pipelines for it"),
     Fact("subpass.partial_coverage", "BOOL", "some pipeline of it can cover a pixel in part"),
 )
@@ -153,7 +159,9 @@ _RESOLVE = (
     Fact("resolve.all_modes_none", "BOOL", "the modes of all its structure's aspects are NONE"),
     Fact("resolve.mode_supported", "BOOL", "the device offers its mode"),
     Fact("resolve.supported_modes", "LIST", "the modes that the device offers for its aspect", "VkResolveModeFlagBits"),
-    Fact("resolve.pair_supported", "BOOL", "the device offers the two aspects' modes together (independentResolve, independentResolveNone)"),
+    Fact(
+        "resolve.pair_supported", "BOOL", "the device offers the two aspects' modes together (independentResolve, independentResolveNone)"
+    ),
     Fact("resolve.pass_could_resolve", "BOOL", "a command: the source was last written by a pass that does not resolve it, and could"),
     Fact("resolve.writer", "STRING", "a command: the pass that last wrote the source"),
     Fact("resolve.share_of_tilers", "INT", "depth and stencil: per cent of tile-based devices in reports that offer the mode"),
@@ -164,7 +172,11 @@ _PIPELINE = (
     Fact("pipeline.attachment_samples", "INT", "the sample count that its subpass or rendering has"),
     Fact("pipeline.sample_shading", "BOOL", "sampleShadingEnable"),
     Fact("pipeline.min_sample_shading", "DOUBLE", "minSampleShading"),
-    Fact("pipeline.shaded_samples", "INT", "fragment shader runs a pixel that sample shading demands: max(ceil(minSampleShading * samples), 1)"),
+    Fact(
+        "pipeline.shaded_samples",
+        "INT",
+        "fragment shader runs a pixel that sample shading demands: max(ceil(minSampleShading * samples), 1)",
+    ),
     Fact("pipeline.alpha_to_coverage", "BOOL", "alphaToCoverageEnable"),
     Fact("pipeline.blends_first", "BOOL", "blending is on for colour attachment 0"),
     Fact("pipeline.dropped_samples", "INT", "samples below the count that sampleMask clears; 0 without a mask"),

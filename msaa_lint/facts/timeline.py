@@ -122,7 +122,7 @@ def _begun(each: Pass, position: int) -> Iterator[tuple[str, Use]]:
         for aspect in attachment.aspects:
             if aspect.load == "LOAD" or resumes:
                 kind = READ
-            elif aspect.load is None and not (aspect.name in overwritten):
+            elif aspect.load is None and aspect.name not in overwritten:
                 kind = UNKNOWN
             elif aspect.load in ("CLEAR", "DONT_CARE") or aspect.name in overwritten:
                 # A smaller render area leaves the rest of the image as it was.

@@ -37,7 +37,9 @@ def _nothing(root: Node) -> Node:
 
 
 def _graphics(binder: Binder, description: Description, state: Node) -> None:
-    passes = [key for key in ("Renderpass", "Renderpass2", "RenderPass", "RenderPass2") if key in state.value and not is_null(state.value[key])]
+    passes = [
+        key for key in ("Renderpass", "Renderpass2", "RenderPass", "RenderPass2") if key in state.value and not is_null(state.value[key])
+    ]
     name = ""
     for name in passes:
         path = f"GraphicsPipelineState.{name}"
@@ -78,7 +80,9 @@ def _enabled(binder: Binder, description: Description, root: Node, state: Node) 
     found = _core_features(features) if features is not None else None
     if found is not None:
         key, node = found
-        enabled.features = tuple(name for name, item in node.value.items() if item.kind == "scalar" and item.text in ("VK_TRUE", "1", "true"))
+        enabled.features = tuple(
+            name for name, item in node.value.items() if item.kind == "scalar" and item.text in ("VK_TRUE", "1", "true")
+        )
         rate = "sampleRateShading"
         enabled.spelled["features"] = (node.keys[rate], node.value[rate]) if rate in node.value else (key, node)
     description.enabled = enabled
@@ -87,7 +91,7 @@ def _enabled(binder: Binder, description: Description, root: Node, state: Node) 
 def _core_features(chain: Node) -> tuple[Node, Node] | None:
     """The VkPhysicalDeviceFeatures that the device is created with, in a chain of structures: the last that stands in it.
 
-    The tools dump VkDeviceObjectReservationCreateInfo first, whose chain holds a VkPhysicalDeviceFeatures2, where the application passed one,
+    The tools dump VkDeviceObjectReservationCreateInfo, whose chain holds a VkPhysicalDeviceFeatures2 where the application passed one,
     and beside it pEnabledFeatures, all false where it passed none.
     """
     node: Node | None = chain

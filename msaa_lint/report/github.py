@@ -6,9 +6,9 @@ import os
 from typing import TYPE_CHECKING
 
 from ..finding import rank
-from .escape import shown
+from .escape import shown, visible
 from .markdown import literal, table
-from .paths import shown_path
+from .paths import relative
 from .summary import fixable, plural, sentence
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ def render(result: Result, out: Write, options: Options) -> None:
 
 
 def _command(finding: Finding, result: Result, options: Options) -> str:
-    properties: dict[str, str | int] = {"file": shown_path(finding.file, options.root)}
+    properties: dict[str, str | int] = {"file": visible(relative(finding.file, options.root))}
     source = result.sources.get(finding.file)
     if finding.span is not None and source is not None:
         properties |= _region(source, finding.span.start, finding.span.end)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from .escape import shown
-from .paths import shown_path
+from .escape import shown, visible
+from .paths import relative
 from .place import place
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ def render(result: Result, out: Write, options: Options) -> None:
     out('<?xml version="1.0" encoding="UTF-8"?>\n')
     out(f"<testsuites{_attributes(name='msaa-lint', tests=tests, **_counts(result.findings))}>\n")
     for file, findings in suites.items():
-        path = shown_path(file, options.root)
+        path = visible(relative(file, options.root))
         counts = _counts(findings)
         out(f"  <testsuite{_attributes(name=path, package='org.msaa-lint', tests=max(1, len(findings)), **counts)}>\n")
         for finding in findings:

@@ -105,7 +105,7 @@ def _descriptor(rule: RuleInfo) -> dict[str, object]:
         "properties": {
             "precision": rule.confidence,
             "problem.severity": _PROBLEM[rule.severity],
-            "tags": ["msaa", "vulkan", *_family(rule)],
+            "tags": tags,
         },
     }
     if links:
@@ -146,9 +146,10 @@ def _result(
     }
     if finding.subject:
         location["logicalLocations"] = [{"fullyQualifiedName": whole(clip(finding.subject))}]
+    labels = _labels(finding, result)
     related = [
         {"id": n, "physicalLocation": {"artifactLocation": artifact, "region": region}, "message": {"text": text}}
-        for n, (text, region) in enumerate(_labels(finding, result), 1)
+        for n, (text, region) in enumerate(labels, 1)
     ]
     properties: dict[str, object] = {"confidence": finding.confidence}
     price = usable_price(finding)
@@ -160,7 +161,7 @@ def _result(
         "ruleId": shown(finding.code),
         "ruleIndex": index[finding.code],
         "level": finding.severity,
-        "message": {"text": _message(finding, [text for text, _ in _labels(finding, result)])},
+        "message": {"text": _message(finding, [text for text, _ in labels])},
         "locations": [location],
         "partialFingerprints": {"msaaLint/v1": name},
         "properties": properties,

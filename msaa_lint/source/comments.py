@@ -21,7 +21,7 @@ def comments(source: Source, roots: Iterable[Node]) -> list[Comment]:
     """Every comment of the text, in order: a # at the start of a line or after white space that no scalar holds."""
     text = source.text
     scalars = _scalar_spans(roots)
-    found = []
+    found: list[Comment] = []
     position, nth = 0, 0
     while True:
         at = text.find("#", position)

@@ -267,7 +267,9 @@ class _Parse:
                 raise self._too_many(node)
 
     def _too_many(self, node: Node) -> _Stop:
-        return _Stop("MSAA906", f"more nodes than the limit of {self.limits.nodes}, aliases expanded", node.start, min(node.end, node.start + 1))
+        return _Stop(
+            "MSAA906", f"more nodes than the limit of {self.limits.nodes}, aliases expanded", node.start, min(node.end, node.start + 1)
+        )
 
     def _twice(self, parent: Node, key: Node) -> None:
         """The first of two equal keys is kept."""
@@ -287,7 +289,7 @@ class _Parse:
         return anchored._replace(node=Node(of.kind, start, end, of.value, of.keys, of.text, of.plain, of.anchor or of))
 
     def _merge(self, node: Node) -> int:
-        """`<<: *base` and `<<: [*one, *two]`: what is stated here wins, then the earlier base. The nodes are shared; gives how many came."""
+        """`<<: *base` and `<<: [*one, *two]`: what is stated here wins, then the earlier base. The nodes are shared. How many came."""
         merged, key = node.value["<<"], node.keys["<<"]
         if not key.plain:
             return 0

@@ -8,7 +8,7 @@ import os
 import pytest
 
 from msaa_lint.devices import DeviceProfile, builtin, names, sample_counts
-from msaa_lint.devices.builtin import RECORDED
+from msaa_lint.devices.builtin_profiles import RECORDED
 from msaa_lint.devices.vendors import TILERS, VENDORS, vendor_of
 
 CLASSES = ("portable", "portable-tiler", "desktop")

@@ -2,30 +2,9 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from msaa_lint.finding import Edit, Finding, Fix, Label, Price, Result, RuleInfo, Span, Suppressed, Undecided
 from msaa_lint.report import Options, render
-
-try:
-    from msaa_lint.source.text import Source
-except ImportError:
-    import bisect
-    import re
-
-    class Position(NamedTuple):
-        line: int
-        column: int
-
-    class Source:
-        def __init__(self, name, text):
-            self.name, self.text = name, text
-            self._starts = [0, *(found.end() for found in re.finditer(r"\r\n|\r|\n", text))]
-
-        def position(self, offset):
-            line = bisect.bisect_right(self._starts, offset)
-            return Position(line, offset - self._starts[line - 1] + 1)
-
+from msaa_lint.source.text import Source
 
 FORWARD = """\
 frame: {width: 2168, height: 1080, fps: 60}

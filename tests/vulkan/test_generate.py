@@ -59,7 +59,7 @@ def test_short_names(enum: str, name: str, bits: bool, short: str) -> None:
 
 
 def test_the_lint_path_imports_nothing_heavy() -> None:
-    heavy = {"difflib", "dataclasses", "inspect", "pathlib", "logging", "json", "vulkan_object", "msaa_lint.devices.builtin"}
+    heavy = {"difflib", "dataclasses", "inspect", "pathlib", "logging", "json", "vulkan_object", "msaa_lint.devices.builtin_profiles"}
     code = (
         "import sys; before = set(sys.modules)\n"
         "import msaa_lint.vulkan.names, msaa_lint.vulkan.formats, msaa_lint.devices, msaa_lint.devices.shares\n"

@@ -1,0 +1,206 @@
+"""`msaa-lint check`."""
+
+from __future__ import annotations
+
+import gc
+import os
+import sys
+from collections.abc import Mapping
+from typing import IO, Any, NamedTuple
+
+from .. import __version__
+from ..finding import rank
+from ..run import Outcome, Request, run
+from .options import FORMATS
+
+OVERRIDES = ("edition", "profile", "fail_on", "min_severity", "baseline")
+SELECTORS = ("select", "extend_select", "ignore")
+LIMITS = {"max_depth": "depth", "max_nodes": "nodes", "max_bytes": "bytes"}
+
+BROKEN_PIPE = 2
+
+
+class Target(NamedTuple):
+    """An output, and the file it goes to; None is standard output."""
+
+    format: str
+    path: str | None
+
+
+def check(given: Mapping[str, Any]) -> int:
+    """Lints what the arguments name and prints it; the exit code."""
+    # A run makes many small objects that live to its end: collecting in between only costs (a third of reading large inputs).
+    gc.disable()
+    try:
+        return _check(given)
+    except BrokenPipeError:
+        # Whoever reads us has gone; Python would complain once more when it closes the stream.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return BROKEN_PIPE
+    except KeyboardInterrupt:
+        return 130
+    except Exception as error:
+        if given.get("traceback"):
+            raise
+        print(f"msaa-lint: the program failed: {type(error).__name__}: {str(error)[:300]} (--traceback shows where)", file=sys.stderr)
+        return 2
+
+
+def _check(given: Mapping[str, Any]) -> int:
+    try:
+        targets = outputs(given.get("output", ()))
+    except ValueError as error:
+        print(f"msaa-lint: {error}", file=sys.stderr)
+        return 2
+    outcome = run(request(given, any(target.format == "sarif" for target in targets)), _progress())
+    if not targets:
+        targets = outputs(outcome.settings.output) or [Target("full" if sys.stdout.isatty() else "concise", None)]
+    from ..report.escape import visible
+
+    for note in outcome.notes:
+        print(f"msaa-lint: {visible(note)}", file=sys.stderr)
+    for target in targets:
+        if not _print(target, outcome, given):
+            return 2
+    return exit_code(outcome, bool(given.get("exit_zero")))
+
+
+def request(given: Mapping[str, Any], full_rules: bool = False) -> Request:
+    """What the arguments ask of a run."""
+    overrides: dict[str, Any] = {name: given[name] for name in OVERRIDES if name in given}
+    for name in SELECTORS:
+        if name in given:
+            overrides[name] = [word.strip() for each in given[name] for word in each.split(",") if word.strip()]
+    if "rules" in given:
+        overrides["rules"] = given["rules"]
+    limits = {limit: given[name] for name, limit in LIMITS.items() if name in given}
+    if limits:
+        overrides["limits"] = limits
+    return Request(
+        paths=given["paths"],
+        overrides=overrides,
+        config=given.get("config"),
+        isolated=bool(given.get("isolated")),
+        ignores=not given.get("no_ignores"),
+        format=given.get("input_format"),
+        stdin_filename=given.get("stdin_filename"),
+        full_rules=full_rules,
+    )
+
+
+def outputs(stated: Any) -> list[Target]:
+    """The outputs that `FORMAT[=FILE]` name. ValueError for an unknown one, and for two on standard output."""
+    targets = []
+    for text in stated:
+        name, equals, path = text.partition("=")
+        if name not in FORMATS:
+            from ..report.escape import visible
+            from ..vulkan.names import nearest
+
+            close = nearest(name, FORMATS)
+            hint = f"did you mean {close}?" if close else f"there are {', '.join(FORMATS)}"
+            raise ValueError(f"no output {visible(name)!r}; {hint}")
+        targets.append(Target(name, path if equals and path not in ("", "-") else None))
+    if sum(target.path is None for target in targets) > 1:
+        raise ValueError("two outputs go to standard output: give all but one a file, as in --output sarif=findings.sarif")
+    return targets
+
+
+def exit_code(outcome: Outcome, exit_zero: bool = False) -> int:
+    """2 where an input or the configuration could not be used, 1 where a finding is as severe as `fail-on`, else 0."""
+    if any(found.fatal for found in outcome.result.findings):
+        return 2
+    least = rank(outcome.settings.fail_on)
+    return int(not exit_zero and any(rank(found.severity) >= least for found in outcome.result.findings))
+
+
+def _print(target: Target, outcome: Outcome, given: Mapping[str, Any]) -> bool:
+    from ..report import render
+
+    if target.path is not None:
+        try:
+            with open(target.path, "w", encoding="utf-8", newline="\n") as file:
+                render(target.format, outcome.result, file.write, _options(target, outcome, given, file))
+        except OSError as error:
+            print(f"msaa-lint: {target.path} cannot be written: {error.strerror}", file=sys.stderr)
+            return False
+        return True
+    out = sys.stdout
+    if hasattr(out, "reconfigure"):
+        # The console's own encoding may not have what an excerpt shows; a machine format is UTF-8 whatever the locale.
+        out.reconfigure(encoding="utf-8", errors="backslashreplace")
+    options = _options(target, outcome, given, out)
+    if given.get("statistics") and target.format in ("full", "concise"):
+        from ..report.statistics import render as count
+
+        count(outcome.result, out.write, options)
+    else:
+        render(target.format, outcome.result, out.write, options)
+    out.flush()
+    return True
+
+
+def _options(target: Target, outcome: Outcome, given: Mapping[str, Any], out: IO[str]) -> Any:
+    from ..report import Options
+
+    terminal = out.isatty()
+    width = 0
+    if terminal:
+        import shutil
+
+        width = shutil.get_terminal_size().columns
+    edition = outcome.settings.edition
+    return Options(
+        color=target.format in ("full", "concise") and colored(given.get("color", "auto"), terminal),
+        width=width or 140,
+        root=os.environ.get("GITHUB_WORKSPACE", "") if target.format in ("github", "sarif") else _gitlab_root(target.format),
+        version=__version__,
+        edition=edition or "",
+        show_suppressed=bool(given.get("show_suppressed")),
+        statistics=bool(given.get("statistics")),
+    )
+
+
+def _gitlab_root(format: str) -> str:
+    return os.environ.get("CI_PROJECT_DIR", "") if format == "gitlab" else ""
+
+
+def colored(asked: str, terminal: bool) -> bool:
+    """Whether to colour: as asked, else by NO_COLOR (no-color.org), FORCE_COLOR and CLICOLOR_FORCE, else on a terminal that is not dumb."""
+    if asked != "auto":
+        return asked == "always"
+    if os.environ.get("NO_COLOR"):
+        return False
+    if os.environ.get("FORCE_COLOR") or os.environ.get("CLICOLOR_FORCE", "0") not in ("", "0"):
+        return True
+    return terminal and os.environ.get("TERM") != "dumb"
+
+
+MANY = 200
+"""Inputs from which a progress bar is worth the 40 ms that importing rich takes."""
+
+
+def _progress() -> Any:
+    """A progress bar on a terminal's standard error stream, once there are many inputs."""
+    if not sys.stderr.isatty():
+        return None
+    bar: Any = None
+
+    def advance(done: int, total: int, name: str) -> None:
+        nonlocal bar
+        if total < MANY:
+            return
+        if bar is None:
+            from rich.console import Console
+            from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+
+            bar = Progress(
+                TextColumn("linting", markup=False), BarColumn(), MofNCompleteColumn(), console=Console(stderr=True), transient=True
+            )
+            bar.start()
+            bar.add_task("linting", total=total)
+        bar.update(0, completed=done + 1)
+        if done + 1 == total:
+            bar.stop()
+
+    return advance

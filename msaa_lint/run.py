@@ -1,0 +1,199 @@
+"""A whole run: inputs found, each linted under the settings that govern it, one result.
+
+The command line and `msaa_lint.lint` are both this.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from . import config
+from .catalogue import EDITIONS, Catalogue, load
+from .diagnostics import diagnostic
+from .discovery import STDIN, discover
+from .engine import Engine, Linted, rule_infos
+from .finding import Finding, Result, RuleInfo, Suppressed, Undecided, rank
+from .profiles import device_of, known_profiles
+from .readers import looks_like
+from .selection import Selection
+from .selectors import unknown_selectors
+from .settings import Settings, override
+from .source.text import Source, Unreadable
+from .source.tree import Limits, read
+
+Progress = Callable[[int, int, str], None]
+"""Told how many of how many inputs are done, and the next one's name."""
+
+
+class Request(NamedTuple):
+    """What a run is asked for. `overrides` are keyword arguments of `settings.override`; `data` stands in for standard input."""
+
+    paths: Sequence[str]
+    overrides: Mapping[str, Any] = {}
+    config: str | None = None
+    isolated: bool = False
+    ignores: bool = True
+    format: str | None = None
+    stdin_filename: str | None = None
+    data: bytes | None = None
+    full_rules: bool = False
+    without_baseline: bool = False
+
+
+class Outcome(NamedTuple):
+    """A run's result, the settings that govern the current folder (its outputs and thresholds), and lines for the standard error stream."""
+
+    result: Result
+    settings: Settings
+    notes: Sequence[str]
+
+
+class Governed(NamedTuple):
+    """Settings made ready: the rules that are on under them, and the engine that has them."""
+
+    settings: Settings
+    selection: Selection
+    engine: Engine
+
+
+class Run:
+    """One run. What is the same for many inputs is made once."""
+
+    def __init__(self, request: Request) -> None:
+        self.request = request
+        self.findings: list[Finding] = []
+        self.undecided: list[Undecided] = []
+        self.suppressed: list[Suppressed] = []
+        self.sources: dict[str, Source] = {}
+        self._settings: dict[str | None, Settings] = {}
+        self._governed: dict[str | None, Governed] = {}
+        self._catalogues: dict[tuple[str, ...], Catalogue] = {}
+        self._engines: dict[tuple[str, ...], Engine] = {}
+
+    def settings(self, path: str) -> Settings:
+        """The settings that govern a file or folder; what is wrong with their configuration is a finding, once."""
+        loaded = config.load(path, self.request.config, self.request.isolated)
+        if loaded.path not in self._settings:
+            self.findings.extend(loaded.findings)
+            self.sources.update(loaded.sources)
+            settings = override(loaded.settings, **self.request.overrides)
+            self.findings.extend(_unusable(settings))
+            self._settings[loaded.path] = settings
+        return self._settings[loaded.path]
+
+    def governed(self, path: str) -> Governed:
+        """The settings and rules for a file."""
+        settings = self.settings(path)
+        key = config.load(path, self.request.config, self.request.isolated).path
+        if key not in self._governed:
+            catalogue = self._catalogue(settings)
+            self.findings.extend(unknown_selectors(settings, [*catalogue.rules]))
+            selection = Selection(settings, catalogue.rules)
+            self._governed[key] = Governed(settings, selection, self._engines[settings.rules])
+        return self._governed[key]
+
+    def _catalogue(self, settings: Settings) -> Catalogue:
+        if settings.rules not in self._catalogues:
+            made = load(settings.rules)
+            self.findings.extend(made.problems)
+            self.sources.update({rule.source.name: rule.source for rule in made.rules if not rule.edition})
+            self._catalogues[settings.rules] = made
+            self._engines[settings.rules] = Engine(made)
+        return self._catalogues[settings.rules]
+
+    def lint(self, path: str) -> None:
+        """Lints one input and keeps what it gave."""
+        stdin = path == STDIN
+        name = (self.request.stdin_filename or "<stdin>") if stdin else path
+        governed = self.governed(self.request.stdin_filename or os.curdir if stdin else path)
+        limits = Limits(**{**Limits()._asdict(), **governed.settings.limits})
+        try:
+            data = self._stdin(limits) if stdin else read(path, limits)
+        except (OSError, Unreadable) as error:
+            code = "MSAA906" if isinstance(error, Unreadable) else "MSAA901"
+            reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
+            self.findings.append(diagnostic(code, f"the input cannot be read: {reason}", name))
+            return
+        device = device_of(governed.settings.profile)
+        severity = governed.selection.for_file(name, device.vendor if device is not None else None)
+        linted = governed.engine.lint(
+            data, name, severity, limits=limits, format=self.request.format, device=device, ignores=self.request.ignores
+        )
+        self._keep(linted, governed)
+
+    def _keep(self, linted: Linted, governed: Governed) -> None:
+        if linted.source is not None and (linted.findings or linted.suppressed):
+            self.sources[linted.file] = linted.source
+        settled = (governed.selection.settle(found) for found in linted.findings)
+        least = rank(governed.settings.min_severity)
+        self.findings.extend(found for found in settled if found is not None and (found.fatal or rank(found.severity) >= least))
+        self.undecided.extend(linted.undecided)
+        self.suppressed.extend(linted.suppressed)
+
+    def _stdin(self, limits: Limits) -> bytes:
+        if self.request.data is not None:
+            return self.request.data
+        data = sys.stdin.buffer.read(limits.bytes + 1)
+        if len(data) > limits.bytes:
+            raise Unreadable(f"the input is larger than the limit of {limits.bytes} bytes")
+        return data
+
+
+def run(request: Request, progress: Progress | None = None) -> Outcome:
+    """Lints all that a request names. Nothing raises for what an input, a page or a configuration holds: that is a finding."""
+    this = Run(request)
+    here = this.governed(os.curdir)
+    found = discover(request.paths, this.settings, looks_like)
+    this.findings.extend(found.findings)
+    for number, path in enumerate(found.files):
+        if progress is not None:
+            progress(number, len(found.files), path)
+        this.lint(path)
+    files = [request.stdin_filename or "<stdin>" if path == STDIN else path for path in found.files]
+    notes = list(found.notes)
+    if here.settings.baseline is not None and not request.without_baseline:
+        _baseline(this, here, files, notes)
+    order = {file: number for number, file in enumerate(files)}
+    this.findings.sort(key=lambda f: (order.get(f.file, -1), f.file))
+    severity = here.selection.for_file(os.curdir)
+    rules: list[RuleInfo] = rule_infos(here.engine.catalogue, severity, request.full_rules)
+    result = Result(_once(this.findings), this.undecided, this.suppressed, files, this.sources, rules)
+    return Outcome(result, here.settings, notes)
+
+
+def _baseline(this: Run, here: Governed, files: list[str], notes: list[str]) -> None:
+    from . import baseline
+
+    assert here.settings.baseline is not None
+    loaded = baseline.load(here.settings.baseline)
+    if isinstance(loaded, baseline.Refused):
+        this.findings.extend(loaded.findings)
+        this.sources.update(loaded.sources)
+        return
+    applied = baseline.apply(this.findings, loaded, files, here.selection.names())
+    this.findings[:] = applied.kept
+    this.suppressed.extend(applied.suppressed)
+    notes.extend(str(stale) for stale in applied.stale)
+
+
+def _unusable(settings: Settings) -> list[Finding]:
+    """Words of the settings that mean nothing: an edition, a profile, paths of rules that are not there."""
+    from .vulkan.names import nearest
+
+    found = []
+    if settings.edition is not None and settings.edition not in EDITIONS:
+        found.append(settings.wrong("edition", f"no edition `{settings.edition[:40]}`", f"there is {', '.join(EDITIONS)}"))
+    if settings.profile is not None and device_of(settings.profile) is None:
+        close = nearest(settings.profile, known_profiles())
+        help = f"did you mean `{close}`?" if close else f"there are {', '.join(known_profiles())}"
+        found.append(settings.wrong("profile", f"no profile `{settings.profile[:40]}`", help))
+    missing = [path for path in settings.rules if not os.path.exists(path)]
+    return found + [settings.wrong("rules", f"no rule page or folder `{os.path.relpath(path)}`") for path in missing]
+
+
+def _once(findings: Iterable[Finding]) -> list[Finding]:
+    """Each finding once: two configurations may share a broken page."""
+    return list(dict.fromkeys(findings))
