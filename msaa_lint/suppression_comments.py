@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 WORDS = ("ignore", "ignore-file")
 HOW = "write `# msaa-lint: ignore[rule-name] reason`"
 
+MAX_NEAREST = 50
+
 _BEGINNING = re.compile(r"#\s*(msaa[-_ ]?lint)\b\s*(:)?\s*([A-Za-z_-]*)\s*", re.IGNORECASE)
 _BEFORE_REASON = " \t-–—:"
 
@@ -52,9 +54,16 @@ def read(comments: Iterable[Comment], source: Source, complain: Complain) -> lis
     lines = _Lines(source)
     for comment in sorted(comments, key=lambda each: each.span.start):
         starts = list(_BEGINNING.finditer(comment.text))
+        if not starts:
+            continue
+        lines.at(comment)
         ends = [*(match.start() for match in starts[1:]), len(comment.text)]
-        own = [_read(comment, match, end, lines, complain) for match, end in zip(starts, ends, strict=bool(starts))]
-        found.extend(directive for directive in own if directive is not None)
+        first = not comment.text[: starts[0].start()].strip("# \t")
+        for match, end in zip(starts, ends, strict=True):
+            start = 0 if first and match is starts[0] else match.start()
+            directive = _read(comment, match, start, end, lines, complain)
+            if directive is not None:
+                found.append(directive)
     return found
 
 
@@ -69,19 +78,23 @@ def without(directive: Directive, entry: Entry, whole: bool) -> Edit:
 
 
 class _Lines:
-    """Where comments stand among the lines of a text."""
+    """The lines of a text, and how a comment stands among them: its line, whether it is `alone` on it, and the line that it is about."""
 
     def __init__(self, source: Source) -> None:
         self.source = source
+        self.line = self.about = 0
+        self.alone = False
         self._run = (0, 0)
         self._content: int | None = None
+        self._nearest: dict[str, str | None] = {}
 
-    def alone(self, comment: Comment) -> bool:
-        at = self.source.position(comment.span.start)
-        return not self.source.line(at.line)[: at.column - 1].strip()
+    def at(self, comment: Comment) -> None:
+        """Moves on to a comment. One alone on its line is about the next line that does not begin with a comment too."""
+        self.line, column = self.source.position(comment.span.start)
+        self.alone = not self.source.line(self.line)[: column - 1].strip()
+        self.about = self._after(self.line) if self.alone else self.line
 
-    def covered(self, line: int) -> int:
-        """The first line after a comment alone on its line that does not begin with a comment too."""
+    def _after(self, line: int) -> int:
         first, after = self._run
         if not first <= line < after:
             after = line + 1
@@ -90,8 +103,16 @@ class _Lines:
             self._run = (line, after)
         return after
 
-    def at_top(self, line: int) -> bool:
-        """Whether a line stands before all content."""
+    def nearest(self, word: str) -> str | None:
+        """What was meant by a word that is none of WORDS; only the first few are looked up."""
+        if word not in self._nearest and len(self._nearest) < MAX_NEAREST:
+            from .vulkan.names import nearest
+
+            self._nearest[word] = nearest(word, WORDS)
+        return self._nearest.get(word)
+
+    def at_top(self) -> bool:
+        """Whether the comment stands before all content."""
         if self._content is None:
             at = 1
             while at <= self.source.line_count:
@@ -100,11 +121,11 @@ class _Lines:
                     break
                 at += 1
             self._content = at
-        return line < self._content
+        return self.line < self._content
 
 
-def _read(comment: Comment, match: re.Match[str], end: int, lines: _Lines, complain: Complain) -> Directive | None:
-    """The suppression that begins at `match` and ends at `end` in a comment."""
+def _read(comment: Comment, match: re.Match[str], start: int, end: int, lines: _Lines, complain: Complain) -> Directive | None:
+    """The suppression of `match` in a comment, which reaches from `start` to `end`."""
     base = comment.span.start
     rest = comment.text[match.end() : end]
     word = match[3].lower()
@@ -114,7 +135,7 @@ def _read(comment: Comment, match: re.Match[str], end: int, lines: _Lines, compl
             complain("MSAA913", "not written as a suppression: it silences nothing", span, HOW)
         return None
     if word not in WORDS:
-        _unknown_word(match, base, complain)
+        _unknown_word(match, base, lines, complain)
         return None
     named = Span(span.start, base + match.end(3))
     close = rest.find("]")
@@ -133,25 +154,20 @@ def _read(comment: Comment, match: re.Match[str], end: int, lines: _Lines, compl
     if not entries:
         complain("MSAA913", f"`{word}[]` names no rule: it silences nothing", Span(span.start, base + match.end() + close + 1), HOW)
         return None
-    position = lines.source.position(base)
-    alone = lines.alone(comment)
-    line: int | None = lines.covered(position.line) if alone else position.line
+    line: int | None = lines.about
     if word == "ignore-file":
-        if not (alone and lines.at_top(position.line)):
+        if not (lines.alone and lines.at_top()):
             message = "`ignore-file` counts only among the comments at the top of a file: it silences nothing"
             complain("MSAA911", message, span, "move it to the top, or write `ignore` here")
             return None
         line = None
     reason = rest[close + 1 :].strip().lstrip(_BEFORE_REASON)
-    start = match.start() if comment.text[: match.start()].strip("# \t") else 0
-    whole = alone and start == 0 and end == len(comment.text)
+    whole = lines.alone and start == 0 and end == len(comment.text)
     return Directive(entries, line, reason, span, _removal(comment, start, end, whole, lines.source.text))
 
 
-def _unknown_word(match: re.Match[str], base: int, complain: Complain) -> None:
-    from .vulkan.names import nearest
-
-    close = nearest(match[3], WORDS)
+def _unknown_word(match: re.Match[str], base: int, lines: _Lines, complain: Complain) -> None:
+    close = lines.nearest(match[3])
     help = f"did you mean `{close}`?" if close else "there are `ignore[rule-name]` and `ignore-file[rule-name]`"
     span = Span(base + match.start(3), base + match.end(3)) if match[3] else Span(base + match.start(), base + match.end())
     what = f"unknown word {quoted(match[3])}" if match[3] else "no word"
