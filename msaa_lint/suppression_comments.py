@@ -189,7 +189,7 @@ def _entries(text: str, start: int) -> tuple[Entry, ...]:
 def _removal(comment: Comment, start: int, end: int, line: bool, text: str) -> Span:
     """From the blanks before a suppression to its end; with its line where nothing else is on it."""
     first, last = comment.span.start + start, comment.span.start + end
-    if start == 0 and end < len(comment.text):
+    if end < len(comment.text):
         return Span(first, last)
     while first > 0 and text[first - 1] in " \t":
         first -= 1

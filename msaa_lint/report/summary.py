@@ -83,13 +83,10 @@ def undecided(count: Tally, options: Options) -> str:
 
 
 def fixable(result: Result) -> str:
-    """`2 fixable with --fix, 1 more with --unsafe-fixes`; empty where nothing is."""
+    """`3 with a fix, 2 of them safe`; empty where nothing has one."""
     count = tally(result)
-    if count.safe_fixes and count.unsafe_fixes:
-        return f"{count.safe_fixes} fixable with --fix, {count.unsafe_fixes} more with --unsafe-fixes"
-    if count.unsafe_fixes:
-        return f"{count.unsafe_fixes} fixable with --unsafe-fixes"
-    return f"{count.safe_fixes} fixable with --fix" if count.safe_fixes else ""
+    fixes = count.safe_fixes + count.unsafe_fixes
+    return f"{fixes} with a fix, {count.safe_fixes} of them safe" if fixes else ""
 
 
 def plural(n: int, word: str) -> str:

@@ -49,9 +49,9 @@ def test_summary_names_the_missing_facts_most_lacked_first() -> None:
     ("safe", "expected"),
     [
         ((), ""),
-        ((True,), "1 fixable with --fix\n"),
-        ((False, False), "2 fixable with --unsafe-fixes\n"),
-        ((True, False), "1 fixable with --fix, 1 more with --unsafe-fixes\n"),
+        ((True,), "1 with a fix, 1 of them safe\n"),
+        ((False, False), "2 with a fix, 0 of them safe\n"),
+        ((True, False), "2 with a fix, 1 of them safe\n"),
     ],
 )
 def test_summary_counts_fixes_that_have_edits(safe: tuple[bool, ...], expected: str) -> None:
@@ -78,10 +78,10 @@ def test_help_and_fix() -> None:
     edits = (Edit(Span(0, 1), "x"),)
     assert remarks(help="write less") == ["help: write less"]
     assert remarks(fix=Fix("do it", True)) == ["help: do it"]
-    assert remarks(fix=Fix("do it", True, edits)) == ["help: do it (safe fix available: --fix)"]
-    assert remarks(fix=Fix("do it", False, edits)) == ["help: do it (fix available: --unsafe-fixes)"]
-    assert remarks(help="do it", fix=Fix("do it", True, edits)) == ["help: do it (safe fix available: --fix)"]
-    assert remarks(help="why", fix=Fix("do it", True, edits)) == ["help: why", "fix: do it (safe fix available: --fix)"]
+    assert remarks(fix=Fix("do it", True, edits)) == ["help: do it (a safe fix)"]
+    assert remarks(fix=Fix("do it", False, edits)) == ["help: do it (an unsafe fix)"]
+    assert remarks(help="do it", fix=Fix("do it", True, edits)) == ["help: do it (a safe fix)"]
+    assert remarks(help="why", fix=Fix("do it", True, edits)) == ["help: why", "fix: do it (a safe fix)"]
 
 
 def test_docs_are_named_for_rules_that_have_a_page() -> None:
