@@ -142,6 +142,7 @@ HEAD = '{"schema": "msaa-lint/baseline-v1", "entries": '
         (HEAD + '{}, "more": 1}', (59, "1"), "baseline: unknown key `more`"),
         (HEAD + '{"a": 3}}', (53, "3"), "baseline: `a` has no object of rules and counts"),
         (HEAD + '{"a": {"x": 1, "y": -2}}}', (67, "-2"), "baseline: the count of `y` in `a` is no whole number of at least 1"),
+        (HEAD + '{"a": {"x": 0}}}', (59, "0"), "baseline: the count of `x` in `a` is no whole number of at least 1"),
         (HEAD + '{"a": {"x": true}}}', (59, "true"), "baseline: the count of `x` in `a` is no whole number of at least 1"),
         (HEAD + '{"a": {"x": 1.0}}}', (59, "1.0"), "baseline: the count of `x` in `a` is no whole number of at least 1"),
         (HEAD + '{"a": {"x": 1e99}}}', (59, "1e99"), "baseline: the count of `x` in `a` is no whole number of at least 1"),

@@ -351,6 +351,9 @@ def test_findings_are_bounded() -> None:
     write("msaa-lint.toml", "".join(f"key{i} = 1\n" for i in range(2000)))
     assert len(load("x.yaml").findings) == 50
     config.forget()
+    write("msaa-lint.toml", f"ignore = {list(range(900))}\nselect = {list(range(900))}\n")
+    assert len(load("x.yaml").findings) == 50
+    config.forget()
     write("msaa-lint.toml", "ignore = [" + ", ".join(f'"no-{i}"' for i in range(1000)) + "]")
     assert len(unknown_selectors(load("x.yaml").settings, RULES)) == 50
 

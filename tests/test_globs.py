@@ -28,6 +28,7 @@ def excluded(path: str, *patterns: str, folder: bool = False) -> str | None:
         ("?", ["a", "x/é"], ["ab"]),
         ("[a-c]x", ["ax", "cx"], ["dx", "-x"]),
         ("[!a-c]x", ["dx"], ["ax", "x"]),
+        ("[a-]x", ["ax", "-x"], ["bx"]),
         ("[]]x", ["]x"], ["[x"]),
         (r"\!a", ["!a"], ["a"]),
         (r"\*", ["*"], ["a"]),

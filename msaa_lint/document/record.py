@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
 from typing import Any, ClassVar
 
 from ..finding import Span
 from ..source.tree import Node
+from .scalars import enumerant
 
 Shape = tuple[Any, ...]
 """What a member may hold: a kind and its parameters, as `generate` writes them and `bind` reads them."""
@@ -37,11 +39,32 @@ class Record:
         return name in self.spelled
 
     def place(self, *names: str) -> Span:
-        """Where the first of the members that is stated has its value (a structure: its key); the record's head where none is."""
+        """Where the first of the members that is stated has its value (a structure, or a list of several lines: its key).
+
+        The record's head where none is stated.
+        """
         for name in names:
             if name in self.spelled:
                 key, value = self.spelled[name]
-                if value.kind == "mapping" or (value.kind == "sequence" and any(item.kind == "mapping" for item in value.value)):
-                    return key.span
-                return value.span
+                return key.span if _is_wide(value) else value.span
         return self.head
+
+    def flag_place(self, name: str, flags: Container[str]) -> Span:
+        """Where the first of some flags stands in a list that states the member; the member's place where it is written otherwise."""
+        if name in self.spelled and self.spelled[name][1].kind == "sequence":
+            items: list[Node] = self.spelled[name][1].value
+            for item in items:
+                if item.kind == "scalar" and enumerant(self.SHAPE[name][1], item.text) in flags:
+                    return item.span
+        return self.place(name)
+
+
+def _is_wide(value: Node) -> bool:
+    """Whether a value goes, or may go, over several lines: a structure, a list of structures, a list with an item a line.
+
+    The last ends with its last item, where a list in brackets ends with its bracket.
+    """
+    if value.kind != "sequence":
+        return value.kind == "mapping"
+    items: list[Node] = value.value
+    return any(item.kind == "mapping" for item in items) or (bool(items) and value.anchor is None and value.end == items[-1].end)

@@ -7,6 +7,7 @@ trailing commas that real tools write, is read by the same path. Without libyaml
 from __future__ import annotations
 
 import os
+import re
 import stat
 from typing import Any, NamedTuple
 
@@ -164,6 +165,7 @@ class _Parse:
         self.problems: list[Problem] = []
         self.anchors: dict[str, _Anchored | None] = {}
         self.merged = 0
+        self.surrogates = False
 
     def run(self) -> Parsed:
         try:
@@ -180,7 +182,8 @@ class _Parse:
         return Parsed(self.documents, self.problems)
 
     def _events(self) -> None:
-        get = _parser(_same_length(self.text)).get_event
+        text, self.surrogates = _same_length(self.text)
+        get = _parser(text).get_event
         depth_limit, node_limit = self.limits.depth, self.limits.nodes
         stack: list[_Open] = []
         top: _Open | None = None
@@ -189,7 +192,7 @@ class _Parse:
             kind = type(event)
             size = depth = 1
             if kind is ScalarEvent:
-                text = event.value
+                text = event.value if not self.surrogates else self._joined(event)
                 if event.style not in _PLAIN or not event.implicit[0]:
                     node = Node("scalar", event.start_mark.index, event.end_mark.index, text, _NO_KEYS, text)
                     if event.style in _BLOCK:
@@ -266,6 +269,17 @@ class _Parse:
             if top.size > node_limit:
                 raise self._too_many(node)
 
+    def _joined(self, event: Any) -> str:
+        """A scalar with the stand-ins for surrogates put together to the characters that they mean."""
+        text: str = event.value
+        if not _STAND_IN.search(text):
+            return text
+        halves = _STAND_IN.sub(lambda m: chr(ord(m[0]) - 0xE800 + 0xD800), text)
+        try:
+            return halves.encode("utf-16-le", "surrogatepass").decode("utf-16-le")
+        except UnicodeDecodeError:
+            raise _Stop("MSAA901", "half of a surrogate pair is no character", event.start_mark.index, event.end_mark.index) from None
+
     def _too_many(self, node: Node) -> _Stop:
         return _Stop(
             "MSAA906", f"more nodes than the limit of {self.limits.nodes}, aliases expanded", node.start, min(node.end, node.start + 1)
@@ -341,6 +355,21 @@ def _end_of(node: Node) -> int:
     return node.value[-1].end if node.value else node.start
 
 
-def _same_length(text: str) -> str:
-    """JSON's own writing that YAML has not, offsets kept: tabs as indentation, `\\/` is YAML 1.2 already."""
-    return text.replace("\t", " ") if "\t" in text and text.lstrip()[:1] in ("{", "[") else text
+_JSON_SURROGATE = re.compile(r"\\(?:\\|u[dD]([89a-fA-F][0-9a-fA-F]{2}))")
+_STAND_IN = re.compile("[\ue800-\uefff]")
+_STAND_IN_ESCAPE = re.compile(r"\\u[eE][89a-fA-F]")
+
+
+def _same_length(text: str) -> tuple[str, bool]:
+    """What JSON writes and YAML does not, at the same offsets: tabs as indentation, and characters as two escaped surrogates.
+
+    Such an escape is written as one for a private character (\\uD83D as \\uE83D), to be put together again in the scalar, unless the text
+    has such characters of its own.
+    """
+    if text.lstrip()[:1] not in ("{", "["):
+        return text, False
+    text = text.replace("\t", " ")
+    if "\\u" not in text or _STAND_IN.search(text) or _STAND_IN_ESCAPE.search(text):
+        return text, False
+    made, count = _JSON_SURROGATE.subn(lambda m: m[0] if m[1] is None else f"\\uE{m[1]}", text)
+    return made, count > 0 and made != text
