@@ -20,7 +20,6 @@ from .finding import Finding, Span
 from .project import NAMES, inside, project_root, shown
 from .selectors import unknown_selectors
 from .settings import Origin, Settings, override, quoted
-from .toml_text import parsed
 
 if TYPE_CHECKING:
     from .config_keys import Reading
@@ -94,6 +93,8 @@ def _named(path: str) -> Loaded:
     if full not in _by_file:
         text = _text(full)
         if isinstance(text, str):
+            from .toml_text import parsed
+
             _by_file[full] = _read(full, text, parsed(text, shown(full)))
         else:
             _by_file[full] = Loaded(Settings(root=os.path.dirname(full)), full, (text,))
@@ -115,6 +116,8 @@ def _in_folder(folder: str) -> Loaded | None:
             continue
         if name == NAMES[1] and not ("msaa-lint" in text and _TABLE.search(text)):
             continue
+        from .toml_text import parsed
+
         table = parsed(text, shown(path))
         if name == NAMES[0] or _is_ours(text, table):
             return _read(path, text, table)
@@ -161,6 +164,7 @@ def _read(path: str, text: str, table: dict[str, Any] | Finding) -> Loaded:
     """A configuration file, as it was parsed, and what it extends."""
     from .config_keys import Reading
     from .source.text import Source
+    from .toml_text import parsed
 
     folder = os.path.dirname(path)
     root = project_root(folder)

@@ -67,8 +67,8 @@ class Engine:
             findings.extend(_within(found, prefix))
             undecided.extend(u._replace(subject=prefix + u.subject) for u in unknown)
         suppressed: list[Suppressed] = []
-        if ignores and "msaa-lint:" in source.text:
-            findings, suppressed = self._suppress(findings, source, parsed.documents, severity)
+        if ignores and "msaa-lint" in source.text.lower():
+            findings, suppressed = self._suppress(findings, source, parsed.documents, severity, {u.rule for u in undecided})
         findings.sort(key=place_order)
         return Linted(file, source, findings, undecided, suppressed)
 
@@ -84,12 +84,13 @@ class Engine:
         return verdicts.findings, verdicts.undecided
 
     def _suppress(
-        self, findings: Sequence[Finding], source: Source, documents: Sequence[Node], severity: Severity
+        self, findings: Sequence[Finding], source: Source, documents: Sequence[Node], severity: Severity, undecided: set[str]
     ) -> tuple[list[Finding], list[Suppressed]]:
+        """Of a rule that is off, or that stayed undecided, nothing can be said of a suppression being unused."""
         from .source.comments import comments
         from .suppressions import apply
 
-        enabled = {rule.name for rule in self.catalogue.rules if severity(rule, rule.severity, None) is not None}
+        enabled = {rule.name for rule in self.catalogue.rules if severity(rule, rule.severity, None) is not None} - undecided
         kept, suppressed, extra = apply(findings, comments(source, documents), source, self.catalogue.rules, enabled)
         return [*kept, *extra], suppressed
 

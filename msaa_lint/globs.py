@@ -148,9 +148,10 @@ def relative(file: str, root: str) -> str:
 
 
 def matches(file: str, glob: Glob) -> bool:
-    """Whether one glob matches a file; with `!`, whether it does not."""
+    """Whether one glob matches a file; with `!`, whether it does not. The root itself is no file."""
     ready = compiled(glob.pattern)
-    return (ready.below.match(relative(file, glob.root)) is not None) != ready.negated
+    path = relative(file, glob.root)
+    return path != os.curdir and (ready.below.match(path) is not None) != ready.negated
 
 
 def excluding(file: str, globs: Sequence[Glob], folder: bool = False) -> Glob | None:

@@ -128,8 +128,7 @@ class Run:
         if linted.source is not None and (linted.findings or linted.suppressed):
             self.sources[linted.file] = linted.source
         settled = (governed.selection.settle(found) for found in linted.findings)
-        least = rank(governed.settings.min_severity)
-        self.findings.extend(found for found in settled if found is not None and (found.fatal or rank(found.severity) >= least))
+        self.findings.extend(found for found in settled if found is not None)
         self.undecided.extend(linted.undecided)
         self.suppressed.extend(linted.suppressed)
 
@@ -156,6 +155,9 @@ def run(request: Request, progress: Progress | None = None) -> Outcome:
     notes = list(found.notes)
     if here.settings.baseline is not None and not request.without_baseline:
         _baseline(this, here, files, notes)
+    # After the baseline, which counts what is not shown as well.
+    least = rank(here.settings.min_severity)
+    this.findings[:] = [found for found in this.findings if found.fatal or rank(found.severity) >= least]
     order = {file: number for number, file in enumerate(files)}
     this.findings.sort(key=lambda f: (order.get(f.file, -1), f.file))
     severity = here.selection.for_file(os.curdir)

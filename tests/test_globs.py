@@ -28,6 +28,9 @@ def excluded(path: str, *patterns: str, folder: bool = False) -> str | None:
         ("?", ["a", "x/é"], ["ab"]),
         ("[a-c]x", ["ax", "cx"], ["dx", "-x"]),
         ("[!a-c]x", ["dx"], ["ax", "x"]),
+        ("a*?", ["ab", "abc"], ["a", "b"]),
+        ("a*[bc]d", ["abd", "axcd"], ["ad", "abc", "bad"]),
+        ("[a-a]", ["a"], ["b", "-"]),
         ("[a-]x", ["ax", "-x"], ["bx"]),
         ("[]]x", ["]x"], ["[x"]),
         (r"\!a", ["!a"], ["a"]),
@@ -56,6 +59,8 @@ def test_a_later_glob_takes_back_but_not_in_an_excluded_folder() -> None:
 def test_a_single_glob_with_an_exclamation_mark_matches_the_others() -> None:
     assert matches(f"{ROOT}/a.yaml", Glob("!tests/", ROOT))
     assert not matches(f"{ROOT}/tests/a.yaml", Glob("!tests/", ROOT))
+    assert not matches(ROOT, Glob("!tests/", ROOT))
+    assert not matches(ROOT, Glob("**", ROOT))
 
 
 def test_a_file_outside_the_root_counts_from_the_folder_they_share() -> None:

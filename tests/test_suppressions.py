@@ -136,6 +136,7 @@ def test_any_line_of_the_place_or_of_a_label_counts() -> None:
 def test_a_place_that_ends_with_its_line_is_not_on_the_next() -> None:
     text = "a: 1\nb: 2 # msaa-lint: ignore[stored]\n"
     assert not silenced(text, finding(text, "a: 1\n"))
+    assert silenced(text, finding(text, "a: 1\nb"))
 
 
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
@@ -302,7 +303,10 @@ def test_what_is_wrong_with_comments_can_be_silenced_too() -> None:
     [
         ("a: 1  # msaa-lint: ignore[loaded] why\nb: 2\n", "a: 1\nb: 2\n"),
         ("a: 1\n  # msaa-lint: ignore[loaded]\r\nb: 2\n", "a: 1\nb: 2\n"),
+        ("a: 1\r# msaa-lint: ignore[loaded]\rb: 2\r", "a: 1\rb: 2\r"),
+        ("a: 1\n# msaa-lint: ignore[loaded]", "a: 1\n"),
         ("a: 1 # note # msaa-lint: ignore[loaded]\n", "a: 1 # note\n"),
+        ("a: 1 # x # msaa-lint: ignore[loaded] # msaa-lint: ignore[stored]\n", "a: 1 # x # msaa-lint: ignore[stored]\n"),
         ("a: 1 # msaa-lint: ignore[loaded] x # msaa-lint: ignore[stored]\n", "a: 1 # msaa-lint: ignore[stored]\n"),
         ("a: 1 # msaa-lint: ignore[loaded, stored] why\n", "a: 1 # msaa-lint: ignore[stored] why\n"),
         ("a: 1 # msaa-lint: ignore[stored,  loaded] why\n", "a: 1 # msaa-lint: ignore[stored] why\n"),

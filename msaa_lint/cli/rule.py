@@ -41,9 +41,7 @@ def listing(own: Sequence[str], output: str) -> int:
 
         print(json.dumps([_record(info) for info in infos], indent=2, ensure_ascii=False))
     elif output == "markdown":
-        print("| code | rule | severity | what |\n|---|---|---|---|")
-        for info in infos:
-            print(f"| {info.code} | {info.name} | {info.severity} | {info.summary} |")
+        print(index(infos), end="")
     else:
         from rich.console import Console
         from rich.table import Table
@@ -55,6 +53,31 @@ def listing(own: Sequence[str], output: str) -> int:
     for problem in catalogue.problems:
         print(f"msaa-lint: {visible(problem.file)}: {visible(problem.message)}", file=sys.stderr)
     return 2 if catalogue.problems else 0
+
+
+FAMILIES = {
+    "1": "Sample counts", "2": "Load and store", "3": "Resolve", "4": "Memory and tiles", "5": "Pipelines and shading",
+    "6": "Synchronisation around a resolve", "7": "Numbers: when an average is not the answer", "8": "Metal, and what only source shows",
+    "9": "The description itself",
+}  # fmt: skip
+"""By the first digit of a code."""
+
+
+def index(infos: Sequence[RuleInfo]) -> str:
+    """The catalogue as a Markdown page: what rules/README.md holds."""
+    out = [
+        "# Rules\n\nMade by `msaa-lint rule --all --output markdown`: do not edit. `msaa-lint rule NAME` prints a page in the terminal.\n"
+    ]
+    family = ""
+    for info in infos:
+        digit = info.code.removeprefix("MSAA")[:1]
+        if digit != family:
+            family = digit
+            out.append(f"\n## {FAMILIES.get(digit, 'Yours')}\n\n| code | rule | severity | what |\n|---|---|---|---|\n")
+        name = info.name if digit == "9" else f"[{info.name}]({info.name}.md)"
+        fix = " A fix is stated." if info.fixable else ""
+        out.append(f"| {info.code} | {name} | {info.severity} | {info.summary}{fix} |\n")
+    return "".join(out)
 
 
 def _info(rule: Rule) -> RuleInfo:

@@ -50,6 +50,9 @@ def aspect_facts(each: Pass, attachment: Attachment, aspect: Aspect, timeline: T
     facts.put("aspect.name", aspect.name, record.head)
     facts.put("aspect.load", aspect.load, record.place(aspect.load_member))
     facts.put("aspect.store", aspect.store, record.place(aspect.store_member))
+    stored = aspect.store == "STORE"
+    needs = [op for op, member in ((aspect.store, "STORE"), (aspect.load, "LOAD")) if op == member]
+    facts.put("aspect.memory_operations", needs, record.place(aspect.store_member if stored else aspect.load_member))
     if isinstance(record, AttachmentDescription):
         separate = aspect.name == "stencil" and record.stencilInitialLayout is not None
         layout = record.stencilInitialLayout if separate else record.initialLayout

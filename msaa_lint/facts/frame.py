@@ -15,6 +15,7 @@ from ..document.records import (
     BeginRendering,
     BeginRenderPass,
     Command,
+    Framebuffer,
     Image,
     Pipeline,
     RenderingAttachment,
@@ -180,7 +181,7 @@ class Pass:
 class Frame:
     """All of a description, joined."""
 
-    __slots__ = ("commands", "description", "document", "passes", "pipelines", "resolve_commands", "targets")
+    __slots__ = ("commands", "description", "document", "framebuffers", "passes", "pipelines", "resolve_commands", "targets")
 
     def __init__(self, document: Document) -> None:
         self.document = document
@@ -192,6 +193,8 @@ class Frame:
         self.passes: list[Pass] = []
         self.pipelines: list[tuple[Pipeline, Pass | None]] = []
         self.resolve_commands: list[tuple[int, Resolve]] = []
+        self.framebuffers = self._used_framebuffers()
+        self._complete_targets()
         self._render_passes()
         self._renderings()
         self._commands()
@@ -213,6 +216,20 @@ class Frame:
 
     def target(self, name: str | None) -> Target | None:
         return self.targets.get(name) if name is not None else None
+
+    def _complete_targets(self) -> None:
+        """Gives images the format and count that they leave out and an attachment they are bound to states.
+
+        The two must agree (VUID-VkFramebufferCreateInfo-pAttachments-00880, 00881).
+        """
+        for name, record in self.description.renderPasses.items():
+            for index, description in enumerate(record.attachments):
+                bound = self._bound(name, index) or [description.image or ""]
+                for target in (self.targets[each] for each in bound if each in self.targets):
+                    if target.samples is None:
+                        target.samples = description.samples
+                    if target.format is None and description.format is not None:
+                        target.format = format_of(description.format)
 
     def _render_passes(self) -> None:
         for name, record in self.description.renderPasses.items():
@@ -239,22 +256,23 @@ class Frame:
 
     def _bound(self, render_pass: str, index: int) -> list[str]:
         """The images that framebuffers bind to an attachment: those the commands begin it with, else the only one for it."""
-        framebuffers = self.description.framebuffers
-        begun: list[str] = []
-        for command in self.commands:
-            if (
-                isinstance(command.body, BeginRenderPass)
-                and command.body.renderPass == render_pass
-                and command.body.framebuffer is not None
-            ):
-                stated = command.body.framebuffer
-                begun.extend([stated] if isinstance(stated, str) else stated)
-        used = [framebuffers[name] for name in dict.fromkeys(begun) if name in framebuffers]
-        if not begun:
-            own = [f for f in framebuffers.values() if f.renderPass == render_pass]
-            used = own if len(own) == 1 else []
-        names = [f.attachments[index] for f in used if index < len(f.attachments)]
+        names = [f.attachments[index] for f in self.framebuffers.get(render_pass, ()) if index < len(f.attachments)]
         return [name for name in dict.fromkeys(names) if name is not None]
+
+    def _used_framebuffers(self) -> dict[str, list[Framebuffer]]:
+        """By render pass: the framebuffers that the commands begin it with; where they name none, the only one for it."""
+        stated = self.description.framebuffers
+        used: dict[str, list[Framebuffer]] = {}
+        for framebuffer in stated.values():
+            used.setdefault(framebuffer.renderPass or "", []).append(framebuffer)
+        used = {name: own for name, own in used.items() if len(own) == 1}
+        begun: dict[str, list[str]] = {}
+        for command in self.commands:
+            if isinstance(command.body, BeginRenderPass) and command.body.renderPass is not None and command.body.framebuffer is not None:
+                names = command.body.framebuffer
+                begun.setdefault(command.body.renderPass, []).extend([names] if isinstance(names, str) else names)
+        used.update({name: [stated[each] for each in dict.fromkeys(names) if each in stated] for name, names in begun.items()})
+        return used
 
     def _subpass(self, within: Pass, record: Subpass, index: int, named: dict[str, Attachment]) -> PassSubpass:
         made = PassSubpass(within, record, index)

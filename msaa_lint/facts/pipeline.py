@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import NamedTuple
 
 from ..document.records import ColorBlendState, Pipeline
+from ..document.records import Draw as DrawCommand
 from ..finding import Span
 from ..vulkan.formats import Format, format_of
 from .facts import Facts
@@ -14,24 +17,31 @@ from .subpass import samples_of
 SAMPLES_DYNAMIC = "RASTERIZATION_SAMPLES_EXT"
 
 
+class Draw(NamedTuple):
+    """A recorded draw: the first subpass of the pass around it, and what vkCmdSetRasterizationSamples set before it."""
+
+    subpass: PassSubpass | None
+    samples: int | None
+    samples_at: Span | None
+
+
 def subpass_of(pipeline: Pipeline, within: Pass | None) -> PassSubpass | None:
-    """The subpass that a pipeline is made for; None where it is not stated or is for dynamic rendering."""
-    if within is None or pipeline.subpass is None or pipeline.subpass >= len(within.subpasses):
+    """The subpass that a pipeline is made for, the only one if there is one; None where it is not stated or is for dynamic rendering."""
+    if within is None:
         return None
-    return within.subpasses[pipeline.subpass]
+    index = pipeline.subpass if pipeline.subpass is not None or len(within.subpasses) != 1 else 0
+    return within.subpasses[index] if index is not None and index < len(within.subpasses) else None
 
 
-def pipeline_facts(pipeline: Pipeline, subpass: PassSubpass | None, frame: Frame) -> Facts:
-    """What is known of a pipeline and of what it draws to."""
+def pipeline_facts(pipeline: Pipeline, subpass: PassSubpass | None, draws: Sequence[Draw]) -> Facts:
+    """What is known of a pipeline and of what it draws to. `draws` are the recorded ones with it."""
     facts = Facts()
     facts.put("pipeline.name", pipeline.key, pipeline.head)
     state = pipeline.multisampleState
     dynamic = set(pipeline.dynamicState)
-    samples: int | None = None
+    samples, at = _rasterization_samples(pipeline, draws)
+    facts.put("pipeline.rasterization_samples", samples, at)
     if state is not None:
-        if SAMPLES_DYNAMIC not in dynamic:
-            samples = state.rasterizationSamples
-        facts.put("pipeline.rasterization_samples", samples, state.place("rasterizationSamples"))
         facts.put("pipeline.sample_shading", state.sampleShadingEnable, state.place("sampleShadingEnable"))
         fraction = float(state.minSampleShading) if state.minSampleShading is not None else None
         facts.put("pipeline.min_sample_shading", fraction, state.place("minSampleShading"))
@@ -49,12 +59,58 @@ def pipeline_facts(pipeline: Pipeline, subpass: PassSubpass | None, frame: Frame
         if blend.attachments:
             first = blend.attachments[0]
             facts.put("pipeline.blends_first", first.blendEnable, first.place("blendEnable"))
-        floats, at = _blended_floats(blend, _formats(pipeline, subpass))
+        floats, blended_at = _blended_floats(blend, _formats(pipeline, subpass))
         if floats is not None:
-            facts.put("pipeline.blended_float_formats", floats, at)
-    drawn = samples_of(subpass) if subpass is not None else _drawn_samples(pipeline, frame)
-    facts.put("pipeline.attachment_samples", drawn, subpass.record.head if subpass is not None else None)
+            facts.put("pipeline.blended_float_formats", floats, blended_at)
+    drawn_in = [subpass] if subpass is not None else [draw.subpass for draw in draws if draw.subpass is not None]
+    counts = {samples_of(each) if not _resolves_itself(each) else None for each in drawn_in}
+    facts.put("pipeline.attachment_samples", counts.pop() if len(counts) == 1 else None, drawn_in[0].record.head if drawn_in else None)
     return facts
+
+
+def _rasterization_samples(pipeline: Pipeline, draws: Sequence[Draw]) -> tuple[int | None, Span]:
+    """The count that a pipeline rasterizes with, and where it is stated.
+
+    Vulkan ignores pMultisampleState where rasterization is disabled, and its rasterizationSamples where that is dynamic state.
+    """
+    state, raster, dynamic = pipeline.multisampleState, pipeline.rasterizationState, pipeline.dynamicState
+    at = state.place("rasterizationSamples") if state is not None else pipeline.head
+    if raster is not None and raster.rasterizerDiscardEnable and "RASTERIZER_DISCARD_ENABLE" not in dynamic:
+        return None, at
+    if SAMPLES_DYNAMIC not in dynamic:
+        return state.rasterizationSamples if state is not None else None, at
+    if not draws or len({draw.samples for draw in draws}) != 1 or draws[0].samples is None:
+        return None, at
+    return draws[0].samples, draws[0].samples_at or at
+
+
+def draws_of(frame: Frame) -> dict[str, list[Draw]]:
+    """The recorded draws by the names of their pipelines."""
+    pipelines = frame.description.pipelines
+    begins = {position: each for each in frame.passes for position in each.begun}
+    draws: dict[str, list[Draw]] = {}
+    current: PassSubpass | None = None
+    samples: int | None = None
+    at: Span | None = None
+    for position, command in enumerate(frame.commands):
+        if position in begins:
+            current = begins[position].subpasses[0] if begins[position].subpasses else None
+        elif command.kind in ("endRendering", "endRenderPass"):
+            current = None
+        elif command.kind == "setRasterizationSamples" and isinstance(command.body, int):
+            samples, at = command.body, command.head
+        elif isinstance(command.body, DrawCommand) and command.body.pipeline in pipelines:
+            name = command.body.pipeline
+            draws.setdefault(name, []).append(Draw(current, samples, at))
+            # What was set before ends where a pipeline is bound whose count is static.
+            if SAMPLES_DYNAMIC not in pipelines[name].dynamicState:
+                samples, at = None, None
+    return draws
+
+
+def _resolves_itself(subpass: PassSubpass) -> bool:
+    """Whether a subpass or rendering resolves by a shader: the pipeline that does has the targets' count."""
+    return any(flag.startswith(("CUSTOM_RESOLVE", "SHADER_RESOLVE", "FRAGMENT_REGION")) for flag in subpass.record.flags)
 
 
 def _dropped(mask: tuple[int, ...], samples: int) -> int:
@@ -86,18 +142,3 @@ def _blended_floats(blend: ColorBlendState, formats: list[Format | None]) -> tup
             at = at or state.place("blendEnable")
         unknown = unknown or state.blendEnable is None
     return (found, at) if found or not unknown else (None, None)
-
-
-def _drawn_samples(pipeline: Pipeline, frame: Frame) -> int | None:
-    """For dynamic rendering: the count that every rendering the frame's commands draw in with this pipeline has; else None."""
-    counts: set[int | None] = set()
-    current: PassSubpass | None = None
-    begins = {position: each for each in frame.passes for position in each.begun}
-    for position, command in enumerate(frame.commands):
-        if position in begins:
-            current = begins[position].subpasses[0] if begins[position].subpasses else None
-        elif command.kind in ("endRendering", "endRenderPass"):
-            current = None
-        elif command.kind == "draw" and getattr(command.body, "pipeline", None) == pipeline.key and current is not None:
-            counts.add(samples_of(current))
-    return counts.pop() if len(counts) == 1 else None

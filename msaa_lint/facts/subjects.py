@@ -10,8 +10,8 @@ from .attachment import aspect_facts, attachment_facts, pass_facts
 from .dependency import external_dependencies
 from .facts import Facts, Subject
 from .frame import Attachment, Frame
-from .image import image_facts
-from .pipeline import pipeline_facts, subpass_of
+from .image import Bindings, image_facts
+from .pipeline import draws_of, pipeline_facts, subpass_of
 from .resolve import command_facts, resolve_facts
 from .subpass import subpass_facts
 from .surroundings import profile, surroundings
@@ -25,8 +25,9 @@ def subjects(document: Document, default_device: DeviceProfile | None = None) ->
     timeline = Timeline(frame)
     around = surroundings(document.description, device)
     images: dict[int, Facts] = {}
+    bindings = Bindings(frame)
     for target in frame.all_targets:
-        facts = image_facts(target, frame, timeline, device)
+        facts = image_facts(target, bindings, frame, timeline, device)
         images[id(target.record)] = facts
         yield Subject("image", target.path, target.record.head, Facts(around, facts))
     of_subpass: dict[str, Facts] = {}
@@ -50,10 +51,12 @@ def subjects(document: Document, default_device: DeviceProfile | None = None) ->
         facts = Facts(around, resolve_facts(resolve, device))
         command_facts(facts, resolve, position, frame, timeline)
         yield Subject("resolve", resolve.path, resolve.record.head, facts)
+    draws = draws_of(frame) if frame.pipelines else {}
     for pipeline, within in frame.pipelines:
         drawn_in = subpass_of(pipeline, within)
         base = of_subpass[drawn_in.path] if drawn_in is not None else around
-        yield Subject("pipeline", pipeline.path, pipeline.head, Facts(base, pipeline_facts(pipeline, drawn_in, frame)))
+        facts = pipeline_facts(pipeline, drawn_in, draws.get(pipeline.key, ()))
+        yield Subject("pipeline", pipeline.path, pipeline.head, Facts(base, facts))
 
 
 def _image_of(attachment: Attachment, images: dict[int, Facts]) -> Facts:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .facts import Facts
 from .frame import RENDER_PASS, Frame, PassSubpass
+from .surroundings import single_sampled_render
 
 
 def subpass_facts(subpass: PassSubpass, frame: Frame) -> Facts:
@@ -13,8 +14,9 @@ def subpass_facts(subpass: PassSubpass, frame: Frame) -> Facts:
     facts.put("subpass.index", subpass.index, record.head)
     color = [attachment for attachment in subpass.color if attachment is not None]
     # Where multisampled rendering goes to single-sampled attachments, those have their own, private samples.
-    counts = [a.samples for a in color if not (subpass.single_sampled and a.samples == 1)]
-    below = [a.samples for a in subpass.depth_stencil if not (subpass.single_sampled and a.samples == 1)]
+    private = subpass.single_sampled or single_sampled_render(frame.description)
+    counts = [a.samples for a in color if not (private and a.samples == 1)]
+    below = [a.samples for a in subpass.depth_stencil if not (private and a.samples == 1)]
     known = sorted({count for count in counts if count is not None})
     depth = sorted({count for count in below if count is not None})
     facts.put("subpass.color_samples", known, record.place("colorAttachments"))
@@ -23,6 +25,8 @@ def subpass_facts(subpass: PassSubpass, frame: Frame) -> Facts:
     facts.put("subpass.mixed_color_samples", _decided(len(known) > 1, counts))
     facts.put("subpass.depth_below_color", _decided(bool(known and depth) and depth[0] < known[-1], [*counts, *below]))
     facts.put("subpass.depth_above_color", _decided(bool(known and depth) and depth[-1] > known[0], [*counts, *below]))
+    facts.put("subpass.mixed_depth_stencil_samples", _decided(len(depth) > 1, below))
+    _odd(facts, subpass, private)
     own = subpass.single_sampled_count
     every = {*known, *depth}
     odd = subpass.single_sampled and own is not None and any(count != own for count in every)
@@ -42,6 +46,26 @@ def samples_of(subpass: PassSubpass) -> int | None:
     return counts.pop() if len(counts) == 1 else None
 
 
+def _odd(facts: Facts, subpass: PassSubpass, private: bool) -> None:
+    """The attachment to point at where counts differ: the first that has not the stated count, or the first one's."""
+    record = subpass.record
+    expected = subpass.single_sampled_count
+    places = {n: reference.place("attachment", "image") for n, reference in enumerate(record.colorAttachments) if reference is not None}
+    drawn = [(a, places.get(n, record.head)) for n, a in enumerate(subpass.color) if a is not None]
+    for attachment in subpass.depth_stencil:
+        place = record.place("depthStencilAttachment", "depthAttachment", "stencilAttachment")
+        drawn.append((attachment, attachment.record.place("image") if subpass.within.kind != RENDER_PASS else place))
+    for attachment, place in drawn:
+        if attachment.samples is None or (private and attachment.samples == 1):
+            continue
+        if expected is None:
+            expected = attachment.samples
+        elif attachment.samples != expected:
+            facts.put("subpass.odd_attachment", attachment.name, place)
+            facts.put("subpass.odd_samples", attachment.samples, place)
+            return
+
+
 def _decided(answer: bool, counts: list[int | None]) -> bool | None:
     """A yes stands whatever else comes; a no only where every count is known."""
     return True if answer else None if None in counts else False
@@ -51,7 +75,8 @@ def _pipelines(facts: Facts, subpass: PassSubpass, frame: Frame) -> None:
     if subpass.within.kind != RENDER_PASS or not frame.document.whole:
         facts.put("subpass.has_pipelines", False)
         return
-    own = [p for p, within in frame.pipelines if within is subpass.within and p.subpass == subpass.index]
+    only = 0 if len(subpass.within.subpasses) == 1 else None
+    own = [p for p, w in frame.pipelines if w is subpass.within and subpass.index == (only if p.subpass is None else p.subpass)]
     facts.put("subpass.has_pipelines", bool(own), own[0].head if own else None)
     answers: list[bool | None] = []
     for pipeline in own:

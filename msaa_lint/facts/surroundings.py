@@ -96,14 +96,22 @@ def _enabled(facts: Facts, description: Description, device: DeviceProfile | Non
     features = enabled.features if enabled is not None else None
     if enabled is not None and features is not None:
         facts.put("enabled.sample_rate_shading", "sampleRateShading" in features, enabled.place("features"))
-    stated = extensions if extensions is not None else device.extensions if device is not None else None
-    facts.put("enabled.mixed_samples", stated is not None and not MIXED_SAMPLES.isdisjoint(stated))
+    offered = device.extensions if device is not None and extensions is None else None
+    facts.put("enabled.mixed_samples", not MIXED_SAMPLES.isdisjoint(extensions or ()))
+    facts.put("device.mixed_samples", not MIXED_SAMPLES.isdisjoint(offered or ()))
+    facts.put("enabled.single_sampled_render", single_sampled_render(description))
     version = enabled.apiVersion if enabled is not None else None
     if extensions is None and version is None and device is not None:
         extensions, version = device.extensions, device.api_version
         if device.minimum:
             extensions = extensions if extensions is not None and "VK_KHR_depth_stencil_resolve" in extensions else None
     facts.put("enabled.depth_stencil_resolve", _depth_stencil_resolve(extensions, version))
+
+
+def single_sampled_render(description: Description) -> bool:
+    """Whether the application enables the feature of VK_EXT_multisampled_render_to_single_sampled."""
+    enabled = description.enabled
+    return enabled is not None and "multisampledRenderToSingleSampled" in (enabled.features or ())
 
 
 def _depth_stencil_resolve(extensions: tuple[str, ...] | None, version: str | None) -> bool | None:

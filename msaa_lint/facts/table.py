@@ -49,13 +49,19 @@ _DEVICE = (
     Fact("device.lazy_memory_known", "BOOL", "its memory types are stated"),
     Fact("device.max_efficient_samples", "INT", "the largest count that keeps full throughput: 4 unless the device says otherwise"),
     Fact("device.sample_rate_shading", "BOOL", "it offers the feature sampleRateShading"),
+    Fact(
+        "device.mixed_samples",
+        "BOOL",
+        "it offers VK_AMD_mixed_attachment_samples or VK_NV_framebuffer_mixed_samples, and what is enabled is not stated; never unknown",
+    ),
 )
 _ENABLED = (
     Fact("enabled.sample_rate_shading", "BOOL", "the application enables sampleRateShading"),
     Fact(
         "enabled.depth_stencil_resolve", "BOOL", "Vulkan 1.2 or VK_KHR_depth_stencil_resolve is enabled; where that is not stated: offered"
     ),
-    Fact("enabled.mixed_samples", "BOOL", "VK_AMD_mixed_attachment_samples or VK_NV_framebuffer_mixed_samples is stated; never unknown"),
+    Fact("enabled.mixed_samples", "BOOL", "VK_AMD_mixed_attachment_samples or VK_NV_framebuffer_mixed_samples is enabled; never unknown"),
+    Fact("enabled.single_sampled_render", "BOOL", "the application enables multisampledRenderToSingleSampled; never unknown"),
 )
 _SCENE = (
     Fact("scene.color", "STRING", "LDR or HDR", "scene color"),
@@ -81,6 +87,12 @@ _IMAGE = (
     Fact("image.memory", "LIST", "the property flags of the memory it is bound to", "VkMemoryPropertyFlagBits"),
     Fact("image.transient", "BOOL", "its usage has TRANSIENT_ATTACHMENT"),
     Fact("image.lazily_allocated", "BOOL", "its memory is LAZILY_ALLOCATED"),
+    Fact("image.multisampling_conflicts", "LIST", "what it states that Vulkan forbids beside more than one sample; never unknown"),
+    Fact(
+        "image.compression_blockers",
+        "LIST",
+        "what it states that turns compression off on GPUs of the device's vendor; of amd, arm or nvidia where that is none of them",
+    ),
     Fact("image.attachment_usage", "BOOL", "its usage has COLOR_ATTACHMENT, DEPTH_STENCIL_ATTACHMENT or INPUT_ATTACHMENT"),
     Fact("image.transient_conflicts", "LIST", "usages it has that Vulkan forbids beside TRANSIENT_ATTACHMENT", "VkImageUsageFlagBits"),
     Fact("image.presentable", "BOOL", "it belongs to a swapchain"),
@@ -88,7 +100,7 @@ _IMAGE = (
     Fact("image.is_render_target", "BOOL", "a pass draws or resolves to it, or its usage allows that"),
     Fact("image.read", "BOOL", "something other than a resolve inside a pass reads it"),
     Fact("image.loaded", "BOOL", "a pass loads an aspect of it"),
-    Fact("image.supported", "BOOL", "the device offers its sample count for its aspects"),
+    Fact("image.supported", "BOOL", "the device offers its sample count for its aspects; unknown where no pass can draw to it"),
     Fact("image.supported_samples", "INTS", "the counts that the device offers for its aspects"),
     Fact("image.averaged_by_reader", "BOOL", "a shader that reads it is stated to average its samples"),
     Fact("image.share_of_devices", "INT", "per cent of 2,035 devices in reports that offer its sample count"),
@@ -116,6 +128,7 @@ _ASPECT = (
     Fact("aspect.name", "STRING", "which aspect", "aspect"),
     Fact("aspect.load", "STRING", "its load operation: stencilLoadOp for stencil, else loadOp", "VkAttachmentLoadOp"),
     Fact("aspect.store", "STRING", "its store operation: stencilStoreOp for stencil, else storeOp", "VkAttachmentStoreOp"),
+    Fact("aspect.memory_operations", "LIST", "those of its operations that need memory behind it: LOAD, STORE; never unknown"),
     Fact("aspect.initial_layout", "STRING", "its layout when the pass begins", "VkImageLayout"),
     Fact("aspect.resolved", "BOOL", "a resolve with a mode other than NONE reads it in the pass"),
     Fact("aspect.resolved_over", "BOOL", "a resolve in the pass overwrites it"),
@@ -127,7 +140,10 @@ _SUBPASS = (
     Fact("subpass.samples", "INT", "the sample count its attachments share, or the one it renders to single-sampled ones with"),
     Fact("subpass.color_samples", "INTS", "the distinct known counts of its colour attachments"),
     Fact("subpass.depth_stencil_samples", "INT", "the count of its depth-stencil attachment"),
+    Fact("subpass.odd_attachment", "STRING", "the first colour or depth-stencil attachment whose count is not the others'"),
+    Fact("subpass.odd_samples", "INT", "its count"),
     Fact("subpass.mixed_color_samples", "BOOL", "two colour attachments differ in samples"),
+    Fact("subpass.mixed_depth_stencil_samples", "BOOL", "dynamic rendering: the depth and the stencil attachment differ in samples"),
     Fact("subpass.depth_below_color", "BOOL", "the depth-stencil count is below a colour count"),
     Fact("subpass.depth_above_color", "BOOL", "the depth-stencil count is above a colour count"),
     Fact(
@@ -168,8 +184,12 @@ _RESOLVE = (
 )
 _PIPELINE = (
     Fact("pipeline.name", "STRING", "its name"),
-    Fact("pipeline.rasterization_samples", "INT", "rasterizationSamples; unknown where it is dynamic state"),
-    Fact("pipeline.attachment_samples", "INT", "the sample count that its subpass or rendering has"),
+    Fact(
+        "pipeline.rasterization_samples",
+        "INT",
+        "rasterizationSamples; where it is dynamic state, what the commands set for all its draws; unknown where it rasterizes nothing",
+    ),
+    Fact("pipeline.attachment_samples", "INT", "the sample count that its subpass or rendering has; unknown beside a custom resolve"),
     Fact("pipeline.sample_shading", "BOOL", "sampleShadingEnable"),
     Fact("pipeline.min_sample_shading", "DOUBLE", "minSampleShading"),
     Fact(
