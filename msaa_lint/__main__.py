@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 
 
 def main() -> None:
     """Runs the command that the arguments name, and exits with its code."""
+    # A run makes many small objects that live to its end: collecting in between only costs (a third of reading large inputs, a tenth of a
+    # small one). `run` collects between inputs where garbage gathers.
+    gc.disable()
     arguments = sys.argv[1:]
     if arguments[:1] == ["check"]:
         from .cli.options import read
@@ -15,7 +19,10 @@ def main() -> None:
         if given is not None:
             from .cli.check import check
 
-            sys.exit(check(given))
+            code = check(given)
+            # Nor is there anything to gain from the collection with which Python ends.
+            gc.freeze()
+            sys.exit(code)
     if arguments == ["--version"]:
         from . import __version__
 

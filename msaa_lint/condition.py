@@ -7,25 +7,26 @@ three-valued logic (CEL specification, "Logical operators").
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from cel_expr_python import cel
 
-from .facts.table import FACTS, SUBJECTS, WORDS
+from .facts.table import FACTS, SUBJECTS, WORDS, Fact
 
 _STRING = re.compile(r'"(?:[^"\\]|\\.)*"|\'(?:[^\'\\]|\\.)*\'')
 _FACT = re.compile(r"\b[a-z]+\.[a-z_0-9]+\b(?!\s*\()")
-_MACRO = re.compile(r"\.\s*(?:all|exists|exists_one|map|filter)\s*\(")
-_MEETS = re.compile(
+# What only `check` needs is compiled where it is used: the conditions of the built-in pages are not checked at start-up.
+_MACRO = r"\.\s*(?:all|exists|exists_one|map|filter)\s*\("
+_MEETS = (
     r"(?P<fact>\b[a-z]+\.[a-z_0-9]+)\s*(?:==|!=)\s*(?P<one>\x00\d+\x00)"
     r"|(?P<left>\x00\d+\x00)\s*(?:==|!=|in)\s*(?P<of>\b[a-z]+\.[a-z_0-9]+)"
     r"|(?P<among>\b[a-z]+\.[a-z_0-9]+)\s+in\s+\[(?P<many>[^\]]*)\]"
 )
-_MARK = re.compile(r"\x00(\d+)\x00")
+_MARK = r"\x00(\d+)\x00"
 _MAX_MACROS = 2
 
-_environments: dict[str, Any] = {}
+_environments: dict[str | None, Any] = {}
 
 
 class Wrong(ValueError):
@@ -37,11 +38,15 @@ class Wrong(ValueError):
 
 
 class Condition:
-    """A compiled condition. `facts` are the facts that it names."""
+    """A compiled condition. `facts` are the facts that it names.
+
+    With a `subject` it may name the facts of that kind only, else every fact there is: a condition that was checked need not be again, and
+    one environment for all kinds is made in a third of the time of one for each.
+    """
 
     __slots__ = ("_program", "facts", "text")
 
-    def __init__(self, text: str, subject: str) -> None:
+    def __init__(self, text: str, subject: str | None = None) -> None:
         self.text = text
         self.facts = named(text)
         try:
@@ -60,8 +65,8 @@ class Condition:
         raise ArithmeticError(str(value))
 
 
-def activation(subject: str, facts: Mapping[str, Any]) -> Any:
-    """The facts of one subject in the form that conditions about its kind are worked out with."""
+def activation(subject: str | None, facts: Mapping[str, Any]) -> Any:
+    """The facts of one subject in the form that conditions made with the same `subject` are worked out with."""
     return _environment(subject).Activation(facts)
 
 
@@ -70,7 +75,7 @@ def check(text: str, subject: str) -> None:
 
     For pages as they are loaded; a condition that passes compiles.
     """
-    if len(_MACRO.findall(_STRING.sub("''", text))) > _MAX_MACROS:
+    if len(re.findall(_MACRO, _STRING.sub("''", text))) > _MAX_MACROS:
         raise Wrong(f"at most {_MAX_MACROS} of all, exists, exists_one, map and filter may stand in a condition")
     Condition(text, subject)
     for fact, literal, offset in literals(text):
@@ -98,9 +103,9 @@ def literals(text: str) -> list[tuple[str, str, int]]:
 
     marked = _STRING.sub(mark, text)
     out = []
-    for match in _MEETS.finditer(marked):
+    for match in re.finditer(_MEETS, marked):
         fact = match["fact"] or match["of"] or match["among"]
-        for index in _MARK.findall(match["one"] or match["left"] or match["many"]):
+        for index in re.findall(_MARK, match["one"] or match["left"] or match["many"]):
             literal, offset = found[int(index)]
             out.append((fact, literal, offset))
     return out
@@ -118,7 +123,11 @@ def _words(fact: str) -> frozenset[str] | None:
     return frozenset(VALUES[enum])
 
 
-def _environment(subject: str) -> Any:
+def _facts_of(subject: str | None) -> Iterable[Fact]:
+    return FACTS.values() if subject is None else SUBJECTS[subject]
+
+
+def _environment(subject: str | None) -> Any:
     if subject not in _environments:
         types = {
             "BOOL": cel.Type.BOOL,
@@ -128,11 +137,11 @@ def _environment(subject: str) -> Any:
             "LIST": cel.Type.List(cel.Type.STRING),
             "INTS": cel.Type.List(cel.Type.INT),
         }
-        _environments[subject] = cel.NewEnv(variables={fact.name: types[fact.type] for fact in SUBJECTS[subject]})
+        _environments[subject] = cel.NewEnv(variables={fact.name: types[fact.type] for fact in _facts_of(subject)})
     return _environments[subject]
 
 
-def _explained(error: RuntimeError, text: str, subject: str) -> Wrong:
+def _explained(error: RuntimeError, text: str, subject: str | None) -> Wrong:
     """The compiler's first complaint, in our words where it is a misspelt fact."""
     match = re.search(r"<input>:(\d+):(\d+): (.*)", str(error))
     if match is None:
@@ -145,8 +154,9 @@ def _explained(error: RuntimeError, text: str, subject: str) -> Wrong:
     from .vulkan.names import nearest
 
     name = undeclared[1]
-    known = [fact.name for fact in SUBJECTS[subject]]
+    known = [fact.name for fact in _facts_of(subject)]
     word = re.match(r"[a-z_A-Z0-9.]+", text[max(offset - len(name.split(".")[0]), 0) :])
     close = nearest(word[0] if word and word[0].startswith(name) else name, known)
     hint = f"; did you mean {close}?" if close else ""
-    return Wrong(f"there is no fact {name} of {subject}{hint}", offset)
+    of = f" of {subject}" if subject is not None else ""
+    return Wrong(f"there is no fact {name}{of}{hint}", offset)

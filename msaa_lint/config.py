@@ -31,7 +31,7 @@ VARIABLE = "MSAA_LINT_CONFIG"
 MAX_BYTES = 1 << 20
 MAX_CHAIN = 16
 
-_TABLE = re.compile(r"""^[ \t]*\[?[ \t]*["']?tool["']?[ \t]*(?:\.[ \t]*["']?msaa-lint|\]|=)""", re.MULTILINE)
+_TABLE = r"""(?m)^[ \t]*\[?[ \t]*["']?tool["']?[ \t]*(?:\.[ \t]*["']?msaa-lint|\]|=)"""
 
 
 class Loaded(NamedTuple):
@@ -114,7 +114,7 @@ def _in_folder(folder: str) -> Loaded | None:
             if name == NAMES[0]:
                 return Loaded(Settings(root=folder), path, (text,))
             continue
-        if name == NAMES[1] and not ("msaa-lint" in text and _TABLE.search(text)):
+        if name == NAMES[1] and not ("msaa-lint" in text and re.search(_TABLE, text)):
             continue
         from .toml_text import parsed
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
-from .condition import Condition, activation
+from .condition import Condition, activation, named
 from .diagnostics import diagnostic
 from .facts.facts import Facts, Subject
 from .finding import Finding, Fix, Label, Span, Undecided
@@ -24,7 +24,7 @@ class Verdicts(NamedTuple):
 
 
 class Judge:
-    """Rules made ready: conditions are compiled once, when a subject of their kind first comes."""
+    """Rules made ready: a condition is compiled once, when it is first asked."""
 
     def __init__(self, rules: Iterable[Rule]) -> None:
         self._by_subject: dict[str, list[Rule]] = {}
@@ -40,49 +40,50 @@ class Judge:
         """
         findings: list[Finding] = []
         undecided: list[Undecided] = []
+        on: dict[str, list[Rule]] = {}
         for subject in subjects:
-            rules = self._by_subject.get(subject.kind)
+            rules = on.get(subject.kind)
+            if rules is None:
+                every = self._by_subject.get(subject.kind, ())
+                rules = on[subject.kind] = [rule for rule in every if severity(rule, rule.severity, None) is not None]
             if not rules:
                 continue
             values = subject.facts.values
-            asked = self._facts_asked(subject.kind, rules)
-            ready = activation(subject.kind, {name: value for name, value in values.items() if name in asked})
+            asked = self._facts_asked(subject.kind)
+            ready = activation(None, {name: value for name, value in values.items() if name in asked})
             fired: list[tuple[Rule, Finding]] = []
             for rule in rules:
-                if severity(rule, rule.severity, None) is None:
-                    continue
                 try:
-                    answer = self._condition(rule.when, subject.kind).holds(ready)
+                    answer = self._condition(rule.when).holds(ready)
                 except ArithmeticError as error:
                     findings.append(_failed(rule, error, file))
                     continue
                 if answer:
-                    case = self._case(rule, subject, ready)
+                    case = self._case(rule, ready)
                     suggested = case.severity or rule.severity if case is not None else rule.severity
                     vendor = values.get("device.vendor")
                     weight = severity(rule, suggested, vendor if isinstance(vendor, str) else None)
                     if weight is not None:
                         fired.append((rule, finding(rule, case, subject, file, weight)))
                 elif answer is None:
-                    missing = tuple(name for name in self._condition(rule.when, subject.kind).facts if name not in values)
+                    missing = tuple(name for name in self._condition(rule.when).facts if name not in values)
                     undecided.append(Undecided(rule.code, rule.name, file, subject.path, missing))
             findings.extend(_one_cause(fired))
         return Verdicts(_distinct(findings), undecided)
 
-    def _condition(self, text: str, subject: str) -> Condition:
-        key = f"{subject}:{text}"
-        if key not in self._conditions:
-            self._conditions[key] = Condition(text, subject)
-        return self._conditions[key]
+    def _condition(self, text: str) -> Condition:
+        if text not in self._conditions:
+            self._conditions[text] = Condition(text)
+        return self._conditions[text]
 
-    def _facts_asked(self, kind: str, rules: Sequence[Rule]) -> frozenset[str]:
+    def _facts_asked(self, kind: str) -> frozenset[str]:
         if kind not in self._asked:
-            texts = [text for rule in rules for text in (rule.when, *(case.when for case in rule.cases))]
-            self._asked[kind] = frozenset(name for text in texts for name in self._condition(text, kind).facts)
+            texts = [text for rule in self._by_subject[kind] for text in (rule.when, *(case.when for case in rule.cases))]
+            self._asked[kind] = frozenset(name for text in texts for name in named(text))
         return self._asked[kind]
 
-    def _case(self, rule: Rule, subject: Subject, ready: object) -> Case | None:
-        return next((case for case in rule.cases if self._condition(case.when, subject.kind).holds(ready)), None)
+    def _case(self, rule: Rule, ready: object) -> Case | None:
+        return next((case for case in rule.cases if self._condition(case.when).holds(ready)), None)
 
 
 def finding(rule: Rule, case: Case | None, subject: Subject, file: str, severity: str) -> Finding:

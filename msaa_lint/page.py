@@ -1,7 +1,6 @@
 """A rule's page: YAML front matter, then Markdown."""
 
-from __future__ import annotations
-
+# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 import os
 from typing import NamedTuple
 
@@ -103,14 +102,15 @@ def read_page(path: str, shown: str) -> Page:
 
 def split(text: str) -> tuple[str | None, str]:
     """The front matter, at its offsets (what stands before it is blank), and the Markdown after it."""
-    lines = text.splitlines(keepends=True)
-    if not lines or lines[0].rstrip() != FENCE:
+    first = text.find("\n") + 1
+    if text[:first].rstrip() != FENCE:
         return None, text
-    offset = len(lines[0])
-    for line in lines[1:]:
-        if line.rstrip() == FENCE:
-            return " " * (len(lines[0]) - 1) + "\n" + text[len(lines[0]) : offset], text[offset + len(line) :]
-        offset += len(line)
+    start = text.find("\n" + FENCE, first - 1) + 1
+    while start > 0:
+        body = text.find("\n", start) + 1 or len(text)
+        if text[start:body].rstrip() == FENCE:
+            return " " * (first - 1) + "\n" + text[first:start], text[body:]
+        start = text.find("\n" + FENCE, start) + 1
     return None, text
 
 

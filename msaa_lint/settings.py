@@ -1,7 +1,6 @@
 """What can be configured, and how the command line overrides it."""
 
-from __future__ import annotations
-
+# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 import os
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -19,7 +18,7 @@ COMMAND_LINE = "<command line>"
 class Origin(NamedTuple):
     """Where a key was read: the text of the file, and the table that it stands in (`tool`, `msaa-lint`, or none)."""
 
-    source: Source
+    source: "Source"
     table: tuple[str, ...]
 
     def wrong(self, path: tuple[str | int, ...], message: str, help: str = "", at_key: bool = False) -> Finding:

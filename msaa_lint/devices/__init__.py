@@ -51,8 +51,12 @@ def builtin(name: str) -> DeviceProfile | None:
     """The built-in profile of a name, by case; None where there is none."""
     from .builtin_profiles import PROFILES
 
-    row = PROFILES.get(name)
-    return None if row is None else _profile(row)
+    if name not in _made and name in PROFILES:
+        _made[name] = _profile(PROFILES[name])
+    return _made.get(name)
+
+
+_made: dict[str, DeviceProfile] = {}
 
 
 def _profile(row: "Row") -> DeviceProfile:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Container
+from itertools import pairwise
 from typing import Any, ClassVar
 
 from ..finding import Span
@@ -60,11 +61,14 @@ class Record:
 
 
 def _is_wide(value: Node) -> bool:
-    """Whether a value goes, or may go, over several lines: a structure, a list of structures, a list with an item a line.
-
-    The last ends with its last item, where a list in brackets ends with its bracket.
-    """
+    """Whether a value goes, or may go, over several lines: a structure, a list of structures, a list with more than `, ` between items."""
     if value.kind != "sequence":
         return value.kind == "mapping"
     items: list[Node] = value.value
-    return any(item.kind == "mapping" for item in items) or (bool(items) and value.anchor is None and value.end == items[-1].end)
+    if any(item.kind == "mapping" for item in items):
+        return True
+    if not items or value.anchor is not None:
+        return False
+    # A list with an item a line and no brackets ends with its last item.
+    gaps = [items[0].start - value.start, *(after.start - item.end for item, after in pairwise(items))]
+    return value.end == items[-1].end or value.end - items[-1].end > 2 or max(gaps) > 2

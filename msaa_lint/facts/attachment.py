@@ -25,7 +25,7 @@ def attachment_facts(attachment: Attachment) -> Facts:
     facts = Facts()
     record = attachment.record
     target = attachment.target
-    facts.put("attachment.name", attachment.name, record.head)
+    facts.put("attachment.name", attachment.title, record.head)
     format_at, samples_at = record.head, record.head
     for name in ("format", "samples"):
         stated = record if record.states(name) else target.record if target is not None and target.record.states(name) else record

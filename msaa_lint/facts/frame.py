@@ -45,6 +45,11 @@ class Target:
     def name(self) -> str:
         return self.record.key
 
+    @property
+    def title(self) -> str:
+        """What messages call it: its name, or the attachment that it stands for."""
+        return f"attachment {self.name}" if self.image is None and self.name.isdecimal() else self.name
+
 
 class Aspect(NamedTuple):
     """One aspect of an attachment, with its own load and store operation, and the members that state them.
@@ -91,6 +96,11 @@ class Attachment:
         """By subpass: the aspects that a resolve with a mode overwrites here. The mode may be unknown: then `?` stands among them."""
         self.input: set[int] = set()
         self.preserve: set[int] = set()
+
+    @property
+    def title(self) -> str:
+        """What messages call it: its name, or `attachment 2` where attachments are a list."""
+        return f"attachment {self.name}" if self.name.isdecimal() else self.name
 
     @property
     def used(self) -> bool:
@@ -169,7 +179,8 @@ class Pass:
         self.attachments: list[Attachment] = []
         self.subpasses: list[PassSubpass] = []
         self.begun: list[int] = []
-        self.partial_area = False
+        self.partial_area: bool | None = False
+        """Whether some render area that it is begun with is smaller than what it renders to; None where a size is not stated."""
 
     @property
     def custom_resolve(self) -> bool:
@@ -249,9 +260,9 @@ class Frame:
         if not targets:
             targets = [Target(description, None, description.format, description.samples)]
         made = Attachment(description, description.key, index, targets)
-        only = made.target
-        made.format = format_of(description.format) if description.format is not None else only.format if only is not None else None
-        made.samples = description.samples if description.samples is not None else only.samples if only is not None else None
+        formats, counts = {t.format for t in targets}, {t.samples for t in targets}
+        made.format = format_of(description.format) if description.format is not None else formats.pop() if len(formats) == 1 else None
+        made.samples = description.samples if description.samples is not None else counts.pop() if len(counts) == 1 else None
         return made
 
     def _bound(self, render_pass: str, index: int) -> list[str]:
@@ -404,12 +415,13 @@ class Frame:
                 begun = self.render_pass(body.renderPass)
                 if begun is not None:
                     begun.begun.append(position)
-                    begun.partial_area = begun.partial_area or self._partial(body, begun)
+                    partial = self.partial(body, begun)
+                    begun.partial_area = partial if partial or begun.partial_area is False else begun.partial_area
             elif command.kind == "resolveImage" and body is not None:
                 self.resolve_commands.append((position, self._resolve_command(command)))
         for each in self.passes:
             if each.kind == RENDERING:
-                each.partial_area = self._partial(each.record, each)
+                each.partial_area = self.partial(each.record, each)
 
     def _resolve_command(self, command: Command) -> Resolve:
         body = command.body
@@ -424,17 +436,15 @@ class Frame:
             resolve.mode = "AVERAGE"
         return resolve
 
-    def _partial(self, record: Record, begun: Pass) -> bool:
-        """Whether a stated render area is known to be smaller than what it renders to."""
+    def partial(self, record: Record, begun: Pass) -> bool | None:
+        """Whether a stated render area is smaller than what it renders to; None where that is not known."""
         area = getattr(record, "renderArea", None)
         if area is None:
             return False
-        width, height = self._size(record, begun)
-        return bool(
-            area.x or area.y
-            or (area.width is not None and width is not None and area.width < width)
-            or (area.height is not None and height is not None and area.height < height)
-        )  # fmt: skip
+        pairs = list(zip((area.width, area.height), self._size(record, begun), strict=True))
+        if area.x or area.y or any(own is not None and whole is not None and own < whole for own, whole in pairs):
+            return True
+        return None if any(own is not None and whole is None for own, whole in pairs) else False
 
     def _size(self, record: Record, begun: Pass) -> tuple[int | None, int | None]:
         if isinstance(record, BeginRenderPass):

@@ -64,7 +64,7 @@ def image_facts(target: Target, bindings: Bindings, frame: Frame, timeline: Time
     image, record = target.image, target.record
     bound = bindings.attachments.get(id(record), [])
     rendered = _rendered(target, bound, bindings)
-    facts.put("image.name", target.name, record.head)
+    facts.put("image.name", target.title, record.head)
     facts.put("image.stated", image is not None)
     facts.put("image.samples", target.samples, record.place("samples"))
     format = target.format
@@ -75,9 +75,9 @@ def image_facts(target: Target, bindings: Bindings, frame: Frame, timeline: Time
         facts.put("image.is_half_float", format.is_float16)
     supported, whole = supported_samples(target, device)
     if supported is not None and device is not None:
-        if whole:
-            facts.put("image.supported_samples", list(supported))
         offered = target.samples in supported
+        if whole or not offered:
+            facts.put("image.supported_samples", list(supported))
         # What a class of devices does not promise, a device of it may offer; framebuffer limits say nothing of what no pass draws to.
         decided = target.samples is not None and (whole or not offered) and (offered or not device.minimum)
         if decided and (image is None or image.usage is None or rendered):
@@ -99,11 +99,11 @@ def image_facts(target: Target, bindings: Bindings, frame: Frame, timeline: Time
     facts.put("image.encoding", image.encoding, image.place("encoding"))
     if image.memory is not None:
         facts.put("image.memory", list(image.memory), image.place("memory"))
-        facts.put("image.lazily_allocated", "LAZILY_ALLOCATED" in image.memory, image.place("memory"))
+        facts.put("image.lazily_allocated", "LAZILY_ALLOCATED" in image.memory, image.flag_place("memory", ("LAZILY_ALLOCATED",)))
     if image.usage is not None:
         at = image.place("usage")
         facts.put("image.usage", list(image.usage), at)
-        facts.put("image.transient", "TRANSIENT_ATTACHMENT" in image.usage, at)
+        facts.put("image.transient", "TRANSIENT_ATTACHMENT" in image.usage, image.flag_place("usage", ("TRANSIENT_ATTACHMENT",)))
         facts.put("image.attachment_usage", not _ATTACHMENT_USAGES.isdisjoint(image.usage), at)
         conflicts = [usage for usage in image.usage if usage not in BESIDE_TRANSIENT]
         facts.put("image.transient_conflicts", conflicts, image.flag_place("usage", conflicts or ["TRANSIENT_ATTACHMENT"]))

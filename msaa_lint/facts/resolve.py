@@ -19,8 +19,8 @@ def resolve_facts(resolve: Resolve, device: DeviceProfile | None) -> Facts:
     source, target = resolve.source_image, resolve.target_image
     facts.put("resolve.has_source", resolve.source is not None or source is not None, resolve.source_at)
     facts.put("resolve.has_target", resolve.target is not None or target is not None, resolve.target_at)
-    facts.put("resolve.source", resolve.source.name if resolve.source is not None else source.name if source is not None else None)
-    facts.put("resolve.target", resolve.target.name if resolve.target is not None else target.name if target is not None else None)
+    facts.put("resolve.source", resolve.source.title if resolve.source is not None else source.title if source is not None else None)
+    facts.put("resolve.target", resolve.target.title if resolve.target is not None else target.title if target is not None else None)
     facts.put("resolve.source_samples", _samples(resolve, "source"), resolve.source_at)
     facts.put("resolve.target_samples", _samples(resolve, "target"), resolve.target_at)
     from_format, to_format = _format(resolve, "source"), _format(resolve, "target")

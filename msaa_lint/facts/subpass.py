@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..document.records import Subpass
 from .facts import Facts
 from .frame import RENDER_PASS, Frame, PassSubpass
 from .surroundings import single_sampled_render
@@ -52,17 +53,17 @@ def _odd(facts: Facts, subpass: PassSubpass, private: bool) -> None:
     expected = subpass.single_sampled_count
     places = {n: reference.place("attachment", "image") for n, reference in enumerate(record.colorAttachments) if reference is not None}
     drawn = [(a, places.get(n, record.head)) for n, a in enumerate(subpass.color) if a is not None]
-    for attachment in subpass.depth_stencil:
-        place = record.place("depthStencilAttachment", "depthAttachment", "stencilAttachment")
-        drawn.append((attachment, attachment.record.place("image") if subpass.within.kind != RENDER_PASS else place))
+    reference = record.depthStencilAttachment if isinstance(record, Subpass) else None
+    drawn += [(a, reference.place("attachment") if reference is not None else a.record.place("image")) for a in subpass.depth_stencil]
     for attachment, place in drawn:
         if attachment.samples is None or (private and attachment.samples == 1):
             continue
         if expected is None:
             expected = attachment.samples
         elif attachment.samples != expected:
-            facts.put("subpass.odd_attachment", attachment.name, place)
+            facts.put("subpass.odd_attachment", attachment.title, place)
             facts.put("subpass.odd_samples", attachment.samples, place)
+            facts.put("subpass.expected_samples", expected)
             return
 
 

@@ -142,6 +142,7 @@ _SUBPASS = (
     Fact("subpass.depth_stencil_samples", "INT", "the count of its depth-stencil attachment"),
     Fact("subpass.odd_attachment", "STRING", "the first colour or depth-stencil attachment whose count is not the others'"),
     Fact("subpass.odd_samples", "INT", "its count"),
+    Fact("subpass.expected_samples", "INT", "the count of those before it, or the one that is rendered to single-sampled ones with"),
     Fact("subpass.mixed_color_samples", "BOOL", "two colour attachments differ in samples"),
     Fact("subpass.mixed_depth_stencil_samples", "BOOL", "dynamic rendering: the depth and the stencil attachment differ in samples"),
     Fact("subpass.depth_below_color", "BOOL", "the depth-stencil count is below a colour count"),

@@ -6,10 +6,13 @@ a stated usage allows is taken as done. A pass that the commands never begin is 
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterator
 from typing import NamedTuple
 
 from ..document.records import BeginRendering
+from ..finding import Span
+from .begin import covers, targets_at
 from .frame import RENDERING, Aspect, Attachment, Frame, Pass, Target
 
 READ = "read"
@@ -22,6 +25,8 @@ _READ_FROM = {
     "copyImageToBuffer": "srcImage",
 }  # fmt: skip
 _OVERWRITES = {"clearColorImage": "image", "clearDepthStencilImage": "image", "resolveImage": "dstImage"}
+# What these write need not be all of the image, so that it does not end what was there; but who loads next may load what they wrote.
+_WRITES = {**_OVERWRITES, "copyImage": "dstImage", "blitImage": "dstImage", "writeImage": "image"}
 
 
 class Use(NamedTuple):
@@ -32,6 +37,15 @@ class Use(NamedTuple):
     kind: str
 
 
+class Store(NamedTuple):
+    """What leaves contents in an image: at which position, of which aspect, the pass, and the store operation; no pass where a command did."""
+
+    position: int
+    aspect: str | None
+    by: Pass | None
+    at: Span | None
+
+
 class Timeline:
     """The uses of a frame's images."""
 
@@ -40,6 +54,9 @@ class Timeline:
         self.uses: dict[str, list[Use]] = {}
         self.positions: dict[str, list[int]] = {}
         """Where each pass, by its path, begins."""
+        self._stores: dict[str, list[Store]] = {}
+        self._read_by_others: set[tuple[str, str | None]] = set()
+        self._of_aspect: dict[tuple[str, str | None], tuple[list[int], list[Use]]] = {}
         order = self._recorded() if frame.has_commands else self._once_each()
         for name, use in order:
             self.uses.setdefault(name, []).append(use)
@@ -47,62 +64,137 @@ class Timeline:
     def _once_each(self) -> Iterator[tuple[str, Use]]:
         for position, each in enumerate(self.frame.passes):
             self.positions[each.path] = [position]
-            yield from _begun(each, position)
+            yield from self._begun(each, position, None)
 
     def _recorded(self) -> Iterator[tuple[str, Use]]:
         begins = {position: each for each in self.frame.passes for position in each.begun}
         for each in self.frame.passes:
             self.positions[each.path] = each.begun
+            if not each.begun:
+                self._read_by_others.update((name, use.aspect) for name, use in self._begun(each, 0, None) if use.kind == READ)
         for position, command in enumerate(self.frame.commands):
             if position in begins:
-                yield from _begun(begins[position], position)
+                yield from self._begun(begins[position], position, position)
             read = getattr(command.body, _READ_FROM.get(command.kind, "-"), None)
             if isinstance(read, str):
                 yield read, Use(position, None, READ)
-            overwritten = getattr(command.body, _OVERWRITES.get(command.kind, "-"), None)
-            if isinstance(overwritten, str):
-                yield overwritten, Use(position, None, OVERWRITTEN)
+            written = getattr(command.body, _WRITES.get(command.kind, "-"), None)
+            if isinstance(written, str):
+                self._stores.setdefault(written, []).append(Store(position, None, None, None))
+                if command.kind in _OVERWRITES and self._whole(written, command.kind):
+                    yield written, Use(position, None, OVERWRITTEN)
+
+    def _whole(self, name: str, command: str) -> bool:
+        """Whether a command that names an image and no part of it is taken to write all of it."""
+        target = self.frame.target(name)
+        image = target.image if target is not None else None
+        if image is None or (image.mipLevels or 1) > 1 or (image.arrayLayers or 1) > 1:
+            return False
+        # Depth and stencil may be cleared apart.
+        format = target.format if target is not None else None
+        return command != "clearDepthStencilImage" or (format is not None and len(format.aspects) == 1)
+
+    def _begun(self, each: Pass, position: int, begin: int | None) -> Iterator[tuple[str, Use]]:
+        """The uses that a pass makes of its attachments' images, where the command at `begin` begins it."""
+        resumes = each.kind == RENDERING and isinstance(each.record, BeginRendering) and "RESUMING" in each.record.flags
+        for attachment in each.attachments:
+            if not attachment.used:
+                continue
+            targets = [target for target in targets_at(self.frame, attachment, begin) if target.image is not None]
+            over = {aspect for aspects in attachment.resolve.values() for aspect in aspects}
+            for aspect in attachment.aspects:
+                kind = READ if resumes else _effect(attachment, aspect, over)
+                for target in targets:
+                    if aspect.store == "STORE":
+                        at = attachment.record.place(aspect.store_member)
+                        self._stores.setdefault(target.name, []).append(Store(position, aspect.name, each, at))
+                    # Of images that alternate from frame to frame, each is left as it was in every other frame.
+                    if kind is not None and (kind != OVERWRITTEN or (len(targets) == 1 and covers(self.frame, each, begin, target))):
+                        yield target.name, Use(position, aspect.name, kind)
+        for subpass in each.subpasses:
+            for resolve in subpass.resolves:
+                if each.kind != RENDERING or resolve.target_image is None or resolve.mode in (None, "NONE"):
+                    continue
+                name = resolve.target_image.name
+                self._stores.setdefault(name, []).append(Store(position, resolve.aspect, each, resolve.target_at))
+                if covers(self.frame, each, begin, resolve.target_image):
+                    yield name, Use(position, resolve.aspect, OVERWRITTEN)
 
     def after(self, target: str, aspect: str | None, position: int) -> str | None:
         """What first happens to an image after a position, round the loop; None where nothing does."""
-        uses = self.uses.get(target, [])
-        later = [use for use in uses if use.position > position]
-        earlier = [use for use in uses if use.position <= position]
-        for use in [*later, *earlier]:
-            if use.aspect is None or aspect is None or use.aspect == aspect:
-                return use.kind
-        return None
+        key = (target, aspect)
+        if key not in self._of_aspect:
+            uses = [use for use in self.uses.get(target, []) if use.aspect is None or aspect is None or use.aspect == aspect]
+            self._of_aspect[key] = ([use.position for use in uses], uses)
+        positions, uses = self._of_aspect[key]
+        if not uses:
+            return None
+        return uses[bisect_right(positions, position) % len(uses)].kind
+
+    def stored_before(self, each: Pass, attachment: Attachment, aspect: Aspect) -> Store | None:
+        """Which pass stored what an attachment loads: the last store before the pass, round the loop. None where a command wrote later."""
+        positions = self.positions.get(each.path, [])
+        if aspect.load != "LOAD" or len(positions) != 1 or attachment.target is None:
+            return None
+        name = attachment.target.name
+        stores = [s for s in self._stores.get(name, []) if s.aspect is None or aspect.name is None or s.aspect == aspect.name]
+        if not stores:
+            return None
+        last = stores[bisect_left([store.position for store in stores], positions[0]) - 1]
+        return last if last.by is not None else None
 
     def read_later(self, each: Pass, attachment: Attachment, aspect: Aspect) -> bool | None:
         """Whether anything reads what the pass stored of an aspect; None where the description does not say."""
         if attachment.input:
             return True
-        answers: list[bool | None] = []
-        for target in attachment.targets:
-            answers.extend(self._answers(each, aspect, target))
-        if not answers or any(answers):
+        answers = set(self._answers(each, attachment, aspect))
+        if not answers or True in answers:
             return True if answers else None
         return None if None in answers else False
 
-    def _answers(self, each: Pass, aspect: Aspect, target: Target) -> Iterator[bool | None]:
-        recorded = self.frame.has_commands and bool(each.begun)
-        if target.image is None:
-            # Nothing else of the description can name it: only its own load in the next frame shows.
-            yield True if aspect.load == "LOAD" else None
-            return
-        if self.frame.has_commands and not recorded:
-            yield True if aspect.load == "LOAD" else _usage_reads(target)
+    def _answers(self, each: Pass, attachment: Attachment, aspect: Aspect) -> Iterator[bool | None]:
+        if self.frame.has_commands and not each.begun:
+            for target in attachment.targets:
+                yield True if aspect.load == "LOAD" else self._read_as_stated(target, aspect)
             return
         for position in self.positions.get(each.path, []):
-            follows = self.after(target.name, aspect.name, position)
-            if follows == READ:
-                yield True
-            elif follows == UNKNOWN:
-                yield None
-            elif recorded:
-                yield False
-            else:
-                yield True if target.image.presentable else _usage_reads(target)
+            begin = position if self.frame.has_commands else None
+            for target in targets_at(self.frame, attachment, begin):
+                if target.image is None:
+                    # Nothing else of the description can name it: only its own load in the next frame shows.
+                    yield True if aspect.load == "LOAD" else None
+                    continue
+                follows = self.after(target.name, aspect.name, position)
+                if follows == READ:
+                    yield True
+                elif follows == UNKNOWN:
+                    yield None
+                elif begin is not None:
+                    yield False
+                else:
+                    yield True if target.image.presentable else _usage_reads(target)
+
+    def _read_as_stated(self, target: Target, aspect: Aspect) -> bool | None:
+        """Whether what a pass that is never begun stores has a reader: its usage allows one, or something that is described reads."""
+        if target.image is None:
+            return None
+        aspects = (None, aspect.name) if aspect.name is not None else (None, "color", "depth", "stencil")
+        if any((target.name, each) in self._read_by_others for each in aspects) or any(
+            use.kind == READ and use.aspect in aspects for use in self.uses.get(target.name, [])
+        ):
+            return True
+        return _usage_reads(target)
+
+
+def _effect(attachment: Attachment, aspect: Aspect, over: set[str]) -> str | None:
+    """What a pass does to what was in an aspect of an image; None where nothing, or nothing that is known to matter."""
+    if aspect.load == "LOAD":
+        return READ
+    if aspect.load in ("CLEAR", "DONT_CARE") or aspect.name in over:
+        return OVERWRITTEN
+    if aspect.load is None:
+        return UNKNOWN if attachment.drawn or attachment.resolve else READ
+    return None
 
 
 def _usage_reads(target: Target) -> bool | None:
@@ -110,31 +202,3 @@ def _usage_reads(target: Target) -> bool | None:
     if target.image is None or target.image.usage is None:
         return None
     return not READING_USAGES.isdisjoint(target.image.usage)
-
-
-def _begun(each: Pass, position: int) -> Iterator[tuple[str, Use]]:
-    """The uses that beginning a pass makes of its attachments' images."""
-    resumes = each.kind == RENDERING and isinstance(each.record, BeginRendering) and "RESUMING" in each.record.flags
-    for attachment in each.attachments:
-        if not attachment.used:
-            continue
-        overwritten = {aspect for aspects in attachment.resolve.values() for aspect in aspects}
-        for aspect in attachment.aspects:
-            if aspect.load == "LOAD" or resumes:
-                kind = READ
-            elif aspect.load is None and aspect.name not in overwritten:
-                kind = UNKNOWN
-            elif aspect.load in ("CLEAR", "DONT_CARE") or aspect.name in overwritten:
-                # A smaller render area leaves the rest of the image as it was.
-                if each.partial_area:
-                    continue
-                kind = OVERWRITTEN
-            else:
-                continue
-            for target in attachment.targets:
-                if target.image is not None:
-                    yield target.name, Use(position, aspect.name, kind)
-    for subpass in each.subpasses:
-        for resolve in subpass.resolves:
-            if each.kind == RENDERING and resolve.target_image is not None and resolve.mode not in (None, "NONE") and not each.partial_area:
-                yield resolve.target_image.name, Use(position, resolve.aspect, OVERWRITTEN)

@@ -2,15 +2,111 @@
 
 from __future__ import annotations
 
-from yaml.parser import Parser
+from typing import Any
+
+from yaml.events import DocumentStartEvent
+from yaml.parser import Parser, ParserError
 from yaml.reader import Reader
-from yaml.scanner import Scanner
+from yaml.scanner import Scanner, ScannerError
+from yaml.tokens import ScalarToken
+
+_BREAKS = "\r\n\x85\u2028\u2029"
+_BLANKS = "\0 \t" + _BREAKS
 
 
 class PureParser(Reader, Scanner, Parser):
-    """Reader, scanner and parser in one, as PyYAML's loaders are put together."""
+    """Reader, scanner and parser in one, as PyYAML's loaders are put together; what it reads otherwise than libyaml is made the same."""
 
     def __init__(self, text: str) -> None:
         Reader.__init__(self, text)
         Scanner.__init__(self)
         Parser.__init__(self)
+
+    def get_event(self) -> Any:
+        event = super().get_event()
+        if type(event) is DocumentStartEvent and event.version not in (None, (1, 1), (1, 2)):
+            raise ParserError(None, None, "found incompatible YAML document", event.start_mark)
+        return event
+
+    def scan_to_next_token(self) -> None:
+        """Tabs separate tokens where they cannot be taken for indentation."""
+        while True:
+            while self.peek() == " " or (self.peek() == "\t" and (self.flow_level or not self.allow_simple_key)):
+                self.forward()
+            if self.peek() == "#":
+                while self.peek() not in "\0" + _BREAKS:
+                    self.forward()
+            if not self.scan_line_break():
+                return
+            if not self.flow_level:
+                self.allow_simple_key = True
+
+    def scan_flow_scalar_non_spaces(self, double: bool, start_mark: Any) -> list[str]:
+        """An escape is a character, and no half of one."""
+        try:
+            chunks: list[str] = super().scan_flow_scalar_non_spaces(double, start_mark)
+        except (ValueError, OverflowError):
+            chunks = ["\ud800"]
+        if any("\ud800" <= chunk <= "\udfff" for chunk in chunks if len(chunk) == 1):
+            raise ScannerError("while parsing a quoted scalar", start_mark, "found invalid Unicode character escape code", self.get_mark())
+        return chunks
+
+    def scan_plain(self) -> ScalarToken:
+        """Tabs may stand in a plain scalar, and in a collection of the flow style `?` too, but no `:` before `,[]{}`."""
+        chunks: list[str] = []
+        start = end = self.get_mark()
+        indent = self.indent + 1
+        spaces: list[str] = []
+        flow = bool(self.flow_level)
+        while self.peek() != "#" and not self._document_indicator():
+            length = 0
+            while True:
+                ch = self.peek(length)
+                if ch in _BLANKS or (flow and ch in ",[]{}"):
+                    break
+                if ch == ":":
+                    after = self.peek(length + 1)
+                    if flow and after in ",?[]{}":
+                        self.forward(length)
+                        raise ScannerError("while scanning a plain scalar", start, "found unexpected ':'", self.get_mark())
+                    if after in _BLANKS:
+                        break
+                length += 1
+            if length == 0:
+                break
+            self.allow_simple_key = False
+            chunks += (*spaces, self.prefix(length))
+            self.forward(length)
+            end = self.get_mark()
+            if self.peek() not in " \t" + _BREAKS:
+                break
+            spaces = self._plain_spaces(indent, start)
+            if not flow and self.column < indent:
+                break
+        return ScalarToken("".join(chunks), True, start, end)
+
+    def _plain_spaces(self, indent: int, start: Any) -> list[str]:
+        """The white space within or after a plain scalar, folded."""
+        blanks = ""
+        breaks: list[str] = []
+        while self.peek() in " \t" + _BREAKS:
+            ch = self.peek()
+            if ch in " \t":
+                if breaks and ch == "\t" and self.column < indent:
+                    problem = "found a tab character that violates indentation"
+                    raise ScannerError("while scanning a plain scalar", start, problem, self.get_mark())
+                if not breaks:
+                    blanks += ch
+                self.forward()
+            else:
+                breaks.append(self.scan_line_break())
+        if not breaks:
+            return [blanks]
+        self.allow_simple_key = True
+        first, *rest = breaks
+        if first != "\n":
+            return breaks
+        return rest or [" "]
+
+    def _document_indicator(self) -> bool:
+        return self.column == 0 and self.prefix(3) in ("---", "...") and self.peek(3) in _BLANKS

@@ -8,12 +8,20 @@ from typing import NamedTuple
 
 _LINE_END = re.compile(r"\r\n|\r|\n")
 
-# What YAML 1.2 (section 5.1) does not allow in a stream. Lone surrogates cannot come out of a decoder.
-_FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\x80-\x84\x86-\x9f\ufffe\uffff]")
+# What YAML 1.2 (section 5.1) does not allow in a stream.
+_FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ud800-\udfff\ufffe\uffff]")
+_ALLOWED_ASCII = bytes([9, 10, 13, *range(32, 127)])
+
+_MARKS = {b"\xef\xbb\xbf": "utf-8", b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}
+_NAMES = {"utf-8": "UTF-8", "utf-16-le": "UTF-16", "utf-16-be": "UTF-16"}
 
 
 class Unreadable(ValueError):
-    """Input that is no text: what is wrong and where, in words."""
+    """Input that is no text, or too much of it: what is wrong and where, in words; `offset` is the byte, where it is about one."""
+
+    def __init__(self, message: str, offset: int | None = None) -> None:
+        super().__init__(message)
+        self.offset = offset
 
 
 class Position(NamedTuple):
@@ -60,20 +68,35 @@ class Source:
 
 def decode(data: bytes) -> str:
     """The text of an input: UTF-8, or UTF-16 with a byte order mark; the mark is taken off. Unreadable where it is neither."""
-    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        encoding, body = "utf-16", data
-    else:
-        encoding, body = "utf-8", data.removeprefix(b"\xef\xbb\xbf")
+    mark, encoding = _encoding(data)
+    body = data[len(mark) :] if mark else data
     try:
         return body.decode(encoding)
     except UnicodeDecodeError as error:
-        before = body[: error.start].decode(encoding, "replace")
-        place = Source("", before).position(len(before))
-        name = "UTF-16" if encoding == "utf-16" else "UTF-8"
-        raise Unreadable(f"the input is no {name}: byte {error.start} (line {place.line}, column {place.column}): {error.reason}") from None
+        before = Source("", body[: error.start].decode(encoding))
+        place = before.position(len(before.text))
+        offset = len(mark) + error.start
+        message = f"the input is no {_NAMES[encoding]}: byte {offset} (line {place.line}, column {place.column}): {error.reason}"
+        raise Unreadable(message, offset) from None
+
+
+def encode(text: str, like: bytes) -> bytes:
+    """The bytes of a text in the encoding of `like`, with a byte order mark where that has one: what `decode` undoes."""
+    mark, encoding = _encoding(like)
+    return mark + text.encode(encoding)
+
+
+def _encoding(data: bytes) -> tuple[bytes, str]:
+    for mark, encoding in _MARKS.items():
+        if data.startswith(mark):
+            return mark, encoding
+    return b"", "utf-8"
 
 
 def forbidden(text: str) -> int | None:
     """The offset of the first character that YAML forbids; None where there is none."""
+    # Most descriptions are ASCII, and bytes are looked through seven times as fast.
+    if text.isascii() and not text.encode().translate(None, _ALLOWED_ASCII):
+        return None
     match = _FORBIDDEN.search(text)
     return match.start() if match is not None else None

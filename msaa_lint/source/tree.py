@@ -6,12 +6,9 @@ trailing commas that real tools write, is read by the same path. Without libyaml
 
 from __future__ import annotations
 
-import os
 import re
-import stat
 from typing import Any, NamedTuple
 
-from yaml.error import MarkedYAMLError, YAMLError
 from yaml.events import (
     AliasEvent,
     DocumentEndEvent,
@@ -24,80 +21,18 @@ from yaml.events import (
 )
 
 from ..finding import Label, Span
-from .scalars import resolve
-from .text import Source, Unreadable, forbidden
+from .events import ERRORS, events, readable, trouble
+from .files import read
+from .node import NO_KEYS, Limits, Node, Parsed, Problem, Stop
+from .scalars import WORDS, resolve
+from .text import Source, forbidden
 
+__all__ = ["Limits", "Node", "Parsed", "Problem", "parse", "read"]
 
-class Limits(NamedTuple):
-    """How deep an input nests, how many nodes it has once aliases are expanded, how many bytes."""
+MAX_TOLD = 50
+"""Duplicate keys and tags of one text that are told; the rest would only bury them."""
 
-    depth: int = 100
-    nodes: int = 1_000_000
-    bytes: int = 64 << 20
-
-
-class Problem(NamedTuple):
-    """What is wrong with a text as such: the code of a 9xx finding, and where."""
-
-    code: str
-    message: str
-    span: Span
-    labels: tuple[Label, ...] = ()
-
-
-class Parsed(NamedTuple):
-    """The documents of a text, whole ones only, and what is wrong with it. After a syntax error nothing further is read."""
-
-    documents: list[Node]
-    problems: list[Problem]
-
-
-class Node:
-    """A mapping, a sequence or a scalar, and its place as offsets into the text.
-
-    `value` is a dict of nodes in order, a list of nodes, or the scalar by YAML 1.2; `keys` has the key nodes of a mapping; `text` a
-    scalar as it was written, unquoted; `plain` says that it had no quotes. An alias is a node at its own place that shares the value of
-    `anchor`.
-    """
-
-    __slots__ = ("anchor", "end", "keys", "kind", "plain", "start", "text", "value")
-
-    value: Any
-
-    def __init__(
-        self,
-        kind: str,
-        start: int,
-        end: int,
-        value: Any,
-        keys: dict[str, Node],
-        text: str = "",
-        plain: bool = False,
-        anchor: Node | None = None,
-    ) -> None:
-        self.kind = kind
-        self.start = start
-        self.end = end
-        self.value = value
-        self.keys = keys
-        self.text = text
-        self.plain = plain
-        self.anchor = anchor
-
-    @property
-    def span(self) -> Span:
-        return Span(self.start, self.end)
-
-
-def read(path: str, limits: Limits) -> bytes:
-    """The bytes of a file. OSError where it cannot be read or is no file; Unreadable where it is larger than the limit."""
-    if not stat.S_ISREG(os.stat(path).st_mode):
-        raise OSError("it is no regular file")
-    with open(path, "rb") as file:
-        data = file.read(limits.bytes + 1)
-    if len(data) > limits.bytes:
-        raise Unreadable(f"the input is larger than the limit of {limits.bytes} bytes")
-    return data
+_COLON = re.compile(r"(?:[ \t\r\n]|(?<=[ \t\r\n])#[^\r\n]*)*+:")
 
 
 def parse(source: Source, limits: Limits) -> Parsed:
@@ -106,270 +41,246 @@ def parse(source: Source, limits: Limits) -> Parsed:
     if at is not None:
         message = f"the character U+{ord(source.text[at]):04X} may not stand in YAML or JSON"
         return Parsed([], [Problem("MSAA901", message, Span(at, at + 1))])
-    return _Parse(source.text, limits).run()
-
-
-def _parser(text: str) -> Any:
+    reading = _Reading(source.text, limits)
     try:
-        from yaml._yaml import CParser
-    except ImportError:
-        from .pure import PureParser
-
-        return PureParser(text)
-    return CParser(text)
-
-
-class _Stop(Exception):
-    """Ends the parse with a problem."""
-
-    def __init__(self, code: str, message: str, start: int, end: int) -> None:
-        self.problem = Problem(code, message, Span(start, max(end, start)))
-
-
-MAX_TWICE = 50
-"""Duplicate keys that are told of one text."""
-
-_PLAIN = (None, "")
-_BLOCK = ("|", ">")
-_NO_KEYS: dict[str, Node] = {}
-_CORE = {"str", "int", "float", "bool", "null", "map", "seq"}
-_PREFIX = "tag:yaml.org,2002:"
-
-
-class _Open:
-    """A collection whose end is still to come: what it holds so far, aliases expanded, and the key that waits for its value."""
-
-    __slots__ = ("anchor", "depth", "key", "node", "size")
-
-    def __init__(self, node: Node, anchor: str | None) -> None:
-        self.node = node
-        self.anchor = anchor
-        self.size = 1
-        self.depth = 1
-        self.key: Node | None = None
+        reading.run()
+    except Stop as stop:
+        reading.problems.append(stop.problem)
+    except ERRORS as error:
+        reading.problems.append(trouble(error, source.text))
+    return Parsed(reading.documents, reading.problems)
 
 
 class _Anchored(NamedTuple):
-    """An anchored node, how many nodes it is, and how deep it nests, aliases expanded."""
+    """An anchored node, how many nodes it is, and how many collections deep, aliases expanded."""
 
     node: Node
     size: int
     depth: int
 
 
-class _Parse:
+class _Reading:
+    """One text while it is read. An anchor is None until its node is whole."""
+
     def __init__(self, text: str, limits: Limits) -> None:
         self.text = text
         self.limits = limits
         self.documents: list[Node] = []
         self.problems: list[Problem] = []
         self.anchors: dict[str, _Anchored | None] = {}
-        self.merged = 0
-        self.surrogates = False
 
-    def run(self) -> Parsed:
-        try:
-            self._events()
-        except _Stop as stop:
-            self.problems.append(stop.problem)
-        except MarkedYAMLError as error:
-            mark = error.problem_mark or error.context_mark
-            start = min(mark.index, len(self.text)) if mark is not None else 0
-            said = " ".join(part for part in (error.context, error.problem) if part)
-            self.problems.append(Problem("MSAA901", said or "this cannot be read", Span(start, min(start + 1, len(self.text)))))
-        except (YAMLError, ValueError) as error:
-            self.problems.append(Problem("MSAA901", f"this cannot be read: {str(error).splitlines()[0][:200]}", Span(0, 0)))
-        return Parsed(self.documents, self.problems)
+    def run(self) -> None:
+        """Reads all events. This loop is where the time goes: one pass for every node, names local, nothing kept of an event.
 
-    def _events(self) -> None:
-        text, self.surrogates = _same_length(self.text)
-        get = _parser(text).get_event
-        depth_limit, node_limit = self.limits.depth, self.limits.nodes
-        stack: list[_Open] = []
-        top: _Open | None = None
-        while True:
-            event = get()
+        The collection that is open is `node`'s parent: `values` are its children, `keys` is None in a sequence, `key` waits for its
+        value, `tail` is the end of its last child, `first` the count of nodes before it, `deep` the most collections that are in it.
+        """
+        text = self.text
+        max_depth, max_count = self.limits.depth, self.limits.nodes
+        get = events(readable(text))
+        marked_texts = "!" in text
+        anchors = self.anchors
+        known = dict(WORDS)
+        roots: list[Node] = []
+        opened: list[tuple[Any, ...]] = []
+        parent: Node | None = None
+        values: Any = roots
+        keys: dict[str, Node] | None = None
+        key: Node | None = None
+        name: str | None = None
+        count = first = tail = deep = 0
+        for event in iter(get, None):
             kind = type(event)
-            size = depth = 1
             if kind is ScalarEvent:
-                text = event.value if not self.surrogates else self._joined(event)
-                if event.style not in _PLAIN or not event.implicit[0]:
-                    node = Node("scalar", event.start_mark.index, event.end_mark.index, text, _NO_KEYS, text)
-                    if event.style in _BLOCK:
-                        node.end = node.start + len(self.text[node.start : node.end].rstrip())
-                else:
-                    node = Node("scalar", event.start_mark.index, event.end_mark.index, resolve(text), _NO_KEYS, text, True)
-                if event.tag is not None:
-                    self._tagged(node, event.tag)
-                name = event.anchor
-            elif kind is MappingStartEvent or kind is SequenceStartEvent:
                 start = event.start_mark.index
-                if len(stack) >= depth_limit:
-                    raise _Stop("MSAA906", f"nesting is deeper than the limit of {depth_limit}", start, start + 1)
-                if kind is MappingStartEvent:
-                    node = Node("mapping", start, event.end_mark.index, {}, {})
+                tail = event.end_mark.index
+                value = event.value
+                style = event.style
+                if style == '"' or style == "'":
+                    node = Node("scalar", start, tail, value, NO_KEYS, value)
+                elif style:
+                    tail = _block_end(text, start, tail, value)
+                    node = Node("scalar", start, tail, value, NO_KEYS, value)
                 else:
-                    node = Node("sequence", start, event.end_mark.index, [], _NO_KEYS)
+                    try:
+                        resolved = known[value]
+                    except KeyError:
+                        resolved = known[value] = resolve(value)
+                    node = Node("scalar", start, tail, resolved, NO_KEYS, value, True)
+                    if start == tail:
+                        tail = _place_nothing(node, key, text)
+                    elif marked_texts and text[start] in "!&":
+                        self._bare(node)
                 if event.tag is not None:
                     self._tagged(node, event.tag)
                 if event.anchor is not None:
-                    self.anchors[event.anchor] = None
-                top = _Open(node, event.anchor)
-                stack.append(top)
+                    anchors[event.anchor] = _Anchored(node, 1, 0)
+                count += 1
+                if count > max_count:
+                    raise _too_many(node, max_count)
+                if keys is None:
+                    values.append(node)
+                elif key is None:
+                    key = node
+                elif (written := key.text) in values:
+                    self._twice(key, keys[written])
+                    key = None
+                else:
+                    values[written] = node
+                    keys[written] = key
+                    key = None
                 continue
             elif kind is MappingEndEvent or kind is SequenceEndEvent:
-                done = stack.pop()
-                node, name, size, depth = done.node, done.anchor, done.size, done.depth
-                top = stack[-1] if stack else None
-                # A block collection's end mark is at the next token, past blank lines and comments.
                 end = event.end_mark.index
-                node.end = end if end > event.start_mark.index else _end_of(node)
-                if "<<" in node.keys:
-                    size += self._merge(node)
+                # The end mark of a block collection is at the next token, past blank lines and comments.
+                if end > event.start_mark.index:
+                    tail = end
+                node = parent  # type: ignore[assignment]
+                node.end = tail
+                if keys is not None and "<<" in keys:
+                    _merge(node)
+                if name is not None:
+                    anchors[name] = _Anchored(node, count - first, deep + 1)
+                inner = deep + 1
+                parent, values, keys, key, name, first, deep = opened.pop()
+                if inner > deep:
+                    deep = inner
+                continue
+            elif kind is MappingStartEvent or kind is SequenceStartEvent:
+                start = event.start_mark.index
+                if len(opened) >= max_depth:
+                    raise Stop("MSAA906", f"nesting is deeper than the limit of {max_depth}", start, start + 1)
+                if kind is MappingStartEvent:
+                    node = Node("mapping", start, start, {}, {})
+                else:
+                    node = Node("sequence", start, start, [], NO_KEYS)
+                tail = start
+                if event.tag is not None:
+                    self._tagged(node, event.tag)
+                count += 1
             elif kind is AliasEvent:
-                anchored = self._alias(event)
-                node, size, depth = anchored
-                name = None
+                anchored = self._anchored(event)
+                node = _alias(anchored.node, event)
+                tail = node.end
+                count += anchored.size
+                if anchored.depth > deep:
+                    deep = anchored.depth
+                    if len(opened) + deep > max_depth:
+                        message = f"nesting is deeper than the limit of {max_depth}, aliases expanded"
+                        raise Stop("MSAA906", message, node.start, node.end)
+            elif kind is DocumentEndEvent:
+                root = roots.pop()
+                if root.start < root.end or root.kind != "scalar":
+                    self.documents.append(root)
+                anchors.clear()
+                deep = 0
+                continue
             elif kind is StreamEndEvent:
                 return
-            elif kind is DocumentEndEvent:
-                self.anchors.clear()
-                continue
             else:
                 continue
-            if name is not None:
-                self.anchors[name] = _Anchored(node, size, depth)
-            if top is None:
-                if size > node_limit:
-                    raise self._too_many(node)
-                if not (node.kind == "scalar" and node.plain and node.text == ""):
-                    self.documents.append(node)
-                continue
-            parent = top.node
-            if parent.kind == "sequence":
-                parent.value.append(node)
-            elif top.key is None:
+            if count > max_count:
+                message = f"more nodes than the limit of {max_count}, aliases expanded"
+                raise Stop("MSAA906", message, node.start, max(node.start + 1, min(node.end, node.start + 80)))
+            if keys is None:
+                values.append(node)
+            elif key is None:
                 if node.kind != "scalar":
-                    raise _Stop("MSAA901", "a key is a scalar", node.start, min(node.end, node.start + 1))
-                top.key = node
+                    raise Stop("MSAA903", f"a {node.kind} cannot be a key: a key is a scalar", node.start, node.start + 1)
+                key = node
                 continue
             else:
-                key = top.key
-                top.key = None
-                if key.text in parent.value:
-                    self._twice(parent, key)
+                written = key.text
+                if written in values:
+                    self._twice(key, keys[written])
                 else:
-                    parent.value[key.text] = node
-                    parent.keys[key.text] = key
-            top.size += size
-            if depth >= top.depth:
-                top.depth = depth + 1
-                if len(stack) + depth > depth_limit + 1:
-                    raise _Stop("MSAA906", f"nesting is deeper than the limit of {depth_limit}, aliases expanded", node.start, node.end)
-            if top.size > node_limit:
-                raise self._too_many(node)
+                    values[written] = node
+                    keys[written] = key
+                key = None
+            if kind is MappingStartEvent or kind is SequenceStartEvent:
+                opened.append((parent, values, keys, key, name, first, deep))
+                parent, values, key, name, first, deep = node, node.value, None, event.anchor, count - 1, 0
+                keys = node.keys if kind is MappingStartEvent else None
+                if name is not None:
+                    anchors[name] = None
 
-    def _joined(self, event: Any) -> str:
-        """A scalar with the stand-ins for surrogates put together to the characters that they mean."""
-        text: str = event.value
-        if not _STAND_IN.search(text):
-            return text
-        halves = _STAND_IN.sub(lambda m: chr(ord(m[0]) - 0xE800 + 0xD800), text)
-        try:
-            return halves.encode("utf-16-le", "surrogatepass").decode("utf-16-le")
-        except UnicodeDecodeError:
-            raise _Stop("MSAA901", "half of a surrogate pair is no character", event.start_mark.index, event.end_mark.index) from None
+    def _tell(self, problem: Problem) -> None:
+        if len(self.problems) < MAX_TOLD:
+            self.problems.append(problem)
 
-    def _too_many(self, node: Node) -> _Stop:
-        return _Stop(
-            "MSAA906", f"more nodes than the limit of {self.limits.nodes}, aliases expanded", node.start, min(node.end, node.start + 1)
-        )
-
-    def _twice(self, parent: Node, key: Node) -> None:
+    def _twice(self, key: Node, first: Node) -> None:
         """The first of two equal keys is kept."""
         shown = key.text if len(key.text) <= 80 else key.text[:79] + "…"
-        if len(self.problems) < MAX_TWICE:
-            labels = (Label(parent.keys[key.text].span, "first here"),)
-            self.problems.append(Problem("MSAA905", f"the key `{shown}` stands here twice", key.span, labels))
+        self._tell(Problem("MSAA905", f"the key `{shown}` stands here twice", key.span, (Label(first.span, "first here"),)))
 
-    def _alias(self, event: Any) -> _Anchored:
-        start, end = event.start_mark.index, event.end_mark.index
-        if event.anchor not in self.anchors:
-            raise _Stop("MSAA901", f"no anchor `{event.anchor[:80]}` stands before this alias", start, end)
-        anchored = self.anchors[event.anchor]
+    def _anchored(self, event: Any) -> _Anchored:
+        start, end, name = event.start_mark.index, event.end_mark.index, event.anchor
+        if name not in self.anchors:
+            raise Stop("MSAA901", f"no anchor `&{name[:80]}` stands before this alias", start, end)
+        anchored = self.anchors[name]
         if anchored is None:
-            raise _Stop("MSAA901", f"`{event.anchor[:80]}` holds itself", start, end)
-        of = anchored.node
-        return anchored._replace(node=Node(of.kind, start, end, of.value, of.keys, of.text, of.plain, of.anchor or of))
-
-    def _merge(self, node: Node) -> int:
-        """`<<: *base` and `<<: [*one, *two]`: what is stated here wins, then the earlier base. The nodes are shared. How many came."""
-        merged, key = node.value["<<"], node.keys["<<"]
-        if not key.plain:
-            return 0
-        bases = merged.value if merged.kind == "sequence" else [merged]
-        for base in bases:
-            if base.kind != "mapping":
-                raise _Stop("MSAA903", "a mapping, or a list of mappings, is merged", base.start, base.end)
-        del node.value["<<"], node.keys["<<"]
-        before = len(node.value)
-        for base in bases:
-            self.merged += len(base.value)
-            if self.merged > self.limits.nodes:
-                raise self._too_many(node)
-            for name, value in base.value.items():
-                if name not in node.value:
-                    node.value[name] = value
-                    node.keys[name] = base.keys[name]
-        return len(node.value) - before
+            raise Stop("MSAA901", f"`{name[:80]}` holds itself", start, end)
+        return anchored
 
     def _tagged(self, node: Node, tag: str) -> None:
-        """Core tags are taken where they agree; every other is refused."""
-        core = tag.removeprefix(_PREFIX)
-        if tag == "!" and node.kind == "scalar":
+        from .tags import tagged
+
+        problem = tagged(node, tag, self.text)
+        if problem is not None:
+            self._tell(problem)
+
+    def _bare(self, node: Node) -> None:
+        from .tags import bare
+
+        if bare(node, self.text):
             node.value, node.plain = node.text, False
-            return
-        if core == tag or core not in _CORE:
-            raise _Stop("MSAA903", f"the tag {tag[:80]} is not taken here", node.start, node.end)
-        if node.kind != "scalar":
-            agrees = core == ("map" if node.kind == "mapping" else "seq")
-        elif core == "str":
-            node.value, node.plain, agrees = node.text, False, True
-        else:
-            value = node.value = resolve(node.text)
-            if core == "float" and isinstance(value, int) and not isinstance(value, bool):
-                value = node.value = float(value)
-            kinds = {"int": int, "float": float, "bool": bool, "null": type(None)}
-            agrees = type(value) is kinds.get(core)
-        if not agrees:
-            raise _Stop("MSAA903", f"the tag !!{core} does not agree with what it stands at", node.start, node.end)
 
 
-def _end_of(node: Node) -> int:
-    """The end of the last child; the start of an empty block collection."""
-    if node.kind == "mapping":
-        last = next(reversed(node.value.values()), None)
-        key = next(reversed(node.keys.values()), None)
-        ends = [n.end for n in (last, key) if n is not None]
-        return max(ends) if ends else node.start
-    return node.value[-1].end if node.value else node.start
+def _alias(of: Node, event: Any) -> Node:
+    start, end = event.start_mark.index, event.end_mark.index
+    return Node(of.kind, start, end, of.value, of.keys, of.text, of.plain, of.anchor or of)
 
 
-_JSON_SURROGATE = re.compile(r"\\(?:\\|u[dD]([89a-fA-F][0-9a-fA-F]{2}))")
-_STAND_IN = re.compile("[\ue800-\uefff]")
-_STAND_IN_ESCAPE = re.compile(r"\\u[eE][89a-fA-F]")
+def _block_end(text: str, start: int, end: int, value: str) -> int:
+    """The end of a block scalar, without the line ends and blank lines after it."""
+    last = value.rstrip("\n")[-1:]
+    return start + len(text[start:end].rstrip("\r\n" if last in (" ", "\t") else " \t\r\n"))
 
 
-def _same_length(text: str) -> tuple[str, bool]:
-    """What JSON writes and YAML does not, at the same offsets: tabs as indentation, and characters as two escaped surrogates.
+def _place_nothing(node: Node, key: Node | None, text: str) -> int:
+    """Nothing, where a value is due, stands right after the `:` of its key; a parser's place may be beyond comments and line ends."""
+    if key is not None:
+        colon = _COLON.match(text, key.end)
+        node.start = node.end = colon.end() if colon is not None else key.end
+    return node.end
 
-    Such an escape is written as one for a private character (\\uD83D as \\uE83D), to be put together again in the scalar, unless the text
-    has such characters of its own.
+
+def _merge(node: Node) -> None:
+    """`<<: *base` and `<<: [*one, *two]`: in its place stands what the bases have, the earlier before the later; what is stated beside
+    it wins. The nodes are shared, and were counted where the bases were named.
     """
-    if text.lstrip()[:1] not in ("{", "["):
-        return text, False
-    text = text.replace("\t", " ")
-    if "\\u" not in text or _STAND_IN.search(text) or _STAND_IN_ESCAPE.search(text):
-        return text, False
-    made, count = _JSON_SURROGATE.subn(lambda m: m[0] if m[1] is None else f"\\uE{m[1]}", text)
-    return made, count > 0 and made != text
+    merged, key = node.value["<<"], node.keys["<<"]
+    if not key.plain:
+        return
+    bases = merged.value if merged.kind == "sequence" else [merged]
+    for base in bases:
+        if base.kind != "mapping":
+            raise Stop("MSAA903", "`<<` merges a mapping, or a list of mappings", base.start, min(base.end, base.start + 80))
+    stated, keys = dict(node.value), dict(node.keys)
+    del stated["<<"], keys["<<"]
+    own = list(node.value)
+    node.value.clear()
+    node.keys.clear()
+    for name in own:
+        if name != "<<":
+            node.value.setdefault(name, stated[name])
+            node.keys.setdefault(name, keys[name])
+            continue
+        for base in bases:
+            for inherited, value in base.value.items():
+                node.value.setdefault(inherited, stated.get(inherited, value))
+                node.keys.setdefault(inherited, keys.get(inherited) or base.keys[inherited])
+
+
+def _too_many(node: Node, limit: int) -> Stop:
+    return Stop("MSAA906", f"more nodes than the limit of {limit}, aliases expanded", node.start, max(node.start + 1, min(node.end, node.start + 80)))

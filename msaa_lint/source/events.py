@@ -1,0 +1,150 @@
+"""The parser's events of a text, and its errors in words.
+
+libyaml reads YAML 1.1. Where 1.2, and with it JSON, is read otherwise, the text is changed for the parser, one character for one so that
+places stay: the line ends that 1.1 knows besides (U+0085, U+2028, U+2029) and the escaped surrogates of JSON become characters that the text
+does not use, and become what they mean again in the events; tabs around a JSON text become blanks.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from itertools import chain
+from typing import Any, NamedTuple
+
+from yaml.error import MarkedYAMLError, YAMLError
+from yaml.events import ScalarEvent
+
+from ..finding import Label, Span
+from .node import Problem, Stop
+
+Get = Callable[[], Any]
+
+MAX_TAG_DIRECTIVES = 100
+"""`%TAG` lines of a text: libyaml compares each with all before it."""
+
+_TAG_DIRECTIVE = re.compile(r"(?:^|(?<=[\r\n]))%TAG")
+_SURROGATE = re.compile(r"(?<!\\)((?:\\\\)*+)\\u(?=[dD][89a-fA-F][0-9a-fA-F]{2})")
+_BREAKS = "\x85\u2028\u2029"
+_CONTEXT = re.compile(r"while (?:parsing|scanning) an? (.+)")
+
+
+class Readable(NamedTuple):
+    """A text as the parser gets it. `marks` are the characters that stand for `\\u` of a surrogate and for _BREAKS; empty where none do."""
+
+    text: str
+    marks: str
+
+
+def readable(text: str) -> Readable:
+    """The text for the parser. Stop where it would take the parser too long."""
+    if text.count("%TAG") > MAX_TAG_DIRECTIVES:
+        directives = list(_TAG_DIRECTIVE.finditer(text))[MAX_TAG_DIRECTIVES:]
+        if directives:
+            raise Stop("MSAA906", f"more %TAG directives than {MAX_TAG_DIRECTIVES}", *directives[0].span())
+    if text.startswith("\ufeff"):
+        text = "\n" + text[1:]
+    if "\t" in text:
+        text = _without_outer_tabs(text)
+    if "\\ud" in text or "\\uD" in text or (not text.isascii() and any(mark in text for mark in _BREAKS)):
+        return _marked(text)
+    return Readable(text, "")
+
+
+def parser(text: Readable) -> Any:
+    """libyaml's parser or, where PyYAML is without it, PyYAML's own."""
+    try:
+        from yaml._yaml import CParser
+    except ImportError:
+        from .pure import PureParser
+
+        return PureParser(text.text)
+    return CParser(text.text)
+
+
+def events(text: Readable) -> Get:
+    """What gives the next event."""
+    get: Get = parser(text).get_event
+    return _unmarked(get, text) if text.marks else get
+
+
+def trouble(error: Exception, text: str) -> Problem:
+    """A parser's error: what it is about is a label, where it says so."""
+    mark = error.problem_mark or error.context_mark if isinstance(error, MarkedYAMLError) else None
+    if not isinstance(error, MarkedYAMLError) or mark is None:
+        return Problem("MSAA901", f"this cannot be read: {str(error).partition(chr(10))[0][:200]}", Span(0, 0))
+    start = min(mark.index, len(text))
+    span = Span(start, min(start + 1, len(text)))
+    context = error.context or ""
+    message = _plainly(error.problem or "", text[start : start + 1]) or " ".join(filter(None, (error.problem, context)))
+    labels: tuple[Label, ...] = ()
+    about = _CONTEXT.fullmatch(context)
+    if about is not None and error.context_mark is not None and error.context_mark.index < start:
+        begin = error.context_mark.index
+        labels = (Label(Span(begin, begin + 1), f"the {about[1]} begins here"),)
+    return Problem("MSAA901", message or "this cannot be read", span, labels)
+
+
+ERRORS = (YAMLError, ValueError)
+"""What a parser raises for what a text holds."""
+
+
+def _plainly(problem: str, at: str) -> str:
+    """What parser's words leave out."""
+    if at == "\t" and ("cannot start any token" in problem or "violates indentation" in problem):
+        return "a tab cannot stand here: YAML is indented with blanks"
+    if at == ":" and "',' or '}'" in problem:
+        return "this `:` has no key: a key is on one line with its `:`, and has at most 1024 characters"
+    return ""
+
+
+def _without_outer_tabs(text: str) -> str:
+    """JSON has tabs before and after the value too; within, the parser takes them."""
+    inner = text.strip(" \t\r\n")
+    if inner[:1] not in ("{", "["):
+        return text
+    start = text.index(inner[0])
+    end = start + len(inner)
+    return text[:start].replace("\t", " ") + inner + text[end:].replace("\t", " ")
+
+
+def _marked(text: str) -> Readable:
+    used = set(text)
+    free = (c for c in map(chr, chain(range(0xE000, 0xF900), range(0xF0000, 0xFFFFE))) if c not in used)
+    marks = "".join(next(free, "") for _ in range(1 + len(_BREAKS)))
+    if len(marks) <= len(_BREAKS):
+        return Readable(text, "")
+    text = _SURROGATE.sub(lambda match: match[1] + 2 * marks[0], text)
+    return Readable(text.translate(str.maketrans(_BREAKS, marks[1:])), marks)
+
+
+def _unmarked(get: Get, text: Readable) -> Get:
+    escape = 2 * text.marks[0]
+    half = re.compile(f"{escape}(....)")
+    pair = re.compile(f"{escape}([dD][89abAB]..){escape}([dD][c-fC-F]..)")
+    breaks = str.maketrans(text.marks[1:], _BREAKS)
+
+    def whole(match: re.Match[str]) -> str:
+        return chr(0x10000 + ((int(match[1], 16) - 0xD800) << 10) + int(match[2], 16) - 0xDC00)
+
+    def unmarked() -> Any:
+        event = get()
+        if type(event) is ScalarEvent:
+            value: str = event.value.translate(breaks)
+            if escape in value:
+                if event.style == '"':
+                    value = pair.sub(whole, value)
+                    if escape in value:
+                        start = event.start_mark.index
+                        raw = text.text[start : event.end_mark.index]
+                        # Pairs become as many other characters, so that the first half that is left is found at its place.
+                        alone = half.search(pair.sub(12 * "_", raw))
+                        at = start + (alone.start() if alone is not None else 0)
+                        written = half.sub(r"\\u\1", text.text[at : at + 6])
+                        raise Stop("MSAA901", f"{written} is half of a surrogate pair, and no character", at, at + 6)
+                else:
+                    value = value.replace(escape, "\\u")
+            event.value = value
+        return event
+
+    return unmarked
