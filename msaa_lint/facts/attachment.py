@@ -62,10 +62,18 @@ def aspect_facts(each: Pass, attachment: Attachment, aspect: Aspect, timeline: T
     resolved: bool | None = any(mode not in (None, "NONE") for mode in modes)
     if not resolved and None in modes:
         resolved = None
-    facts.put("aspect.resolved", resolved, resolves[0].target_at if resolves else None)
+    facts.put("aspect.resolved", resolved, next((r.target_at for r in resolves if r.mode not in (None, "NONE")), None))
     over: set[str] = set().union(*attachment.resolve.values())
     facts.put("aspect.resolved_over", True if aspect.name in over else None if "?" in over or (over and aspect.name is None) else False)
+    at = {subpass for subpass, aspects in attachment.resolve.items() if aspect.name in aspects}
+    # A resolve comes at the end of its subpass: the same subpass reads what was there before.
+    facts.put("aspect.read_before_resolve", bool(at) and any(subpass <= min(at) for subpass in attachment.input))
+    facts.put("aspect.read_after_resolve", bool(at) and any(s > min(at) for s in attachment.input | attachment.depth_stencil))
     read_later = timeline.read_later(each, attachment, aspect)
     facts.put("aspect.read_later", read_later)
     facts.put("aspect.readers_known", read_later is not None)
+    store = timeline.stored_before(each, attachment, aspect)
+    facts.put("aspect.stored_by", store.by.name if store is not None and store.by is not None else None, store.at if store else None)
+    costly = [op for op, costs in (("LOAD", aspect.load == "LOAD"), ("STORE", stored and read_later is False)) if costs]
+    facts.put("aspect.costly_operations", costly, record.place(aspect.load_member if "LOAD" in costly else aspect.store_member))
     return facts

@@ -18,6 +18,7 @@ from ..document.records import (
     Framebuffer,
     Image,
     Pipeline,
+    ReadImage,
     RenderingAttachment,
     RenderPass,
     Subpass,
@@ -192,7 +193,7 @@ class Pass:
 class Frame:
     """All of a description, joined."""
 
-    __slots__ = ("commands", "description", "document", "framebuffers", "passes", "pipelines", "resolve_commands", "targets")
+    __slots__ = ("_named", "commands", "description", "document", "framebuffers", "passes", "pipelines", "resolve_commands", "targets")
 
     def __init__(self, document: Document) -> None:
         self.document = document
@@ -202,6 +203,7 @@ class Frame:
         }
         self.commands: tuple[Command, ...] = tuple(c for c in self.description.commands or () if c is not None)
         self.passes: list[Pass] = []
+        self._named: dict[str, Pass] = {}
         self.pipelines: list[tuple[Pipeline, Pass | None]] = []
         self.resolve_commands: list[tuple[int, Resolve]] = []
         self.framebuffers = self._used_framebuffers()
@@ -223,7 +225,7 @@ class Frame:
         return self.description.commands is not None
 
     def render_pass(self, name: str | None) -> Pass | None:
-        return next((p for p in self.passes if p.kind == RENDER_PASS and p.name == name), None)
+        return self._named.get(name) if name is not None else None
 
     def target(self, name: str | None) -> Target | None:
         return self.targets.get(name) if name is not None else None
@@ -252,6 +254,7 @@ class Frame:
             for attachment in made.attachments:
                 attachment.aspects = _aspects(attachment)
             self.passes.append(made)
+            self._named[name] = made
 
     def _described(self, render_pass: str, description: AttachmentDescription, index: int) -> Attachment:
         targets = [t for t in (self.targets.get(n) for n in self._bound(render_pass, index)) if t is not None]
@@ -390,6 +393,8 @@ class Frame:
             attachment.aspects = [Aspect(aspect, info.loadOp, info.storeOp, "loadOp", "storeOp")]
             made.attachments.append(attachment)
             (attachment.color if aspect == "color" else attachment.depth_stencil).add(0)
+            if info.imageLayout == "RENDERING_LOCAL_READ":
+                attachment.input.add(0)
             if aspect == "color":
                 subpass.color.append(attachment)
             else:
@@ -409,8 +414,18 @@ class Frame:
                 pair = resolve
 
     def _commands(self) -> None:
+        rendering: dict[str, list[Attachment]] = {}
+        begins = {each.begun[0]: each for each in self.passes if each.kind == RENDERING}
         for position, command in enumerate(self.commands):
             body = command.body
+            if command.kind in ("beginRendering", "endRendering"):
+                rendering = {}
+                for attachment in begins[position].attachments if position in begins else ():
+                    rendering.setdefault(attachment.name, []).append(attachment)
+            elif isinstance(body, ReadImage):
+                # Inside a rendering that draws to it: a local read (VK_KHR_dynamic_rendering_local_read).
+                for attachment in rendering.get(body.image or "", ()):
+                    attachment.input.add(0)
             if isinstance(body, BeginRenderPass):
                 begun = self.render_pass(body.renderPass)
                 if begun is not None:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ..devices import DeviceProfile
 from ..document.document import Document
 from .attachment import aspect_facts, attachment_facts, pass_facts
-from .dependency import external_dependencies
+from .dependency import external_dependencies, recorded_barriers
 from .facts import Facts, Subject
 from .frame import Attachment, Frame
 from .image import Bindings, image_facts
@@ -31,6 +31,7 @@ def subjects(document: Document, default_device: DeviceProfile | None = None) ->
         images[id(target.record)] = facts
         yield Subject("image", target.path, target.record.head, Facts(around, facts))
     of_subpass: dict[str, Facts] = {}
+    barriers = recorded_barriers(frame)
     for each in frame.passes:
         shared = Facts(around, pass_facts(each))
         for attachment in each.attachments:
@@ -45,8 +46,8 @@ def subjects(document: Document, default_device: DeviceProfile | None = None) ->
             yield Subject("subpass", subpass.path, subpass.record.head, own)
             for resolve in subpass.resolves:
                 yield Subject("resolve", resolve.path, resolve.record.head, Facts(shared, resolve_facts(resolve, device)))
-        for dependency, facts in external_dependencies(each):
-            yield Subject("dependency", dependency.path, dependency.head, Facts(shared, facts))
+        for record, facts in external_dependencies(each, barriers):
+            yield Subject("dependency", record.path, record.head, Facts(shared, facts))
     for position, resolve in frame.resolve_commands:
         facts = Facts(around, resolve_facts(resolve, device))
         command_facts(facts, resolve, position, frame, timeline)

@@ -69,6 +69,7 @@ def _device(facts: Facts, device: DeviceProfile | None) -> None:
     facts.put("device.minimum", device is not None and device.minimum)
     efficient = device.max_efficient_samples if device is not None else None
     facts.put("device.max_efficient_samples", efficient if efficient is not None else DEFAULT_EFFICIENT_SAMPLES)
+    facts.put("device.immediate_mode", device is not None and device.tiler is False)
     if device is None:
         facts.put("device.lazy_memory_known", False)
         return

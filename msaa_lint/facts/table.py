@@ -45,6 +45,7 @@ _DEVICE = (
     Fact("device.name", "STRING", "the device's name"),
     Fact("device.vendor", "STRING", "who makes it", "vendor"),
     Fact("device.tiler", "BOOL", "it renders tile by tile"),
+    Fact("device.immediate_mode", "BOOL", "it is stated not to render tile by tile; never unknown"),
     Fact("device.lazy_memory", "BOOL", "it offers LAZILY_ALLOCATED memory"),
     Fact("device.lazy_memory_known", "BOOL", "its memory types are stated"),
     Fact("device.max_efficient_samples", "INT", "the largest count that keeps full throughput: 4 unless the device says otherwise"),
@@ -109,7 +110,7 @@ _IMAGE = (
 _PASS = (
     Fact("pass.kind", "STRING", "a VkRenderPass or a vkCmdBeginRendering", "pass kind"),
     Fact("pass.name", "STRING", "the render pass's name"),
-    Fact("pass.partial_area", "BOOL", "it is begun with a stated render area smaller than its images"),
+    Fact("pass.partial_area", "BOOL", "it is begun with a stated render area smaller than its images; unknown where no size is stated"),
     Fact("pass.custom_resolve", "BOOL", "a subpass of it resolves by its own shader"),
     Fact("pass.suspends", "BOOL", "a rendering that is suspended: what is left of it comes later"),
 )
@@ -132,8 +133,12 @@ _ASPECT = (
     Fact("aspect.initial_layout", "STRING", "its layout when the pass begins", "VkImageLayout"),
     Fact("aspect.resolved", "BOOL", "a resolve with a mode other than NONE reads it in the pass"),
     Fact("aspect.resolved_over", "BOOL", "a resolve in the pass overwrites it"),
+    Fact("aspect.read_before_resolve", "BOOL", "a subpass reads it as input attachment before that resolve; never unknown"),
+    Fact("aspect.read_after_resolve", "BOOL", "a later subpass reads it as input attachment, or tests depth or stencil; never unknown"),
     Fact("aspect.read_later", "BOOL", "something after the pass, or the pass itself in the next frame, reads what it stores"),
     Fact("aspect.readers_known", "BOOL", "the description says whether anything reads it later; never unknown"),
+    Fact("aspect.stored_by", "STRING", "the pass whose store it loads"),
+    Fact("aspect.costly_operations", "LIST", "LOAD, and STORE where nothing reads it later; never unknown"),
 )
 _SUBPASS = (
     Fact("subpass.index", "INT", "its index; 0 in dynamic rendering"),
@@ -205,10 +210,16 @@ _PIPELINE = (
     Fact("pipeline.rasterizer_discard", "BOOL", "rasterizerDiscardEnable"),
 )
 _DEPENDENCY = (
-    Fact("dependency.stages", "LIST", "the source stages of all dependencies from EXTERNAL into the subpass", "VkPipelineStageFlagBits2"),
+    Fact(
+        "dependency.stages",
+        "LIST",
+        "the source stages of all dependencies from EXTERNAL into the subpass, and of recorded barriers for its multisampled attachments",
+        "VkPipelineStageFlagBits2",
+    ),
     Fact("dependency.accesses", "LIST", "their source accesses", "VkAccessFlagBits2"),
     Fact("dependency.makes_writes_available", "BOOL", "a write access is among them"),
     Fact("dependency.waits_for_late_tests", "BOOL", "LATE_FRAGMENT_TESTS, or a stage that includes it, is among the source stages"),
+    Fact("dependency.missing", "STRING", "what a multisampled attachment that is used again needs of them, and they do not state"),
     Fact("dependency.subpass", "INT", "the subpass they lead into"),
     Fact("dependency.multisampled", "BOOL", "that subpass is the first to use a multisampled attachment"),
     Fact("dependency.multisampled_depth_stencil", "BOOL", "that subpass is the first to use a multisampled depth-stencil attachment"),

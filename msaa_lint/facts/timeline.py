@@ -13,7 +13,7 @@ from typing import NamedTuple
 from ..document.records import BeginRendering
 from ..finding import Span
 from .begin import covers, targets_at
-from .frame import RENDERING, Aspect, Attachment, Frame, Pass, Target
+from .frame import RENDERING, Aspect, Attachment, Frame, Pass, Resolve, Target
 
 READ = "read"
 OVERWRITTEN = "overwritten"
@@ -38,7 +38,10 @@ class Use(NamedTuple):
 
 
 class Store(NamedTuple):
-    """What leaves contents in an image: at which position, of which aspect, the pass, and the store operation; no pass where a command did."""
+    """What was last done to the contents of an image: at which position, to which aspect, and the pass that stored it, with the place.
+
+    `by` is None where something else wrote it, or a pass drew to it and did not store.
+    """
 
     position: int
     aspect: str | None
@@ -55,32 +58,37 @@ class Timeline:
         self.positions: dict[str, list[int]] = {}
         """Where each pass, by its path, begins."""
         self._stores: dict[str, list[Store]] = {}
-        self._read_by_others: set[tuple[str, str | None]] = set()
-        self._of_aspect: dict[tuple[str, str | None], tuple[list[int], list[Use]]] = {}
+        self._read: set[tuple[str, str | None]] = set()
+        self._uses_of: dict[tuple[str, str | None], tuple[list[int], list[Use]]] = {}
+        self._stores_of: dict[tuple[str, str | None], tuple[list[int], list[Store]]] = {}
         order = self._recorded() if frame.has_commands else self._once_each()
         for name, use in order:
             self.uses.setdefault(name, []).append(use)
+            if use.kind == READ:
+                self._read.add((name, use.aspect))
 
     def _once_each(self) -> Iterator[tuple[str, Use]]:
         for position, each in enumerate(self.frame.passes):
             self.positions[each.path] = [position]
-            yield from self._begun(each, position, None)
+            self._stored(each, position, None)
+            yield from self._uses(each, position, None)
 
     def _recorded(self) -> Iterator[tuple[str, Use]]:
         begins = {position: each for each in self.frame.passes for position in each.begun}
         for each in self.frame.passes:
             self.positions[each.path] = each.begun
             if not each.begun:
-                self._read_by_others.update((name, use.aspect) for name, use in self._begun(each, 0, None) if use.kind == READ)
+                self._read.update((name, use.aspect) for name, use in self._uses(each, 0, None) if use.kind == READ)
         for position, command in enumerate(self.frame.commands):
             if position in begins:
-                yield from self._begun(begins[position], position, position)
+                self._stored(begins[position], position, position)
+                yield from self._uses(begins[position], position, position)
             read = getattr(command.body, _READ_FROM.get(command.kind, "-"), None)
             if isinstance(read, str):
                 yield read, Use(position, None, READ)
             written = getattr(command.body, _WRITES.get(command.kind, "-"), None)
             if isinstance(written, str):
-                self._stores.setdefault(written, []).append(Store(position, None, None, None))
+                self._note(written, Store(position, None, None, None))
                 if command.kind in _OVERWRITES and self._whole(written, command.kind):
                     yield written, Use(position, None, OVERWRITTEN)
 
@@ -94,9 +102,25 @@ class Timeline:
         format = target.format if target is not None else None
         return command != "clearDepthStencilImage" or (format is not None and len(format.aspects) == 1)
 
-    def _begun(self, each: Pass, position: int, begin: int | None) -> Iterator[tuple[str, Use]]:
+    def _note(self, name: str, store: Store) -> None:
+        self._stores.setdefault(name, []).append(store)
+
+    def _stored(self, each: Pass, position: int, begin: int | None) -> None:
+        """Notes what a pass leaves in its attachments' images."""
+        for attachment in each.attachments:
+            for aspect in attachment.aspects:
+                stored = aspect.store == "STORE" and attachment.used
+                if stored or attachment.drawn or attachment.resolve:
+                    by, at = (each, attachment.record.place(aspect.store_member)) if stored else (None, None)
+                    for target in targets_at(self.frame, attachment, begin):
+                        self._note(target.name, Store(position, aspect.name, by, at))
+        for resolve in _rendering_resolves(each):
+            if resolve.target_image is not None:
+                self._note(resolve.target_image.name, Store(position, resolve.aspect, each, resolve.target_at))
+
+    def _uses(self, each: Pass, position: int, begin: int | None) -> Iterator[tuple[str, Use]]:
         """The uses that a pass makes of its attachments' images, where the command at `begin` begins it."""
-        resumes = each.kind == RENDERING and isinstance(each.record, BeginRendering) and "RESUMING" in each.record.flags
+        resumes = "RESUMING" in _flags(each)
         for attachment in each.attachments:
             if not attachment.used:
                 continue
@@ -105,43 +129,34 @@ class Timeline:
             for aspect in attachment.aspects:
                 kind = READ if resumes else _effect(attachment, aspect, over)
                 for target in targets:
-                    if aspect.store == "STORE":
-                        at = attachment.record.place(aspect.store_member)
-                        self._stores.setdefault(target.name, []).append(Store(position, aspect.name, each, at))
                     # Of images that alternate from frame to frame, each is left as it was in every other frame.
                     if kind is not None and (kind != OVERWRITTEN or (len(targets) == 1 and covers(self.frame, each, begin, target))):
                         yield target.name, Use(position, aspect.name, kind)
-        for subpass in each.subpasses:
-            for resolve in subpass.resolves:
-                if each.kind != RENDERING or resolve.target_image is None or resolve.mode in (None, "NONE"):
-                    continue
-                name = resolve.target_image.name
-                self._stores.setdefault(name, []).append(Store(position, resolve.aspect, each, resolve.target_at))
-                if covers(self.frame, each, begin, resolve.target_image):
-                    yield name, Use(position, resolve.aspect, OVERWRITTEN)
+        for resolve in _rendering_resolves(each):
+            if resolve.target_image is not None and covers(self.frame, each, begin, resolve.target_image):
+                yield resolve.target_image.name, Use(position, resolve.aspect, OVERWRITTEN)
 
     def after(self, target: str, aspect: str | None, position: int) -> str | None:
         """What first happens to an image after a position, round the loop; None where nothing does."""
         key = (target, aspect)
-        if key not in self._of_aspect:
-            uses = [use for use in self.uses.get(target, []) if use.aspect is None or aspect is None or use.aspect == aspect]
-            self._of_aspect[key] = ([use.position for use in uses], uses)
-        positions, uses = self._of_aspect[key]
-        if not uses:
-            return None
-        return uses[bisect_right(positions, position) % len(uses)].kind
+        if key not in self._uses_of:
+            uses = [use for use in self.uses.get(target, []) if _same(use.aspect, aspect)]
+            self._uses_of[key] = ([use.position for use in uses], uses)
+        positions, uses = self._uses_of[key]
+        return uses[bisect_right(positions, position) % len(uses)].kind if uses else None
 
     def stored_before(self, each: Pass, attachment: Attachment, aspect: Aspect) -> Store | None:
-        """Which pass stored what an attachment loads: the last store before the pass, round the loop. None where a command wrote later."""
+        """Which pass stored what an attachment loads, round the loop; None where none did, or where that differs from time to time."""
         positions = self.positions.get(each.path, [])
-        if aspect.load != "LOAD" or len(positions) != 1 or attachment.target is None:
+        if aspect.load != "LOAD" or len(positions) != 1 or attachment.target is None or "RESUMING" in _flags(each):
             return None
-        name = attachment.target.name
-        stores = [s for s in self._stores.get(name, []) if s.aspect is None or aspect.name is None or s.aspect == aspect.name]
-        if not stores:
-            return None
-        last = stores[bisect_left([store.position for store in stores], positions[0]) - 1]
-        return last if last.by is not None else None
+        key = (attachment.target.name, aspect.name)
+        if key not in self._stores_of:
+            stores = [store for store in self._stores.get(key[0], []) if _same(store.aspect, aspect.name)]
+            self._stores_of[key] = ([store.position for store in stores], stores)
+        before, stores = self._stores_of[key]
+        last = stores[bisect_left(before, positions[0]) - 1] if stores else None
+        return last if last is not None and last.by is not None else None
 
     def read_later(self, each: Pass, attachment: Attachment, aspect: Aspect) -> bool | None:
         """Whether anything reads what the pass stored of an aspect; None where the description does not say."""
@@ -179,11 +194,23 @@ class Timeline:
         if target.image is None:
             return None
         aspects = (None, aspect.name) if aspect.name is not None else (None, "color", "depth", "stencil")
-        if any((target.name, each) in self._read_by_others for each in aspects) or any(
-            use.kind == READ and use.aspect in aspects for use in self.uses.get(target.name, [])
-        ):
-            return True
-        return _usage_reads(target)
+        return True if any((target.name, name) in self._read for name in aspects) else _usage_reads(target)
+
+
+def _same(one: str | None, other: str | None) -> bool:
+    """Whether two aspects are one, or may be: None is all, or an unknown one."""
+    return one is None or other is None or one == other
+
+
+def _flags(each: Pass) -> tuple[str, ...]:
+    return each.record.flags if isinstance(each.record, BeginRendering) else ()
+
+
+def _rendering_resolves(each: Pass) -> list[Resolve]:
+    """The resolves at the end of a rendering; one that is suspended has not ended."""
+    if each.kind != RENDERING or "SUSPENDING" in _flags(each):
+        return []
+    return [resolve for resolve in each.subpasses[0].resolves if resolve.mode not in (None, "NONE")]
 
 
 def _effect(attachment: Attachment, aspect: Aspect, over: set[str]) -> str | None:

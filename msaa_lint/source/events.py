@@ -38,7 +38,8 @@ class Readable(NamedTuple):
 
 def readable(text: str) -> Readable:
     """The text for the parser. Stop where it would take the parser too long."""
-    if text.count("%TAG") > MAX_TAG_DIRECTIVES:
+    # Single characters are looked for first: that takes no time.
+    if "%" in text and text.count("%TAG") > MAX_TAG_DIRECTIVES:
         directives = list(_TAG_DIRECTIVE.finditer(text))[MAX_TAG_DIRECTIVES:]
         if directives:
             raise Stop("MSAA906", f"more %TAG directives than {MAX_TAG_DIRECTIVES}", *directives[0].span())
@@ -46,7 +47,7 @@ def readable(text: str) -> Readable:
         text = "\n" + text[1:]
     if "\t" in text:
         text = _without_outer_tabs(text)
-    if "\\ud" in text or "\\uD" in text or (not text.isascii() and any(mark in text for mark in _BREAKS)):
+    if ("\\" in text and ("\\ud" in text or "\\uD" in text)) or (not text.isascii() and any(mark in text for mark in _BREAKS)):
         return _marked(text)
     return Readable(text, "")
 
