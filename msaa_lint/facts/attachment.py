@@ -67,7 +67,8 @@ def aspect_facts(each: Pass, attachment: Attachment, aspect: Aspect, timeline: T
     facts.put("aspect.resolved_over", True if aspect.name in over else None if "?" in over or (over and aspect.name is None) else False)
     at = {subpass for subpass, aspects in attachment.resolve.items() if aspect.name in aspects}
     # A resolve comes at the end of its subpass: the same subpass reads what was there before.
-    facts.put("aspect.read_before_resolve", bool(at) and any(subpass <= min(at) for subpass in attachment.input))
+    before = bool(at) and (any(s <= min(at) for s in attachment.input) or any(s < min(at) for s in attachment.depth_stencil))
+    facts.put("aspect.read_before_resolve", before)
     facts.put("aspect.read_after_resolve", bool(at) and any(s > min(at) for s in attachment.input | attachment.depth_stencil))
     read_later = timeline.read_later(each, attachment, aspect)
     facts.put("aspect.read_later", read_later)

@@ -133,8 +133,16 @@ _ASPECT = (
     Fact("aspect.initial_layout", "STRING", "its layout when the pass begins", "VkImageLayout"),
     Fact("aspect.resolved", "BOOL", "a resolve with a mode other than NONE reads it in the pass"),
     Fact("aspect.resolved_over", "BOOL", "a resolve in the pass overwrites it"),
-    Fact("aspect.read_before_resolve", "BOOL", "a subpass reads it as input attachment before that resolve; never unknown"),
-    Fact("aspect.read_after_resolve", "BOOL", "a later subpass reads it as input attachment, or tests depth or stencil; never unknown"),
+    Fact(
+        "aspect.read_before_resolve",
+        "BOOL",
+        "a subpass reads it as input attachment, or tests against it, before that resolve; never unknown",
+    ),
+    Fact(
+        "aspect.read_after_resolve",
+        "BOOL",
+        "a subpass reads it as input attachment, or tests against it, after that resolve; never unknown",
+    ),
     Fact("aspect.read_later", "BOOL", "something after the pass, or the pass itself in the next frame, reads what it stores"),
     Fact("aspect.readers_known", "BOOL", "the description says whether anything reads it later; never unknown"),
     Fact("aspect.stored_by", "STRING", "the pass whose store it loads"),
