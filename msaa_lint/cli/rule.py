@@ -138,7 +138,11 @@ def _print_info(info: RuleInfo, output: str) -> None:
 
 
 def _show(text: str) -> None:
+    import re
+
     from rich.console import Console
     from rich.markdown import Markdown
 
-    Console().print(Markdown(text))
+    # A terminal shows no fence: what kind of example it is, it must be told.
+    told = re.sub(r"^```(yaml|json) (bad|fixed|good)\b.*$", r"*\2:*\n\n```\1", text, flags=re.MULTILINE)
+    Console().print(Markdown(told))

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import os
 
+from ..vulkan.enums import BITLESS, ENUMS, PREFIXES, VALUES
+from ..vulkan.names import VENDORS
+
 
 def schema(which: str) -> int:
     """Prints the schema of the description format, or of the JSON output."""
@@ -22,29 +25,60 @@ def description_schema() -> dict[str, object]:
     """The JSON Schema of a description, from the models."""
     from ..document.models import Description
 
-    made = without_null(Description.model_json_schema())
+    enums: dict[str, object] = {}
+    made = _spelled(Description.model_json_schema(), enums)
     assert isinstance(made, dict)
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "$id": "urn:msaa-lint:description-v1",
         **made,
         "title": "msaa-lint description",
+        "$defs": {**made["$defs"], **dict(sorted(enums.items()))},
     }
 
 
-_NULLABLE = ("attachment", "depthStencilAttachment", "items", "additionalProperties")
+def _spelled(node: object, enums: dict[str, object]) -> object:
+    """A schema with references to the spellings of its enums, which it adds to `enums`."""
+    from ..document.fields import ENUMERANT, FLAGS
 
-
-def without_null(node: object, key: str = "") -> object:
-    """A schema in which members may be absent but not null, which says nothing; items of lists and attachment slots may be null."""
     if isinstance(node, list):
-        return [without_null(item, key) for item in node]
+        return [_spelled(item, enums) for item in node]
     if not isinstance(node, dict):
         return node
-    out = {name: without_null(value, name) for name, value in node.items() if not (name == "default" and value is None)}
-    arms = out.get("anyOf")
-    if isinstance(arms, list) and key not in _NULLABLE and {"type": "null"} in arms:
-        rest = [arm for arm in arms if arm != {"type": "null"}]
-        del out["anyOf"]
-        out = {**rest[0], **out} if len(rest) == 1 and isinstance(rest[0], dict) else {**out, "anyOf": rest}
-    return out
+    if FLAGS in node:
+        enum = node[FLAGS]
+        enums[f"{enum}Flags"] = {"type": "string", "pattern": joined(enum)}
+        return {"$ref": f"#/$defs/{enum}Flags"}
+    if ENUMERANT in node:
+        enum = node[ENUMERANT]
+        # An editor completes the short names and takes the others.
+        enums[enum] = {"anyOf": [{"enum": list(VALUES[enum])}, {"type": "string", "pattern": f"^{spellings(enum)}$"}]}
+        return {"$ref": f"#/$defs/{enum}"}
+    return {name: _spelled(value, enums) for name, value in node.items()}
+
+
+def spellings(enum: str) -> str:
+    """A regular expression for the names of an enum as `names.parse_enum` takes them."""
+    flags, bitless = "FlagBits" in enum, BITLESS.get(enum, ())
+    prefix = PREFIXES[enum].removeprefix("VK_") + ("(?:2_)?" if enum.endswith("2") else "")
+    words = "|".join(_with_bit(name) if flags and name not in bitless else name for name in ENUMS[enum])
+    return f"(?:(?:VK_)?{prefix})?(?:{words})"
+
+
+def _with_bit(name: str) -> str:
+    """A flag bit's name with `_BIT` where Vulkan has it, before a vendor's suffix, or without."""
+    head, _, vendor = name.rpartition("_")
+    return f"{head}(?:_BIT)?_{vendor}" if head and vendor in VENDORS else f"{name}(?:_BIT)?"
+
+
+def joined(enum: str) -> str:
+    """A regular expression for names of an enum joined by `|`, and for masks, as `names.parse_flags` takes them."""
+    if "FlagBits" not in enum:
+        return _list_of(spellings(enum), "^\\s*{}\\s*$")
+    mask = "(?:0|[1-9][0-9]*|0[xX][0-9a-fA-F]+)"
+    several = _list_of(f"(?:{spellings(enum)}|{mask})", "{}")
+    return f"^\\s*(?:{several}|{mask}\\s*\\((?:\\s*{several})?\\s*\\))\\s*$"
+
+
+def _list_of(one: str, form: str) -> str:
+    return form.format(f"{one}(?:\\s*\\|\\s*{one})*")

@@ -6,15 +6,14 @@ names (`pAttachments`, `attachmentCount`, `pNext`), write "NULL", "VK_TRUE" and 
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
 from ..finding import Label, Span
 from ..source.tree import Node
 from ..vulkan.names import from_value, nearest, parse_flags
 from .record import Record, Shape
-from .records import RECORDS, AttachmentReference, Command
-from .scalars import ATTACHMENT_UNUSED, enumerant, sample_count
+from .records import RECORDS, AttachmentDescription, AttachmentReference, Command, SubpassDependency
+from .scalars import ATTACHMENT_UNUSED, EXTERNAL, UNUSED, enumerant, finite, sample_count
 
 MAX_PROBLEMS = 50
 """Problems of one document that are told; the rest would only bury them."""
@@ -47,6 +46,12 @@ PNEXT = {
 }
 """Structures of a pNext chain, by sType without its prefix and vendor suffix, and the member they are in a description."""
 
+WITHIN: dict[str, type[Record]] = {
+    "ATTACHMENT_DESCRIPTION_STENCIL_LAYOUT": AttachmentDescription,
+    "MEMORY_BARRIER_2": SubpassDependency,
+}
+"""Structures of a pNext chain whose members are, in a description, the structure's own; they stand in for what it states itself."""
+
 OTHER_NAMES = {"pDepthStencilResolveAttachment": "attachment"}
 _NULLS = ("NULL", "VK_NULL_HANDLE")
 
@@ -73,30 +78,36 @@ class Binder:
         if node.kind != "mapping":
             self.wrong(node, path, "a mapping")
             return made
+        self.members(made, node, path)
+        if self.dumped and "pNext" in node.value:
+            self.chain(made, node.value["pNext"])
+        return made
+
+    def members(self, made: Record, node: Node, path: str) -> None:
+        """Gives a record the members that a mapping states."""
+        kind = type(made)
         for key_text, value in node.value.items():
             name = self.dumped_name(kind, key_text) if self.dumped else key_text
             if name is None:
                 continue
             found = kind.SHAPE.get(name)
+            key = node.keys[key_text]
             if found is None:
-                self.unknown_key(kind, node.keys[key_text], path)
+                self.unknown_key(kind, key, path)
             elif not (self.dumped and is_null(value)):
-                made.spelled[name] = (node.keys[key_text], value)
-                setattr(
-                    made, name, self.value(found, value, f"{path}.{key_text}" if path else key_text, key_text, node.keys[key_text].span)
-                )
-        if self.dumped and "pNext" in node.value:
-            self.chain(made, node.value["pNext"])
-        return made
+                made.spelled[name] = (key, value)
+                setattr(made, name, self.value(found, value, f"{path}.{key_text}" if path else key_text, key_text, key.span))
 
     def chain(self, record: Record, node: Node) -> None:
         """Members of a record that a pNext chain holds."""
         path = f"{record.path}.pNext"
         while node.kind == "mapping":
             kind = node.value.get("sType")
-            stype = str(kind.value).removeprefix("VK_STRUCTURE_TYPE_") if kind is not None else ""
-            name = PNEXT.get(stype.removesuffix("_KHR").removesuffix("_EXT"))
-            if name is not None and name in record.SHAPE:
+            stype = kind.text.removeprefix("VK_STRUCTURE_TYPE_").removesuffix("_KHR").removesuffix("_EXT") if kind is not None else ""
+            name = PNEXT.get(stype)
+            if WITHIN.get(stype) is type(record):
+                self.members(record, node, path)
+            elif name is not None and name in record.SHAPE:
                 key = node.keys["sType"]
                 record.spelled[name] = (key, node)
                 setattr(record, name, self.value(record.SHAPE[name], node, path, name, key.span))
@@ -160,8 +171,10 @@ class Binder:
             return self.name(shape[1], node, path)
         if kind == "word":
             return self.word(shape[1], node, path)
-        if kind == "map":
-            return self.mapping(shape[1], node, path)
+        if kind in ("map", "numbered"):
+            return self.mapping(shape[1], node, path, kind == "numbered")
+        if kind == "subpass":
+            return self.subpass(node, path)
         if kind == "counted":
             if node.kind == "sequence":
                 return self.items(shape[1], node, path)
@@ -178,10 +191,13 @@ class Binder:
             return ()
         return tuple(self.value(shape, item, f"{path}[{n}]", str(n)) for n, item in enumerate(node.value))
 
-    def mapping(self, shape: Shape, node: Node, path: str) -> dict[str, Any]:
+    def mapping(self, shape: Shape, node: Node, path: str, numbered: bool = False) -> dict[str, Any]:
         if node.kind != "mapping":
-            self.wrong(node, path, "a mapping of names")
+            self.wrong(node, path, "a mapping of numbers" if numbered else "a mapping of names")
             return {}
+        for key in node.keys.values() if numbered else ():
+            if not _is_number(key.text):
+                self.wrong(key, path, "a number as key")
         return {
             name: self.value(shape, value, f"{path}.{shortened(name)}", name, node.keys[name].span) for name, value in node.value.items()
         }
@@ -196,7 +212,7 @@ class Binder:
     def enumerant(self, enum: str, node: Node, path: str) -> str | None:
         text = node.text if node.kind == "scalar" else None
         name = enumerant(enum, text) if text else None
-        if name is None and self.dumped and text is not None and text.isdigit():
+        if name is None and self.dumped and text is not None and _is_number(text):
             name = from_value(enum.partition("|")[0], int(text))
         if name is None:
             if text is None or node.value is None:
@@ -237,7 +253,7 @@ class Binder:
 
     def integer(self, low: int | None, high: int | None, node: Node, path: str) -> int | None:
         value = node.value
-        if self.dumped and isinstance(value, str) and value.isdigit():
+        if self.dumped and isinstance(value, str) and _is_number(value):
             value = int(value)
         if isinstance(value, bool) or not isinstance(value, int):
             self.wrong(node, path, "a whole number")
@@ -254,7 +270,7 @@ class Binder:
                 value = float(node.text)
             except ValueError:
                 value = None
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not _finite(value):
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not finite(value):
             self.wrong(node, path, "a finite number")
             return None
         if above_zero and value <= 0:
@@ -270,7 +286,7 @@ class Binder:
         return node.text
 
     def word(self, words: tuple[Any, ...], node: Node, path: str) -> Any:
-        if node.kind == "scalar" and not isinstance(node.value, bool) and node.value in words:
+        if _is_word(node, words):
             return node.value
         close = nearest(node.text, [w for w in words if isinstance(w, str)]) if node.kind == "scalar" else None
         self.wrong(node, path, f"one of {', '.join(str(word) for word in words)}", f"did you mean `{close}`?" if close else "")
@@ -280,18 +296,31 @@ class Binder:
         """An attachment of the same pass: a name, an index, `{attachment, layout}`, or null."""
         if node.kind == "mapping":
             made: AttachmentReference = self.record(AttachmentReference, node, path, key, head)
-            if isinstance(made.attachment, str) and made.attachment.isdigit():
-                made.attachment = int(made.attachment)
         else:
             made = AttachmentReference(node, path, key, node.span)
             made.attachment, made.layout = None, None
             if node.kind != "scalar" or isinstance(node.value, (bool, float)):
                 self.wrong(node, path, "an attachment: a name, an index, {attachment, layout} or null")
+            elif isinstance(node.value, int):
+                made.attachment = self.integer(0, ATTACHMENT_UNUSED, node, path)
             elif node.value is not None:
-                made.attachment = node.value if isinstance(node.value, int) else node.text
-        if made.attachment in (ATTACHMENT_UNUSED, "VK_ATTACHMENT_UNUSED", "ATTACHMENT_UNUSED", "UNUSED"):
+                made.attachment = node.text
+        if self.dumped and isinstance(made.attachment, str) and _is_number(made.attachment):
+            made.attachment = int(made.attachment)
+        if made.attachment == ATTACHMENT_UNUSED or made.attachment in UNUSED:
             made.attachment = None
         return made
+
+    def subpass(self, node: Node, path: str) -> int | str | None:
+        """The index of a subpass, or EXTERNAL."""
+        if isinstance(node.value, str) and node.text in EXTERNAL:
+            return "EXTERNAL"
+        if isinstance(node.value, str) and not (self.dumped and _is_number(node.text)):
+            close = nearest(node.text, EXTERNAL)
+            self.wrong(node, path, "EXTERNAL or the index of a subpass", f"did you mean `{close}`?" if close else "")
+            return None
+        index = self.integer(0, ATTACHMENT_UNUSED, node, path)
+        return "EXTERNAL" if index == ATTACHMENT_UNUSED else index
 
     def command(self, node: Node, path: str, key: str) -> Command | None:
         """A recorded command: a mapping with one key, or a bare word for one without parameters."""
@@ -314,7 +343,7 @@ class Binder:
         made.kind = kind
         made.body = None
         if parameters is None or (parameters.kind == "scalar" and parameters.value is None):
-            if shape != ("record", "Nothing"):
+            if shape[0] != "null":
                 self.wrong(node, made.path, f"`{kind}` with its parameters")
                 return None
             return made
@@ -345,8 +374,14 @@ def _shown(node: Node) -> str:
     return "nothing" if node.value is None else f"`{shortened(node.text)}`"
 
 
-def _finite(value: int | float) -> bool:
-    return isinstance(value, int) or math.isfinite(value)
+def _is_number(text: str) -> bool:
+    """Whether a text is a whole number of a size that Vulkan has somewhere."""
+    return text.isascii() and text.isdigit() and len(text) <= 20
+
+
+def _is_word(node: Node, words: tuple[Any, ...]) -> bool:
+    """Whether a scalar is one of some words, of which some may be whole numbers."""
+    return node.kind == "scalar" and type(node.value) in (str, int) and node.value in words
 
 
 def _quote_hint(node: Node) -> str:
@@ -363,12 +398,14 @@ def _quote_hint(node: Node) -> str:
 def _fits(shape: Shape, node: Node) -> bool:
     """Whether a node is of the kind that a shape asks for, whatever its value."""
     kind = shape[0]
-    if kind in ("record", "map"):
+    if kind in ("record", "map", "numbered"):
         return node.kind == "mapping"
     if kind == "list":
         return node.kind == "sequence"
     if kind == "word":
-        return node.kind == "scalar" and node.value in shape[1] and not isinstance(node.value, bool)
+        return _is_word(node, shape[1])
+    if kind == "name":
+        return type(node.value) in (str, int)
     if kind == "int":
         return isinstance(node.value, int) and not isinstance(node.value, bool)
     if kind == "number":

@@ -10,12 +10,21 @@ from collections.abc import Callable
 from typing import Annotated, Any, NamedTuple
 
 from annotated_types import Ge, Gt, Le
-from pydantic import AllowInfNan, GetCoreSchemaHandler, GetJsonSchemaHandler, StrictBool, StrictFloat, StrictInt, StrictStr
+from pydantic import (
+    AfterValidator,
+    AllowInfNan,
+    GetCoreSchemaHandler,
+    GetJsonSchemaHandler,
+    StrictBool,
+    StrictFloat,
+    StrictInt,
+    StrictStr,
+    StringConstraints,
+)
 from pydantic_core import CoreSchema, core_schema
 
-from ..vulkan.enums import ENUMS, PREFIXES
-from ..vulkan.names import parse_enum, parse_flags
-from .scalars import SAMPLE_COUNTS, enumerant, sample_count
+from ..vulkan.names import parse_flags
+from .scalars import EXTERNAL, SAMPLE_COUNTS, enumerant, finite, sample_count
 
 JsonSchema = dict[str, Any]
 
@@ -42,11 +51,12 @@ class Enumerant(NamedTuple):
         return _validated(check)
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchema:
-        return {"anyOf": [_spellings(enum) for enum in self.enum.split("|")]}
+        named = [{ENUMERANT: enum} for enum in self.enum.split("|")]
+        return named[0] if len(named) == 1 else {"anyOf": named}
 
 
 class FlagBits(NamedTuple):
-    """Bits of a Vulkan flags type: a list of names, or one string joined by `|`."""
+    """Bits of a Vulkan flags type: a list of names, one string joined by `|`, or 0 for none."""
 
     enum: str
 
@@ -54,22 +64,23 @@ class FlagBits(NamedTuple):
         def check(value: object) -> tuple[str, ...]:
             if isinstance(value, str):
                 return tuple(parse_flags(self.enum, value))
+            if value == 0 and type(value) is int:
+                return ()
             if not isinstance(value, (list, tuple)):
                 raise ValueError(f"{value!r} is no list of {self.enum}")
-            bits = [parse_enum(self.enum, bit) if isinstance(bit, str) else None for bit in value]
+            bits = [enumerant(self.enum, bit) if isinstance(bit, str) else None for bit in value]
             if None in bits:
                 raise ValueError(f"{value!r} has what is no {self.enum}")
-            return tuple(bit for bit in bits if bit is not None)
+            return tuple(dict.fromkeys(bit for bit in bits if bit is not None and bit != "NONE"))
 
         return _validated(check)
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchema:
-        return {"anyOf": [{"type": "array", "items": _spellings(self.enum)}, {"type": "string"}]}
+        return {"anyOf": [{"type": "array", "items": {ENUMERANT: self.enum}}, {FLAGS: self.enum}, {"const": 0}]}
 
 
-def _spellings(enum: str) -> JsonSchema:
-    """The short names, which an editor completes, and the full ones."""
-    return {"anyOf": [{"enum": sorted(ENUMS[enum])}, {"type": "string", "pattern": f"^{PREFIXES[enum]}[A-Z0-9_]+$"}]}
+ENUMERANT, FLAGS = "enumerant of", "flags of"
+"""What stands in a schema for the spellings of an enum's names, alone or joined, until `msaa-lint schema` writes each out once."""
 
 
 class Count:
@@ -85,13 +96,46 @@ class Count:
         return _validated(check)
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchema:
-        return {"anyOf": [{"enum": list(SAMPLE_COUNTS)}, {"type": "string", "pattern": r"^(VK_)?SAMPLE_COUNT_(1|2|4|8|16|32|64)(_BIT)?$"}]}
+        spelled = f"^((VK_)?SAMPLE_COUNT_)?({'|'.join(map(str, SAMPLE_COUNTS))})(_BIT)?$"
+        return {"anyOf": [{"enum": list(SAMPLE_COUNTS)}, {"type": "string", "pattern": spelled}]}
 
 
 class NameOf(NamedTuple):
-    """The name of an entry of another section of the description, e.g. `images`."""
+    """The name of an entry of another section of the description, e.g. `images`. Names may be numbers, as keys may."""
 
     section: str
+
+    def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
+        def check(value: object) -> str:
+            if isinstance(value, bool) or not isinstance(value, (str, int)):
+                raise ValueError(f"{value!r} is no name")
+            return str(value)
+
+        return _validated(check)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchema:
+        return {"type": ["string", "integer"]}
+
+
+class SubpassIndex:
+    """The index of a subpass, or VK_SUBPASS_EXTERNAL."""
+
+    def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
+        def check(value: object) -> int | str:
+            if isinstance(value, str) and value in EXTERNAL:
+                return "EXTERNAL"
+            if type(value) is not int or not 0 <= value < 2**32:
+                raise ValueError(f"{value!r} is no subpass")
+            return "EXTERNAL" if value == 2**32 - 1 else value
+
+        return _validated(check)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchema:
+        return {"anyOf": [{"enum": list(EXTERNAL)}, {"type": "integer", "minimum": 0, "maximum": 2**32 - 1}]}
+
+
+class Null:
+    """A member that may be null: it then says that there is none."""
 
 
 class Slot:
@@ -102,15 +146,23 @@ class Counted:
     """A mapping whose names are in index order, or a list, whose entries are known by their index."""
 
 
+def _number(value: float) -> float:
+    if not finite(value):
+        raise ValueError("a number that is not finite")
+    return value
+
+
 Bool = StrictBool
 Text = StrictStr
-Number = Annotated[StrictFloat | StrictInt, AllowInfNan(False)]
-PositiveNumber = Annotated[StrictFloat | StrictInt, Gt(0), AllowInfNan(False)]
+Number = Annotated[StrictFloat | StrictInt, AllowInfNan(False), AfterValidator(_number)]
+PositiveNumber = Annotated[StrictFloat | StrictInt, Gt(0), AllowInfNan(False), AfterValidator(_number)]
 Index = Annotated[StrictInt, Ge(0), Le(2**32 - 1)]
 Size = Annotated[StrictInt, Ge(1), Le(2**31 - 1)]
 Offset = Annotated[StrictInt, Ge(-(2**31)), Le(2**31 - 1)]
 Samples = Annotated[int, Count()]
-ImageName = Annotated[StrictStr, NameOf("images")]
-RenderPassName = Annotated[StrictStr, NameOf("renderPasses")]
-FramebufferName = Annotated[StrictStr, NameOf("framebuffers")]
-PipelineName = Annotated[StrictStr, NameOf("pipelines")]
+ImageName = Annotated[str, NameOf("images")]
+RenderPassName = Annotated[str, NameOf("renderPasses")]
+FramebufferName = Annotated[str, NameOf("framebuffers")]
+PipelineName = Annotated[str, NameOf("pipelines")]
+SubpassNumber = Annotated[int | str, SubpassIndex()]
+ConstantId = Annotated[str, StringConstraints(strict=True, pattern=r"^(0|[1-9][0-9]{0,9})$")]

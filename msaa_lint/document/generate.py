@@ -17,7 +17,9 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from . import models
-from .fields import Count, Counted, Enumerant, FlagBits, NameOf, Slot
+from .fields import Count, Counted, Enumerant, FlagBits, NameOf, Null, Slot, SubpassIndex
+
+MARKERS = (Enumerant, FlagBits, NameOf, Count, Counted, Slot, SubpassIndex)
 
 TARGET = os.path.join(os.path.dirname(__file__), "records.py")
 
@@ -36,7 +38,7 @@ from .record import Record, Shape
 
 def shape(annotation: Any, metadata: list[Any]) -> tuple[tuple[Any, ...], str]:
     """The shape of a type, and the type that a member read by it has in Python."""
-    marker = next((m for m in metadata if isinstance(m, (Enumerant, FlagBits, NameOf)) or type(m) in (Count, Counted, Slot)), None)
+    marker = next((m for m in metadata if isinstance(m, MARKERS)), None)
     match marker:
         case Enumerant():
             return ("enum", marker.enum), "str"
@@ -48,6 +50,8 @@ def shape(annotation: Any, metadata: list[Any]) -> tuple[tuple[Any, ...], str]:
             return ("samples",), "int"
         case Slot():
             return ("slot",), "AttachmentReference"
+        case SubpassIndex():
+            return ("subpass",), "int | str"
         case Counted():
             item = next(get_args(arm)[0] for arm in get_args(annotation) if get_origin(arm) is tuple)
             return ("counted", shape(item, [])[0]), f"tuple[{item.__name__}, ...]"
@@ -62,7 +66,7 @@ def shape(annotation: Any, metadata: list[Any]) -> tuple[tuple[Any, ...], str]:
         return ("list", inner), f"tuple[{python}, ...]"
     if origin is dict:
         inner, python = shape(get_args(annotation)[1], [])
-        return ("map", inner), f"dict[str, {python}]"
+        return ("map" if get_args(annotation)[0] is str else "numbered", inner), f"dict[str, {python}]"
     if origin in (Union, types.UnionType):
         return _union(list(get_args(annotation)), metadata)
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
@@ -101,8 +105,7 @@ def _union(arms: list[Any], metadata: list[Any]) -> tuple[tuple[Any, ...], str]:
 def member(field: FieldInfo) -> tuple[tuple[Any, ...], str, str]:
     """A member's shape, Python type, and what it is where it is absent."""
     found, python = shape(field.annotation, list(field.metadata))
-    if found[0] == "null":
-        # A member that is null is a wrong value; only items of a list may be null.
+    if found[0] == "null" and not any(isinstance(marker, Null) for marker in field.metadata):
         found = found[1]
     if found[0] == "slot":
         return found, "AttachmentReference | None", "None"

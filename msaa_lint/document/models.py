@@ -10,12 +10,14 @@ shapes that files are read by from them.
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, model_validator
+from pydantic_core import CoreSchema
 
 from .fields import (
     Bool,
+    ConstantId,
     Count,
     Counted,
     Enumerant,
@@ -23,6 +25,8 @@ from .fields import (
     FramebufferName,
     ImageName,
     Index,
+    JsonSchema,
+    Null,
     Number,
     Offset,
     PipelineName,
@@ -31,6 +35,7 @@ from .fields import (
     Samples,
     Size,
     Slot,
+    SubpassNumber,
     Text,
 )
 
@@ -48,9 +53,36 @@ CompareOp = Annotated[str, Enumerant("VkCompareOp")]
 
 
 class Struct(BaseModel):
-    """A structure: unknown members are errors."""
+    """A structure: unknown members are errors, and so is null where a value is due."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _states_values(cls, given: Any) -> Any:
+        nulls = [name for name, value in given.items() if value is None] if isinstance(given, dict) else []
+        for name in nulls:
+            if name in cls.model_fields and not cls._nullable(name):
+                raise ValueError(f"{name} is null: what is unknown is left out")
+        return given
+
+    @classmethod
+    def _nullable(cls, name: str) -> bool:
+        return any(isinstance(marker, (Null, Slot)) for marker in cls.model_fields[name].metadata)
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchema:
+        made = handler(schema)
+        members: dict[str, JsonSchema] = handler.resolve_ref_schema(made).get("properties", {})
+        for name, member in members.items():
+            if member.get("default", ...) is None:
+                del member["default"]
+            arms = member.get("anyOf", [])
+            if {"type": "null"} in arms and not cls._nullable(name):
+                rest = [arm for arm in arms if arm != {"type": "null"}]
+                del member["anyOf"]
+                member.update(rest[0] if len(rest) == 1 else {"anyOf": rest})
+        return made
 
 
 class Extent(Struct):
@@ -157,7 +189,7 @@ class AttachmentDescription(Struct):
 class AttachmentReference(Struct):
     """VkAttachmentReference: a name, an index, or null for VK_ATTACHMENT_UNUSED."""
 
-    attachment: Text | Index | None = None
+    attachment: Annotated[Text | Index | None, Null()] = None
     layout: Layout | None = None
 
 
@@ -197,8 +229,8 @@ class Subpass(Struct):
 class SubpassDependency(Struct):
     """VkSubpassDependency, VkSubpassDependency2. `EXTERNAL` is VK_SUBPASS_EXTERNAL."""
 
-    srcSubpass: Literal["EXTERNAL"] | Index | None = None
-    dstSubpass: Literal["EXTERNAL"] | Index | None = None
+    srcSubpass: SubpassNumber | None = None
+    dstSubpass: SubpassNumber | None = None
     srcStageMask: Stages = ()
     dstStageMask: Stages = ()
     srcAccessMask: Accesses = ()
@@ -307,7 +339,9 @@ class ShaderStage(Struct):
     stage: Annotated[str, Enumerant("VkShaderStageFlagBits")] | None = None
     module: Text | None = None
     name: Text | None = None
-    specialization: dict[Index, Number | Bool] | None = None
+    specialization: dict[ConstantId, Number | Bool] | None = Field(
+        default=None, description="Values by constant id.", json_schema_extra={"additionalProperties": False}
+    )
 
 
 class PipelineRendering(Struct):
@@ -461,11 +495,20 @@ class Nothing(Struct):
 class Command(Struct):
     """One recorded command: a mapping with one key. Those without parameters may be written as a bare word."""
 
+    model_config = ConfigDict(json_schema_extra={"minProperties": 1, "maxProperties": 1})
+
+    @model_validator(mode="before")
+    @classmethod
+    def _is_one(cls, given: Any) -> Any:
+        if isinstance(given, dict) and len(given) != 1:
+            raise ValueError("one command is due here")
+        return given
+
     beginRenderPass: BeginRenderPass | None = None
-    nextSubpass: Nothing | None = None
-    endRenderPass: Nothing | None = None
+    nextSubpass: Annotated[Nothing | None, Null()] = None
+    endRenderPass: Annotated[Nothing | None, Null()] = None
     beginRendering: BeginRendering | None = None
-    endRendering: Nothing | None = None
+    endRendering: Annotated[Nothing | None, Null()] = None
     setRasterizationSamples: Annotated[int, Count()] | None = None
     draw: Draw | None = None
     clearAttachments: ClearAttachments | None = None

@@ -247,7 +247,7 @@ class AttachmentReference(Record):
 
     __slots__ = ("attachment", "layout")
     SHAPE: ClassVar[dict[str, Shape]] = {
-        "attachment": ("either", ("text",), ("int", 0, 4294967295)),
+        "attachment": ("null", ("either", ("text",), ("int", 0, 4294967295))),
         "layout": ("enum", "VkImageLayout"),
     }
     attachment: str | int | None
@@ -340,8 +340,8 @@ class SubpassDependency(Record):
         "viewOffset",
     )
     SHAPE: ClassVar[dict[str, Shape]] = {
-        "srcSubpass": ("either", ("word", ("EXTERNAL",)), ("int", 0, 4294967295)),
-        "dstSubpass": ("either", ("word", ("EXTERNAL",)), ("int", 0, 4294967295)),
+        "srcSubpass": ("subpass",),
+        "dstSubpass": ("subpass",),
         "srcStageMask": ("flags", "VkPipelineStageFlagBits2"),
         "dstStageMask": ("flags", "VkPipelineStageFlagBits2"),
         "srcAccessMask": ("flags", "VkAccessFlagBits2"),
@@ -349,8 +349,8 @@ class SubpassDependency(Record):
         "dependencyFlags": ("flags", "VkDependencyFlagBits"),
         "viewOffset": ("int", -2147483648, 2147483647),
     }
-    srcSubpass: str | int | None
-    dstSubpass: str | int | None
+    srcSubpass: int | str | None
+    dstSubpass: int | str | None
     srcStageMask: tuple[str, ...]
     dstStageMask: tuple[str, ...]
     srcAccessMask: tuple[str, ...]
@@ -563,7 +563,7 @@ class ShaderStage(Record):
         "stage": ("enum", "VkShaderStageFlagBits"),
         "module": ("text",),
         "name": ("text",),
-        "specialization": ("map", ("either", ("number", False), ("bool",))),
+        "specialization": ("numbered", ("either", ("number", False), ("bool",))),
     }
     stage: str | None
     module: str | None
@@ -866,10 +866,10 @@ class Command(Record):
     __slots__ = ("body", "kind")
     SHAPE: ClassVar[dict[str, Shape]] = {
         "beginRenderPass": ("record", "BeginRenderPass"),
-        "nextSubpass": ("record", "Nothing"),
-        "endRenderPass": ("record", "Nothing"),
+        "nextSubpass": ("null", ("record", "Nothing")),
+        "endRenderPass": ("null", ("record", "Nothing")),
         "beginRendering": ("record", "BeginRendering"),
-        "endRendering": ("record", "Nothing"),
+        "endRendering": ("null", ("record", "Nothing")),
         "setRasterizationSamples": ("samples",),
         "draw": ("record", "Draw"),
         "clearAttachments": ("record", "ClearAttachments"),

@@ -64,7 +64,9 @@ def aspect_facts(each: Pass, attachment: Attachment, aspect: Aspect, timeline: T
         resolved = None
     facts.put("aspect.resolved", resolved, next((r.target_at for r in resolves if r.mode not in (None, "NONE")), None))
     over: set[str] = set().union(*attachment.resolve.values())
-    facts.put("aspect.resolved_over", True if aspect.name in over else None if "?" in over or (over and aspect.name is None) else False)
+    overwritten = True if aspect.name in over else None if "?" in over or (over and aspect.name is None) else False
+    onto = [r for s in each.subpasses for r in s.resolves if r.target is attachment and r.aspect == aspect.name and r.mode != "NONE"]
+    facts.put("aspect.resolved_over", overwritten, onto[0].target_at if onto else None)
     at = {subpass for subpass, aspects in attachment.resolve.items() if aspect.name in aspects}
     # A resolve comes at the end of its subpass: the same subpass reads what was there before.
     before = bool(at) and (any(s <= min(at) for s in attachment.input) or any(s < min(at) for s in attachment.depth_stencil))

@@ -4,7 +4,22 @@ from __future__ import annotations
 
 from ..document.record import Record
 from ..document.records import BeginRenderPass, Framebuffer
-from .frame import RENDER_PASS, Attachment, Frame, Pass, Target
+from .frame import RENDER_PASS, RENDERING, Attachment, Frame, Pass, Target
+
+
+MAX_USES = 500_000
+"""How many uses of images by passes are followed. Some thousand passes have some ten thousand; hostile ones attachments times begins."""
+
+
+def uses_at_most(frame: Frame) -> int:
+    """A bound on how often passes use images: every attachment, each time its pass is begun, with every framebuffer."""
+    begins: dict[str | None, int] = {}
+    for command in frame.commands:
+        if isinstance(command.body, BeginRenderPass):
+            alternating = command.body.framebuffer
+            count = len(alternating) if isinstance(alternating, tuple) else 1
+            begins[command.body.renderPass] = begins.get(command.body.renderPass, 0) + max(count, 1)
+    return sum(len(each.attachments) * (1 if each.kind == RENDERING else begins.get(each.name, 1)) for each in frame.passes)
 
 
 def targets_at(frame: Frame, attachment: Attachment, position: int | None) -> list[Target]:

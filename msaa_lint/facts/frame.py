@@ -146,7 +146,7 @@ class Resolve:
         self.target_image: Target | None = None
         self.target_at: Span = record.head
         self.pair: Resolve | None = None
-        """The resolve of the other aspect by the same structure."""
+        """The resolve of the other aspect by the same structure, or of the same rendering; without a pass where it states NONE alone."""
 
 
 class PassSubpass:
@@ -193,7 +193,18 @@ class Pass:
 class Frame:
     """All of a description, joined."""
 
-    __slots__ = ("_named", "commands", "description", "document", "framebuffers", "passes", "pipelines", "resolve_commands", "targets")
+    __slots__ = (
+        "_columns",
+        "_named",
+        "commands",
+        "description",
+        "document",
+        "framebuffers",
+        "passes",
+        "pipelines",
+        "resolve_commands",
+        "targets",
+    )
 
     def __init__(self, document: Document) -> None:
         self.document = document
@@ -204,6 +215,8 @@ class Frame:
         self.commands: tuple[Command, ...] = tuple(c for c in self.description.commands or () if c is not None)
         self.passes: list[Pass] = []
         self._named: dict[str, Pass] = {}
+        self._columns: dict[str, list[dict[str, None]]] = {}
+        """By render pass: for each attachment the images that framebuffers bind to it."""
         self.pipelines: list[tuple[Pipeline, Pass | None]] = []
         self.resolve_commands: list[tuple[int, Resolve]] = []
         self.framebuffers = self._used_framebuffers()
@@ -270,8 +283,15 @@ class Frame:
 
     def _bound(self, render_pass: str, index: int) -> list[str]:
         """The images that framebuffers bind to an attachment: those the commands begin it with, else the only one for it."""
-        names = [f.attachments[index] for f in self.framebuffers.get(render_pass, ()) if index < len(f.attachments)]
-        return [name for name in dict.fromkeys(names) if name is not None]
+        if render_pass not in self._columns:
+            columns: list[dict[str, None]] = []
+            for framebuffer in self.framebuffers.get(render_pass, ()):
+                columns.extend({} for _ in range(len(columns), len(framebuffer.attachments)))
+                for column, name in zip(columns, framebuffer.attachments, strict=False):
+                    if name is not None:
+                        column[name] = None
+            self._columns[render_pass] = columns
+        return list(self._columns[render_pass][index]) if index < len(self._columns[render_pass]) else []
 
     def _used_framebuffers(self) -> dict[str, list[Framebuffer]]:
         """By render pass: the framebuffers that the commands begin it with; where they name none, the only one for it."""
@@ -338,13 +358,17 @@ class Frame:
         chained = record.depthStencilResolve
         pair: Resolve | None = None
         target.resolve.setdefault(index, set())
-        for aspect, mode, member in (
+        # A target may leave an aspect of the source out, not add one (VUID-...-03181, 03182).
+        known = target.format or (source.format if source is not None else None)
+        certain = target.format is not None or (known is not None and len(known.aspects) == 1)
+        for aspect, stated, member in (
             ("depth", chained.depthResolveMode, "depthResolveMode"),
             ("stencil", chained.stencilResolveMode, "stencilResolveMode"),
         ):
             # A mode for an aspect that the target's format lacks is ignored (VUID-VkSubpassDescriptionDepthStencilResolve-...-03178).
-            if target.format is not None and aspect not in target.format.aspects:
+            if known is not None and aspect not in known.aspects:
                 continue
+            mode = stated if certain or stated == "NONE" else None
             resolve = Resolve("subpass", aspect, chained, chained.path)
             resolve.source, resolve.target, resolve.mode = source, target, mode
             resolve.mode_at = chained.place(member)
@@ -399,14 +423,16 @@ class Frame:
                 subpass.color.append(attachment)
             else:
                 subpass.depth_stencil.append(attachment)
-            if info.resolveImage is None and info.resolveMode in (None, "NONE"):
+            unresolved = info.resolveImage is None and info.resolveMode in (None, "NONE")
+            if unresolved and (aspect == "color" or info.resolveMode is None):
                 continue
             resolve = Resolve(RENDERING, aspect, info, info.path)
             resolve.source, resolve.mode = attachment, info.resolveMode
             resolve.mode_at = info.place("resolveMode", "resolveImage")
             resolve.source_at = info.place("image")
             resolve.target_at = info.place("resolveImage", "resolveMode")
-            self._joined(subpass, resolve, 0)
+            if not unresolved:
+                self._joined(subpass, resolve, 0)
             resolve.target_image = self.target(info.resolveImage)
             if aspect != "color":
                 if pair is not None:

@@ -66,6 +66,7 @@ def image_facts(target: Target, bindings: Bindings, frame: Frame, timeline: Time
     rendered = _rendered(target, bound, bindings)
     facts.put("image.name", target.title, record.head)
     facts.put("image.stated", image is not None)
+    facts.put("image.is_data", image is not None and image.encoding == "DATA")
     facts.put("image.samples", target.samples, record.place("samples"))
     format = target.format
     facts.put("image.format", format.name if format is not None else None, record.place("format"))
@@ -116,7 +117,9 @@ def image_facts(target: Target, bindings: Bindings, frame: Frame, timeline: Time
     if blockers or None not in (image.usage, image.sharingMode, image.tiling):
         _put_first(facts, "image.compression_blockers", blockers)
     facts.put("image.read", _read(target, bindings, frame, timeline))
-    facts.put("image.averaged_by_reader", _averaged(bindings.reads.get(target.name, []), frame))
+    reads = bindings.reads.get(target.name, [])
+    averages = next((body.place("resolves") for body in reads if body.resolves == "AVERAGE"), None)
+    facts.put("image.averaged_by_reader", _averaged(reads, frame), averages)
     return facts
 
 
@@ -195,6 +198,8 @@ def _read(target: Target, bindings: Bindings, frame: Frame, timeline: Timeline) 
     assert image is not None
     if any(attachment.input for attachment in bindings.attachments.get(id(image), ())):
         return True
+    if not timeline.followed:
+        return None
     uses = timeline.uses.get(target.name, [])
     if frame.has_commands and (uses or id(image) in bindings.begun):
         return any(use.kind == "read" and use.aspect is None for use in uses)

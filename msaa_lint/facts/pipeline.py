@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from typing import NamedTuple
 
-from ..document.records import ColorBlendState, Pipeline
+from ..document.records import ColorBlendAttachment, ColorBlendState, MultisampleState, Pipeline
 from ..document.records import Draw as DrawCommand
 from ..finding import Span
 from ..vulkan.formats import Format, format_of
@@ -33,16 +33,35 @@ def subpass_of(pipeline: Pipeline, within: Pass | None) -> PassSubpass | None:
     return within.subpasses[index] if index is not None and index < len(within.subpasses) else None
 
 
-def pipeline_facts(pipeline: Pipeline, subpass: PassSubpass | None, draws: Sequence[Draw]) -> Facts:
+def unshaded(frame: Frame) -> frozenset[tuple[str | None, int]]:
+    """The subpasses, and as (None, 0) dynamic rendering, for which some multisampled pipeline states sampleShadingEnable off."""
+    found = set()
+    for pipeline, _ in frame.pipelines:
+        state = pipeline.multisampleState
+        if state is not None and state.sampleShadingEnable is False and state.rasterizationSamples != 1 and not _discards(pipeline):
+            found.add(_subpass_key(pipeline))
+    return frozenset(found)
+
+
+def _subpass_key(pipeline: Pipeline) -> tuple[str | None, int]:
+    return pipeline.renderPass, pipeline.subpass or 0
+
+
+def pipeline_facts(
+    pipeline: Pipeline, subpass: PassSubpass | None, draws: Sequence[Draw], chosen_in: frozenset[tuple[str | None, int]]
+) -> Facts:
     """What is known of a pipeline and of what it draws to. `draws` are the recorded ones with it."""
     facts = Facts()
     facts.put("pipeline.name", pipeline.key, pipeline.head)
-    state = pipeline.multisampleState
+    # Vulkan ignores both where rasterization is disabled.
+    state = pipeline.multisampleState if not _discards(pipeline) else None
+    blend = pipeline.colorBlendState if not _discards(pipeline) else None
     dynamic = set(pipeline.dynamicState)
     samples, at = _rasterization_samples(pipeline, draws)
     facts.put("pipeline.rasterization_samples", samples, at)
     if state is not None:
         facts.put("pipeline.sample_shading", state.sampleShadingEnable, state.place("sampleShadingEnable"))
+        facts.put("pipeline.sample_shading_chosen", _subpass_key(pipeline) in chosen_in)
         fraction = float(state.minSampleShading) if state.minSampleShading is not None else None
         facts.put("pipeline.min_sample_shading", fraction, state.place("minSampleShading"))
         if fraction is not None and samples is not None and 0 <= fraction <= 1:
@@ -54,11 +73,10 @@ def pipeline_facts(pipeline: Pipeline, subpass: PassSubpass | None, draws: Seque
     raster = pipeline.rasterizationState
     if raster is not None and "RASTERIZER_DISCARD_ENABLE" not in dynamic:
         facts.put("pipeline.rasterizer_discard", raster.rasterizerDiscardEnable, raster.place("rasterizerDiscardEnable"))
-    blend = pipeline.colorBlendState
     if blend is not None and "COLOR_BLEND_ENABLE_EXT" not in dynamic:
         if blend.attachments:
             first = blend.attachments[0]
-            facts.put("pipeline.blends_first", first.blendEnable, first.place("blendEnable"))
+            facts.put("pipeline.blends_first", _blends_by_alpha(first, state, dynamic), first.place("blendEnable"))
         floats, blended_at = _blended_floats(blend, _formats(pipeline, subpass))
         if floats is not None:
             facts.put("pipeline.blended_float_formats", floats, blended_at)
@@ -73,9 +91,9 @@ def _rasterization_samples(pipeline: Pipeline, draws: Sequence[Draw]) -> tuple[i
 
     Vulkan ignores pMultisampleState where rasterization is disabled, and its rasterizationSamples where that is dynamic state.
     """
-    state, raster, dynamic = pipeline.multisampleState, pipeline.rasterizationState, pipeline.dynamicState
+    state, dynamic = pipeline.multisampleState, pipeline.dynamicState
     at = state.place("rasterizationSamples") if state is not None else pipeline.head
-    if raster is not None and raster.rasterizerDiscardEnable and "RASTERIZER_DISCARD_ENABLE" not in dynamic:
+    if _discards(pipeline):
         return None, at
     if SAMPLES_DYNAMIC not in dynamic:
         return state.rasterizationSamples if state is not None else None, at
@@ -111,6 +129,21 @@ def draws_of(frame: Frame) -> dict[str, list[Draw]]:
 def _resolves_itself(subpass: PassSubpass) -> bool:
     """Whether a subpass or rendering resolves by a shader: the pipeline that does has the targets' count."""
     return any(flag.startswith(("CUSTOM_RESOLVE", "SHADER_RESOLVE", "FRAGMENT_REGION")) for flag in subpass.record.flags)
+
+
+def _discards(pipeline: Pipeline) -> bool:
+    """Whether rasterization is stated to be disabled, for all draws."""
+    raster = pipeline.rasterizationState
+    return raster is not None and raster.rasterizerDiscardEnable is True and "RASTERIZER_DISCARD_ENABLE" not in pipeline.dynamicState
+
+
+def _blends_by_alpha(blended: ColorBlendAttachment, state: MultisampleState | None, dynamic: Container[str]) -> bool | None:
+    """Whether blending is on and weighs colours by the shader's alpha, as far as the factors and alphaToOneEnable are stated."""
+    one = state is not None and state.alphaToOneEnable and "ALPHA_TO_ONE_ENABLE_EXT" not in dynamic
+    factors = (blended.srcColorBlendFactor, blended.dstColorBlendFactor)
+    known = None not in factors and "COLOR_BLEND_EQUATION_EXT" not in dynamic
+    without = known and not any("SRC_ALPHA" in factor for factor in factors if factor is not None)
+    return False if one or without or blended.colorWriteMask == () else blended.blendEnable
 
 
 def _dropped(mask: tuple[int, ...], samples: int) -> int:

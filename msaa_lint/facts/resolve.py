@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
+
 from ..devices import DeviceProfile
 from ..devices.shares import resolve_mode_share
 from ..vulkan.formats import Format
+from .begin import MAX_USES, covers, targets_at, uses_at_most
 from .facts import Facts
 from .frame import RENDERING, Frame, Pass, Resolve, Target
-from .timeline import Timeline
+
+Writers = dict[str, list[tuple[int, Pass | None]]]
+"""By image: the positions of the commands that write to it, and the pass that draws there; None where something else writes."""
+
+_WRITE = {"copyImage": "dstImage", "writeImage": "image", "clearColorImage": "image", "clearDepthStencilImage": "image"}
+# Of the commands that write to a multisampled image; blits and copies from buffers cannot.
 
 
 def resolve_facts(resolve: Resolve, device: DeviceProfile | None) -> Facts:
@@ -38,31 +46,45 @@ def resolve_facts(resolve: Resolve, device: DeviceProfile | None) -> Facts:
     return facts
 
 
-def command_facts(facts: Facts, resolve: Resolve, position: int, frame: Frame, timeline: Timeline) -> None:
-    """What the frame says of a vkCmdResolveImage: whether the pass before it could have resolved."""
-    if resolve.source_image is None:
+def writers_of(frame: Frame) -> Writers:
+    """Who writes to which images, in the order of the commands."""
+    writers: Writers = {}
+    if uses_at_most(frame) > MAX_USES:
+        return writers
+    begins = {position: each for each in frame.passes for position in each.begun}
+    for position, command in enumerate(frame.commands):
+        if position in begins:
+            each = begins[position]
+            for name in {t.name for a in each.attachments if a.drawn for t in targets_at(frame, a, position)}:
+                writers.setdefault(name, []).append((position, each))
+        written = getattr(command.body, _WRITE.get(command.kind, "-"), None)
+        if isinstance(written, str):
+            writers.setdefault(written, []).append((position, None))
+    return writers
+
+
+def command_facts(facts: Facts, resolve: Resolve, position: int, frame: Frame, writers: Writers) -> None:
+    """What the frame says of a vkCmdResolveImage: whether the pass before it, round the loop, could have resolved."""
+    source, target = resolve.source_image, resolve.target_image
+    written = writers.get(source.name, []) if source is not None else []
+    if source is None or not written:
         return
-    writer = _last_writer(resolve.source_image, position, frame, timeline)
-    if writer is None:
+    at, within = written[bisect_left(written, position, key=lambda writer: writer[0]) - 1]
+    if within is None:
+        facts.put("resolve.pass_could_resolve", False)
         return
-    within, written = writer
     facts.put("resolve.writer", within.name, within.record.head)
-    attachments = [a for a in within.attachments if any(t is resolve.source_image for t in a.targets)]
-    resolved = [r for s in within.subpasses for r in s.resolves if any(r.source is a for a in attachments)]
-    facts.put("resolve.pass_could_resolve", written and not resolved)
+    drawn = [a for a in within.attachments if source in targets_at(frame, a, at)]
+    modes = [r.mode for s in within.subpasses for r in s.resolves if r.source in drawn and r.mode != "NONE"]
+    could = None if modes == [None] or not covers(frame, within, at, source) or _sizes_differ(source, target) else not modes
+    facts.put("resolve.pass_could_resolve", could)
 
 
-def _last_writer(image: Target, position: int, frame: Frame, timeline: Timeline) -> tuple[Pass, bool] | None:
-    """The pass begun last before a command that draws to the image, and whether nothing else wrote it in between."""
-    begins = sorted(
-        (at, each) for each in frame.passes for at in each.begun if any(a.drawn and image in a.targets for a in each.attachments)
-    )
-    before = [each for at, each in begins if at < position] or [each for _, each in begins]
-    if not before:
-        return None
-    at = max(at for at, each in begins if each is before[-1])
-    between = [u for u in timeline.uses.get(image.name, []) if at < u.position < position and u.kind != "read"]
-    return before[-1], not between
+def _sizes_differ(source: Target, target: Target | None) -> bool:
+    """Whether two images are known to differ in width or height: attachments of one pass are resolved texel for texel."""
+    one = source.image.extent if source.image is not None else None
+    other = target.image.extent if target is not None and target.image is not None else None
+    return one is not None and other is not None and (one.width, one.height) != (other.width, other.height)
 
 
 def _samples(resolve: Resolve, end: str) -> int | None:
@@ -88,7 +110,8 @@ def formats_match(resolve: Resolve, source: Format | None, target: Format | None
     if resolve.within is not None and resolve.within.custom_resolve:
         return True
     if resolve.kind != "subpass" or resolve.aspect == "color":
-        return source.name == target.name
+        same = source.name == target.name
+        return None if not same and _other_view(resolve) else same
     if resolve.aspect not in target.aspects:
         return True
     if resolve.aspect == "depth":
@@ -96,34 +119,61 @@ def formats_match(resolve: Resolve, source: Format | None, target: Format | None
     return (source.stencil_bits, source.stencil_type) == (target.stencil_bits, target.stencil_type)
 
 
+def _other_view(resolve: Resolve) -> bool:
+    """Whether the formats are those of images of which a view may have another: MUTABLE_FORMAT, and no attachment that states its own."""
+    if resolve.kind == "command":
+        return False
+    ends = ((resolve.source, resolve.source_image), (resolve.target, resolve.target_image))
+    images = [t.image for a, t in ends if t is not None and not (a is not None and a.record.states("format"))]
+    return any(image is not None and "MUTABLE_FORMAT" in image.flags for image in images)
+
+
 def _modes(facts: Facts, resolve: Resolve, device: DeviceProfile | None) -> None:
     pair = resolve.pair
-    facts.put("resolve.first_of_pair", pair is None or resolve.aspect == "depth")
+    facts.put("resolve.first_of_pair", pair is None or pair.within is None or resolve.aspect == "depth")
     modes = [resolve.mode] if pair is None else [resolve.mode, pair.mode]
     facts.put("resolve.all_modes_none", False if any(m not in (None, "NONE") for m in modes) else None if None in modes else True)
     if resolve.aspect == "color":
         return
     if resolve.mode is not None and resolve.mode != "NONE":
         facts.put("resolve.share_of_tilers", resolve_mode_share(resolve.mode, tilers=True))
-    if device is None:
-        return
-    offered = device.depth_resolve_modes if resolve.aspect == "depth" else device.stencil_resolve_modes
+    offered = _offered(resolve, device)
     if offered is not None:
         facts.put("resolve.supported_modes", list(offered))
-        if resolve.mode is not None and (resolve.mode in (*offered, "NONE") or not device.minimum):
-            facts.put("resolve.mode_supported", resolve.mode in (*offered, "NONE"), resolve.mode_at)
+    # Every device offers SAMPLE_ZERO.
+    certain = (*(offered or ("SAMPLE_ZERO",)), "NONE")
+    if resolve.mode is not None and (resolve.mode in certain or (offered is not None and device is not None and not device.minimum)):
+        facts.put("resolve.mode_supported", resolve.mode in certain, resolve.mode_at)
     if pair is not None:
         facts.put("resolve.pair_supported", _pair_supported(resolve, pair, device), resolve.mode_at)
 
 
-def _pair_supported(resolve: Resolve, pair: Resolve, device: DeviceProfile) -> bool | None:
-    """Modes may differ with independentResolve, or with independentResolveNone where one is NONE (03185, 03186)."""
+def _offered(resolve: Resolve, device: DeviceProfile | None) -> tuple[str, ...] | None:
+    if device is None:
+        return None
+    return device.depth_resolve_modes if resolve.aspect == "depth" else device.stencil_resolve_modes
+
+
+def _offers(device: DeviceProfile, resolve: Resolve) -> bool:
+    offered = _offered(resolve, device)
+    return offered is None or resolve.mode in (*offered, "NONE")
+
+
+def _pair_supported(resolve: Resolve, pair: Resolve, device: DeviceProfile | None) -> bool | None:
+    """Modes may differ with independentResolve, or with independentResolveNone where one is NONE (03185, 03186).
+
+    Of a mode that the device does not offer at all, that is what is wrong.
+    """
     if resolve.mode is None or pair.mode is None:
         return None
-    if resolve.mode == pair.mode or device.independent_resolve:
+    if resolve.mode == pair.mode:
+        return True
+    if device is None:
+        return None
+    if device.independent_resolve or not _offers(device, resolve) or not _offers(device, pair):
         return True
     if "NONE" in (resolve.mode, pair.mode):
-        answer = device.independent_resolve_none if not device.independent_resolve else True
+        answer = device.independent_resolve_none
         if device.independent_resolve is None and not answer:
             return None
     else:
@@ -131,4 +181,4 @@ def _pair_supported(resolve: Resolve, pair: Resolve, device: DeviceProfile) -> b
     return None if device.minimum and not answer else answer
 
 
-__all__ = ["RENDERING", "command_facts", "formats_match", "resolve_facts"]
+__all__ = ["RENDERING", "command_facts", "formats_match", "resolve_facts", "writers_of"]

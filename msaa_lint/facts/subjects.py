@@ -11,9 +11,9 @@ from .dependency import external_dependencies, recorded_barriers
 from .facts import Facts, Subject
 from .frame import Attachment, Frame
 from .image import Bindings, image_facts
-from .pipeline import draws_of, pipeline_facts, subpass_of
-from .resolve import command_facts, resolve_facts
-from .subpass import subpass_facts
+from .pipeline import draws_of, pipeline_facts, subpass_of, unshaded
+from .resolve import command_facts, resolve_facts, writers_of
+from .subpass import pipelines_drawn, subpass_facts
 from .surroundings import profile, surroundings
 from .timeline import Timeline
 
@@ -31,6 +31,7 @@ def subjects(document: Document, default_device: DeviceProfile | None = None) ->
         images[id(target.record)] = facts
         yield Subject("image", target.path, target.record.head, Facts(around, facts))
     of_subpass: dict[str, Facts] = {}
+    drawn = pipelines_drawn(frame)
     barriers = recorded_barriers(frame)
     for each in frame.passes:
         shared = Facts(around, pass_facts(each))
@@ -41,22 +42,24 @@ def subjects(document: Document, default_device: DeviceProfile | None = None) ->
                 facts = Facts(base, aspect_facts(each, attachment, aspect, timeline))
                 yield Subject("aspect", attachment.record.path, attachment.record.head, facts)
         for subpass in each.subpasses:
-            own = Facts(shared, subpass_facts(subpass, frame))
+            own = Facts(shared, subpass_facts(subpass, frame, drawn))
             of_subpass[subpass.path] = own
             yield Subject("subpass", subpass.path, subpass.record.head, own)
             for resolve in subpass.resolves:
                 yield Subject("resolve", resolve.path, resolve.record.head, Facts(shared, resolve_facts(resolve, device)))
         for record, facts in external_dependencies(each, barriers):
             yield Subject("dependency", record.path, record.head, Facts(shared, facts))
+    writers = writers_of(frame) if frame.resolve_commands else {}
     for position, resolve in frame.resolve_commands:
         facts = Facts(around, resolve_facts(resolve, device))
-        command_facts(facts, resolve, position, frame, timeline)
+        command_facts(facts, resolve, position, frame, writers)
         yield Subject("resolve", resolve.path, resolve.record.head, facts)
     draws = draws_of(frame) if frame.pipelines else {}
+    without_shading = unshaded(frame)
     for pipeline, within in frame.pipelines:
         drawn_in = subpass_of(pipeline, within)
         base = of_subpass[drawn_in.path] if drawn_in is not None else around
-        facts = pipeline_facts(pipeline, drawn_in, draws.get(pipeline.key, ()))
+        facts = pipeline_facts(pipeline, drawn_in, draws.get(pipeline.key, ()), without_shading)
         yield Subject("pipeline", pipeline.path, pipeline.head, Facts(base, facts))
 
 

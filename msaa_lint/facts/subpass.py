@@ -2,13 +2,28 @@
 
 from __future__ import annotations
 
-from ..document.records import Subpass
+from ..document.records import BeginRendering, Draw, Pipeline, Subpass
 from .facts import Facts
-from .frame import RENDER_PASS, Frame, PassSubpass
+from .frame import Frame, PassSubpass
 from .surroundings import single_sampled_render
 
+Drawn = dict[int, list[Pipeline | None]]
+"""By the position of a vkCmdBeginRendering: the pipelines of the draws in it, None where a draw names none."""
 
-def subpass_facts(subpass: PassSubpass, frame: Frame) -> Facts:
+
+def pipelines_drawn(frame: Frame) -> Drawn:
+    """What the commands draw in each dynamic rendering."""
+    drawn: Drawn = {}
+    within: list[Pipeline | None] = []
+    for position, command in enumerate(frame.commands):
+        if command.kind in ("beginRendering", "beginRenderPass"):
+            within = drawn[position] = []
+        elif isinstance(command.body, Draw):
+            within.append(frame.description.pipelines.get(command.body.pipeline or ""))
+    return drawn
+
+
+def subpass_facts(subpass: PassSubpass, frame: Frame, drawn: Drawn) -> Facts:
     """What is known of a subpass, or of a dynamic rendering."""
     facts = Facts()
     record = subpass.record
@@ -34,7 +49,7 @@ def subpass_facts(subpass: PassSubpass, frame: Frame) -> Facts:
     facts.put("subpass.differs_from_single_sampled_count", odd)
     shared = samples_of(subpass)
     facts.put("subpass.samples", shared, record.place("colorAttachments", "depthStencilAttachment", "depthAttachment", "stencilAttachment"))
-    _pipelines(facts, subpass, frame)
+    _pipelines(facts, _own_pipelines(subpass, frame, drawn))
     return facts
 
 
@@ -72,22 +87,30 @@ def _decided(answer: bool, counts: list[int | None]) -> bool | None:
     return True if answer else None if None in counts else False
 
 
-def _pipelines(facts: Facts, subpass: PassSubpass, frame: Frame) -> None:
-    if subpass.within.kind != RENDER_PASS or not frame.document.whole:
-        facts.put("subpass.has_pipelines", False)
-        return
-    only = 0 if len(subpass.within.subpasses) == 1 else None
-    own = [p for p, w in frame.pipelines if w is subpass.within and subpass.index == (only if p.subpass is None else p.subpass)]
-    facts.put("subpass.has_pipelines", bool(own), own[0].head if own else None)
-    answers: list[bool | None] = []
-    for pipeline in own:
-        discard = pipeline.rasterizationState.rasterizerDiscardEnable if pipeline.rasterizationState is not None else None
-        samples = pipeline.multisampleState.rasterizationSamples if pipeline.multisampleState is not None else None
-        if "RASTERIZATION_SAMPLES_EXT" in pipeline.dynamicState:
-            samples = None
-        if discard is True or samples == 1:
-            answers.append(False)
-        else:
-            answers.append(None if discard is None and samples is None else True)
+def _own_pipelines(subpass: PassSubpass, frame: Frame, drawn: Drawn) -> list[Pipeline | None]:
+    """The pipelines that draw in it: those made for a subpass, those of the draws in a rendering. None where that is not all of them."""
+    within = subpass.within
+    if isinstance(within.record, BeginRendering):
+        elsewhere = any(flag.startswith(("SUSPENDING", "RESUMING", "CONTENTS_SECONDARY")) for flag in within.record.flags)
+        return [] if elsewhere else drawn.get(within.begun[0], [])
+    if not frame.document.whole:
+        return []
+    only = 0 if len(within.subpasses) == 1 else None
+    return [p for p, w in frame.pipelines if w is within and subpass.index == (only if p.subpass is None else p.subpass)]
+
+
+def _pipelines(facts: Facts, own: list[Pipeline | None]) -> None:
+    facts.put("subpass.has_pipelines", bool(own), own[0].head if own and own[0] is not None else None)
+    answers = [_covers_in_part(pipeline) if pipeline is not None else None for pipeline in own]
     if own:
         facts.put("subpass.partial_coverage", True if True in answers else None if None in answers else False)
+
+
+def _covers_in_part(pipeline: Pipeline) -> bool | None:
+    """Whether a pipeline can cover a pixel in part; None where what decides it is not stated."""
+    raster, state, dynamic = pipeline.rasterizationState, pipeline.multisampleState, pipeline.dynamicState
+    discard = raster.rasterizerDiscardEnable if raster is not None and "RASTERIZER_DISCARD_ENABLE" not in dynamic else None
+    samples = state.rasterizationSamples if state is not None and "RASTERIZATION_SAMPLES_EXT" not in dynamic else None
+    if discard is True or samples == 1:
+        return False
+    return None if discard is None and samples is None else True

@@ -97,6 +97,7 @@ _IMAGE = (
     Fact("image.attachment_usage", "BOOL", "its usage has COLOR_ATTACHMENT, DEPTH_STENCIL_ATTACHMENT or INPUT_ATTACHMENT"),
     Fact("image.transient_conflicts", "LIST", "usages it has that Vulkan forbids beside TRANSIENT_ATTACHMENT", "VkImageUsageFlagBits"),
     Fact("image.presentable", "BOOL", "it belongs to a swapchain"),
+    Fact("image.is_data", "BOOL", "its values are stated to be no colour; never unknown"),
     Fact("image.encoding", "STRING", "what its values mean", "encoding"),
     Fact("image.is_render_target", "BOOL", "a pass draws or resolves to it, or its usage allows that"),
     Fact("image.read", "BOOL", "something other than a resolve inside a pass reads it"),
@@ -165,7 +166,7 @@ _SUBPASS = (
         "BOOL",
         "render to single-sampled: an attachment has neither one sample nor the stated count",
     ),
-    Fact("subpass.has_pipelines", "BOOL", "the description is whole and lists pipelines for it"),
+    Fact("subpass.has_pipelines", "BOOL", "the description is whole and lists pipelines for it; a rendering: draws are recorded in it"),
     Fact("subpass.partial_coverage", "BOOL", "some pipeline of it can cover a pixel in part"),
 )
 _RESOLVE = (
@@ -190,7 +191,9 @@ _RESOLVE = (
     Fact("resolve.mode_supported", "BOOL", "the device offers its mode"),
     Fact("resolve.supported_modes", "LIST", "the modes that the device offers for its aspect", "VkResolveModeFlagBits"),
     Fact(
-        "resolve.pair_supported", "BOOL", "the device offers the two aspects' modes together (independentResolve, independentResolveNone)"
+        "resolve.pair_supported",
+        "BOOL",
+        "the device offers the two modes together, where it offers each (independentResolve, independentResolveNone)",
     ),
     Fact("resolve.pass_could_resolve", "BOOL", "a command: the source was last written by a pass that does not resolve it, and could"),
     Fact("resolve.writer", "STRING", "a command: the pass that last wrote the source"),
@@ -205,6 +208,11 @@ _PIPELINE = (
     ),
     Fact("pipeline.attachment_samples", "INT", "the sample count that its subpass or rendering has; unknown beside a custom resolve"),
     Fact("pipeline.sample_shading", "BOOL", "sampleShadingEnable"),
+    Fact(
+        "pipeline.sample_shading_chosen",
+        "BOOL",
+        "another multisampled pipeline of its subpass, or for dynamic rendering, states sampleShadingEnable off",
+    ),
     Fact("pipeline.min_sample_shading", "DOUBLE", "minSampleShading"),
     Fact(
         "pipeline.shaded_samples",
@@ -212,7 +220,11 @@ _PIPELINE = (
         "fragment shader runs a pixel that sample shading demands: max(ceil(minSampleShading * samples), 1)",
     ),
     Fact("pipeline.alpha_to_coverage", "BOOL", "alphaToCoverageEnable"),
-    Fact("pipeline.blends_first", "BOOL", "blending is on for colour attachment 0"),
+    Fact(
+        "pipeline.blends_first",
+        "BOOL",
+        "blending is on for colour attachment 0 and weighs by the shader's alpha, as far as factors and alphaToOneEnable are stated",
+    ),
     Fact("pipeline.dropped_samples", "INT", "samples below the count that sampleMask clears; 0 without a mask"),
     Fact("pipeline.blended_float_formats", "LIST", "formats of float colour attachments that it blends into and writes", "VkFormat"),
     Fact("pipeline.rasterizer_discard", "BOOL", "rasterizerDiscardEnable"),

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from ..document.records import BeginRendering
 from ..finding import Span
-from .begin import covers, targets_at
+from .begin import MAX_USES, covers, targets_at, uses_at_most
 from .frame import RENDERING, Aspect, Attachment, Frame, Pass, Resolve, Target
 
 READ = "read"
@@ -57,12 +57,15 @@ class Timeline:
         self.uses: dict[str, list[Use]] = {}
         self.positions: dict[str, list[int]] = {}
         """Where each pass, by its path, begins."""
+        self.followed: bool
+        """False where there are more uses than are followed: who reads is then unknown."""
         self._stores: dict[str, list[Store]] = {}
         self._read: set[tuple[str, str | None]] = set()
         self._uses_of: dict[tuple[str, str | None], tuple[list[int], list[Use]]] = {}
         self._stores_of: dict[tuple[str, str | None], tuple[list[int], list[Store]]] = {}
+        self.followed = uses_at_most(frame) <= MAX_USES
         order = self._recorded() if frame.has_commands else self._once_each()
-        for name, use in order:
+        for name, use in order if self.followed else ():
             self.uses.setdefault(name, []).append(use)
             if use.kind == READ:
                 self._read.add((name, use.aspect))
@@ -162,6 +165,8 @@ class Timeline:
         """Whether anything reads what the pass stored of an aspect; None where the description does not say."""
         if attachment.input:
             return True
+        if not self.followed:
+            return None
         answers = set(self._answers(each, attachment, aspect))
         if not answers or True in answers:
             return True if answers else None

@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
+from yaml.error import MarkedYAMLError
+from yaml.tokens import (
+    BlockEndToken,
+    DirectiveToken,
+    DocumentEndToken,
+    DocumentStartToken,
+    ScalarToken,
+    StreamEndToken,
+    StreamStartToken,
+)
+
 from ..finding import Span
+from .events import ERRORS, parser, readable
+from .node import Node, Stop
 from .text import Source
-from .tree import Node
 
 
 class Comment(NamedTuple):
@@ -17,46 +30,46 @@ class Comment(NamedTuple):
     text: str
 
 
+_COMMENT = re.compile(r"#[^\r\n]*")
+_HEADER = re.compile(r"[|>][-+0-9]*[ \t]*(?=#)")
+_AROUND = (StreamStartToken, StreamEndToken, DirectiveToken, DocumentStartToken, DocumentEndToken, BlockEndToken)
+"""Tokens that hold nothing of a document."""
+
+
 def comments(source: Source, roots: Iterable[Node]) -> list[Comment]:
-    """Every comment of the text, in order: a # at the start of a line or after white space that no scalar holds."""
+    """Every comment of the documents of a text, in order, before and after them too.
+
+    `roots` are the documents that could be read. In one that could not, there is no telling what is a comment: the search ends where it
+    begins.
+    """
     text = source.text
-    scalars = _scalar_spans(roots)
-    found: list[Comment] = []
-    position, nth = 0, 0
-    while True:
-        at = text.find("#", position)
-        if at < 0:
-            return found
-        while nth < len(scalars) and scalars[nth].end <= at:
-            nth += 1
-        if nth < len(scalars) and scalars[nth].start <= at:
-            position = max(scalars[nth].end, at + 1)
-            continue
-        if at > 0 and text[at - 1] not in " \t\r\n":
-            position = at + 1
-            continue
-        end = at
-        while end < len(text) and text[end] not in "\r\n":
-            end += 1
-        found.append(Comment(Span(at, end), text[at:end]))
-        position = end
+    return [
+        Comment(Span(*match.span()), match[0])
+        for start, end in _between(text, max((root.end for root in roots), default=0))
+        for match in _COMMENT.finditer(text, start, end)
+    ]
 
 
-def _scalar_spans(roots: Iterable[Node]) -> list[Span]:
-    """The places of all scalars, keys too, in order. Aliases hold no text of their own."""
-    spans = []
-    seen: set[int] = set()
-    stack = list(roots)
-    while stack:
-        node = stack.pop()
-        if id(node) in seen or node.anchor is not None:
-            continue
-        seen.add(id(node))
-        if node.kind == "scalar":
-            spans.append(node.span)
-        elif node.kind == "sequence":
-            stack.extend(node.value)
-        else:
-            stack.extend(node.keys.values())
-            stack.extend(node.value.values())
-    return sorted(spans)
+def _between(text: str, known: int) -> Iterator[tuple[int, int]]:
+    """The spans between scalars, and the ends of the lines on which block scalars begin, up to the first document after `known`."""
+    position = 0
+    try:
+        for token in iter(parser(readable(text)).get_token, None):
+            kind = type(token)
+            start = token.start_mark.index
+            if kind is ScalarToken:
+                yield position, start
+                position = token.end_mark.index
+                header = _HEADER.match(text, start) if token.style in ("|", ">") else None
+                if header is not None:
+                    end = _COMMENT.match(text, header.end())
+                    yield header.end(), end.end() if end is not None else header.end()
+            if start >= known and kind not in _AROUND:
+                yield position, start
+                return
+        yield position, len(text)
+    except MarkedYAMLError as error:
+        marks = [mark.index for mark in (error.context_mark, error.problem_mark) if mark is not None]
+        yield position, min(marks, default=position)
+    except (*ERRORS, Stop):
+        return

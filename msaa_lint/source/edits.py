@@ -8,21 +8,26 @@ from ..finding import Edit
 
 
 class Overlap(ValueError):
-    """Two edits claim the same text."""
+    """Two edits claim the same text, or insert at the same place."""
 
 
 def apply(text: str, edits: Iterable[Edit]) -> str:
-    """The text with the edits made, in whatever order they come. Overlap where two claim the same; ValueError outside of the text."""
+    """The text with the edits made, in whatever order they come.
+
+    What is inserted where another edit begins or ends stands before or after what that edit puts there. Overlap where two claim the same
+    text; ValueError where one is not within the text.
+    """
     out: list[str] = []
     done = 0
-    before: Edit | None = None
+    last: Edit | None = None
     for edit in sorted(edits):
-        if not 0 <= edit.span.start <= edit.span.end <= len(text):
-            raise ValueError(f"{edit.span} is not within the text")
-        if before is not None and (edit.span.start < done or edit.span == before.span):
-            raise Overlap(f"{before.span} and {edit.span}")
-        out += (text[done : edit.span.start], edit.text)
-        done = edit.span.end
-        before = edit
+        span = edit.span
+        if not 0 <= span.start <= span.end <= len(text):
+            raise ValueError(f"{span} is not within the text, which has {len(text)} characters")
+        if last is not None and (span.start < done or span == last.span):
+            raise Overlap(f"{last.span} and {span}")
+        out += (text[done : span.start], edit.text)
+        done = span.end
+        last = edit
     out.append(text[done:])
     return "".join(out)

@@ -1,8 +1,8 @@
 """The parser's events of a text, and its errors in words.
 
 libyaml reads YAML 1.1. Where 1.2, and with it JSON, is read otherwise, the text is changed for the parser, one character for one so that
-places stay: the line ends that 1.1 knows besides (U+0085, U+2028, U+2029) and the escaped surrogates of JSON become characters that the text
-does not use, and become what they mean again in the events; tabs around a JSON text become blanks.
+places stay: the line ends that 1.1 knows besides (U+0085, U+2028, U+2029) and the escaped surrogates of JSON become characters that the
+text does not use, and become what they mean again in the events; tabs around a JSON text become blanks.
 """
 
 from __future__ import annotations
@@ -71,19 +71,18 @@ def events(text: Readable) -> Get:
 
 def trouble(error: Exception, text: str) -> Problem:
     """A parser's error: what it is about is a label, where it says so."""
-    mark = error.problem_mark or error.context_mark if isinstance(error, MarkedYAMLError) else None
+    mark = error.problem_mark if isinstance(error, MarkedYAMLError) else None
     if not isinstance(error, MarkedYAMLError) or mark is None:
         return Problem("MSAA901", f"this cannot be read: {str(error).partition(chr(10))[0][:200]}", Span(0, 0))
     start = min(mark.index, len(text))
     span = Span(start, min(start + 1, len(text)))
-    context = error.context or ""
-    message = _plainly(error.problem or "", text[start : start + 1]) or " ".join(filter(None, (error.problem, context)))
-    labels: tuple[Label, ...] = ()
+    problem, context = error.problem or "this cannot be read", error.context or ""
+    message = _plainly(problem, text[start : start + 1]) or f"{problem} {context}".rstrip()
+    begin = start if error.context_mark is None else error.context_mark.index
     about = _CONTEXT.fullmatch(context)
-    if about is not None and error.context_mark is not None and error.context_mark.index < start:
-        begin = error.context_mark.index
-        labels = (Label(Span(begin, begin + 1), f"the {about[1]} begins here"),)
-    return Problem("MSAA901", message or "this cannot be read", span, labels)
+    if about is None or begin >= start:
+        return Problem("MSAA901", message, span)
+    return Problem("MSAA901", message, span, (Label(Span(begin, begin + 1), f"the {about[1]} begins here"),))
 
 
 ERRORS = (YAMLError, ValueError)
@@ -91,7 +90,7 @@ ERRORS = (YAMLError, ValueError)
 
 
 def _plainly(problem: str, at: str) -> str:
-    """What parser's words leave out."""
+    """What a parser's words leave out, and how it is mended."""
     if at == "\t" and ("cannot start any token" in problem or "violates indentation" in problem):
         return "a tab cannot stand here: YAML is indented with blanks"
     if at == ":" and "',' or '}'" in problem:
@@ -121,31 +120,31 @@ def _marked(text: str) -> Readable:
 
 def _unmarked(get: Get, text: Readable) -> Get:
     escape = 2 * text.marks[0]
-    half = re.compile(f"{escape}(....)")
+    half = re.compile(f"{escape}....")
     pair = re.compile(f"{escape}([dD][89abAB]..){escape}([dD][c-fC-F]..)")
     breaks = str.maketrans(text.marks[1:], _BREAKS)
 
     def whole(match: re.Match[str]) -> str:
         return chr(0x10000 + ((int(match[1], 16) - 0xD800) << 10) + int(match[2], 16) - 0xDC00)
 
+    def alone(start: int, end: int) -> Stop:
+        # Pairs become as many other characters, so that the first half that is left is found at its place.
+        match = half.search(pair.sub(12 * "_", text.text[start:end]))
+        at = start + match.start() if match is not None else start
+        written = text.text[at : at + 6].replace(escape, "\\u")
+        return Stop("MSAA901", f"`{written}` is half of a surrogate pair, and no character", at, at + 6)
+
     def unmarked() -> Any:
         event = get()
-        if type(event) is ScalarEvent:
-            value: str = event.value.translate(breaks)
+        kind = type(event)
+        if kind is not ScalarEvent or event.value.isascii():
+            return event
+        value: str = event.value.translate(breaks)
+        if escape in value and event.style == '"':
+            value = pair.sub(whole, value)
             if escape in value:
-                if event.style == '"':
-                    value = pair.sub(whole, value)
-                    if escape in value:
-                        start = event.start_mark.index
-                        raw = text.text[start : event.end_mark.index]
-                        # Pairs become as many other characters, so that the first half that is left is found at its place.
-                        alone = half.search(pair.sub(12 * "_", raw))
-                        at = start + (alone.start() if alone is not None else 0)
-                        written = half.sub(r"\\u\1", text.text[at : at + 6])
-                        raise Stop("MSAA901", f"{written} is half of a surrogate pair, and no character", at, at + 6)
-                else:
-                    value = value.replace(escape, "\\u")
-            event.value = value
+                raise alone(event.start_mark.index, event.end_mark.index)
+        event.value = value.replace(escape, "\\u")
         return event
 
     return unmarked

@@ -23,23 +23,60 @@ class PureParser(Reader, Scanner, Parser):
         Parser.__init__(self)
 
     def get_event(self) -> Any:
-        event = super().get_event()
+        event: Any = super().get_event()  # type: ignore[no-untyped-call]
         if type(event) is DocumentStartEvent and event.version not in (None, (1, 1), (1, 2)):
-            raise ParserError(None, None, "found incompatible YAML document", event.start_mark)
+            raise ParserError(None, None, "found incompatible YAML document", event.start_mark)  # type: ignore[arg-type]
         return event
 
     def scan_to_next_token(self) -> None:
-        """Tabs separate tokens where they cannot be taken for indentation."""
+        """Tabs separate tokens where they cannot be taken for indentation; a byte order mark may begin a line."""
         while True:
+            if self.column == 0 and self.peek() == "\ufeff":
+                self.forward()
+                self.column += 1
             while self.peek() == " " or (self.peek() == "\t" and (self.flow_level or not self.allow_simple_key)):
                 self.forward()
             if self.peek() == "#":
                 while self.peek() not in "\0" + _BREAKS:
                     self.forward()
-            if not self.scan_line_break():
+            if not self.scan_line_break():  # type: ignore[no-untyped-call]
                 return
             if not self.flow_level:
                 self.allow_simple_key = True
+
+    def scan_block_scalar_indicators(self, start_mark: Any) -> tuple[bool | None, int | None]:
+        """After these, a comment may follow at once."""
+        chomping: bool | None = None
+        increment: int | None = None
+        while True:
+            ch = self.peek()
+            if ch in "+-" and chomping is None:
+                chomping = ch == "+"
+            elif ch in "123456789" and increment is None:
+                increment = int(ch)
+            else:
+                return chomping, increment
+            self.forward()
+
+    def scan_block_scalar_ignored_line(self, start_mark: Any) -> None:
+        """Tabs are blanks here too."""
+        while self.peek() in " \t":
+            self.forward()
+        if self.peek() == "#":
+            while self.peek() not in "\0" + _BREAKS:
+                self.forward()
+        if self.peek() not in "\0" + _BREAKS:
+            problem = "did not find expected comment or line break"
+            raise ScannerError("while scanning a block scalar", start_mark, problem, self.get_mark())
+        self.scan_line_break()  # type: ignore[no-untyped-call]
+
+    def scan_block_scalar_indentation(self) -> Any:
+        """The first line may not begin with a tab."""
+        found: Any = super().scan_block_scalar_indentation()
+        if self.peek() == "\t":
+            problem = "found a tab character where an indentation space is expected"
+            raise ScannerError("while scanning a block scalar", None, problem, self.get_mark())
+        return found
 
     def scan_flow_scalar_non_spaces(self, double: bool, start_mark: Any) -> list[str]:
         """An escape is a character, and no half of one."""
@@ -99,7 +136,7 @@ class PureParser(Reader, Scanner, Parser):
                     blanks += ch
                 self.forward()
             else:
-                breaks.append(self.scan_line_break())
+                breaks.append(self.scan_line_break())  # type: ignore[no-untyped-call]
         if not breaks:
             return [blanks]
         self.allow_simple_key = True

@@ -23,11 +23,13 @@ def bare(node: Node, text: str) -> bool:
 def tagged(node: Node, tag: str, text: str) -> Problem | None:
     """Gives a node the value that its tag says; the problem where it has none."""
     core = tag.removeprefix(_PREFIX)
+    if tag == "!":
+        # The same as none, but that a scalar is a text.
+        _agrees(node, "str")
+        return None
     span = _written(node, text) or Span(node.start, node.start)
     written = text[span.start : span.end]
     shown = written if len(written) <= 80 else written[:79] + "…"
-    if tag == "!" and node.kind != "scalar":
-        return None
     if core == tag or core not in _KINDS:
         return Problem("MSAA903", f"the tag `{shown}` is not taken here: only those of YAML's core schema are", span)
     if node.kind != _KINDS[core] or not _agrees(node, core):

@@ -6,6 +6,7 @@ trailing commas that real tools write, is read by the same path. Without libyaml
 
 from __future__ import annotations
 
+import gc
 import re
 from typing import Any, NamedTuple
 
@@ -17,7 +18,6 @@ from yaml.events import (
     ScalarEvent,
     SequenceEndEvent,
     SequenceStartEvent,
-    StreamEndEvent,
 )
 
 from ..finding import Label, Span
@@ -36,19 +36,28 @@ _COLON = re.compile(r"(?:[ \t\r\n]|(?<=[ \t\r\n])#[^\r\n]*)*+:")
 
 
 def parse(source: Source, limits: Limits) -> Parsed:
-    """The documents of a text."""
-    at = forbidden(source.text)
-    if at is not None:
-        message = f"the character U+{ord(source.text[at]):04X} may not stand in YAML or JSON"
-        return Parsed([], [Problem("MSAA901", message, Span(at, at + 1))])
-    reading = _Reading(source.text, limits)
+    """The documents of a text. Nothing raises for what the text holds."""
+    text = source.text
+    reading = _Reading(text, limits)
+    # A tree only grows while it is read, and to look through it for garbage again and again takes as long as to read it.
+    collecting = gc.isenabled()
+    gc.disable()
     try:
         reading.run()
     except Stop as stop:
-        reading.problems.append(stop.problem)
+        problem = stop.problem
     except ERRORS as error:
-        reading.problems.append(trouble(error, source.text))
-    return Parsed(reading.documents, reading.problems)
+        problem = trouble(error, text)
+    else:
+        return Parsed(reading.documents, reading.problems)
+    finally:
+        if collecting:
+            gc.enable()
+    # The parser refuses these too, but not at their place, and perhaps only after the end of what was read.
+    at = forbidden(text)
+    if at is not None:
+        return Parsed([], [Problem("MSAA901", f"the character U+{ord(text[at]):04X} may not stand in YAML or JSON", Span(at, at + 1))])
+    return Parsed(reading.documents, [*reading.problems, problem])
 
 
 class _Anchored(NamedTuple):
@@ -70,81 +79,74 @@ class _Reading:
         self.anchors: dict[str, _Anchored | None] = {}
 
     def run(self) -> None:
-        """Reads all events. This loop is where the time goes: one pass for every node, names local, nothing kept of an event.
+        """Reads all events. This loop is where the time goes: what it needs is local, and nothing is kept of an event.
 
-        The collection that is open is `node`'s parent: `values` are its children, `keys` is None in a sequence, `key` waits for its
-        value, `tail` is the end of its last child, `first` the count of nodes before it, `deep` the most collections that are in it.
+        `parent` is the open collection, `values` its children, `keys` None where it is a sequence, `key` what waits for its value, `name`
+        its anchor, `before` the count of nodes before it, `deep` the most collections within it; `tail` is the end of what was last read.
         """
         text = self.text
         max_depth, max_count = self.limits.depth, self.limits.nodes
         get = events(readable(text))
-        marked_texts = "!" in text
-        anchors = self.anchors
-        known = dict(WORDS)
+        new, known, anchors = object.__new__, dict(WORDS), self.anchors
+        maybe_tags = "!" in text
         roots: list[Node] = []
         opened: list[tuple[Any, ...]] = []
-        parent: Node | None = None
+        parent: Any = None
         values: Any = roots
         keys: dict[str, Node] | None = None
         key: Node | None = None
         name: str | None = None
-        count = first = tail = deep = 0
+        count = before = tail = deep = 0
         for event in iter(get, None):
             kind = type(event)
             if kind is ScalarEvent:
                 start = event.start_mark.index
                 tail = event.end_mark.index
-                value = event.value
-                style = event.style
-                if style == '"' or style == "'":
-                    node = Node("scalar", start, tail, value, NO_KEYS, value)
-                elif style:
-                    tail = _block_end(text, start, tail, value)
-                    node = Node("scalar", start, tail, value, NO_KEYS, value)
+                style, said = event.style, event.value
+                # As Node's own __init__ does, without the call.
+                node = new(Node)
+                node.kind = "scalar"
+                node.start = start
+                node.end = tail
+                node.keys = NO_KEYS
+                node.text = said
+                node.anchor = None
+                if style:
+                    node.value = said
+                    node.plain = False
+                    if style == "|" or style == ">":
+                        tail = node.end = _block_end(text, start, tail, said)
                 else:
                     try:
-                        resolved = known[value]
+                        node.value = known[said]
                     except KeyError:
-                        resolved = known[value] = resolve(value)
-                    node = Node("scalar", start, tail, resolved, NO_KEYS, value, True)
+                        node.value = known[said] = resolve(said)
+                    node.plain = True
                     if start == tail:
                         tail = _place_nothing(node, key, text)
-                    elif marked_texts and text[start] in "!&":
+                    elif maybe_tags and event.tag is None and text[start] in "!&":
                         self._bare(node)
                 if event.tag is not None:
                     self._tagged(node, event.tag)
                 if event.anchor is not None:
                     anchors[event.anchor] = _Anchored(node, 1, 0)
                 count += 1
-                if count > max_count:
-                    raise _too_many(node, max_count)
-                if keys is None:
-                    values.append(node)
-                elif key is None:
-                    key = node
-                elif (written := key.text) in values:
-                    self._twice(key, keys[written])
-                    key = None
-                else:
-                    values[written] = node
-                    keys[written] = key
-                    key = None
-                continue
             elif kind is MappingEndEvent or kind is SequenceEndEvent:
                 end = event.end_mark.index
                 # The end mark of a block collection is at the next token, past blank lines and comments.
                 if end > event.start_mark.index:
                     tail = end
-                node = parent  # type: ignore[assignment]
-                node.end = tail
+                parent.end = tail
                 if keys is not None and "<<" in keys:
-                    _merge(node)
+                    from .merge import merge
+
+                    merge(parent)
+                size, depth = count - before, deep + 1
                 if name is not None:
-                    anchors[name] = _Anchored(node, count - first, deep + 1)
-                inner = deep + 1
-                parent, values, keys, key, name, first, deep = opened.pop()
-                if inner > deep:
-                    deep = inner
+                    anchors[name] = _Anchored(parent, size, depth)
+                parent, values, keys, name, before, deep = opened.pop()
+                if depth > deep:
+                    deep = depth
                 continue
             elif kind is MappingStartEvent or kind is SequenceStartEvent:
                 start = event.start_mark.index
@@ -154,53 +156,46 @@ class _Reading:
                     node = Node("mapping", start, start, {}, {})
                 else:
                     node = Node("sequence", start, start, [], NO_KEYS)
-                tail = start
                 if event.tag is not None:
                     self._tagged(node, event.tag)
                 count += 1
             elif kind is AliasEvent:
-                anchored = self._anchored(event)
-                node = _alias(anchored.node, event)
-                tail = node.end
-                count += anchored.size
-                if anchored.depth > deep:
-                    deep = anchored.depth
-                    if len(opened) + deep > max_depth:
-                        message = f"nesting is deeper than the limit of {max_depth}, aliases expanded"
-                        raise Stop("MSAA906", message, node.start, node.end)
+                of, size, depth = self._anchored(event)
+                start, tail = event.start_mark.index, event.end_mark.index
+                node = Node(of.kind, start, tail, of.value, of.keys, of.text, of.plain, of.anchor or of)
+                if len(opened) + depth > max_depth:
+                    raise Stop("MSAA906", f"nesting is deeper than the limit of {max_depth}, aliases expanded", start, tail)
+                if depth > deep:
+                    deep = depth
+                count += size
             elif kind is DocumentEndEvent:
                 root = roots.pop()
-                if root.start < root.end or root.kind != "scalar":
+                if root.kind != "scalar" or root.start < root.end:
                     self.documents.append(root)
                 anchors.clear()
-                deep = 0
                 continue
-            elif kind is StreamEndEvent:
-                return
             else:
                 continue
             if count > max_count:
-                message = f"more nodes than the limit of {max_count}, aliases expanded"
-                raise Stop("MSAA906", message, node.start, max(node.start + 1, min(node.end, node.start + 80)))
+                raise Stop("MSAA906", f"more nodes than the limit of {max_count}, aliases expanded", start, max(start + 1, node.end))
             if keys is None:
                 values.append(node)
             elif key is None:
                 if node.kind != "scalar":
-                    raise Stop("MSAA903", f"a {node.kind} cannot be a key: a key is a scalar", node.start, node.start + 1)
+                    raise Stop("MSAA903", f"a {node.kind} cannot be a key: a key is a scalar", start, max(start + 1, node.end))
                 key = node
                 continue
             else:
-                written = key.text
-                if written in values:
-                    self._twice(key, keys[written])
+                if values.setdefault(key.text, node) is node:
+                    keys[key.text] = key
                 else:
-                    values[written] = node
-                    keys[written] = key
+                    self._twice(key, keys[key.text])
                 key = None
             if kind is MappingStartEvent or kind is SequenceStartEvent:
-                opened.append((parent, values, keys, key, name, first, deep))
-                parent, values, key, name, first, deep = node, node.value, None, event.anchor, count - 1, 0
+                opened.append((parent, values, keys, name, before, deep))
+                parent, values, name, before, deep = node, node.value, event.anchor, count - 1, 0
                 keys = node.keys if kind is MappingStartEvent else None
+                tail = start
                 if name is not None:
                     anchors[name] = None
 
@@ -219,7 +214,7 @@ class _Reading:
             raise Stop("MSAA901", f"no anchor `&{name[:80]}` stands before this alias", start, end)
         anchored = self.anchors[name]
         if anchored is None:
-            raise Stop("MSAA901", f"`{name[:80]}` holds itself", start, end)
+            raise Stop("MSAA901", f"`&{name[:80]}` holds itself", start, end)
         return anchored
 
     def _tagged(self, node: Node, tag: str) -> None:
@@ -236,15 +231,12 @@ class _Reading:
             node.value, node.plain = node.text, False
 
 
-def _alias(of: Node, event: Any) -> Node:
-    start, end = event.start_mark.index, event.end_mark.index
-    return Node(of.kind, start, end, of.value, of.keys, of.text, of.plain, of.anchor or of)
-
-
-def _block_end(text: str, start: int, end: int, value: str) -> int:
-    """The end of a block scalar, without the line ends and blank lines after it."""
-    last = value.rstrip("\n")[-1:]
-    return start + len(text[start:end].rstrip("\r\n" if last in (" ", "\t") else " \t\r\n"))
+def _block_end(text: str, start: int, end: int, said: str) -> int:
+    """The end of a block scalar, without the line ends and blank lines after it; where it holds nothing else, of its `|` or `>`."""
+    body, last = text[start:end], said.rstrip("\n")[-1:]
+    if not last:
+        body = body.partition("#")[0]
+    return start + len(body.rstrip("\r\n" if last and last in " \t" else " \t\r\n"))
 
 
 def _place_nothing(node: Node, key: Node | None, text: str) -> int:
@@ -253,34 +245,3 @@ def _place_nothing(node: Node, key: Node | None, text: str) -> int:
         colon = _COLON.match(text, key.end)
         node.start = node.end = colon.end() if colon is not None else key.end
     return node.end
-
-
-def _merge(node: Node) -> None:
-    """`<<: *base` and `<<: [*one, *two]`: in its place stands what the bases have, the earlier before the later; what is stated beside
-    it wins. The nodes are shared, and were counted where the bases were named.
-    """
-    merged, key = node.value["<<"], node.keys["<<"]
-    if not key.plain:
-        return
-    bases = merged.value if merged.kind == "sequence" else [merged]
-    for base in bases:
-        if base.kind != "mapping":
-            raise Stop("MSAA903", "`<<` merges a mapping, or a list of mappings", base.start, min(base.end, base.start + 80))
-    stated, keys = dict(node.value), dict(node.keys)
-    del stated["<<"], keys["<<"]
-    own = list(node.value)
-    node.value.clear()
-    node.keys.clear()
-    for name in own:
-        if name != "<<":
-            node.value.setdefault(name, stated[name])
-            node.keys.setdefault(name, keys[name])
-            continue
-        for base in bases:
-            for inherited, value in base.value.items():
-                node.value.setdefault(inherited, stated.get(inherited, value))
-                node.keys.setdefault(inherited, keys.get(inherited) or base.keys[inherited])
-
-
-def _too_many(node: Node, limit: int) -> Stop:
-    return Stop("MSAA906", f"more nodes than the limit of {limit}, aliases expanded", node.start, max(node.start + 1, min(node.end, node.start + 80)))

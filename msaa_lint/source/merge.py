@@ -1,0 +1,32 @@
+"""Merge keys: `<<: *base` and `<<: [*one, *two]`."""
+
+from __future__ import annotations
+
+from .node import Node, Stop
+
+
+def merge(node: Node) -> None:
+    """Where `<<` stands in a mapping now stands what the bases have, the earlier before the later; what is stated beside it wins.
+
+    The nodes are shared. They are within the limits: whoever named the bases has counted them, and more than is named is not copied.
+    """
+    key, merged = node.keys["<<"], node.value["<<"]
+    if not key.plain:
+        return
+    bases = merged.value if merged.kind == "sequence" else [merged]
+    for base in bases:
+        if base.kind != "mapping":
+            raise Stop("MSAA903", "`<<` merges a mapping, or a list of mappings", base.start, max(base.end, base.start + 1))
+    values: dict[str, Node] = {}
+    keys: dict[str, Node] = {}
+    for name, value in node.value.items():
+        if name != "<<":
+            values.setdefault(name, value)
+            keys.setdefault(name, node.keys[name])
+            continue
+        for base in bases:
+            for inherited in base.value:
+                stated = node if inherited in node.value and inherited != "<<" else base
+                values.setdefault(inherited, stated.value[inherited])
+                keys.setdefault(inherited, stated.keys[inherited])
+    node.value, node.keys = values, keys
