@@ -40,7 +40,7 @@ EXPECTED: dict[str, list[tuple[int, str]]] = {
         (51, "reused-attachment-unsynchronised"),
     ],
     "impeller/best-practice.msaa.yaml": [],
-    "shader-resolve/note.msaa.yaml": [(7, "half-float-resolve-overflow"), (25, "sample-shading-ineffective")],
+    "shader-resolve/note.msaa.yaml": [(25, "sample-shading-ineffective"), (35, "half-float-resolve-overflow")],
     "frame/deferred-forward.msaa.yaml": [
         (16, "multisampled-attachment-loaded"),
         (19, "multisampled-attachment-loaded"),

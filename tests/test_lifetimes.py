@@ -866,6 +866,22 @@ def test_a_suspended_rendering_is_judged_where_it_ends() -> None:
     """)
 
 
+def test_a_suspended_rendering_stores_nothing() -> None:
+    """Even where what resumes it is recorded somewhere else."""
+    check("""
+    images:
+      ms: {format: R8G8B8A8_UNORM, samples: 4}
+      both_ms: {format: D24_UNORM_S8_UINT, samples: 4}
+    commands:
+      - beginRendering:
+          flags: [SUSPENDING]
+          colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: STORE}]
+          depthAttachment: {image: both_ms, loadOp: CLEAR, storeOp: STORE}
+          stencilAttachment: {image: both_ms, loadOp: CLEAR, storeOp: STORE}
+      - endRendering
+    """)
+
+
 def test_a_suspended_rendering_loses_nothing_until_it_ends() -> None:
     check("""
     images:
@@ -1012,6 +1028,21 @@ def test_attachments_that_no_subpass_uses_are_another_rule_s(preserved: str) -> 
 # What a resolve overwrites, and what is read of it.
 
 
+def test_a_resolve_from_nothing_overwrites_nothing() -> None:
+    """What is wrong there is another rule's: the reference to resolve from is missing."""
+    check("""
+    renderPasses:
+      scene:
+        attachments:
+          output: {format: R8G8B8A8_UNORM, samples: 1, loadOp: CLEAR, storeOp: DONT_CARE}
+          depth: {format: D32_SFLOAT, samples: 1, loadOp: LOAD, storeOp: NONE, initialLayout: GENERAL}
+        subpasses:
+          - colorAttachments: [null]
+            resolveAttachments: [output]
+            depthStencilResolve: {attachment: depth, depthResolveMode: SAMPLE_ZERO, stencilResolveMode: NONE}
+    """)
+
+
 def test_an_input_attachment_before_or_after_the_resolve() -> None:
     check("""
     renderPasses:
@@ -1152,3 +1183,20 @@ def test_a_barrier_orders_no_pass_that_is_never_begun() -> None:
 def test_no_stated_dependency_is_undecided(dependency: str) -> None:
     linted = check(synchronised(f"      [{dependency}]"))
     assert ("MSAA602", "renderPasses.scene.subpasses[0]") in undecided(linted)
+
+
+# Hostile input.
+
+
+@pytest.mark.parametrize(("begins", "followed"), [(1, True), (700, False)])
+def test_more_uses_than_are_followed_leave_readers_unknown(begins: int, followed: bool) -> None:
+    """Attachments times begins grow faster than the input does: beyond a limit nothing is claimed, and nothing swells."""
+    attachments = 750
+    text = "images: {ms: {format: R8G8B8A8_UNORM, samples: 4}}\nrenderPasses:\n  scene:\n    attachments:\n"
+    text += "      - {image: ms, loadOp: CLEAR, storeOp: STORE}\n" * attachments
+    text += f"    subpasses: [{{colorAttachments: {list(range(attachments))}}}]\ncommands:\n"
+    text += "  - beginRenderPass: {renderPass: scene}\n  - endRenderPass\n" * begins
+    linted = lint(text)
+    fired = [found for found in linted.findings if found.code == "MSAA201"]
+    assert len(fired) == (attachments if followed else 0)
+    assert (("MSAA201", "renderPasses.scene.attachments[0]") in undecided(linted)) is not followed

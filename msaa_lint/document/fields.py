@@ -13,6 +13,7 @@ from annotated_types import Ge, Gt, Le
 from pydantic import (
     AfterValidator,
     AllowInfNan,
+    BeforeValidator,
     GetCoreSchemaHandler,
     GetJsonSchemaHandler,
     StrictBool,
@@ -20,6 +21,7 @@ from pydantic import (
     StrictInt,
     StrictStr,
     StringConstraints,
+    WithJsonSchema,
 )
 from pydantic_core import CoreSchema, core_schema
 
@@ -64,7 +66,7 @@ class FlagBits(NamedTuple):
         def check(value: object) -> tuple[str, ...]:
             if isinstance(value, str):
                 return tuple(parse_flags(self.enum, value))
-            if value == 0 and type(value) is int:
+            if value == 0 and type(value) is int and "FlagBits" in self.enum:
                 return ()
             if not isinstance(value, (list, tuple)):
                 raise ValueError(f"{value!r} is no list of {self.enum}")
@@ -76,7 +78,8 @@ class FlagBits(NamedTuple):
         return _validated(check)
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchema:
-        return {"anyOf": [{"type": "array", "items": {ENUMERANT: self.enum}}, {FLAGS: self.enum}, {"const": 0}]}
+        none = [{"const": 0}] if "FlagBits" in self.enum else []
+        return {"anyOf": [{"type": "array", "items": {ENUMERANT: self.enum}}, {FLAGS: self.enum}, *none]}
 
 
 ENUMERANT, FLAGS = "enumerant of", "flags of"
@@ -152,10 +155,25 @@ def _number(value: float) -> float:
     return value
 
 
+def _word(value: object) -> object:
+    if type(value) not in (str, int):
+        raise ValueError(f"{value!r} is no word")
+    return value
+
+
+Word = BeforeValidator(_word)
+"""For a Literal with a number in it: 1 is neither true nor 1.0."""
+
 Bool = StrictBool
 Text = StrictStr
 Number = Annotated[StrictFloat | StrictInt, AllowInfNan(False), AfterValidator(_number)]
-PositiveNumber = Annotated[StrictFloat | StrictInt, Gt(0), AllowInfNan(False), AfterValidator(_number)]
+PositiveNumber = Annotated[
+    StrictFloat | StrictInt,
+    Gt(0),
+    AllowInfNan(False),
+    AfterValidator(_number),
+    WithJsonSchema({"type": "number", "exclusiveMinimum": 0}),
+]
 Index = Annotated[StrictInt, Ge(0), Le(2**32 - 1)]
 Size = Annotated[StrictInt, Ge(1), Le(2**31 - 1)]
 Offset = Annotated[StrictInt, Ge(-(2**31)), Le(2**31 - 1)]

@@ -37,6 +37,7 @@ from .fields import (
     Slot,
     SubpassNumber,
     Text,
+    Word,
 )
 
 Format = Annotated[str, Enumerant("VkFormat")]
@@ -466,7 +467,7 @@ class ReadImage(Struct):
     image: ImageName | None = None
     stage: Stage | None = None
     access: Access | None = None
-    samples: Literal[1, "ALL"] | None = None
+    samples: Annotated[Literal[1, "ALL"], Word] | None = None
     resolves: Literal["AVERAGE", "MIN", "MAX", "OTHER"] | None = None
 
 

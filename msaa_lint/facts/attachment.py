@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..document.records import AttachmentDescription, BeginRendering
 from .facts import Facts
-from .frame import RENDERING, Aspect, Attachment, Pass
+from .frame import RENDERING, Aspect, Attachment, Pass, Resolve
 from .timeline import Timeline
 
 
@@ -43,8 +43,19 @@ def attachment_facts(attachment: Attachment) -> Facts:
     return facts
 
 
-def aspect_facts(each: Pass, attachment: Attachment, aspect: Aspect, timeline: Timeline) -> Facts:
-    """What is known of one aspect: its operations, who resolves it, who reads it later."""
+def resolves_at(each: Pass) -> dict[int, list[Resolve]]:
+    """The resolves of a pass by the attachments, by identity, that they read or write."""
+    found: dict[int, list[Resolve]] = {}
+    for subpass in each.subpasses:
+        for resolve in subpass.resolves:
+            for end in (resolve.source, resolve.target):
+                if end is not None:
+                    found.setdefault(id(end), []).append(resolve)
+    return found
+
+
+def aspect_facts(each: Pass, attachment: Attachment, aspect: Aspect, own: list[Resolve], timeline: Timeline) -> Facts:
+    """What is known of one aspect: its operations, who resolves it (`own` are the attachment's resolves), who reads it later."""
     facts = Facts()
     record = attachment.record
     facts.put("aspect.name", aspect.name, record.head)
@@ -57,7 +68,7 @@ def aspect_facts(each: Pass, attachment: Attachment, aspect: Aspect, timeline: T
         separate = aspect.name == "stencil" and record.stencilInitialLayout is not None
         layout = record.stencilInitialLayout if separate else record.initialLayout
         facts.put("aspect.initial_layout", layout, record.place("stencilInitialLayout" if separate else "initialLayout"))
-    resolves = [r for s in each.subpasses for r in s.resolves if r.source is attachment and r.aspect == aspect.name]
+    resolves = [r for r in own if r.source is attachment and r.aspect == aspect.name]
     modes = [resolve.mode for resolve in resolves]
     resolved: bool | None = any(mode not in (None, "NONE") for mode in modes)
     if not resolved and None in modes:
@@ -65,7 +76,7 @@ def aspect_facts(each: Pass, attachment: Attachment, aspect: Aspect, timeline: T
     facts.put("aspect.resolved", resolved, next((r.target_at for r in resolves if r.mode not in (None, "NONE")), None))
     over: set[str] = set().union(*attachment.resolve.values())
     overwritten = True if aspect.name in over else None if "?" in over or (over and aspect.name is None) else False
-    onto = [r for s in each.subpasses for r in s.resolves if r.target is attachment and r.aspect == aspect.name and r.mode != "NONE"]
+    onto = [r for r in own if r.target is attachment and r.aspect == aspect.name and r.mode != "NONE"]
     facts.put("aspect.resolved_over", overwritten, onto[0].target_at if onto else None)
     at = {subpass for subpass, aspects in attachment.resolve.items() if aspect.name in aspects}
     # A resolve comes at the end of its subpass: the same subpass reads what was there before.

@@ -6,7 +6,6 @@ from ..document.record import Record
 from ..document.records import BeginRenderPass, Framebuffer
 from .frame import RENDER_PASS, RENDERING, Attachment, Frame, Pass, Target
 
-
 MAX_USES = 500_000
 """How many uses of images by passes are followed. Some thousand passes have some ten thousand; hostile ones attachments times begins."""
 

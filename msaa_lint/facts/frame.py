@@ -94,7 +94,7 @@ class Attachment:
         self.color: set[int] = set()
         self.depth_stencil: set[int] = set()
         self.resolve: dict[int, set[str]] = {}
-        """By subpass: the aspects that a resolve with a mode overwrites here. The mode may be unknown: then `?` stands among them."""
+        """By subpass: the aspects that a resolve with a source and a mode overwrites here; `?` for one whose mode is unknown."""
         self.input: set[int] = set()
         self.preserve: set[int] = set()
 
@@ -345,7 +345,9 @@ class Frame:
                 resolve.mode = "SAMPLE_ZERO"
             resolve.target_at = resolve.mode_at = reference.node.span if reference.node.kind == "scalar" else reference.head
             resolve.source_at = record.colorAttachments[n].place("attachment") if n < len(record.colorAttachments) else resolve.target_at
-            target.resolve.setdefault(index, set()).add("color")
+            target.resolve.setdefault(index, set())
+            if resolve.source is not None:
+                target.resolve[index].add("color")
             self._joined(made, resolve, index)
         chained = record.depthStencilResolve
         if chained is not None and (target := find(chained.attachment)) is not None:
@@ -374,7 +376,7 @@ class Frame:
             resolve.mode_at = chained.place(member)
             resolve.target_at = chained.place("attachment")
             resolve.source_at = record.place("depthStencilAttachment")
-            if mode != "NONE":
+            if mode != "NONE" and source is not None:
                 target.resolve[index].add(aspect if mode is not None else "?")
             if pair is not None:
                 resolve.pair, pair.pair = pair, resolve

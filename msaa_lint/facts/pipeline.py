@@ -73,13 +73,16 @@ def pipeline_facts(
     raster = pipeline.rasterizationState
     if raster is not None and "RASTERIZER_DISCARD_ENABLE" not in dynamic:
         facts.put("pipeline.rasterizer_discard", raster.rasterizerDiscardEnable, raster.place("rasterizerDiscardEnable"))
+    formats = _formats(pipeline, subpass)
     if blend is not None and "COLOR_BLEND_ENABLE_EXT" not in dynamic:
         if blend.attachments:
             first = blend.attachments[0]
             facts.put("pipeline.blends_first", _blends_by_alpha(first, state, dynamic), first.place("blendEnable"))
-        floats, blended_at = _blended_floats(blend, _formats(pipeline, subpass))
+        floats, blended_at = _blended_floats(blend, formats)
         if floats is not None:
             facts.put("pipeline.blended_float_formats", floats, blended_at)
+    elif formats and not any(format is None or format.arm_float_blend for format in formats):
+        facts.put("pipeline.blended_float_formats", [])
     drawn_in = [subpass] if subpass is not None else [draw.subpass for draw in draws if draw.subpass is not None]
     counts = {samples_of(each) if not _resolves_itself(each) else None for each in drawn_in}
     facts.put("pipeline.attachment_samples", counts.pop() if len(counts) == 1 else None, drawn_in[0].record.head if drawn_in else None)

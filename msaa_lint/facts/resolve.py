@@ -144,8 +144,7 @@ def _modes(facts: Facts, resolve: Resolve, device: DeviceProfile | None) -> None
     certain = (*(offered or ("SAMPLE_ZERO",)), "NONE")
     if resolve.mode is not None and (resolve.mode in certain or (offered is not None and device is not None and not device.minimum)):
         facts.put("resolve.mode_supported", resolve.mode in certain, resolve.mode_at)
-    if pair is not None:
-        facts.put("resolve.pair_supported", _pair_supported(resolve, pair, device), resolve.mode_at)
+    facts.put("resolve.pair_supported", _pair_supported(resolve, pair, device) if pair is not None else True, resolve.mode_at)
 
 
 def _offered(resolve: Resolve, device: DeviceProfile | None) -> tuple[str, ...] | None:

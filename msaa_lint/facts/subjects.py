@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ..devices import DeviceProfile
 from ..document.document import Document
-from .attachment import aspect_facts, attachment_facts, pass_facts
+from .attachment import aspect_facts, attachment_facts, pass_facts, resolves_at
 from .dependency import external_dependencies, recorded_barriers
 from .facts import Facts, Subject
 from .frame import Attachment, Frame
@@ -35,11 +35,12 @@ def subjects(document: Document, default_device: DeviceProfile | None = None) ->
     barriers = recorded_barriers(frame)
     for each in frame.passes:
         shared = Facts(around, pass_facts(each))
+        resolves = resolves_at(each)
         for attachment in each.attachments:
             base = Facts(shared, _image_of(attachment, images), attachment_facts(attachment))
             yield Subject("attachment", attachment.record.path, attachment.record.head, base)
             for aspect in attachment.aspects:
-                facts = Facts(base, aspect_facts(each, attachment, aspect, timeline))
+                facts = Facts(base, aspect_facts(each, attachment, aspect, resolves.get(id(attachment), []), timeline))
                 yield Subject("aspect", attachment.record.path, attachment.record.head, facts)
         for subpass in each.subpasses:
             own = Facts(shared, subpass_facts(subpass, frame, drawn))

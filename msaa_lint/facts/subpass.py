@@ -95,8 +95,13 @@ def _own_pipelines(subpass: PassSubpass, frame: Frame, drawn: Drawn) -> list[Pip
         return [] if elsewhere else drawn.get(within.begun[0], [])
     if not frame.document.whole:
         return []
-    only = 0 if len(within.subpasses) == 1 else None
-    return [p for p, w in frame.pipelines if w is within and subpass.index == (only if p.subpass is None else p.subpass)]
+    unstated = 0 if len(within.subpasses) == 1 else None
+    own: list[Pipeline | None] = []
+    for pipeline in (p for p, w in frame.pipelines if w is within):
+        index = unstated if pipeline.subpass is None else pipeline.subpass
+        if index in (subpass.index, None):
+            own.append(pipeline if index is not None else None)
+    return own
 
 
 def _pipelines(facts: Facts, own: list[Pipeline | None]) -> None:

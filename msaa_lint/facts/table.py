@@ -193,7 +193,7 @@ _RESOLVE = (
     Fact(
         "resolve.pair_supported",
         "BOOL",
-        "the device offers the two modes together, where it offers each (independentResolve, independentResolveNone)",
+        "the device offers the modes of both aspects together, where it offers each (independentResolve, independentResolveNone)",
     ),
     Fact("resolve.pass_could_resolve", "BOOL", "a command: the source was last written by a pass that does not resolve it, and could"),
     Fact("resolve.writer", "STRING", "a command: the pass that last wrote the source"),

@@ -163,7 +163,8 @@ class Timeline:
 
     def read_later(self, each: Pass, attachment: Attachment, aspect: Aspect) -> bool | None:
         """Whether anything reads what the pass stored of an aspect; None where the description does not say."""
-        if attachment.input:
+        if attachment.input or "SUSPENDING" in _flags(each):
+            # What a suspended rendering draws is stored by the one that resumes and ends it.
             return True
         if not self.followed:
             return None

@@ -40,7 +40,7 @@ class Window(NamedTuple):
 
     def shows(self, offset: int) -> bool:
         """Whether the character at `offset`, or the end of the line there, is inside."""
-        return offset < self.end or (offset == self.end and not self.cut)
+        return not self.cut or offset < self.end
 
 
 def line_end(text: str, offset: int, longest: int) -> int | None:

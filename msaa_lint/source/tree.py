@@ -45,7 +45,8 @@ def parse(source: Source, limits: Limits) -> Parsed:
     try:
         reading.run()
     except Stop as stop:
-        problem = stop.problem
+        start, end = stop.problem.span
+        problem = stop.problem._replace(span=Span(min(start, len(text)), min(end, len(text))))
     except ERRORS as error:
         problem = trouble(error, text)
     else:
@@ -182,7 +183,7 @@ class _Reading:
                 values.append(node)
             elif key is None:
                 if node.kind != "scalar":
-                    raise Stop("MSAA903", f"a {node.kind} cannot be a key: a key is a scalar", start, max(start + 1, node.end))
+                    raise Stop("MSAA901", f"a {node.kind} cannot be a key: a key is a scalar", start, max(start + 1, node.end))
                 key = node
                 continue
             else:
