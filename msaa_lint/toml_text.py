@@ -150,7 +150,11 @@ def _unquoted(name: str) -> str:
     if name[0] == '"' and "\\" in name:
         import tomllib
 
-        text: str = tomllib.loads("x = " + name)["x"]
+        try:
+            text: str = tomllib.loads("x = " + name)["x"]
+        except ValueError:
+            # A name that is no TOML has no place to be asked for.
+            return name[1:-1]
         return text
     return name[1:-1] if name[0] in "\"'" else name
 

@@ -123,7 +123,7 @@ MAY_IMPORT = {
 ONLY_IN = {
     "pydantic": {"document.models", "document.fields", "document.generate", "cli.schema"},
     "typer": {"cli.app"},
-    "yaml": {"source.events", "source.pure", "source.tree"},
+    "yaml": {"source.comments", "source.events", "source.pure", "source.tree"},
     "cel_expr_python": {"condition"},
     "vulkan_object": {"vulkan.generate"},
     "vulkan": set(),

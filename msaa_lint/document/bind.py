@@ -248,7 +248,7 @@ class Binder:
             return node.value
         if self.dumped and node.kind == "scalar" and node.text in ("VK_TRUE", "VK_FALSE", "1", "0", "true", "false"):
             return node.text in ("VK_TRUE", "1", "true")
-        self.wrong(node, path, "true or false", _quote_hint(node))
+        self.wrong(node, path, "true or false", _boolean_hint(node))
         return None
 
     def integer(self, low: int | None, high: int | None, node: Node, path: str) -> int | None:
@@ -344,7 +344,7 @@ class Binder:
         made.body = None
         if parameters is None or (parameters.kind == "scalar" and parameters.value is None):
             if shape[0] != "null":
-                self.wrong(node, made.path, f"`{kind}` with its parameters")
+                self.report("MSAA903", f"`{kind}` is due with its parameters", span, made.path)
                 return None
             return made
         made.body = self.value(shape, parameters, made.path, kind, span)
@@ -384,15 +384,16 @@ def _is_word(node: Node, words: tuple[Any, ...]) -> bool:
     return node.kind == "scalar" and type(node.value) in (str, int) and node.value in words
 
 
+def _boolean_hint(node: Node) -> str:
+    """What to say of the words that YAML 1.1 took for booleans."""
+    words = node.kind == "scalar" and node.plain and node.text.lower() in ("yes", "no", "on", "off", "y", "n")
+    return "YAML 1.2 knows only `true` and `false`" if words else ""
+
+
 def _quote_hint(node: Node) -> str:
-    """What to say of the words that YAML 1.1 took for booleans, and of numbers that were meant as names."""
-    if node.kind != "scalar":
-        return ""
-    if isinstance(node.value, str) and node.plain and node.text.lower() in ("yes", "no", "on", "off", "y", "n"):
-        return "YAML 1.2 knows only `true` and `false`"
-    if not isinstance(node.value, str) and node.value is not None:
-        return f'quote it: "{shortened(node.text, 20)}"'
-    return ""
+    """What to say of numbers and booleans that were meant as texts."""
+    meant = node.kind == "scalar" and not isinstance(node.value, str) and node.value is not None
+    return f'quote it: "{shortened(node.text, 20)}"' if meant else ""
 
 
 def _fits(shape: Shape, node: Node) -> bool:

@@ -168,7 +168,7 @@ def _bare(word: str) -> str:
         name = name.removeprefix("2_")
     name = _without_bit(name)
     head, _, vendor = name.rpartition("_")
-    return _plain(head if vendor in VENDORS else name)
+    return _plain(head if head and vendor in VENDORS else name)
 
 
 def _without_bit(name: str) -> str:
