@@ -43,7 +43,7 @@ def check_names(binder: Binder, description: Description) -> None:
     for pipeline in description.pipelines.values():
         within = description.renderPasses.get(pipeline.renderPass) if pipeline.renderPass is not None else None
         if within is not None and pipeline.subpass is not None and pipeline.subpass >= max(len(within.subpasses), 1):
-            message = f"`{pipeline.renderPass}` has {len(within.subpasses)} subpasses, no subpass {pipeline.subpass}"
+            message = f"`{pipeline.renderPass}` has {_subpasses(within)}, no subpass {pipeline.subpass}"
             binder.report("MSAA904", message, pipeline.place("subpass"), f"{pipeline.path}.subpass")
 
 
@@ -93,8 +93,13 @@ def _attachments(binder: Binder, name: str, render_pass: RenderPass) -> None:
         for member in ("srcSubpass", "dstSubpass"):
             index = getattr(dependency, member)
             if isinstance(index, int) and index >= len(render_pass.subpasses):
-                message = f"`{name}` has {len(render_pass.subpasses)} subpasses, no subpass {index}"
+                message = f"`{name}` has {_subpasses(render_pass)}, no subpass {index}"
                 binder.report("MSAA904", message, dependency.place(member), f"{dependency.path}.{member}")
+
+
+def _subpasses(render_pass: RenderPass) -> str:
+    count = len(render_pass.subpasses)
+    return f"{count} subpass{'es' if count != 1 else ''}"
 
 
 def _references(subpass: Subpass) -> list[AttachmentReference]:

@@ -24,10 +24,15 @@ def read(source: Source, root: Node) -> Document:
     """The pipeline as a document. A compute pipeline gives one without passes."""
     binder = Binder(dumped=True)
     description: Description = binder.record(Description, _nothing(root), "", "", Span(root.start, root.start))
+    if root.kind != "mapping" or not any(state in root.value for state in STATES):
+        binder.wrong(root, "", f"one of {', '.join(STATES)}")
+        return Document(source, description, tuple(binder.problems), whole=False)
     state = root.value.get("GraphicsPipelineState")
     if state is not None and state.kind == "mapping":
         _graphics(binder, description, state)
         _enabled(binder, description, root, state)
+    elif state is not None and not is_null(state):
+        binder.wrong(state, "GraphicsPipelineState", "a mapping")
     return Document(source, description, tuple(binder.problems), whole=False)
 
 
@@ -46,9 +51,12 @@ def _graphics(binder: Binder, description: Description, state: Node) -> None:
         made: RenderPass = binder.record(RenderPass, state.value[name], path, name, state.keys[name].span)
         description.renderPasses = {name: made}
     pipeline = state.value.get("GraphicsPipeline")
-    if pipeline is None or pipeline.kind != "mapping":
+    if pipeline is None or is_null(pipeline):
         return
     path = "GraphicsPipelineState.GraphicsPipeline"
+    if pipeline.kind != "mapping":
+        binder.wrong(pipeline, path, "a mapping")
+        return
     made_pipeline: Pipeline = binder.record(Pipeline, _plain(pipeline), path, "GraphicsPipeline", state.keys["GraphicsPipeline"].span)
     # `renderPass` is the number that the tool gave the render pass above.
     made_pipeline.renderPass = name or None

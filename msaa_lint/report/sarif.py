@@ -96,7 +96,7 @@ def _descriptor(rule: RuleInfo) -> dict[str, object]:
     tags = ["msaa", "vulkan", *_family(rule)]
     made: dict[str, object] = {
         "id": shown(rule.code),
-        "name": clip(shown(rule.name), LONGEST_NAME) or rule.code,
+        "name": clip(shown(rule.name), LONGEST_NAME) or shown(rule.code),
         "shortDescription": {"text": clip(summary, LONGEST_DESCRIPTION)},
         "fullDescription": {"text": clip(summary, LONGEST_DESCRIPTION)},
         # GitHub shows no helpUri, so the links are in the page too.

@@ -1,13 +1,11 @@
-"""Speed and memory of whole runs, measured and printed, never asserted: `python tests/benchmarks/run.py [--quick]`.
+"""Measures whole processes: `python tests/benchmarks/run.py [--quick]`. Prints a table in Markdown.
 
-Every command is run in turn with the others (A B C, A B C, ...), so that a machine whose speed drifts slows all alike; the median of the wall
-times counts, and the largest resident memory. yamllint and check-jsonschema are measured on the same file where they are installed.
+Wall time and CPU time are those of the process, peak memory its resident set, as the kernel counts them (wait4). Runs of what is compared
+alternate, so that a machine that slows down slows all of them; the least and the median of the runs are shown. Bytecode is compiled before.
 """
 
 from __future__ import annotations
 
-import argparse
-import json
 import os
 import shutil
 import statistics
@@ -15,84 +13,145 @@ import subprocess
 import sys
 import tempfile
 import time
-from pathlib import Path
+from collections.abc import Sequence
+from typing import NamedTuple
 
-ROOT = Path(__file__).parents[2]
-SAMPLES = Path(os.environ.get("MSAA_LINT_SAMPLES", ROOT.parent / "shared" / "samples"))
-FILE_BYTES = 1300
+from inputs import DESCRIPTION, PIPELINES, ROOT, descriptions, pipelines
 
+CHECK = (sys.executable, "-c", "from msaa_lint.__main__ import main; main()", "check", "--isolated")
+"""What the installed `msaa-lint check` runs."""
 
-def description(size: int) -> str:
-    """A description of a stored and resolved attachment of about that many bytes."""
-    text = (ROOT / "examples" / "khronos-msaa" / "stored-and-resolved.msaa.yaml").read_text(encoding="utf-8")
-    pipeline = "  p{}: {{renderPass: scene, subpass: 0, multisampleState: {{rasterizationSamples: 4, sampleShadingEnable: false}}}}\n"
-    text += "pipelines:\n"
-    number = 0
-    while len(text) + len(pipeline) <= size:
-        text += pipeline.format(number)
-        number += 1
-    return text
+MANY = 1000
 
 
-def pipeline_json() -> str:
-    """A Vulkan SC pipeline of 36 kB, where the sample files are not at hand."""
-    attachment = {"format": "VK_FORMAT_R8G8B8A8_UNORM", "samples": "VK_SAMPLE_COUNT_1_BIT", "loadOp": "VK_ATTACHMENT_LOAD_OP_CLEAR"}
-    render_pass = {"sType": "VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO", "pAttachments": [attachment], "pSubpasses": [{"flags": "0"}]}
-    features = {f"feature{n}": "VK_TRUE" for n in range(1000)}
-    state = {"Renderpass": render_pass, "GraphicsPipeline": {"flags": "0"}, "PhysicalDeviceFeatures": {"features": features}}
-    return json.dumps({"GraphicsPipelineState": state}, indent=4)
+class Task(NamedTuple):
+    """A command, and the exit codes that say it did its work."""
+
+    name: str
+    command: Sequence[str]
+    codes: Sequence[int] = (0, 1)
 
 
-def once(command: list[str], folder: Path) -> tuple[float, float]:
-    """Wall seconds, and peak resident MiB, of one run."""
+class Sample(NamedTuple):
+    """One run: seconds, seconds, bytes."""
+
+    wall: float
+    cpu: float
+    memory: int
+
+
+class Failed(Exception):
+    """A command that did not do its work, and so was not measured."""
+
+
+def environment(folder: str) -> dict[str, str]:
+    """With bytecode, whatever the shell says, in a folder of its own, and without what slows a Python down or configures a linter."""
+    kept = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "COVERAGE", "MSAA_LINT_"))}
+    return {**kept, "PYTHONPATH": ROOT, "PYTHONPYCACHEPREFIX": os.path.join(folder, "bytecode"), "NO_COLOR": "1"}
+
+
+def once(task: Task, folder: str, given: dict[str, str]) -> Sample:
+    """Runs a command to its end, its output thrown away."""
+    null = [(os.POSIX_SPAWN_OPEN, fd, os.devnull, flags, 0) for fd, flags in ((0, os.O_RDONLY), (1, os.O_WRONLY), (2, os.O_WRONLY))]
+    os.chdir(folder)
     start = time.perf_counter()
-    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    child = subprocess.Popen(command, cwd=folder, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    _, status, usage = os.wait4(child.pid, 0)
-    child.returncode = os.waitstatus_to_exitcode(status)
-    if child.returncode not in (0, 1):
-        raise SystemExit(f"{command[0]} ended with {child.returncode}: nothing was measured")
-    return time.perf_counter() - start, usage.ru_maxrss / 1024
+    child = os.posix_spawn(task.command[0], list(task.command), given, file_actions=null)
+    _, status, usage = os.wait4(child, 0)
+    wall = time.perf_counter() - start
+    if os.waitstatus_to_exitcode(status) not in task.codes:
+        raise Failed(f"{task.name} ended with {os.waitstatus_to_exitcode(status)}: {' '.join(task.command)}")
+    return Sample(wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss * (1 if sys.platform == "darwin" else 1024))
 
 
-def main() -> None:
-    """Measures, and prints a Markdown table."""
-    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
-    arguments.add_argument("--quick", action="store_true", help="three rounds in place of fifteen")
-    rounds = 3 if arguments.parse_args().quick else 15
-    with tempfile.TemporaryDirectory() as made:
-        folder = Path(made)
-        (folder / "one.msaa.yaml").write_text(description(FILE_BYTES), encoding="utf-8")
-        many = folder / "many"
-        many.mkdir()
-        for number in range(1000):
-            (many / f"f{number}.msaa.yaml").write_text(description(FILE_BYTES), encoding="utf-8")
-        sc = SAMPLES / "vulkan_sc"
-        if not sc.is_dir():
-            sc = folder / "sc"
-            sc.mkdir()
-            for number in range(129):
-                (sc / f"{number}.json").write_text(pipeline_json(), encoding="utf-8")
-        check = [sys.executable, "-m", "msaa_lint", "check", "--isolated"]
-        schema = subprocess.run([sys.executable, "-m", "msaa_lint", "schema"], capture_output=True, text=True, check=True, cwd=ROOT)
-        (folder / "schema.json").write_text(schema.stdout, encoding="utf-8")
-        commands: dict[str, list[str]] = {"msaa-lint check, one description of 1.3 KB": [*check, "one.msaa.yaml"]}
-        scripts = Path(sys.executable).parent
-        for name, extra in (("yamllint", ["one.msaa.yaml"]), ("check-jsonschema", ["--schemafile", "schema.json", "one.msaa.yaml"])):
-            found = shutil.which(name, path=f"{scripts}{os.pathsep}{os.environ.get('PATH', '')}")
-            if found is not None:
-                commands[f"{name}, the same file"] = [found, *extra]
-        commands["msaa-lint check, 129 Vulkan SC pipelines"] = [*check, str(sc)]
-        commands["msaa-lint check, 1,000 descriptions of 1.3 KB"] = [*check, "many"]
-        figures: dict[str, list[tuple[float, float]]] = {name: [] for name in commands}
-        for _ in range(rounds + 1):
-            for name, command in commands.items():
-                figures[name].append(once(command, folder))
-    print(f"| run (median of {rounds}, Python {sys.version.split()[0]}) | wall s | least | peak MiB |\n|---|---|---|---|")
-    for name, runs in figures.items():
-        walls = [wall for wall, _ in runs[1:]]
-        print(f"| {name} | {statistics.median(walls):.3f} | {min(walls):.3f} | {max(memory for _, memory in runs[1:]):.0f} |")
+def measure(tasks: Sequence[Task], rounds: int, folder: str) -> dict[str, list[Sample]]:
+    """The samples of each task, in turns. The first turn compiles the bytecode and is not counted."""
+    given = environment(folder)
+    found: dict[str, list[Sample]] = {task.name: [] for task in tasks}
+    for turn in range(rounds + 1):
+        for task in tasks:
+            sample = once(task, folder, given)
+            if turn:
+                found[task.name].append(sample)
+    return found
+
+
+def others(folder: str) -> list[Task]:
+    """The linters that are compared with, where they are installed beside this Python or on the path."""
+    beside = os.path.dirname(sys.executable)
+    tasks = []
+    for name, arguments in (("yamllint", ["-d", "relaxed"]), ("check-jsonschema", ["--schemafile", os.path.join(folder, "schema.json")])):
+        found = shutil.which(name, path=os.pathsep.join([beside, os.environ.get("PATH", os.defpath)]))
+        if found is None:
+            print(f"{name} is not installed: left out", file=sys.stderr)
+        else:
+            tasks.append(Task(f"{name}, the same file", [found, *arguments, "one.msaa.yaml"]))
+    return tasks
+
+
+def row(name: str, samples: Sequence[Sample], goal: str = "") -> str:
+    """A line of the table."""
+    wall, cpu = [s.wall for s in samples], [s.cpu for s in samples]
+    memory = max(s.memory for s in samples) / 1e6
+    times = " | ".join(f"{1000 * seconds:.0f}" for seconds in (min(wall), statistics.median(wall), min(cpu), statistics.median(cpu)))
+    return f"| {name} | {times} | {memory:.0f} | {goal} |"
+
+
+def verdict(value: float, limit: float, text: str) -> str:
+    return f"{text}: {'met' if value <= limit else 'MISSED'}"
+
+
+def compared(one: Sequence[Sample], found: dict[str, list[Sample]]) -> list[str]:
+    """How one description stands against each other linter on the same file, by the medians of wall time."""
+    own = statistics.median(s.wall for s in one)
+    lines = []
+    for name, samples in found.items():
+        limit = 2.0 if name.startswith("yamllint") else 1.0 if name.startswith("check-jsonschema") else None
+        if limit is not None:
+            times = own / statistics.median(s.wall for s in samples)
+            lines.append(verdict(times, limit, f"{times:.2f} times {name.split(',')[0]} (at most {limit:.1f})"))
+    return lines
+
+
+def main() -> int:
+    """Measures and prints; 2 where a command failed."""
+    if not hasattr(os, "wait4"):
+        print("this system does not say what a process took", file=sys.stderr)
+        return 2
+    quick = "--quick" in sys.argv[1:]
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            lines = table(folder, 5 if quick else 21, 2 if quick else 7)
+        except (Failed, subprocess.CalledProcessError) as error:
+            print(error, file=sys.stderr)
+            return 2
+        finally:
+            os.chdir(ROOT)
+    print("\n".join(lines))
+    return 0
+
+
+def table(folder: str, rounds: int, long_rounds: int) -> list[str]:
+    with open(os.path.join(folder, "one.msaa.yaml"), "w", encoding="utf-8") as file:
+        file.write(DESCRIPTION)
+    with open(os.path.join(folder, "schema.json"), "w", encoding="utf-8") as file:
+        subprocess.run([sys.executable, "-m", "msaa_lint", "schema"], cwd=ROOT, stdout=file, check=True)
+    sc, origin = pipelines(folder)
+    one = Task(f"msaa-lint check, a description of {len(DESCRIPTION)} bytes", [*CHECK, "one.msaa.yaml"], (1,))
+    start = measure([Task("python -c pass", [sys.executable, "-c", "pass"], (0,)), one, *others(folder)], rounds, folder)
+    many = Task(f"msaa-lint check, {MANY} descriptions", [*CHECK, descriptions(folder, MANY)], (1,))
+    pipeline_files = Task(f"msaa-lint check, {PIPELINES} Vulkan SC files ({origin})", [*CHECK, sc])
+    long = measure([pipeline_files, many], long_rounds, folder)
+    out = [f"Python {sys.version.split()[0]}, {os.cpu_count()} cores, {rounds} and {long_rounds} runs.", ""]
+    out.append("| what | wall ms, least | median | CPU ms, least | median | peak MB | goal |")
+    out.append("|---|---:|---:|---:|---:|---:|---|")
+    for name, samples in start.items():
+        out.append(row(name, samples, "; ".join(compared(start[one.name], start)) if name == one.name else ""))
+    for task, limit in ((pipeline_files, 1.0), (many, 3.0)):
+        took = statistics.median(s.wall for s in long[task.name])
+        out.append(row(task.name, long[task.name], verdict(took, limit, f"{limit:.1f} s")))
+    peak = max(s.memory for name, samples in (start | long).items() if name.startswith("msaa-lint") for s in samples) / 1e6
+    return [*out, "", verdict(peak, 150, f"Peak memory {peak:.0f} MB (at most 150 MB)")]
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -218,6 +218,7 @@ def test_a_document_that_is_no_mapping() -> None:
     check("⟦just words⟧", "MSAA903", "a mapping is due here, not `just words`", "", "")
 
 
+NO_PASSES = "the description has no `renderPasses`"
 R = "renderPasses: {r: {attachments: {color: {}, depth: {}}, subpasses: [{}], dependencies: []}}\n"
 
 
@@ -336,13 +337,13 @@ R = "renderPasses: {r: {attachments: {color: {}, depth: {}}, subpasses: [{}], de
         # Subpasses.
         (
             f"{R}pipelines: {{p: {{renderPass: r, subpass: ⟦1⟧}}}}",
-            "`r` has 1 subpasses, no subpass 1",
+            "`r` has 1 subpass, no subpass 1",
             "",
             "pipelines.p.subpass",
         ),
         (
             "renderPasses: {r: {subpasses: [{}], dependencies: [{srcSubpass: EXTERNAL, dstSubpass: ⟦1⟧}]}}",
-            "`r` has 1 subpasses, no subpass 1",
+            "`r` has 1 subpass, no subpass 1",
             "",
             "renderPasses.r.dependencies[0].dstSubpass",
         ),
