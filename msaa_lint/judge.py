@@ -40,21 +40,22 @@ class Judge:
         """
         findings: list[Finding] = []
         undecided: list[Undecided] = []
-        on: dict[str, list[Rule]] = {}
+        on: dict[str, list[tuple[Rule, Condition]]] = {}
         for subject in subjects:
             rules = on.get(subject.kind)
             if rules is None:
                 every = self._by_subject.get(subject.kind, ())
-                rules = on[subject.kind] = [rule for rule in every if severity(rule, rule.severity, None) is not None]
+                enabled = [rule for rule in every if severity(rule, rule.severity, None) is not None]
+                rules = on[subject.kind] = [(rule, self._condition(rule.when)) for rule in enabled]
             if not rules:
                 continue
             values = subject.facts.values
             asked = self._facts_asked(subject.kind)
-            ready = activation(None, {name: value for name, value in values.items() if name in asked})
+            ready = activation(None, {name: values[name] for name in asked.intersection(values)})
             fired: list[tuple[Rule, Finding]] = []
-            for rule in rules:
+            for rule, condition in rules:
                 try:
-                    answer = self._condition(rule.when).holds(ready)
+                    answer = condition.holds(ready)
                 except ArithmeticError as error:
                     findings.append(_failed(rule, error, file))
                     continue
@@ -66,7 +67,7 @@ class Judge:
                     if weight is not None:
                         fired.append((rule, finding(rule, case, subject, file, weight)))
                 elif answer is None:
-                    missing = tuple(name for name in self._condition(rule.when).facts if name not in values)
+                    missing = tuple(name for name in condition.facts if name not in values)
                     undecided.append(Undecided(rule.code, rule.name, file, subject.path, missing))
             findings.extend(_one_cause(fired))
         return Verdicts(_distinct(findings), undecided)

@@ -6,6 +6,7 @@ names (`pAttachments`, `attachmentCount`, `pNext`), write "NULL", "VK_TRUE" and 
 
 from __future__ import annotations
 
+import re
 from typing import Any, NamedTuple
 
 from ..finding import Label, Span
@@ -54,6 +55,7 @@ WITHIN: dict[str, type[Record]] = {
 
 OTHER_NAMES = {"pDepthStencilResolveAttachment": "attachment"}
 _NULLS = ("NULL", "VK_NULL_HANDLE")
+_HEXADECIMAL = re.compile(r"0[xX][0-9a-fA-F]{1,16}")
 
 
 class Binder:
@@ -253,8 +255,8 @@ class Binder:
 
     def integer(self, low: int | None, high: int | None, node: Node, path: str) -> int | None:
         value = node.value
-        if self.dumped and isinstance(value, str) and _is_number(value):
-            value = int(value)
+        if self.dumped and isinstance(value, str) and (_is_number(value) or _HEXADECIMAL.fullmatch(value)):
+            value = int(value, 16 if value[:2] in ("0x", "0X") else 10)
         if isinstance(value, bool) or not isinstance(value, int):
             self.wrong(node, path, "a whole number")
             return None

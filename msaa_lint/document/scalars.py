@@ -31,7 +31,16 @@ def sample_count(value: object) -> int | None:
 
 def enumerant(enums: str, text: str) -> str | None:
     """The canonical name in the first of the enums, joined by `|`, that has it; None where none has."""
-    return next((name for enum in enums.split("|") if (name := parse_enum(enum, text)) is not None), None)
+    found = _found.get((enums, text))
+    if found is None:
+        found = next((name for enum in enums.split("|") if (name := parse_enum(enum, text)) is not None), None)
+        if found is not None:
+            _found[enums, text] = found
+    return found
+
+
+_found: dict[tuple[str, str], str] = {}
+"""Spellings met: the same few words state most of a frame. What is no name is not kept, so that no input makes this grow."""
 
 
 def finite(value: float) -> bool:

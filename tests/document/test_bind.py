@@ -393,10 +393,13 @@ def test_a_name_that_looks_like_an_index_is_a_name_in_every_spelling() -> None:
 
 
 def test_numbers_may_be_names() -> None:
-    document = read(
-        "images: {0: {}}\nframebuffers: {0: {}}\nrenderPasses: {r: {attachments: [{image: 0}]}}\ncommands: [beginRenderPass: {framebuffer: 0}]"
-    )
-    assert document.problems == ()
+    text = """
+    images: {0: {}}
+    framebuffers: {0: {}}
+    renderPasses: {r: {attachments: [{image: 0}]}}
+    commands: [beginRenderPass: {framebuffer: 0}]
+    """
+    assert read(text).problems == ()
 
 
 def test_every_mistake_is_told_up_to_a_limit() -> None:

@@ -2,24 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
 
 import pytest
 
-STACKS = ("libyaml", "pure")
+from .reading import without_libyaml
 
 
-@contextmanager
-def without_libyaml() -> Iterator[None]:
-    """What a PyYAML that was built without libyaml is like."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setitem(sys.modules, "yaml._yaml", None)
-        yield
-
-
-@pytest.fixture(params=STACKS)
+@pytest.fixture(params=["libyaml", "pure"])
 def stack(request: pytest.FixtureRequest) -> Iterator[str]:
     if request.param == "pure":
         with without_libyaml():

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
+
+import pytest
 
 from msaa_lint.source.text import Source
 from msaa_lint.source.tree import Limits, Node, Parsed, Problem, parse
-
-TALL = Limits()
 
 
 def reading(text: str, **limits: int) -> Parsed:
@@ -51,5 +54,9 @@ def spelled(text: str) -> list[str]:
     return [text[node.start : node.end] for node in nodes(one(text))]
 
 
-def places(text: str) -> list[tuple[int, int]]:
-    return [(node.start, node.end) for node in nodes(one(text))]
+@contextmanager
+def without_libyaml() -> Iterator[None]:
+    """What a PyYAML that was built without libyaml is like."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(sys.modules, "yaml._yaml", None)
+        yield

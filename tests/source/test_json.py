@@ -15,8 +15,7 @@ from hypothesis import strategies as st
 from msaa_lint.source.text import Source, forbidden
 from msaa_lint.source.tree import Limits, parse
 
-from .conftest import without_libyaml
-from .reading import one, plain, spelled, trouble
+from .reading import one, plain, spelled, trouble, without_libyaml
 
 SAMPLES = Path(os.environ.get("MSAA_LINT_SAMPLES", Path(__file__).parents[3] / "shared" / "samples"))
 
@@ -66,7 +65,10 @@ class TestSurrogates:
         assert spelled(text)[1:] == [f'"a{written}"', f'["{written}", 1]', f'"{written}"', "1"]
 
     def test_only_in_double_quotes(self) -> None:
-        text = 'a: \\ud83d\\ude00 # "\nb: \'\\ud83d\'\nc: |\n  \\ud83d\\ude00\nd: "\\ud83d\\ude00 \\ue000"\ne: "\\\\ud83d"\nf: "\\\\\\ud83d\\ude00"\n'
+        text = (
+            "a: \\ud83d\\ude00 # \"\nb: '\\ud83d'\nc: |\n  \\ud83d\\ude00\n"
+            'd: "\\ud83d\\ude00 \\ue000"\ne: "\\\\ud83d"\nf: "\\\\\\ud83d\\ude00"\n'
+        )
         assert plain(one(text)) == {
             "a": "\\ud83d\\ude00", "b": "\\ud83d", "c": "\\ud83d\\ude00\n", "d": "😀 \ue000", "e": "\\ud83d", "f": "\\😀",
         }  # fmt: skip

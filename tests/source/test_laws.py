@@ -13,8 +13,7 @@ from msaa_lint.source.scalars import resolve
 from msaa_lint.source.text import forbidden
 from msaa_lint.source.tree import Node, Parsed
 
-from .conftest import without_libyaml
-from .reading import nodes, one, plain, reading
+from .reading import nodes, one, plain, reading, without_libyaml
 
 # What YAML 1.1, which yaml.dump writes, reads otherwise is left out where it writes without quotes.
 LETTERS = st.text(
@@ -58,9 +57,10 @@ def _text(dumper: yaml.SafeDumper, value: str) -> yaml.ScalarNode:
     return dumper.represent_scalar("tag:yaml.org,2002:str", value, style=style)
 
 
-def _plain(dumper: yaml.SafeDumper, value: Any) -> yaml.ScalarNode:
+def _plain(dumper: yaml.SafeDumper, value: Any) -> yaml.Node:
     """Without quotes whatever the style, so that it needs no tag."""
-    node: yaml.ScalarNode = yaml.SafeDumper.yaml_representers[type(value)](dumper, value)
+    node = yaml.SafeDumper.yaml_representers[type(value)](dumper, value)
+    assert isinstance(node, yaml.ScalarNode)
     node.style = ""
     return node
 

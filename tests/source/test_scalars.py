@@ -33,7 +33,8 @@ def test_nan(text: str) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "yes", "no", "on", "off", "y", "n", "Yes", "NO", "tRUE", "nULL", "1_000", "1:30", "0b11", "0o8", "0xG", "-0x1", "+0o7", "2020-01-01",
+        "yes", "no", "on", "off", "y", "n", "Yes", "NO", "tRUE", "nULL", "1_000", "1:30", "0b11", "0o8", "0xG",
+        "-0x1", "+0o7", "2020-01-01",
         "+", "-", ".", "..", "+.", "e3", ".e3", "1e", "1e+", "--1", "1.2.3", "1 2", "-.nan", "+.nan", "inf", "NaN", "Infinity", "=", "<<",
         "１２", "1²", "٣", "1\n", " 1", "nullx",
     ],

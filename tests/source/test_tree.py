@@ -11,7 +11,7 @@ from msaa_lint.finding import Label, Span
 from msaa_lint.source.text import Source
 from msaa_lint.source.tree import Limits, parse
 
-from .reading import nodes, one, places, plain, reading, spelled, trouble
+from .reading import nodes, one, plain, reading, spelled, trouble
 
 pytestmark = pytest.mark.usefixtures("stack")
 
