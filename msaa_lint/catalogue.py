@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from .condition import Wrong, check
 from .diagnostics import diagnostic
 from .finding import Finding, RuleInfo, Span
 from .page import Rule, read_page, split
+from .source.text import Source
 
 EDITIONS = ("2026.1",)
 """In their order; a rule of a later edition than the one pinned is off."""
 
 
 class Catalogue(NamedTuple):
-    """Rules by code, and what is wrong with the pages that could not be used."""
+    """Rules by code, what is wrong with the pages that could not be used, and the texts that this points into, by name."""
 
     rules: tuple[Rule, ...]
     problems: tuple[Finding, ...]
+    sources: Mapping[str, Source] = {}
 
 
 def folder() -> str:
@@ -43,6 +45,7 @@ def load(own: Sequence[str] = ()) -> Catalogue:
     """
     rules: list[Rule] = []
     problems: list[Finding] = []
+    sources: dict[str, Source] = {}
     for path in pages(folder()):
         page = read_page(path, f"rules/{os.path.basename(path)}")
         problems.extend(page.problems)
@@ -52,13 +55,15 @@ def load(own: Sequence[str] = ()) -> Catalogue:
         shown = os.path.relpath(path).replace(os.sep, "/")
         page = read_page(path, shown)
         problems.extend(page.problems)
+        if page.source is not None:
+            sources[shown] = page.source
         if page.rule is None:
             continue
         found = [*conflicts(page.rule, rules), *check_rule(page.rule)]
         problems.extend(found)
         if not found:
             rules.append(page.rule)
-    return Catalogue(tuple(sorted(rules, key=lambda rule: rule.code)), tuple(problems))
+    return Catalogue(tuple(sorted(rules, key=lambda rule: rule.code)), tuple(problems), sources)
 
 
 def conflicts(rule: Rule, others: Iterable[Rule]) -> list[Finding]:

@@ -92,7 +92,8 @@ def finding(rule: Rule, case: Case | None, subject: Subject, file: str, severity
     facts = subject.facts
     message = case.message if case is not None and case.message is not None else rule.message
     confidence = case.confidence if case is not None and case.confidence is not None else rule.confidence
-    span = _place(rule.at, facts) or subject.head
+    # Without `at`, the first fact of the condition that is stated somewhere.
+    span = _place(rule.at or named(rule.when), facts) or subject.head
     labels = []
     for fact, text in rule.labels:
         place = facts.places.get(fact)

@@ -63,10 +63,11 @@ class Rule(NamedTuple):
 
 
 class Page(NamedTuple):
-    """A page as it was read: the rule, if it could be, and what is wrong with it."""
+    """A page as it was read: the rule, if it could be, what is wrong with it, and its text, if it has one."""
 
     rule: Rule | None
     problems: tuple[Finding, ...]
+    source: Source | None = None
 
 
 KEYS = (
@@ -86,18 +87,20 @@ def read_page(path: str, shown: str) -> Page:
     source = Source(shown, text)
     front, body = split(text)
     if front is None:
-        return Page(None, (diagnostic("MSAA921", "a rule page begins with front matter between two lines of ---", shown, Span(0, 0)),))
+        return Page(
+            None, (diagnostic("MSAA921", "a rule page begins with front matter between two lines of ---", shown, Span(0, 0)),), source
+        )
     parsed = parse(Source(shown, front), Limits())
     if parsed.problems:
         found = [diagnostic("MSAA921", p.message, shown, p.span, name, tuple(p.labels)) for p in parsed.problems]
-        return Page(None, tuple(found))
+        return Page(None, tuple(found), source)
     reading = _Reading(shown, name, source)
     root = parsed.documents[0] if parsed.documents else None
     if root is None or root.kind != "mapping":
         reading.wrong(Span(0, 0), "the front matter is a mapping")
-        return Page(None, tuple(reading.problems))
+        return Page(None, tuple(reading.problems), source)
     rule = reading.rule(root, body, path)
-    return Page(rule if not reading.problems else None, tuple(reading.problems))
+    return Page(rule if not reading.problems else None, tuple(reading.problems), source)
 
 
 def split(text: str) -> tuple[str | None, str]:

@@ -104,7 +104,7 @@ class Run:
         if settings.rules not in self._catalogues:
             made = load(settings.rules)
             self.findings.extend(made.problems)
-            self.sources.update({rule.source.name: rule.source for rule in made.rules if not rule.edition})
+            self.sources.update(made.sources)
             self._catalogues[settings.rules] = made
             self._engines[settings.rules] = Engine(made)
         return self._catalogues[settings.rules]

@@ -72,6 +72,11 @@ Now: msaa-lint check frame.msaa.yaml
 
 def init(folder: str) -> int:
     """Writes msaa-lint.toml and frame.msaa.yaml where they are not there yet; 2 where that cannot be."""
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        print(f"msaa-lint: {visible(folder)} cannot be made: {error.strerror}", file=sys.stderr)
+        return 2
     for name, text in (("msaa-lint.toml", CONFIGURATION), ("frame.msaa.yaml", DESCRIPTION)):
         path = os.path.join(folder, name)
         try:

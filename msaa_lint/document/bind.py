@@ -53,6 +53,9 @@ WITHIN: dict[str, type[Record]] = {
 }
 """Structures of a pNext chain whose members are, in a description, the structure's own; they stand in for what it states itself."""
 
+DECISIVE = ("VkAccessFlagBits2", "VkPipelineStageFlagBits2", "VkColorComponentFlagBits", "VkImageUsageFlagBits", "VkMemoryPropertyFlagBits")
+"""Flags of which an unknown one, in a dump by a newer tool, may be any that a rule asks for; of others it is none."""
+
 OTHER_NAMES = {"pDepthStencilResolveAttachment": "attachment"}
 _NULLS = ("NULL", "VK_NULL_HANDLE")
 _HEXADECIMAL = re.compile(r"0[xX][0-9a-fA-F]{1,16}")
@@ -233,7 +236,8 @@ class Binder:
     def flags(self, enum: str, node: Node, path: str) -> tuple[str, ...] | None:
         if node.kind == "sequence":
             bits = [self.enumerant(enum, item, f"{path}[{n}]") for n, item in enumerate(node.value)]
-            return tuple(dict.fromkeys(bit for bit in bits if bit is not None and bit != "NONE")) if None not in bits else None
+            whole = None not in bits or (self.dumped and enum not in DECISIVE)
+            return tuple(dict.fromkeys(bit for bit in bits if bit is not None and bit != "NONE")) if whole else None
         plain = isinstance(node.value, str) or (isinstance(node.value, int) and (self.dumped or node.text == "0"))
         if node.kind != "scalar" or not plain:
             self.wrong(node, path, f"a list of {enum}")
@@ -243,7 +247,11 @@ class Binder:
         except ValueError as error:
             if not self.dumped:
                 self.no_enumerant(enum, str(error), node, path)
+                return None
+        if enum in DECISIVE:
             return None
+        bits = [enumerant(enum, part.strip()) for part in node.text.split("|")]
+        return tuple(dict.fromkeys(bit for bit in bits if bit is not None and bit != "NONE"))
 
     def boolean(self, node: Node, path: str) -> bool | None:
         if isinstance(node.value, bool):

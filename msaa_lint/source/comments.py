@@ -54,7 +54,7 @@ def _between(text: str, known: int) -> Iterator[tuple[int, int]]:
     """The spans between scalars, and the ends of the lines on which block scalars begin, up to the first document after `known`."""
     position = 0
     try:
-        for token in iter(parser(readable(text)).get_token, None):
+        for token in iter(parser(readable(text)[0]).get_token, None):
             kind = type(token)
             start = token.start_mark.index
             if kind is ScalarToken:

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from itertools import chain
-from typing import Any, NamedTuple
+from typing import Any
 
 from yaml.error import MarkedYAMLError, YAMLError
 from yaml.events import ScalarEvent
@@ -23,24 +22,22 @@ Get = Callable[[], Any]
 MAX_TAG_DIRECTIVES = 100
 """`%TAG` lines of a text: libyaml compares each with all before it."""
 
-_TAG_DIRECTIVE = re.compile(r"(?:^|(?<=[\r\n]))%TAG")
-_SURROGATE = re.compile(r"(?<!\\)((?:\\\\)*+)\\u(?=[dD][89a-fA-F][0-9a-fA-F]{2})")
+# Compiled where they are used, as most runs use none of them.
+_TAG_DIRECTIVE = r"(?:^|(?<=[\r\n]))%TAG"
+_SURROGATE = r"(?<!\\)((?:\\\\)*+)\\u(?=[dD][89a-fA-F][0-9a-fA-F]{2})"
+_PRIVATE = (range(0xE000, 0xF900), range(0xF0000, 0xFFFFE))
 _BREAKS = "\x85\u2028\u2029"
-_CONTEXT = re.compile(r"while (?:parsing|scanning) an? (.+)")
+_CONTEXT = r"while (?:parsing|scanning) an? (.+)"
 
 
-class Readable(NamedTuple):
-    """A text as the parser gets it. `marks` are the characters that stand for `\\u` of a surrogate and for _BREAKS; empty where none do."""
+def readable(text: str) -> tuple[str, str]:
+    """The text for the parser, and the characters that stand in it for `\\u` of a surrogate and for _BREAKS; none where there are none.
 
-    text: str
-    marks: str
-
-
-def readable(text: str) -> Readable:
-    """The text for the parser. Stop where it would take the parser too long."""
+    Stop where it would take the parser too long.
+    """
     # Single characters are looked for first: that takes no time.
     if "%" in text and text.count("%TAG") > MAX_TAG_DIRECTIVES:
-        directives = list(_TAG_DIRECTIVE.finditer(text))[MAX_TAG_DIRECTIVES:]
+        directives = list(re.finditer(_TAG_DIRECTIVE, text))[MAX_TAG_DIRECTIVES:]
         if directives:
             raise Stop("MSAA906", f"more %TAG directives than {MAX_TAG_DIRECTIVES}", *directives[0].span())
     if text.startswith("\ufeff"):
@@ -49,24 +46,25 @@ def readable(text: str) -> Readable:
         text = _without_outer_tabs(text)
     if ("\\" in text and ("\\ud" in text or "\\uD" in text)) or (not text.isascii() and any(mark in text for mark in _BREAKS)):
         return _marked(text)
-    return Readable(text, "")
+    return text, ""
 
 
-def parser(text: Readable) -> Any:
+def parser(text: str) -> Any:
     """libyaml's parser or, where PyYAML is without it, PyYAML's own."""
     try:
         from yaml._yaml import CParser
     except ImportError:
         from .pure import PureParser
 
-        return PureParser(text.text)
-    return CParser(text.text)
+        return PureParser(text)
+    return CParser(text)
 
 
-def events(text: Readable) -> Get:
-    """What gives the next event."""
+def events(text: str) -> Get:
+    """What gives the next event. Stop as `readable`, and later for half of a surrogate pair."""
+    text, marks = readable(text)
     get: Get = parser(text).get_event
-    return _unmarked(get, text) if text.marks else get
+    return _unmarked(get, text, marks) if marks else get
 
 
 def trouble(error: Exception, text: str) -> Problem:
@@ -79,7 +77,7 @@ def trouble(error: Exception, text: str) -> Problem:
     problem, context = error.problem or "this cannot be read", error.context or ""
     message = _plainly(problem, text[start : start + 1]) or f"{problem} {context}".rstrip()
     begin = start if error.context_mark is None else error.context_mark.index
-    about = _CONTEXT.fullmatch(context)
+    about = re.fullmatch(_CONTEXT, context)
     if about is None or begin >= start:
         return Problem("MSAA901", message, span)
     return Problem("MSAA901", message, span, (Label(Span(begin, begin + 1), f"the {about[1]} begins here"),))
@@ -108,30 +106,31 @@ def _without_outer_tabs(text: str) -> str:
     return text[:start].replace("\t", " ") + inner + text[end:].replace("\t", " ")
 
 
-def _marked(text: str) -> Readable:
+def _marked(text: str) -> tuple[str, str]:
     used = set(text)
-    free = (c for c in map(chr, chain(range(0xE000, 0xF900), range(0xF0000, 0xFFFFE))) if c not in used)
+    free = (chr(number) for private in _PRIVATE for number in private if chr(number) not in used)
     marks = "".join(next(free, "") for _ in range(1 + len(_BREAKS)))
     if len(marks) <= len(_BREAKS):
-        return Readable(text, "")
-    text = _SURROGATE.sub(lambda match: match[1] + 2 * marks[0], text)
-    return Readable(text.translate(str.maketrans(_BREAKS, marks[1:])), marks)
+        return text, ""
+    text = re.sub(_SURROGATE, lambda match: match[1] + 2 * marks[0], text)
+    return text.translate(str.maketrans(_BREAKS, marks[1:])), marks
 
 
-def _unmarked(get: Get, text: Readable) -> Get:
-    escape = 2 * text.marks[0]
+def _unmarked(get: Get, text: str, marks: str) -> Get:
+    """The events with what the marks stand for."""
+    escape = 2 * marks[0]
     half = re.compile(f"{escape}....")
     pair = re.compile(f"{escape}([dD][89abAB]..){escape}([dD][c-fC-F]..)")
-    breaks = str.maketrans(text.marks[1:], _BREAKS)
+    breaks = str.maketrans(marks[1:], _BREAKS)
 
     def whole(match: re.Match[str]) -> str:
         return chr(0x10000 + ((int(match[1], 16) - 0xD800) << 10) + int(match[2], 16) - 0xDC00)
 
     def alone(start: int, end: int) -> Stop:
         # Pairs become as many other characters, so that the first half that is left is found at its place.
-        match = half.search(pair.sub(12 * "_", text.text[start:end]))
+        match = half.search(pair.sub(12 * "_", text[start:end]))
         at = start + match.start() if match is not None else start
-        written = text.text[at : at + 6].replace(escape, "\\u")
+        written = text[at : at + 6].replace(escape, "\\u")
         return Stop("MSAA901", f"`{written}` is half of a surrogate pair, and no character", at, at + 6)
 
     def unmarked() -> Any:

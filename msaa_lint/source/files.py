@@ -28,8 +28,12 @@ def read(path: str, limits: Limits) -> bytes:
         raise OSError(f"no file can have that name: {error}") from None
     descriptor = os.open(path, _FLAGS)
     with open(descriptor, "rb") as file:
-        _regular(os.fstat(descriptor).st_mode)
-        data = file.read(limits.bytes + 1)
+        status = os.fstat(descriptor)
+        _regular(status.st_mode)
+        # Its size first: Python sets aside as much memory as it is asked to read. A file of the kernel's, or one that grows, has more.
+        data = file.read(min(status.st_size, limits.bytes) + 1)
+        if len(data) > status.st_size:
+            data += file.read(limits.bytes + 1 - len(data))
     if len(data) > limits.bytes:
         raise Unreadable(f"the input is larger than the limit of {limits.bytes} bytes")
     return data

@@ -22,24 +22,21 @@ MAX_FLOAT = 400
 """Characters of a number with a point or an exponent: the longest that C's `%f` writes has 317. A longer one stays text."""
 
 _STARTS = frozenset("0123456789+-.")
-_INT = re.compile(rf"[-+]?[0-9]{{1,{MAX_DIGITS}}}")
-_OCT = re.compile(rf"0o[0-7]{{1,{MAX_DIGITS}}}")
-_HEX = re.compile(rf"0x[0-9a-fA-F]{{1,{MAX_DIGITS}}}")
-_FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+\.[0-9]*|[0-9]+(?=[eE]))(?:[eE][-+]?[0-9]+)?")
+_BASED = rf"0o[0-7]{{1,{MAX_DIGITS}}}|0x[0-9a-fA-F]{{1,{MAX_DIGITS}}}"
+_FLOAT = r"[-+]?(?:\.[0-9]+|[0-9]+\.[0-9]*|[0-9]+(?=[eE]))(?:[eE][-+]?[0-9]+)?"
 
 
 def resolve(text: str) -> Scalar:
     """The value of a plain scalar."""
     if text in WORDS:
         return WORDS[text]
-    if text[0] not in _STARTS or len(text) > MAX_FLOAT:
+    if text[0] not in _STARTS or len(text) > MAX_FLOAT or not text.isascii():
         return text
-    if _INT.fullmatch(text):
-        return int(text)
-    if _HEX.fullmatch(text):
-        return int(text, 16)
-    if _OCT.fullmatch(text):
-        return int(text[2:], 8)
-    if _FLOAT.fullmatch(text):
+    digits = text[1:] if text[0] in "+-" else text
+    if digits.isdigit():
+        return int(text) if len(digits) <= MAX_DIGITS else text
+    if re.fullmatch(_FLOAT, text):
         return float(text)
+    if re.fullmatch(_BASED, text):
+        return int(text, 0)
     return text

@@ -6,10 +6,10 @@ import re
 from bisect import bisect_right
 from typing import NamedTuple
 
-_LINE_END = re.compile(r"\r\n|\r|\n")
-
+# Compiled where they are used, as most runs use none of them.
+_LINE_END = r"\r\n|\r|\n"
 # What YAML 1.2 (section 5.1) does not allow in a stream.
-_FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ud800-\udfff\ufffe\uffff]")
+_FORBIDDEN = "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ud800-\udfff\ufffe\uffff]"
 _ALLOWED_ASCII = bytes([9, 10, 13, *range(32, 127)])
 
 _MARKS = {b"\xef\xbb\xbf": "utf-8", b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}
@@ -45,7 +45,7 @@ class Source:
     def starts(self) -> list[int]:
         """The offset at which each line begins."""
         if self._starts is None:
-            self._starts = [0, *(match.end() for match in _LINE_END.finditer(self.text))]
+            self._starts = [0, *(match.end() for match in re.finditer(_LINE_END, self.text))]
         return self._starts
 
     @property
@@ -98,5 +98,5 @@ def forbidden(text: str) -> int | None:
     # Most descriptions are ASCII, and bytes are looked through seven times as fast.
     if text.isascii() and not text.encode().translate(None, _ALLOWED_ASCII):
         return None
-    match = _FORBIDDEN.search(text)
+    match = re.search(_FORBIDDEN, text)
     return match.start() if match is not None else None

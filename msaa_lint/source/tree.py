@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import gc
 import re
-from typing import Any, NamedTuple
+from typing import Any
 
 from yaml.events import (
     AliasEvent,
@@ -21,7 +21,7 @@ from yaml.events import (
 )
 
 from ..finding import Label, Span
-from .events import ERRORS, events, readable, trouble
+from .events import ERRORS, events, trouble
 from .files import read
 from .node import NO_KEYS, Limits, Node, Parsed, Problem, Stop
 from .scalars import WORDS, resolve
@@ -32,7 +32,7 @@ __all__ = ["Limits", "Node", "Parsed", "Problem", "parse", "read"]
 MAX_TOLD = 50
 """Duplicate keys and tags of one text that are told; the rest would only bury them."""
 
-_COLON = re.compile(r"(?:[ \t\r\n]|(?<=[ \t\r\n])#[^\r\n]*)*+:")
+_COLON = r"(?:[ \t\r\n]|(?<=[ \t\r\n])#[^\r\n]*)*+:"
 
 
 def parse(source: Source, limits: Limits) -> Parsed:
@@ -61,12 +61,8 @@ def parse(source: Source, limits: Limits) -> Parsed:
     return Parsed(reading.documents, [*reading.problems, problem])
 
 
-class _Anchored(NamedTuple):
-    """An anchored node, how many nodes it is, and how many collections deep, aliases expanded."""
-
-    node: Node
-    size: int
-    depth: int
+_Anchored = tuple[Node, int, int]
+"""An anchored node, how many nodes it is, and how many collections deep, aliases expanded."""
 
 
 class _Reading:
@@ -87,7 +83,7 @@ class _Reading:
         """
         text = self.text
         max_depth, max_count = self.limits.depth, self.limits.nodes
-        get = events(readable(text))
+        get = events(text)
         new, known, anchors = object.__new__, dict(WORDS), self.anchors
         maybe_tags = "!" in text
         roots: list[Node] = []
@@ -130,7 +126,7 @@ class _Reading:
                 if event.tag is not None:
                     self._tagged(node, event.tag)
                 if event.anchor is not None:
-                    anchors[event.anchor] = _Anchored(node, 1, 0)
+                    anchors[event.anchor] = (node, 1, 0)
                 count += 1
             elif kind is MappingEndEvent or kind is SequenceEndEvent:
                 end = event.end_mark.index
@@ -144,7 +140,7 @@ class _Reading:
                     merge(parent)
                 size, depth = count - before, deep + 1
                 if name is not None:
-                    anchors[name] = _Anchored(parent, size, depth)
+                    anchors[name] = (parent, size, depth)
                 parent, values, keys, name, before, deep = opened.pop()
                 if depth > deep:
                     deep = depth
@@ -243,6 +239,6 @@ def _block_end(text: str, start: int, end: int, said: str) -> int:
 def _place_nothing(node: Node, key: Node | None, text: str) -> int:
     """Nothing, where a value is due, stands right after the `:` of its key; a parser's place may be beyond comments and line ends."""
     if key is not None:
-        colon = _COLON.match(text, key.end)
+        colon = re.compile(_COLON).match(text, key.end)
         node.start = node.end = colon.end() if colon is not None else key.end
     return node.end

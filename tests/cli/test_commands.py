@@ -1,0 +1,95 @@
+"""The commands around `check`, and the two ways its arguments are read."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from msaa_lint import __version__
+from msaa_lint.cli.options import CHECK, FORMATS, read
+from msaa_lint.report import FORMATS as REPORTED
+
+from .test_check import run
+
+
+def test_version_and_help(tmp_path: Path) -> None:
+    assert run(tmp_path, "--version").stdout == f"msaa-lint {__version__}\n"
+    shown = run(tmp_path, "check", "--help").stdout
+    assert all(option.flag in shown for option in CHECK)
+
+
+def test_did_you_mean(tmp_path: Path) -> None:
+    done = run(tmp_path, "chek")
+    assert done.returncode == 2
+    assert "'check'" in done.stderr
+    done = run(tmp_path, "rule", "multisampled-stored")
+    assert done.returncode == 2
+    assert "multisampled-attachment-stored" in done.stderr
+
+
+def test_rule(tmp_path: Path) -> None:
+    page = run(tmp_path, "rule", "MSAA201").stdout
+    assert page.startswith("# multisampled-attachment-stored\n")
+    assert "## Why" in page
+    assert json.loads(run(tmp_path, "rule", "MSAA201", "--output", "json").stdout)["name"] == "multisampled-attachment-stored"
+    every = json.loads(run(tmp_path, "rule", "--all", "--output", "json").stdout)
+    assert len({rule["code"] for rule in every}) == len(every) >= 59
+
+
+def test_facts(tmp_path: Path) -> None:
+    (tmp_path / "a.yaml").write_text("images: {a: {format: R8_UNORM, samples: 4}}\n", encoding="utf-8")
+    (row,) = json.loads(run(tmp_path, "facts", "a.yaml", "--output", "json").stdout)
+    assert row["path"] == "images.a"
+    assert row["facts"]["image.samples"] == {"value": 4, "line": 1}
+    assert row["facts"]["image.usage"]["value"] is None
+    assert run(tmp_path, "facts", "missing.yaml").returncode == 2
+
+
+def test_schema(tmp_path: Path) -> None:
+    schema = json.loads(run(tmp_path, "schema").stdout)
+    assert "renderPasses" in schema["properties"]
+    assert json.loads(run(tmp_path, "schema", "json-v1").stdout)
+
+
+def test_init_makes_a_project_that_lints(tmp_path: Path) -> None:
+    done = run(tmp_path, "init", "new")
+    assert done.returncode == 0
+    assert "id: msaa-lint" in done.stdout
+    assert run(tmp_path / "new", "check", "frame.msaa.yaml").returncode == 1
+    (tmp_path / "new" / "msaa-lint.toml").write_text('edition = "2026.1"\n', encoding="utf-8")
+    run(tmp_path, "init", "new")
+    assert (tmp_path / "new" / "msaa-lint.toml").read_text(encoding="utf-8") == 'edition = "2026.1"\n'
+
+
+def test_the_formats_are_those_there_are() -> None:
+    assert tuple(REPORTED) == FORMATS
+
+
+words = st.sampled_from(
+    [word for option in CHECK for word in (option.flag, f"{option.flag}=x")]
+    + ["a.yaml", "-", "--", "x", "7", "0", "note", "error", "always", "json", "--help", "-x", "--fail-on=error", "--color=never", ""]
+)
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.lists(words, max_size=6))
+def test_both_ways_to_read_arguments_agree(arguments: list[str]) -> None:
+    """Where the table reads the arguments, typer reads the same from them."""
+    given_fast = read(arguments)
+    if given_fast is None or "" in arguments:
+        return
+    from typer.main import get_command
+
+    from msaa_lint.cli import check
+    from msaa_lint.cli.app import app
+
+    seen: list[dict[str, Any]] = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(check, "check", lambda given: seen.append(dict(given)) or 0)
+        get_command(app).main(["check", *arguments], prog_name="msaa-lint", standalone_mode=False)
+    assert seen == [{**given_fast, "paths": given_fast["paths"]}]

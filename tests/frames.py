@@ -1,0 +1,92 @@
+"""Random descriptions whose references all lead somewhere, so that they are judged."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from hypothesis import strategies as st
+
+from .document.shapes import Json, structure
+
+SECTIONS = {
+    "images": ["image", "srcImage", "dstImage", "resolveImage"],
+    "renderPasses": ["renderPass"],
+    "framebuffers": ["framebuffer"],
+    "pipelines": ["pipeline"],
+}
+
+
+def joined(description: Json) -> Json:
+    """A description with every name, index and list of images made to fit the sections there are."""
+    names = {section: list(description.get(section, {})) for section in SECTIONS}
+    own = {member: section for section, members in SECTIONS.items() for member in members}
+    fitted = _fitted(description, names, own)
+    if isinstance(fitted.get("device"), str):
+        fitted["device"] = "mali-g76"
+    for render_pass in fitted.get("renderPasses", {}).values():
+        _slots(render_pass)
+    for framebuffer in fitted.get("framebuffers", {}).values():
+        bound = fitted.get("renderPasses", {}).get(framebuffer.get("renderPass"))
+        if bound is not None and "attachments" in framebuffer:
+            images = (framebuffer["attachments"] or [None]) * len(bound.get("attachments", []))
+            framebuffer["attachments"] = images[: len(bound.get("attachments", []))]
+    for pipeline in fitted.get("pipelines", {}).values():
+        within = fitted.get("renderPasses", {}).get(pipeline.get("renderPass"))
+        if within is not None and "subpass" in pipeline:
+            pipeline["subpass"] %= max(len(within.get("subpasses", [])), 1)
+    return fitted
+
+
+def _fitted(value: Json, names: dict[str, list[str]], own: dict[str, str], member: str = "") -> Json:
+    section = own.get(member)
+    if section is not None and isinstance(value, (str, int)):
+        return _one_of(value, names[section])
+    if section is not None and isinstance(value, list):
+        return [_one_of(each, names[section]) for each in value if names[section]]
+    if isinstance(value, dict):
+        fitted = {key: _fitted(inner, names, own, key) for key, inner in value.items()}
+        return {key: inner for key, inner in fitted.items() if inner is not ... and (key not in own or inner is not None)}
+    if isinstance(value, list):
+        if member == "attachments" and all(each is None or isinstance(each, (str, int)) for each in value):
+            return [None if each is None or not names["images"] else _one_of(each, names["images"]) for each in value]
+        if member == "images":
+            each_fitted = [_one_of(i, names["images"]) if isinstance(i, (str, int)) else _fitted(i, names, own) for i in value]
+            return [each for each in each_fitted if each is not ...]
+        return [_fitted(inner, names, own) for inner in value]
+    return value
+
+
+def _one_of(value: Json, names: list[str]) -> Json:
+    if not names:
+        return ...
+    return names[(len(value) if isinstance(value, str) else value) % len(names)]
+
+
+def _slots(render_pass: dict[str, Any]) -> None:
+    count = len(render_pass.get("attachments", []))
+    subpasses = render_pass.get("subpasses", [])
+    for subpass in subpasses:
+        for member in ("inputAttachments", "colorAttachments", "resolveAttachments", "preserveAttachments"):
+            if member in subpass:
+                subpass[member] = [_slot(each, count) for each in subpass[member]]
+        if "depthStencilAttachment" in subpass:
+            subpass["depthStencilAttachment"] = _slot(subpass["depthStencilAttachment"], count)
+        if "attachment" in subpass.get("depthStencilResolve", {}):
+            subpass["depthStencilResolve"]["attachment"] = _slot(subpass["depthStencilResolve"]["attachment"], count)
+    for dependency in render_pass.get("dependencies", []):
+        for member in ("srcSubpass", "dstSubpass"):
+            if isinstance(dependency.get(member), int) and dependency[member] >= len(subpasses):
+                dependency[member] = "EXTERNAL"
+
+
+def _slot(value: Json, count: int) -> Json:
+    if isinstance(value, dict):
+        return {**value, "attachment": _slot(value.get("attachment"), count)}
+    if value is None or count == 0:
+        return None
+    return (len(value) if isinstance(value, str) else value) % count
+
+
+def frames() -> st.SearchStrategy[Json]:
+    """Whole random frames."""
+    return structure("Description").map(joined)
