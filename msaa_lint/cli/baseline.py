@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 from .. import baseline as counts
 from ..report.escape import visible
+from ..report.summary import plural
 from ..run import Request, run
 
 
@@ -37,6 +38,7 @@ def baseline(paths: Sequence[str], file: str, prune: bool, config: str | None, i
         print(f"msaa-lint: {visible(file)} cannot be written: {error.strerror}", file=sys.stderr)
         return 2
     after = sum(sum(rules.values()) for rules in made.entries.values())
-    said = f"{before - after} of {before} taken away" if prune else f"{after} findings in {len(made.entries)} files"
+    counted = f"{plural(after, 'finding')} in {plural(len(made.entries), 'file')}"
+    said = f"{before - after} of {before} taken away" if prune else counted
     print(f"{visible(file)}: {said}. Use it: msaa-lint check --baseline {visible(file)} …", file=sys.stderr)
     return 0
