@@ -89,7 +89,7 @@ def _rules(result: Result, findings: Sequence[Finding]) -> list[RuleInfo]:
 
 
 def _descriptor(rule: RuleInfo) -> dict[str, object]:
-    summary = shown(rule.summary) or shown(rule.name).replace("-", " ").capitalize()
+    summary = shown(rule.summary) or shown(rule.name).replace("-", " ").capitalize() or shown(rule.code)
     links = [reference for reference in rule.references if _LINK.fullmatch(reference)]
     page = whole(rule.markdown.strip()) or summary
     seen = "\n".join(f"- {whole(reference)}" for reference in rule.references if reference not in page)
