@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from .condition import Wrong, check
-from .diagnostics import diagnostic
+from .diagnostics import DIAGNOSTICS, diagnostic
 from .finding import Finding, RuleInfo, Span
 from .page import Rule, read_page, split
 from .source.text import Source
@@ -59,7 +60,7 @@ def load(own: Sequence[str] = ()) -> Catalogue:
             sources[shown] = page.source
         if page.rule is None:
             continue
-        found = [*conflicts(page.rule, rules), *check_rule(page.rule)]
+        found = [*conflicts(page.rule, rules), *misnamed(page.rule), *check_rule(page.rule)]
         problems.extend(found)
         if not found:
             rules.append(page.rule)
@@ -77,19 +78,29 @@ def conflicts(rule: Rule, others: Iterable[Rule]) -> list[Finding]:
     return found
 
 
+def misnamed(rule: Rule) -> list[Finding]:
+    """A page of a user's whose code or name cannot stand in a selection, a suppression or an output."""
+    found = []
+    if re.fullmatch(r"(?!MSAA)[A-Z]{2,12}-?[0-9]{1,6}", rule.code) is None:
+        found.append("its code is a few capital letters of yours, not MSAA, and a number, e.g. ACME001")
+    if re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", rule.name) is None or any(rule.name == info.name for info in DIAGNOSTICS.values()):
+        found.append("its file is named in small letters with hyphens, as no other rule is, e.g. no-multisampled-storage.md")
+    if rule.name in rule.supersedes:
+        found.append("it supersedes itself")
+    return [diagnostic("MSAA921", f"rule page `{rule.name}`: {text}", rule.source.name, Span(0, 3), rule.name) for text in found]
+
+
 def check_rule(rule: Rule) -> list[Finding]:
     """What is wrong with a rule's conditions and the facts that its texts name."""
     from .facts.table import SUBJECTS
 
     found = []
-    for when in (rule.when, *(case.when for case in rule.cases)):
+    for when, at in ((rule.when, rule.condition_at), *((case.when, case.condition_at) for case in rule.cases)):
         try:
             check(when, rule.subject)
         except Wrong as error:
-            start = rule.source.text.find(when)
-            begin = rule.condition_at.start if start < 0 else start + (error.offset or 0)
-            end = rule.condition_at.end if error.offset is None else begin + 1
-            found.append(diagnostic("MSAA921", f"rule page `{rule.name}`: {error}", rule.source.name, Span(begin, end), rule.name))
+            span = _within(rule.source.text, at, when, error)
+            found.append(diagnostic("MSAA921", f"rule page `{rule.name}`: {error}", rule.source.name, span, rule.name))
     known = {fact.name for fact in SUBJECTS[rule.subject]}
     named = [*rule.at, *(fact for fact, _ in rule.labels), *placeholders(rule.message), *placeholders(rule.help)]
     for text in (text for _, text in rule.labels):
@@ -99,6 +110,17 @@ def check_rule(rule: Rule) -> list[Finding]:
             message = f"rule page `{rule.name}`: there is no fact {name} of {rule.subject}"
             found.append(diagnostic("MSAA921", message, rule.source.name, rule.condition_at, rule.name))
     return found
+
+
+def _within(text: str, at: Span, when: str, error: Wrong) -> Span:
+    """Where a condition that is written at a place of a page is wrong: the line it is in stands there as it is, unless it is folded."""
+    if error.offset is None:
+        return at
+    begin = when.rfind("\n", 0, error.offset) + 1
+    line = when[begin:].split("\n", 1)[0]
+    found = text.find(line, at.start, at.end) if line else -1
+    start = found + error.offset - begin
+    return Span(start, min(start + error.length, at.end)) if found >= 0 else at
 
 
 def placeholders(text: str) -> list[str]:

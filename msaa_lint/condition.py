@@ -14,7 +14,8 @@ from cel_expr_python import cel
 
 from .facts.table import FACTS, SUBJECTS, WORDS, Fact
 
-_STRING = re.compile(r'"(?:[^"\\]|\\.)*"|\'(?:[^\'\\]|\\.)*\'')
+# A text; or a comment, in which a quote begins none.
+_STRING = re.compile(r'''//[^\n]*|(?:\b[rR])?(?P<quote>"""|\'{3}|"|')(?P<text>(?:[^\\]|\\.)*?)(?P=quote)''', re.DOTALL)
 _FACT = re.compile(r"\b[a-z]+\.[a-z_0-9]+\b(?!\s*\()")
 # What only `check` needs is compiled where it is used: the conditions of the built-in pages are not checked at start-up.
 _MACRO = r"\.\s*(?:all|exists|exists_one|map|filter)\s*\("
@@ -30,11 +31,12 @@ _environments: dict[str | None, Any] = {}
 
 
 class Wrong(ValueError):
-    """A condition that cannot be used: what is wrong, and where in its text (None: all of it)."""
+    """A condition that cannot be used: what is wrong, and where in its text (an offset of None: all of it)."""
 
-    def __init__(self, message: str, offset: int | None = None) -> None:
+    def __init__(self, message: str, offset: int | None = None, length: int = 1) -> None:
         super().__init__(message)
         self.offset = offset
+        self.length = length
 
 
 class Condition:
@@ -54,10 +56,18 @@ class Condition:
         except RuntimeError as error:
             raise _explained(error, text, subject) from None
 
+    def must_decide(self) -> None:
+        """Raises `Wrong` where the condition is no yes or no."""
+        if str(self._program.return_type()) != "BOOL":
+            raise Wrong("a condition is true or false, not a value")
+
     def holds(self, activation: Any) -> bool | None:
         """True or false; None where it hangs on a fact that is absent. ArithmeticError where it cannot be worked out at all."""
-        result = self._program.eval(activation)
-        value = result.plain_value()
+        try:
+            value = self._program.eval(activation).plain_value()
+        except RuntimeError as error:
+            # What it may cost is bounded.
+            raise ArithmeticError(str(error)) from None
         if isinstance(value, bool):
             return value
         if "No value with name" in str(value):
@@ -75,39 +85,39 @@ def check(text: str, subject: str) -> None:
 
     For pages as they are loaded; a condition that passes compiles.
     """
-    if len(re.findall(_MACRO, _STRING.sub("''", text))) > _MAX_MACROS:
+    if len(re.findall(_MACRO, _STRING.sub(" ", text))) > _MAX_MACROS:
         raise Wrong(f"at most {_MAX_MACROS} of all, exists, exists_one, map and filter may stand in a condition")
-    Condition(text, subject)
-    for fact, literal, offset in literals(text):
+    Condition(text, subject).must_decide()
+    for fact, literal, offset, length in literals(text):
         words = _words(fact)
         if words is not None and literal not in words:
             from .vulkan.names import nearest
 
             close = nearest(literal, words)
             hint = f"; did you mean {close!r}?" if close else ""
-            raise Wrong(f"{fact} is never {literal!r}{hint}", offset)
+            raise Wrong(f"{fact} is never {literal!r}{hint}", offset, length)
 
 
 def named(text: str) -> tuple[str, ...]:
     """The facts that a condition names, in their order."""
-    return tuple(dict.fromkeys(name for name in _FACT.findall(_STRING.sub("''", text)) if name in FACTS))
+    return tuple(dict.fromkeys(name for name in _FACT.findall(_STRING.sub(" ", text)) if name in FACTS))
 
 
-def literals(text: str) -> list[tuple[str, str, int]]:
-    """Every text that a condition compares a fact with, and its offset."""
-    found: list[tuple[str, int]] = []
+def literals(text: str) -> list[tuple[str, str, int, int]]:
+    """Every text that a condition compares a fact with, and where it stands: its offset and length, with its quotes."""
+    found: list[tuple[str, int, int]] = []
 
     def mark(match: re.Match[str]) -> str:
-        found.append((match[0][1:-1], match.start()))
+        if match["quote"] is None:
+            return " "
+        found.append((match["text"], match.start(), len(match[0])))
         return f"\x00{len(found) - 1}\x00"
 
     marked = _STRING.sub(mark, text)
     out = []
     for match in re.finditer(_MEETS, marked):
         fact = match["fact"] or match["of"] or match["among"]
-        for index in re.findall(_MARK, match["one"] or match["left"] or match["many"]):
-            literal, offset = found[int(index)]
-            out.append((fact, literal, offset))
+        out += [(fact, *found[int(index)]) for index in re.findall(_MARK, match["one"] or match["left"] or match["many"])]
     return out
 
 
@@ -155,8 +165,13 @@ def _explained(error: RuntimeError, text: str, subject: str | None) -> Wrong:
 
     name = undeclared[1]
     known = [fact.name for fact in _facts_of(subject)]
-    word = re.match(r"[a-z_A-Z0-9.]+", text[max(offset - len(name.split(".")[0]), 0) :])
-    close = nearest(word[0] if word and word[0].startswith(name) else name, known)
+    # The compiler points at the dot of a dotted name.
+    start = max(offset - len(name.split(".")[0]), 0)
+    word = re.match(r"[a-z_A-Z0-9.]+", text[start:])
+    if word is None or not word[0].startswith(name):
+        start, word = offset, re.match(r"[a-z_A-Z0-9.]+", text[offset:])
+    spelled = word[0] if word is not None and word[0].startswith(name) else name
+    close = nearest(spelled, known)
     hint = f"; did you mean {close}?" if close else ""
     of = f" of {subject}" if subject is not None else ""
-    return Wrong(f"there is no fact {name}{of}{hint}", offset)
+    return Wrong(f"there is no fact {spelled}{of}{hint}", start, len(spelled))

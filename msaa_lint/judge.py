@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from .condition import Condition, activation, named
 from .diagnostics import diagnostic
-from .facts.facts import Facts, Subject
+from .facts.facts import Facts, Subject, Value
 from .finding import Finding, Fix, Label, Span, Undecided
 from .page import Case, Rule
 
@@ -23,15 +23,23 @@ class Verdicts(NamedTuple):
     undecided: list[Undecided]
 
 
+MOST_REMEMBERED = 4096
+"""Sets of facts whose answers are remembered: some 6 MB."""
+
+
 class Judge:
-    """Rules made ready: a condition is compiled once, when it is first asked."""
+    """Rules made ready: a condition is compiled once, when it is first asked, and asked once of the same facts.
+
+    Frames repeat themselves: most attachments of most passes are stated like another, and asking takes most of the time of judging.
+    """
 
     def __init__(self, rules: Iterable[Rule]) -> None:
         self._by_subject: dict[str, list[Rule]] = {}
         for rule in rules:
             self._by_subject.setdefault(rule.subject, []).append(rule)
         self._conditions: dict[str, Condition] = {}
-        self._asked: dict[str, frozenset[str]] = {}
+        self._asked: dict[str, tuple[str, ...]] = {}
+        self._remembered: dict[tuple[object, ...], dict[str, bool | None]] = {}
 
     def judge(self, subjects: Iterable[Subject], file: str, severity: Callable[[Rule, str, str | None], str | None]) -> Verdicts:
         """The findings and undecided rules of a document's subjects.
@@ -50,17 +58,16 @@ class Judge:
             if not rules:
                 continue
             values = subject.facts.values
-            asked = self._facts_asked(subject.kind)
-            ready = activation(None, {name: values[name] for name in asked.intersection(values)})
+            answers = self._answers(subject)
             fired: list[tuple[Rule, Finding]] = []
             for rule, condition in rules:
                 try:
-                    answer = condition.holds(ready)
+                    answer = answers.of(condition)
+                    case = self._case(rule, answers) if answer else None
                 except ArithmeticError as error:
                     findings.append(_failed(rule, error, file))
                     continue
                 if answer:
-                    case = self._case(rule, ready)
                     suggested = case.severity or rule.severity if case is not None else rule.severity
                     vendor = values.get("device.vendor")
                     weight = severity(rule, suggested, vendor if isinstance(vendor, str) else None)
@@ -77,14 +84,46 @@ class Judge:
             self._conditions[text] = Condition(text)
         return self._conditions[text]
 
-    def _facts_asked(self, kind: str) -> frozenset[str]:
+    def _answers(self, subject: Subject) -> _Answers:
+        asked = self._facts_asked(subject.kind)
+        values = subject.facts.values
+        # A fact is of one type, and never None: what is equal here is equal to a condition.
+        facts = (subject.kind, *[tuple(value) if type(value) is list else value for value in map(values.get, asked)])
+        known = self._remembered.get(facts)
+        if known is None:
+            if len(self._remembered) >= MOST_REMEMBERED:
+                self._remembered.clear()
+            known = self._remembered[facts] = {}
+        return _Answers(asked, values, known)
+
+    def _facts_asked(self, kind: str) -> tuple[str, ...]:
         if kind not in self._asked:
             texts = [text for rule in self._by_subject[kind] for text in (rule.when, *(case.when for case in rule.cases))]
-            self._asked[kind] = frozenset(name for text in texts for name in named(text))
+            self._asked[kind] = tuple(dict.fromkeys(name for text in texts for name in named(text)))
         return self._asked[kind]
 
-    def _case(self, rule: Rule, ready: object) -> Case | None:
-        return next((case for case in rule.cases if self._condition(case.when).holds(ready)), None)
+    def _case(self, rule: Rule, answers: _Answers) -> Case | None:
+        return next((case for case in rule.cases if answers.of(self._condition(case.when))), None)
+
+
+class _Answers:
+    """What conditions say of one subject; `known` is what they said of another with the same facts."""
+
+    __slots__ = ("_asked", "_known", "_ready", "_values")
+
+    def __init__(self, asked: Sequence[str], values: Mapping[str, Value], known: dict[str, bool | None]) -> None:
+        self._asked = asked
+        self._values = values
+        self._known = known
+        self._ready: object = None
+
+    def of(self, condition: Condition) -> bool | None:
+        """As `Condition.holds`."""
+        if condition.text not in self._known:
+            if self._ready is None:
+                self._ready = activation(None, {name: self._values[name] for name in self._asked if name in self._values})
+            self._known[condition.text] = condition.holds(self._ready)
+        return self._known[condition.text]
 
 
 def finding(rule: Rule, case: Case | None, subject: Subject, file: str, severity: str) -> Finding:

@@ -22,6 +22,7 @@ class Case(NamedTuple):
     severity: str | None
     confidence: str | None
     message: str | None
+    condition_at: Span = Span(0, 0)
 
 
 class Mend(NamedTuple):
@@ -147,7 +148,7 @@ class _Reading:
         self.problems.append(diagnostic("MSAA921", f"rule page `{self.name}`: {message}", self.shown, span, self.name, (), help))
 
     def rule(self, root: Node, body: str, path: str) -> Rule | None:
-        from .facts.table import SUBJECTS
+        from .facts.table import SUBJECTS, WORDS
 
         members: dict[str, Node] = root.value
         for key in members:
@@ -161,9 +162,10 @@ class _Reading:
         self.one_of(members["severity"], SEVERITIES)
         if "confidence" in members:
             self.one_of(members["confidence"], CONFIDENCES)
+        for vendor in self.items(members.get("vendors")):
+            self.one_of(vendor, WORDS["vendor"])
         when = members["when"]
-        if len(when.text) > MAX_CONDITION:
-            self.wrong(when.span, f"a condition has at most {MAX_CONDITION} characters")
+        self.bounded(when)
         at = members.get("at")
         return Rule(
             code=self.text(members["code"]),
@@ -200,6 +202,10 @@ class _Reading:
             return ""
         return node.text.strip()
 
+    def bounded(self, when: Node) -> None:
+        if len(when.text) > MAX_CONDITION:
+            self.wrong(when.span, f"a condition has at most {MAX_CONDITION} characters")
+
     def one_of(self, node: Node, words: tuple[str, ...]) -> None:
         if node.kind != "scalar" or node.text not in words:
             self.wrong(node.span, f"one of {', '.join(words)} is due here")
@@ -227,7 +233,7 @@ class _Reading:
         known = ("when", "severity", "confidence", "message")
         if node.kind != "mapping" or "when" not in node.value:
             self.wrong(node.span, "a case is a mapping with `when` and what it changes")
-            return Case("", None, None, None)
+            return Case("true", None, None, None)
         for key in node.value:
             if key not in known:
                 self.unknown(node.keys[key], known)
@@ -236,7 +242,9 @@ class _Reading:
             self.one_of(node.value["severity"], SEVERITIES)
         if "confidence" in given:
             self.one_of(node.value["confidence"], CONFIDENCES)
-        return Case(given["when"], given.get("severity"), given.get("confidence"), given.get("message"))
+        when = node.value["when"]
+        self.bounded(when)
+        return Case(given["when"], given.get("severity"), given.get("confidence"), given.get("message"), when.span)
 
     def mend(self, node: Node) -> Mend | None:
         known = ("title", "safety", "set", "add", "remove")
