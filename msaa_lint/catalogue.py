@@ -34,9 +34,12 @@ def folder() -> str:
 
 def pages(path: str) -> list[str]:
     """The pages at a path: itself, or those of a folder (not its README), sorted."""
-    if not os.path.isdir(path):
+    try:
+        names = sorted(os.listdir(path))
+    except OSError:
+        # What is no folder is a page; a folder that cannot be read is said to be none.
         return [path]
-    return [os.path.join(path, name) for name in sorted(os.listdir(path)) if name.endswith(".md") and name != "README.md"]
+    return [os.path.join(path, name) for name in names if name.endswith(".md") and name != "README.md"]
 
 
 def load(own: Sequence[str] = ()) -> Catalogue:
@@ -52,7 +55,14 @@ def load(own: Sequence[str] = ()) -> Catalogue:
         problems.extend(page.problems)
         if page.rule is not None:
             rules.append(page.rule)
-    for path in (page for each in own for page in pages(each)):
+    given: dict[str, None] = {}
+    for each in own:
+        found_there = pages(each)
+        given.update(dict.fromkeys(os.path.normpath(page) for page in found_there))
+        if not found_there:
+            shown = os.path.relpath(each).replace(os.sep, "/")
+            problems.append(diagnostic("MSAA921", "there are no rule pages in this folder", shown))
+    for path in given:
         shown = os.path.relpath(path).replace(os.sep, "/")
         page = read_page(path, shown)
         problems.extend(page.problems)

@@ -102,7 +102,7 @@ class Run:
 
     def _catalogue(self, settings: Settings) -> Catalogue:
         if settings.rules not in self._catalogues:
-            made = load(settings.rules)
+            made = load([path for path in settings.rules if os.path.exists(path)])
             self.findings.extend(made.problems)
             self.sources.update(made.sources)
             self._catalogues[settings.rules] = made

@@ -37,6 +37,7 @@ def test_line_numbers_are_aligned() -> None:
         ("ab\ncd", 2, 3, ["1 | ab", "  |   ^"]),
         ("ab\ncd", 0, 3, ["1 | ab", "  | ^^"]),
         ("ab\r\ncd", 0, 4, ["1 | ab", "  | ^^"]),
+        ("ab\r\ncd", 3, 4, ["1 | ab", "  |   ^"]),
         ("ab\rcd", 3, 5, ["2 | cd", "  | ^^"]),
         ("ab\u2028cd", 3, 4, ["1 | ab\\u2028cd", "  |         ^"]),
         ("ab", 7, 9, ["1 | ab", "  |   ^"]),
