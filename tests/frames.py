@@ -23,6 +23,10 @@ def joined(description: Json) -> Json:
     fitted = _fitted(description, names, own)
     if isinstance(fitted.get("device"), str):
         fitted["device"] = "mali-g76"
+    if isinstance(fitted.get("device"), dict):
+        # What these may hold is checked beyond their types.
+        for member in ("tile", "compression"):
+            fitted["device"].pop(member, None)
     for render_pass in fitted.get("renderPasses", {}).values():
         _slots(render_pass)
     for framebuffer in fitted.get("framebuffers", {}).values():

@@ -116,6 +116,7 @@ MAY_IMPORT = {
     "document": {"document", "finding", "source", "vulkan"},
     "readers": {"readers", "devices", "document", "finding", "source", "vulkan"},
     "facts": {"facts", "devices", "document", "finding", "vulkan"},
+    "cost": {"cost", "devices", "document", "facts", "finding", "vulkan"},
     "report": {"report", "finding", "source"},
 }
 """The arrows of CONTRIBUTING.md: a part, and all of ours that it may know."""

@@ -1,11 +1,13 @@
 """What the cost model gives. MB is 10^6 bytes, MiB 2^20 bytes, a frame is one round of the description's commands.
 
-Every figure stands twice: by plain arithmetic, `width * height * bytes * samples * fps`, and corrected by the device's measured compression.
+Every figure stands twice: by plain arithmetic, `width * height * bytes * samples * fps`, and corrected by the device's measured
+compression.
 """
 
 # No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 from typing import NamedTuple
 
+from ..devices.tiles import TileUse
 from ..finding import Span
 
 
@@ -26,7 +28,7 @@ class Amount(NamedTuple):
 class Line(NamedTuple):
     """One cause of traffic: an aspect of an attachment (or of a command's image) that is read or written, once a frame.
 
-    `action` is `load`, `store`, `resolve`, `resolve command`, `copy`, `clear`, `present`, `read` or `input`; `direction` is `read` or
+    `action` is `load`, `store`, `resolve`, `resolve command`, `copy`, `clear`, `read`, `write` or `input`; `direction` is `read` or
     `write`. `bytes` are those of a frame by plain arithmetic, exact; `corrected` by the device's compression, None where none is known.
     `samples` is how many samples a pixel are moved. `place` is where the input states it.
     """
@@ -43,23 +45,21 @@ class Line(NamedTuple):
 
 
 class Shading(NamedTuple):
-    """Fragment shader invocations of a pass in a frame, in millions of a full-screen layer; see `cost/shading.py`."""
+    """Fragment shader invocations of a pass in a frame, in millions, for one layer of triangles that cover all that it renders to.
+
+    `msaa` is once a pixel, the limit of large triangles. `sample_shading` is once a sample (minSampleShading 1), `super_sampling` that of
+    the smallest grid of k x k single-sampled pixels that has as many samples; `demanded` what the pipelines of the pass state, None where
+    they do not say. `edges` holds, for triangles of 1, 2, 4, ... pixels, by what to multiply `msaa`: (leg in pixels, invocations for each
+    pixel of area), see `shading.invocations_per_area`.
+    """
 
     pixels: int
     samples: int
     msaa: float
     sample_shading: float
     super_sampling: float
-
-
-class TileUse(NamedTuple):
-    """What one pixel takes on the tile, and how many pixels a tile then has; `full` is the tile at one sample, `spills` where even the
-    smallest does not fit."""
-
-    bytes_per_pixel: int
-    pixels: int
-    full: int
-    spills: bool
+    demanded: float | None = None
+    edges: tuple[tuple[int, float], ...] = ()
 
 
 class PassCost(NamedTuple):
@@ -84,11 +84,16 @@ class PassCost(NamedTuple):
 
 
 class ImageMemory(NamedTuple):
-    """What an image takes: `bytes` in full, `committed` after what a lazily allocated one saves; None where a size is unknown."""
+    """What an image takes: `bytes` in full, `committed` after what a lazily allocated one saves; None where a size is unknown.
+
+    What is committed is told from usage and memory alone, so that the prices of findings add up. `committed_by_use` says that a pass loads
+    or stores an image that is counted as not committed: the driver then has to commit it all the same.
+    """
 
     name: str
     bytes: int | None
     committed: int | None
+    committed_by_use: bool = False
 
 
 class FrameCost(NamedTuple):
@@ -102,6 +107,13 @@ class FrameCost(NamedTuple):
     device: str | None
     assumed: tuple[str, ...]
     unknown: tuple[str, ...]
+    milliwatts_per_gbps: float = 100.0
+    budget_milliwatts: float = 2500.0
+
+    @property
+    def budget_share(self) -> float:
+        """How much of the power budget the traffic takes by plain arithmetic: 1 is all of it."""
+        return self.total.milliwatts / self.budget_milliwatts
 
 
 class Terms(NamedTuple):

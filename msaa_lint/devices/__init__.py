@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from .builtin_profiles import Row
+    from .tile_models import TileModel
 
 
 class DeviceProfile(NamedTuple):
@@ -12,7 +13,10 @@ class DeviceProfile(NamedTuple):
 
     Names are canonical short ones (`SAMPLE_ZERO`, `LAZILY_ALLOCATED`); features and extensions are Vulkan's whole names. `minimum` marks a
     class of devices: it holds what all of them guarantee, and what it does not list is "not guaranteed" rather than "not offered".
-    `source` says where the facts are from. Of built-in profiles, `builtin_profiles.py` says which features and extensions are recorded.
+
+    `tile` is how it sizes its tiles, `compression` what it leaves of the traffic by sample count (of reads, of writes; 1 is what plain
+    arithmetic says), `milliwatts_per_gbps` the power of 10^9 bytes a second of external memory. `source` says where the facts are from. Of
+    built-in profiles, `builtin_profiles.py` says which features and extensions are recorded.
     """
 
     name: str
@@ -33,6 +37,9 @@ class DeviceProfile(NamedTuple):
     max_efficient_samples: int | None = None
     minimum: bool = False
     source: str = ""
+    tile: "TileModel | None" = None
+    compression: dict[int, tuple[float, float]] | None = None
+    milliwatts_per_gbps: float | None = None
 
 
 def sample_counts(mask: int) -> tuple[int, ...]:
@@ -61,6 +68,7 @@ _made: dict[str, DeviceProfile] = {}
 
 def _profile(row: "Row") -> DeviceProfile:
     from ..vulkan.names import flag_names
+    from .tile_models import MODELS
 
     color, depth, stencil, integer = row["counts"]
     depth_modes, stencil_modes, independent, independent_none = row["resolve"]
@@ -84,4 +92,6 @@ def _profile(row: "Row") -> DeviceProfile:
         max_efficient_samples=row.get("efficient"),
         minimum=row.get("minimum", False),
         source=row["source"],
+        tile=MODELS.get(row.get("tile", "")),
+        compression=row.get("compression"),
     )

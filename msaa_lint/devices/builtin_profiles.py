@@ -28,11 +28,20 @@ AMD_MIXED = (*RENDERING, "VK_AMD_mixed_attachment_samples")
 NV_MIXED = (*RENDERING, "VK_NV_framebuffer_mixed_samples")
 
 
+COMPRESSION_G76 = (
+    "; compression: fitted to the counters of the Khronos MSAA sample (docs/cost.md); above one sample none: AFBC is for"
+    " single-sampled images (Vulkan-Samples, afbc)"
+)
+TILE_A15 = "; tile: that of M2, of the same generation, which Mesa sizes as M1's"
+TILE_POWERVR = "; tile: Imagination's guide for all PowerVR GPUs, the chip's own is not published"
+
+
 class Row(TypedDict, total=False):
     """A profile in Vulkan's masks. `counts` are those of colour, depth, stencil and integer colour; memory types are listed once each.
 
     `resolve` is supportedDepthResolveModes, supportedStencilResolveModes, independentResolve and independentResolveNone. Features are
-    sampleRateShading unless `sample_rate_shading` says otherwise.
+    sampleRateShading unless `sample_rate_shading` says otherwise. `tile` names a model of `tile_models.py`, where its source stands; a
+    GPU whose budgets no open-source driver states (Mali-G715) has none.
     """
 
     name: str
@@ -46,6 +55,8 @@ class Row(TypedDict, total=False):
     api: str
     efficient: int
     minimum: bool
+    tile: str
+    compression: dict[int, tuple[float, float]]
     source: str
 
 
@@ -60,7 +71,12 @@ PROFILES: dict[str, Row] = {
         "extensions": RESOLVE,
         "api": "1.1.213",
         "efficient": 4,
-        "source": REPORT.format(38559, "Mali-G76, driver r38p1") + SAMPLE_RATE_SHADING.format("VP_ANDROID_baseline_2022") + EFFICIENT_ARM,
+        "tile": "mali-g76",
+        "compression": {1: (0.484, 0.462), 2: (1.0, 1.0), 4: (1.0, 1.0), 8: (1.0, 1.0), 16: (1.0, 1.0)},
+        "source": REPORT.format(38559, "Mali-G76, driver r38p1")
+        + SAMPLE_RATE_SHADING.format("VP_ANDROID_baseline_2022")
+        + EFFICIENT_ARM
+        + COMPRESSION_G76,
     },
     "mali-g610": {
         "name": "Mali-G610",
@@ -72,6 +88,7 @@ PROFILES: dict[str, Row] = {
         "extensions": SINGLE_SAMPLED,
         "api": "1.3.219",
         "efficient": 4,
+        "tile": "mali-g610",
         "source": REPORT.format(37373, "Mali-G610 MC4, driver r38p1")
         + SAMPLE_RATE_SHADING.format("VP_ANDROID_baseline_2022")
         + EFFICIENT_ARM,
@@ -98,6 +115,7 @@ PROFILES: dict[str, Row] = {
         "extensions": SINGLE_SAMPLED,
         "api": "1.3.247",
         "efficient": 4,
+        "tile": "mali-g720",
         "source": REPORT.format(38589, "Mali-G720-Immortalis MC12, driver r44p1")
         + SAMPLE_RATE_SHADING.format("VP_ANDROID_baseline_2022")
         + EFFICIENT_ARM,
@@ -112,6 +130,7 @@ PROFILES: dict[str, Row] = {
         "extensions": RENDERING,
         "api": "1.3.128",
         "efficient": 4,
+        "tile": "adreno-740",
         "source": REPORT.format(38724, "Adreno (TM) 740, driver 512.676.67") + EFFICIENT_QUALCOMM,
     },
     "apple-m1": {
@@ -123,6 +142,7 @@ PROFILES: dict[str, Row] = {
         "resolve": (13, 1, True, True),
         "extensions": RENDERING,
         "api": "1.1.216",
+        "tile": "apple-g13",
         "source": REPORT.format(38819, "Apple M1, MoltenVK"),
     },
     "apple-a15": {
@@ -134,7 +154,8 @@ PROFILES: dict[str, Row] = {
         "resolve": (13, 1, True, True),
         "extensions": RENDERING,
         "api": "1.2.296",
-        "source": REPORT.format(37680, "Apple A15 GPU, MoltenVK 1.2.11"),
+        "tile": "apple-g13",
+        "source": REPORT.format(37680, "Apple A15 GPU, MoltenVK 1.2.11") + TILE_A15,
     },
     "powervr": {
         "name": "PowerVR BXE-4-32",
@@ -146,7 +167,8 @@ PROFILES: dict[str, Row] = {
         "extensions": RENDERING,
         "api": "1.3.204",
         "efficient": 4,
-        "source": REPORT.format(35506, "PowerVR B-Series BXE-4-32, driver 1.17") + EFFICIENT_IMG,
+        "tile": "powervr",
+        "source": REPORT.format(35506, "PowerVR B-Series BXE-4-32, driver 1.17") + EFFICIENT_IMG + TILE_POWERVR,
     },
     "v3d": {
         "name": "V3D 7.1",
@@ -157,6 +179,7 @@ PROFILES: dict[str, Row] = {
         "resolve": (1, 1, False, False),
         "extensions": RENDERING,
         "api": "1.3.305",
+        "tile": "v3d-7",
         "source": REPORT.format(38811, "V3D 7.1.7 of a Raspberry Pi 5, Mesa 25.0.4"),
     },
     "samsung-xclipse": {

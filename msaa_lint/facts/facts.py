@@ -30,12 +30,17 @@ class Facts:
 
 
 class Subject(NamedTuple):
-    """What a rule judges: an image, an attachment, one aspect of it, a subpass, a resolve, a pipeline, a dependency."""
+    """What a rule judges: an image, an attachment, one aspect of it, a subpass, a resolve, a pipeline, a dependency.
+
+    `of` is what it is made from: a Target, an Attachment, (Attachment, Aspect), a PassSubpass, a Resolve, (Pipeline, the PassSubpass that
+    it draws in or None), the record of a dependency.
+    """
 
     kind: str
     path: str
     head: Span
     facts: Facts
+    of: object = None
 
 
 def known(*values: bool | None) -> bool | None:

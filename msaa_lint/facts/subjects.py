@@ -29,7 +29,7 @@ def subjects(document: Document, default_device: DeviceProfile | None = None) ->
     for target in frame.all_targets:
         facts = image_facts(target, bindings, frame, timeline, device)
         images[id(target.record)] = facts
-        yield Subject("image", target.path, target.record.head, Facts(around, facts))
+        yield Subject("image", target.path, target.record.head, Facts(around, facts), target)
     of_subpass: dict[str, Facts] = {}
     drawn = pipelines_drawn(frame)
     barriers = recorded_barriers(frame)
@@ -38,30 +38,30 @@ def subjects(document: Document, default_device: DeviceProfile | None = None) ->
         resolves = resolves_at(each)
         for attachment in each.attachments:
             base = Facts(shared, _image_of(attachment, images), attachment_facts(attachment))
-            yield Subject("attachment", attachment.record.path, attachment.record.head, base)
+            yield Subject("attachment", attachment.record.path, attachment.record.head, base, attachment)
             for aspect in attachment.aspects:
                 facts = Facts(base, aspect_facts(each, attachment, aspect, resolves.get(id(attachment), []), timeline))
-                yield Subject("aspect", attachment.record.path, attachment.record.head, facts)
+                yield Subject("aspect", attachment.record.path, attachment.record.head, facts, (attachment, aspect))
         for subpass in each.subpasses:
-            own = Facts(shared, subpass_facts(subpass, frame, drawn))
+            own = Facts(shared, subpass_facts(subpass, frame, drawn, device))
             of_subpass[subpass.path] = own
-            yield Subject("subpass", subpass.path, subpass.record.head, own)
+            yield Subject("subpass", subpass.path, subpass.record.head, own, subpass)
             for resolve in subpass.resolves:
-                yield Subject("resolve", resolve.path, resolve.record.head, Facts(shared, resolve_facts(resolve, device)))
+                yield Subject("resolve", resolve.path, resolve.record.head, Facts(shared, resolve_facts(resolve, device)), resolve)
         for record, facts in external_dependencies(each, barriers):
-            yield Subject("dependency", record.path, record.head, Facts(shared, facts))
+            yield Subject("dependency", record.path, record.head, Facts(shared, facts), record)
     writers = writers_of(frame) if frame.resolve_commands else {}
     for position, resolve in frame.resolve_commands:
         facts = Facts(around, resolve_facts(resolve, device))
         command_facts(facts, resolve, position, frame, writers)
-        yield Subject("resolve", resolve.path, resolve.record.head, facts)
+        yield Subject("resolve", resolve.path, resolve.record.head, facts, resolve)
     draws = draws_of(frame) if frame.pipelines else {}
     without_shading = unshaded(frame)
     for pipeline, within in frame.pipelines:
         drawn_in = subpass_of(pipeline, within)
         base = of_subpass[drawn_in.path] if drawn_in is not None else around
         facts = pipeline_facts(pipeline, drawn_in, draws.get(pipeline.key, ()), without_shading)
-        yield Subject("pipeline", pipeline.path, pipeline.head, Facts(base, facts))
+        yield Subject("pipeline", pipeline.path, pipeline.head, Facts(base, facts), (pipeline, drawn_in))
 
 
 def _image_of(attachment: Attachment, images: dict[int, Facts]) -> Facts:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from ..devices import DeviceProfile
 from ..document.records import BeginRendering, Draw, Pipeline, Subpass
+from ..vulkan.formats import Format
 from .facts import Facts
 from .frame import Frame, PassSubpass
 from .surroundings import single_sampled_render
@@ -23,7 +25,7 @@ def pipelines_drawn(frame: Frame) -> Drawn:
     return drawn
 
 
-def subpass_facts(subpass: PassSubpass, frame: Frame, drawn: Drawn) -> Facts:
+def subpass_facts(subpass: PassSubpass, frame: Frame, drawn: Drawn, device: DeviceProfile | None) -> Facts:
     """What is known of a subpass, or of a dynamic rendering."""
     facts = Facts()
     record = subpass.record
@@ -49,6 +51,7 @@ def subpass_facts(subpass: PassSubpass, frame: Frame, drawn: Drawn) -> Facts:
     facts.put("subpass.differs_from_single_sampled_count", odd)
     shared = samples_of(subpass)
     facts.put("subpass.samples", shared, record.place("colorAttachments", "depthStencilAttachment", "depthAttachment", "stencilAttachment"))
+    _tile(facts, subpass, device)
     _pipelines(facts, _own_pipelines(subpass, frame, drawn))
     return facts
 
@@ -60,6 +63,43 @@ def samples_of(subpass: PassSubpass) -> int | None:
     attachments = [*(a for a in subpass.color if a is not None), *subpass.depth_stencil]
     counts = {attachment.samples for attachment in attachments}
     return counts.pop() if len(counts) == 1 else None
+
+
+def tile_targets(subpass: PassSubpass) -> tuple[list[tuple[Format, int]], tuple[Format, int] | None] | None:
+    """Format and samples of what a subpass draws to, as it lies on the tile: colour, and depth-stencil; None where one is unknown.
+
+    Where it renders multisampled to single-sampled attachments, the tile has the samples.
+    """
+    if subpass.single_sampled and subpass.single_sampled_count is None:
+        return None
+    color = [attachment for attachment in subpass.color if attachment is not None]
+    # Dynamic rendering states depth and stencil apart; they are of one image.
+    found: list[tuple[Format, int]] = []
+    for attachment in [*color, *subpass.depth_stencil[:1]]:
+        samples = attachment.samples
+        if subpass.single_sampled_count is not None and samples == 1:
+            samples = subpass.single_sampled_count
+        if attachment.format is None or samples is None:
+            return None
+        found.append((attachment.format, samples))
+    return found[: len(color)], found[-1] if subpass.depth_stencil else None
+
+
+def _tile(facts: Facts, subpass: PassSubpass, device: DeviceProfile | None) -> None:
+    """What the subpass takes of the device's tile."""
+    targets = tile_targets(subpass) if device is not None and device.tile is not None else None
+    use = None
+    if device is not None and device.tile is not None and targets is not None:
+        from ..devices.tiles import tile_use
+
+        use = tile_use(device.tile, *targets)
+    facts.put("subpass.tile_known", use is not None)
+    if use is not None:
+        at = subpass.record.place("colorAttachments", "depthStencilAttachment", "depthAttachment", "stencilAttachment")
+        facts.put("subpass.tile_bytes", use.bytes_per_pixel, at)
+        facts.put("subpass.tile_pixels", use.pixels, at)
+        facts.put("subpass.tile_full", use.full, at)
+        facts.put("subpass.tile_spills", use.spills, at)
 
 
 def _odd(facts: Facts, subpass: PassSubpass, private: bool) -> None:

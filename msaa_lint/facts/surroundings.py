@@ -21,8 +21,13 @@ def profile(description: Description, default: DeviceProfile | None = None) -> D
 
 
 def described(device: Device) -> DeviceProfile:
-    """A device mapping as a profile."""
+    """A device mapping as a profile. What its `tile` or `compression` misstates is a problem of the description, and unknown here."""
     counts = device.sampleCounts
+    tile, compression = None, None
+    if device.tile is not None or device.compression is not None:
+        from ..devices.tile_models import known_compression, known_tile
+
+        tile, compression = known_tile(device.tile), known_compression(device.compression)
     return DeviceProfile(
         name=device.name or "the described device",
         vendor=device.vendor,
@@ -40,6 +45,9 @@ def described(device: Device) -> DeviceProfile:
         extensions=device.extensions,
         api_version=device.apiVersion,
         max_efficient_samples=device.maxEfficientSamples,
+        tile=tile,
+        compression=compression,
+        milliwatts_per_gbps=device.milliwattsPerGBps,
     )
 
 

@@ -166,6 +166,15 @@ _SUBPASS = (
         "BOOL",
         "render to single-sampled: an attachment has neither one sample nor the stated count",
     ),
+    Fact("subpass.tile_known", "BOOL", "what it takes of the device's tile is known; never unknown"),
+    Fact(
+        "subpass.tile_bytes",
+        "INT",
+        "bytes that a pixel's samples take on the device's tile: colour, and depth where it is in the same memory",
+    ),
+    Fact("subpass.tile_pixels", "INT", "pixels of the device's tile with its attachments"),
+    Fact("subpass.tile_full", "INT", "pixels that the tile has with the same attachments at one sample"),
+    Fact("subpass.tile_spills", "BOOL", "not even the device's smallest tile holds its attachments"),
     Fact("subpass.has_pipelines", "BOOL", "the description is whole and lists pipelines for it; a rendering: draws are recorded in it"),
     Fact("subpass.partial_coverage", "BOOL", "some pipeline of it can cover a pixel in part"),
 )

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ..document.bind import Binder, Mention
+from ..document.bind import Binder, Mention, shortened
 from ..document.document import Document
-from ..document.records import AttachmentReference, Description, Framebuffer, RenderPass, Subpass
+from ..document.records import AttachmentReference, Description, Device, Framebuffer, RenderPass, Subpass
 from ..finding import Span
 from ..source.text import Source
 from ..source.tree import Node
@@ -61,7 +61,9 @@ def _has(section: str, entries: dict[str, object]) -> str:
 
 
 def _device(binder: Binder, description: Description) -> None:
-    """A name must be a built-in profile's; what has a file's ending is a path."""
+    """A name must be a built-in profile's; what has a file's ending is a path. A mapping's `tile` and `compression` must make sense."""
+    if isinstance(description.device, Device):
+        _cost_model(binder, description.device)
     if not isinstance(description.device, str):
         return
     from ..devices import builtin, names
@@ -72,6 +74,21 @@ def _device(binder: Binder, description: Description) -> None:
     close = nearest(name, names())
     help = f"did you mean `{close}`?" if close else f"built-in devices: {', '.join(names())}"
     binder.report("MSAA904", f"no device `{name}`", description.place("device"), "device", help)
+
+
+def _cost_model(binder: Binder, device: Device) -> None:
+    if (device.tile is None and device.compression is None) or binder.problems:
+        return
+    from ..devices.tile_models import Misstated, stated_compression, stated_tile
+
+    tile = stated_tile(device.tile) if device.tile is not None else None
+    compression = stated_compression(device.compression) if device.compression is not None else None
+    for member, found in (("tile", tile), ("compression", compression)):
+        if isinstance(found, Misstated):
+            stated = device.spelled[member][1]
+            at = stated.value[found.key].span if found.key in stated.value else device.place(member)
+            path = f"{device.path}.{member}" + (f".{shortened(found.key)}" if found.key is not None else "")
+            binder.report("MSAA903", found.message, at, path, found.help)
 
 
 def _attachments(binder: Binder, name: str, render_pass: RenderPass) -> None:

@@ -1,0 +1,147 @@
+"""What a tile holds: the budgets of tile-based GPUs, as their open-source drivers reckon. Vendors' own drivers may choose otherwise."""
+
+# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
+from collections.abc import Mapping
+from typing import NamedTuple
+
+PANFROST = "Mesa, Panfrost (pan_desc.c, pan_props.h, pan_model.c)"
+ASAHI = "Mesa, Asahi (agx_tilebuffer.c): 32767 bytes a tile, 64 bytes a sample, of G13"
+V3D = "Mesa, V3D (v3d_util.c, v3d_choose_tile_size)"
+IMAGINATION = (
+    "Imagination, Performance Recommendations: MSAA Performance (32x32, 32x16, 16x16; 2x virtually free); by samples: the Linux kernel's "
+    "pvr_rogue_cr_defs_client.h, ROGUE_CR_TE_AA, for 2 ISP samples a pixel"
+)
+MSM = "Linux kernel, msm driver: adreno_info.gmem of {}"
+META = "Meta, Mobile GPUs and improved algorithms: about 1 MB on the chip of Quest-class Adrenos"
+
+
+class TileModel(NamedTuple):
+    """How a GPU sizes its tiles; `tiles.py` reckons by it.
+
+    `kind` is the formula: `mali`, `apple`, `v3d4`, `v3d7`, `powervr` or `adreno`. `color_bytes` is what colour may take of a tile,
+    `depth_bytes` what depth may, `most_pixels` the largest tile; `limit_bytes` what colour may take where less than the smallest tile would
+    be left otherwise (a Mali keeps half of its memory for the next tile, and gives that up). An Adreno's `color_bytes` is its whole GMEM.
+    """
+
+    kind: str
+    color_bytes: int = 0
+    depth_bytes: int = 0
+    most_pixels: int = 0
+    limit_bytes: int = 0
+    source: str = ""
+
+
+def _mali(color: int, depth: int, most: int, halved: bool) -> TileModel:
+    """By the sizes of the tile buffers; half of each is kept for the next tile, but on architectures 4 and 6."""
+    share = 2 if halved else 1
+    return TileModel("mali", color // share, depth // share, most, color, PANFROST)
+
+
+MODELS: dict[str, TileModel] = {
+    "mali-t760": _mali(8192, 8192, 256, True),
+    "mali-g71": _mali(4096, 4096, 256, False),
+    "mali-g72": _mali(8192, 4096, 256, False),
+    "mali-g51": _mali(8192, 8192, 256, True),
+    "mali-g76": _mali(16384, 8192, 256, True),
+    "mali-g610": _mali(32768, 16384, 1024, True),
+    "mali-g720": _mali(65536, 32768, 4096, True),
+    "mali-g725": _mali(65536, 65536, 4096, True),
+    "apple-g13": TileModel("apple", 32767, 0, 1024, 32767, ASAHI),
+    "v3d-4": TileModel("v3d4", 0, 0, 4096, 0, V3D),
+    "v3d-7": TileModel("v3d7", 16384, 16384, 4096, 32768, V3D),
+    "powervr": TileModel("powervr", 0, 0, 1024, 0, IMAGINATION),
+    "adreno-740": TileModel("adreno", 3 * 2**20, 0, 0, 3 * 2**20, MSM.format("Adreno 740: 3 MiB")),
+    "adreno-quest": TileModel("adreno", 2**20, 0, 0, 2**20, META),
+}
+"""Tile models by name. T760 stands for T760 to T880; G51 for G31 and G52 r1; G76 for G52, G57 and G310 v1-3; G610 for G310 v4-5 and what is
+between it and G720."""
+
+MOST_BYTES = 2**31
+_NUMBERS = {
+    "mali": {"colorBytes": True, "depthBytes": True, "maxPixels": True, "limitBytes": False},
+    "adreno": {"gmemBytes": True},
+}
+"""The kinds that a description may state by numbers, and of which numbers it needs."""
+
+
+class Misstated(NamedTuple):
+    """A mistake in a mapping: at which of its keys (None: the mapping as a whole), what is wrong, and what it may be."""
+
+    key: str | None
+    message: str
+    help: str
+
+
+def stated_tile(mapping: Mapping[str, float | str | None]) -> TileModel | Misstated:
+    """The tile model that a device mapping's `tile` states: `{model: mali-g76}`, or a kind and its numbers.
+
+    `{kind: mali, colorBytes: 8192, depthBytes: 4096, maxPixels: 256}` or `{kind: adreno, gmemBytes: 1048576}`.
+    """
+    if "model" in mapping:
+        extra = next((key for key in mapping if key != "model"), None)
+        if extra is not None:
+            return Misstated(extra, f"`{extra[:40]}` beside `model`", "a model has its numbers; state `kind` to give your own")
+        name = mapping["model"]
+        found = MODELS.get(name) if isinstance(name, str) else None
+        return found or Misstated("model", f"no tile model `{str(name)[:40]}`", f"tile models: {', '.join(MODELS)}")
+    kind = mapping.get("kind")
+    numbers = _NUMBERS.get(kind) if isinstance(kind, str) else None
+    if numbers is None:
+        where = "kind" if "kind" in mapping else None
+        help = f"kind is one of {', '.join(_NUMBERS)}; model of {', '.join(MODELS)}"
+        return Misstated(where, "a tile is stated by `model` or by `kind`", help)
+    for key, value in mapping.items():
+        if key != "kind" and key not in numbers:
+            return Misstated(key, f"`{key[:40]}` is no number of kind {kind}", f"it may hold {', '.join(numbers)}")
+        if key != "kind" and not (isinstance(value, int) and 16 <= value <= MOST_BYTES):
+            return Misstated(key, f"`{key}` is a whole number from 16 to {MOST_BYTES}", "")
+    lacking = next((key for key, needed in numbers.items() if needed and key not in mapping), None)
+    if lacking is not None:
+        return Misstated(None, f"kind {kind} needs `{lacking}`", "")
+    sizes = {key: int(value) for key, value in mapping.items() if isinstance(value, (int, float))}
+    if kind == "adreno":
+        return TileModel("adreno", sizes["gmemBytes"], 0, 0, sizes["gmemBytes"], "the description")
+    color = sizes["colorBytes"]
+    return TileModel("mali", color, sizes["depthBytes"], sizes["maxPixels"], max(sizes.get("limitBytes", color), color), "the description")
+
+
+Compression = dict[int, tuple[float, float]]
+"""By sample count: measured bytes read, and written, by those of plain arithmetic."""
+
+_COUNTS = ("1", "2", "4", "8", "16", "32", "64")
+MOST_RATIO = 16
+
+
+def stated_compression(mapping: Mapping[str, float | None]) -> Compression | Misstated:
+    """What a device mapping's `compression` states: by sample count what is left of the traffic, of reads and writes alike or apart.
+
+    `{1: 0.5, 4: 1.0}`, or `{1 read: 0.48, 1 write: 0.46, 4: 1.0}`.
+    """
+    found: dict[int, list[float | None]] = {}
+    for key, value in mapping.items():
+        text, _, direction = key.partition(" ")
+        if text not in _COUNTS or direction not in ("", "read", "write"):
+            return Misstated(key, f"`{key[:40]}` is no sample count", "a key is a sample count, alone or with ` read` or ` write`")
+        if value is None or not 0 < value <= MOST_RATIO:
+            return Misstated(key, f"a ratio is above 0 and at most {MOST_RATIO}", "1 is what arithmetic says, 0.5 half of it")
+        pair = found.setdefault(int(text), [None, None])
+        for n, name in enumerate(("read", "write")):
+            if direction == name or (not direction and f"{text} {name}" not in mapping):
+                pair[n] = float(value)
+    for count, (read, write) in found.items():
+        if read is None or write is None:
+            stated, lacking = ("write", "read") if read is None else ("read", "write")
+            return Misstated(f"{count} {stated}", f"`{count} {stated}` without `{count} {lacking}`", "state both, or the count alone")
+    return {count: (read, write) for count, (read, write) in found.items() if read is not None and write is not None}
+
+
+def known_tile(mapping: Mapping[str, float | str | None] | None) -> TileModel | None:
+    """The tile model that a mapping states; None where it states none, or not rightly."""
+    found = stated_tile(mapping) if mapping is not None else None
+    return found if isinstance(found, TileModel) else None
+
+
+def known_compression(mapping: Mapping[str, float | None] | None) -> Compression | None:
+    """The compression that a mapping states; None where it states none, or not rightly."""
+    found = stated_compression(mapping) if mapping is not None else None
+    return found if isinstance(found, dict) else None
