@@ -101,7 +101,7 @@ def misnamed(rule: Rule) -> list[Finding]:
 
 
 def check_rule(rule: Rule) -> list[Finding]:
-    """What is wrong with a rule's conditions and the facts that its texts name."""
+    """What is wrong with a rule's conditions, its fixes and the facts that its texts name."""
     from .facts.table import SUBJECTS
 
     found = []
@@ -113,12 +113,17 @@ def check_rule(rule: Rule) -> list[Finding]:
             found.append(diagnostic("MSAA921", f"rule page `{rule.name}`: {error}", rule.source.name, span, rule.name))
     known = {fact.name for fact in SUBJECTS[rule.subject]}
     named = [*rule.at, *(fact for fact, _ in rule.labels), *placeholders(rule.message), *placeholders(rule.help)]
+    named.extend(name for mend in rule.mends for name in placeholders(mend.title))
     for text in (text for _, text in rule.labels):
         named.extend(placeholders(text))
     for name in dict.fromkeys(named):
         if name not in known:
             message = f"rule page `{rule.name}`: there is no fact {name} of {rule.subject}"
             found.append(diagnostic("MSAA921", message, rule.source.name, rule.condition_at, rule.name))
+    if rule.mends:
+        from .fixes.pages import problems
+
+        found.extend(problems(rule))
     return found
 
 
@@ -148,4 +153,4 @@ def info(rule: Rule, severity: str | None = None, full: bool = True) -> RuleInfo
     """What reports say of a rule; `full` with its page."""
     text = markdown(rule) if full else ""
     severity = severity or rule.severity
-    return RuleInfo(rule.code, rule.name, severity, rule.confidence, rule.summary, text, rule.references, rule.fix is not None)
+    return RuleInfo(rule.code, rule.name, severity, rule.confidence, rule.summary, text, rule.references, bool(rule.mends))

@@ -197,6 +197,17 @@ def _globs(reading: Reading, key: str, value: object) -> tuple[Glob, ...] | None
     return tuple(glob for glob in (reading.glob(at, item) for at, item in items) if glob is not None)
 
 
+def _fail_on_cost(reading: Reading, key: str, value: object) -> str | None:
+    from .budget import budget
+
+    text = reading.text((key,), value, "a price such as 50MB/s")
+    try:
+        return text if text is None else budget(text).text
+    except ValueError as error:
+        reading.wrong((key,), f"{quoted(text or '')} is no price", str(error))
+        return None
+
+
 def _profile(reading: Reading, key: str, value: object) -> str | None:
     return reading.text((key,), value, "a class of device or a device's name")
 
@@ -261,6 +272,7 @@ KEYS: dict[str, Callable[[Reading, str, Any], Any]] = {
     "per-file-ignores": _per_file,
     "severity": _severity,
     "fail-on": _level,
+    "fail-on-cost": _fail_on_cost,
     "min-severity": _level,
     "profile": _profile,
     "rules": _rules,

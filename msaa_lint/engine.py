@@ -9,23 +9,36 @@ from .catalogue import Catalogue
 from .devices import DeviceProfile
 from .diagnostics import diagnostic
 from .document.document import Document
-from .finding import Finding, RuleInfo, Suppressed, Undecided
-from .judge import Judge
+from .finding import Finding, Price, RuleInfo, Suppressed, Undecided
+from .judge import Judge, Mends, Verdicts
 from .page import Rule
 from .source.text import Source, Unreadable, decode
 from .source.tree import Limits, Node, parse
 
 Severity = Callable[[Rule, str, str | None], str | None]
 
+Together = Callable[[Sequence[Finding]], Price | None]
+"""What some findings of an input cost together."""
+
+
+class Judged(NamedTuple):
+    """A document of an input, the fixes of its findings, and which document of a stream it is."""
+
+    document: Document
+    mends: Mends
+    number: int = 0
+
 
 class Linted(NamedTuple):
-    """What one input gave. `source` is None where it could not be decoded."""
+    """What one input gave. `source` is None where it could not be decoded, `together` where no finding has a price."""
 
     file: str
     source: Source | None
     findings: list[Finding]
     undecided: list[Undecided]
     suppressed: list[Suppressed]
+    together: Together | None = None
+    judged: Sequence[Judged] = ()
 
 
 class Engine:
@@ -45,11 +58,12 @@ class Engine:
         format: str | None = None,
         device: DeviceProfile | None = None,
         ignores: bool = True,
+        prices: bool = False,
     ) -> Linted:
         """The findings of one input, in the order of their places.
 
         `format` names a reader where content does not tell; `device` the profile for descriptions that state none; `ignores` says whether
-        suppression comments count.
+        suppression comments count; `prices` whether findings are priced.
         """
         try:
             source = Source(file, decode(data))
@@ -58,30 +72,35 @@ class Engine:
         parsed = parse(source, limits or Limits())
         findings = [diagnostic(p.code, p.message, file, p.span, "", tuple(p.labels)) for p in parsed.problems]
         undecided: list[Undecided] = []
+        judged: list[Judged] = []
         if not parsed.documents and not parsed.problems:
             findings.append(diagnostic("MSAA901", "the input is empty", file))
         for number, root in enumerate(parsed.documents):
             document = _document(source, root, format)
             prefix = f"documents[{number}]." if len(parsed.documents) > 1 else ""
-            found, unknown = self._judge(document, file, severity, device, bool(parsed.problems))
+            found, unknown, mends = self._judge(document, file, severity, device, bool(parsed.problems))
             findings.extend(_within(found, prefix))
             undecided.extend(u._replace(subject=prefix + u.subject) for u in unknown)
+            judged.append(Judged(document, mends, number))
         suppressed: list[Suppressed] = []
         if ignores and "msaa-lint" in source.text.lower():
             findings, suppressed = self._suppress(findings, source, parsed.documents, severity, {u.rule for u in undecided})
         findings.sort(key=place_order)
-        return Linted(file, source, findings, undecided, suppressed)
+        together = None
+        mended = [each for each in judged if each.mends]
+        if mended:
+            findings, together = _mended(source, mended, findings, device, prices, format)
+        return Linted(file, source, findings, undecided, suppressed, together, judged)
 
     def _judge(
         self, document: Document, file: str, severity: Severity, device: DeviceProfile | None, broken: bool
-    ) -> tuple[list[Finding], list[Undecided]]:
+    ) -> Verdicts:
         """A document's own mistakes; where it has none, what the rules say. What was misread is not judged."""
         if document.problems or broken:
-            return [diagnostic(p.code, p.message, file, p.span, p.path, p.labels, p.help) for p in document.problems], []
+            return Verdicts([diagnostic(p.code, p.message, file, p.span, p.path, p.labels, p.help) for p in document.problems], [], {})
         from .facts.subjects import subjects
 
-        verdicts = self.judge.judge(subjects(document, device), file, severity)
-        return verdicts.findings, verdicts.undecided
+        return self.judge.judge(subjects(document, device), file, severity)
 
     def _suppress(
         self, findings: Sequence[Finding], source: Source, documents: Sequence[Node], severity: Severity, undecided: set[str]
@@ -93,6 +112,23 @@ class Engine:
         enabled = {rule.name for rule in self.catalogue.rules if severity(rule, rule.severity, None) is not None} - undecided
         kept, suppressed, extra = apply(findings, comments(source, documents), source, self.catalogue.rules, enabled)
         return [*kept, *extra], suppressed
+
+
+def _mended(
+    source: Source, judged: Sequence[Judged], findings: list[Finding], device: DeviceProfile | None, prices: bool, format: str | None
+) -> tuple[list[Finding], Together | None]:
+    """The findings with the edits of their fixes, and their prices where asked for; then also what works out prices of several together."""
+    from .fixes.offers import Offers
+
+    offers = [Offers(source, each, format) for each in judged]
+    together: Together | None = None
+    if prices:
+        from .price import priced
+
+        findings, together = priced(offers, findings, device)
+    for each in offers:
+        findings = each.with_edits(findings)
+    return findings, together
 
 
 def _document(source: Source, root: Node, format: str | None) -> Document:

@@ -39,11 +39,15 @@ class Edit(NamedTuple):
 
 
 class Fix(NamedTuple):
-    """A mend: what it does in words, whether the picture cannot change by it, and the edits (none: stated, not computed)."""
+    """A mend: what it does in words, whether the picture cannot change by it, and the edits (none: stated, not computed).
+
+    One that is `shown` says what would cost less, and is never made: it is for people to decide.
+    """
 
     title: str
     safe: bool
     edits: tuple[Edit, ...] = ()
+    shown: bool = False
 
 
 class Price(NamedTuple):
@@ -114,7 +118,11 @@ class RuleInfo(NamedTuple):
 
 
 class Result(NamedTuple):
-    """A whole lint run. Findings are in the order of files, places and codes; `rules` are the enabled ones by code."""
+    """A whole lint run. Findings are in the order of files, places and codes; `rules` are the enabled ones by code.
+
+    `together` is what the findings of a file cost together, by file: less than the sum of their prices where two of them cost the same
+    bytes. A file without a price is not in it.
+    """
 
     findings: Sequence[Finding]
     undecided: Sequence[Undecided]
@@ -122,6 +130,7 @@ class Result(NamedTuple):
     files: Sequence[str]
     sources: Mapping[str, "Source"]
     rules: Sequence[RuleInfo]
+    together: Mapping[str, Price] = {}
 
 
 def rank(severity: str) -> int:

@@ -10,10 +10,17 @@ from .condition import Condition, activation, named
 from .diagnostics import diagnostic
 from .facts.facts import Facts, Subject, Value
 from .finding import Finding, Fix, Label, Span, Undecided
-from .page import Case, Rule
+from .page import Case, Mend, Rule
 
 _PLACEHOLDER = re.compile(r"\{([a-z_.0-9]+)\}")
 _EVEN = re.compile(r"\.0$")
+
+
+Key = tuple[str, Span | None, str]
+"""The code, place and message of a finding: what tells it from others of its file."""
+
+Mends = dict[Key, list[tuple[Mend, Subject]]]
+"""By finding: its page's fix, and the subject that it was found in; several where they are one finding."""
 
 
 class Verdicts(NamedTuple):
@@ -21,6 +28,7 @@ class Verdicts(NamedTuple):
 
     findings: list[Finding]
     undecided: list[Undecided]
+    mends: Mends
 
 
 MOST_REMEMBERED = 4096
@@ -48,6 +56,7 @@ class Judge:
         """
         findings: list[Finding] = []
         undecided: list[Undecided] = []
+        mends: Mends = {}
         on: dict[str, list[tuple[Rule, Condition]]] = {}
         for subject in subjects:
             rules = on.get(subject.kind)
@@ -60,6 +69,7 @@ class Judge:
             values = subject.facts.values
             answers = self._answers(subject)
             fired: list[tuple[Rule, Finding]] = []
+            fixes: dict[str, Mend] = {}
             for rule, condition in rules:
                 try:
                     answer = answers.of(condition)
@@ -73,11 +83,18 @@ class Judge:
                     weight = severity(rule, suggested, vendor if isinstance(vendor, str) else None)
                     if weight is not None:
                         fired.append((rule, finding(rule, case, subject, file, weight)))
+                        mend = rule.fix if case is None else case.fix
+                        if mend is not None:
+                            fixes[rule.code] = mend
                 elif answer is None:
                     missing = tuple(name for name in condition.facts if name not in values)
                     undecided.append(Undecided(rule.code, rule.name, file, subject.path, missing))
-            findings.extend(_one_cause(fired))
-        return Verdicts(_distinct(findings), undecided)
+            kept = _one_cause(fired)
+            findings.extend(kept)
+            for found in kept if fixes else ():
+                if found.code in fixes:
+                    mends.setdefault(key_of(found), []).append((fixes[found.code], subject))
+        return Verdicts(_distinct(findings), undecided, mends)
 
     def _condition(self, text: str) -> Condition:
         if text not in self._conditions:
@@ -126,6 +143,11 @@ class _Answers:
         return self._known[condition.text]
 
 
+def key_of(found: Finding) -> Key:
+    """What tells a finding from the others of its file."""
+    return (found.code, found.span, found.message)
+
+
 def finding(rule: Rule, case: Case | None, subject: Subject, file: str, severity: str) -> Finding:
     """The finding of a rule for a subject: its texts filled in, at the place of the fact that the page names."""
     facts = subject.facts
@@ -138,10 +160,11 @@ def finding(rule: Rule, case: Case | None, subject: Subject, file: str, severity
         place = facts.places.get(fact)
         if place is not None and place != span and fact in facts.values:
             labels.append(Label(place, filled(text, facts)))
-    mend = Fix(rule.fix.title, rule.fix.safe) if rule.fix is not None else None
+    mend = rule.fix if case is None else case.fix
+    fix = Fix(filled(mend.title, facts), mend.safe, (), mend.safety == "shown") if mend is not None else None
     help = filled(rule.help, facts)
     return Finding(
-        rule.code, rule.name, severity, confidence, filled(message, facts), file, span, subject.path, tuple(labels), (), help, mend
+        rule.code, rule.name, severity, confidence, filled(message, facts), file, span, subject.path, tuple(labels), (), help, fix
     )
 
 
@@ -179,9 +202,9 @@ def _one_cause(fired: list[tuple[Rule, Finding]]) -> list[Finding]:
 
 def _distinct(findings: list[Finding]) -> list[Finding]:
     """Each place and message of a rule once: a structure that two aspects share is one mistake."""
-    seen: dict[tuple[str, Span | None, str], Finding] = {}
+    seen: dict[Key, Finding] = {}
     for found in findings:
-        seen.setdefault((found.code, found.span, found.message), found)
+        seen.setdefault(key_of(found), found)
     return list(seen.values())
 
 

@@ -15,24 +15,47 @@ MAX_CONDITION = 2000
 """Characters of a condition: a user's page may come from an untrusted branch, and what CEL does is bounded by what it is given."""
 
 
+SAFETIES = ("safe", "unsafe", "shown")
+"""Of a fix: the picture cannot change by it; it may, or the fix is a choice; it is said and priced, and never made."""
+
+
+class Setting(NamedTuple):
+    """One change of a fix: a fact, the value that it gets, gains or loses, and where the page states it.
+
+    A text in braces names a fact of the subject, whose value is meant.
+    """
+
+    fact: str
+    value: str | bool | int | float
+    at: Span
+
+
+class Mend(NamedTuple):
+    """A fix, in terms of what the facts are made from: `set` gives a member a value, `add` and `remove` change a list, `do` names a
+    change that `fixes.deeds` knows."""
+
+    title: str
+    safety: str
+    set: tuple[Setting, ...] = ()
+    add: tuple[Setting, ...] = ()
+    remove: tuple[Setting, ...] = ()
+    do: str = ""
+    at: Span = Span(0, 0)
+
+    @property
+    def safe(self) -> bool:
+        return self.safety == "safe"
+
+
 class Case(NamedTuple):
-    """What changes where a rule fires and `when` holds as well; the first case that holds is taken."""
+    """What changes where a rule fires and `when` holds as well; the first case that holds is taken. `fix` is the one that then counts."""
 
     when: str
     severity: str | None
     confidence: str | None
     message: str | None
     condition_at: Span = Span(0, 0)
-
-
-class Mend(NamedTuple):
-    """A fix, in terms of the subject's members: `set` gives a member a value, `add` and `remove` change a list."""
-
-    title: str
-    safe: bool
-    set: tuple[tuple[str, str], ...]
-    add: tuple[tuple[str, str], ...]
-    remove: tuple[tuple[str, str], ...]
+    fix: Mend | None = None
 
 
 class Rule(NamedTuple):
@@ -61,6 +84,11 @@ class Rule(NamedTuple):
     path: str
     condition_at: Span
     source: Source
+
+    @property
+    def mends(self) -> "tuple[Mend, ...]":
+        """Its fixes: its own and those of its cases."""
+        return tuple(dict.fromkeys(mend for mend in (self.fix, *(case.fix for case in self.cases)) if mend is not None))
 
 
 class Page(NamedTuple):
@@ -167,6 +195,7 @@ class _Reading:
         when = members["when"]
         self.bounded(when)
         at = members.get("at")
+        fix = self.mend(members["fix"], None) if "fix" in members else None
         return Rule(
             code=self.text(members["code"]),
             name=self.name,
@@ -177,9 +206,9 @@ class _Reading:
             message=self.text(members["message"]),
             at=() if at is None else self.texts(at) if at.kind == "sequence" else (self.text(at),),
             labels=self.pairs(members.get("labels")),
-            cases=tuple(self.case(node) for node in self.items(members.get("cases"))),
+            cases=tuple(self.case(node, fix) for node in self.items(members.get("cases"))),
             help=self.text(members["help"]) if "help" in members else "",
-            fix=self.mend(members["fix"]) if "fix" in members else None,
+            fix=fix,
             vendors=self.texts(members.get("vendors")),
             edition=self.text(members["edition"]) if "edition" in members else "",
             references=self.texts(members.get("references")),
@@ -229,31 +258,85 @@ class _Reading:
             return ()
         return tuple((key, self.text(value)) for key, value in node.value.items())
 
-    def case(self, node: Node) -> Case:
-        known = ("when", "severity", "confidence", "message")
+    def case(self, node: Node, fix: Mend | None) -> Case:
+        """A case; without `fix`, or where that states its safety alone, the rule's own is its fix."""
+        known = ("when", "severity", "confidence", "message", "fix")
         if node.kind != "mapping" or "when" not in node.value:
             self.wrong(node.span, "a case is a mapping with `when` and what it changes")
             return Case("true", None, None, None)
         for key in node.value:
             if key not in known:
                 self.unknown(node.keys[key], known)
-        given = {key: self.text(value) for key, value in node.value.items()}
+        given = {key: self.text(value) for key, value in node.value.items() if key != "fix"}
         if "severity" in given:
             self.one_of(node.value["severity"], SEVERITIES)
         if "confidence" in given:
             self.one_of(node.value["confidence"], CONFIDENCES)
         when = node.value["when"]
         self.bounded(when)
-        return Case(given["when"], given.get("severity"), given.get("confidence"), given.get("message"), when.span)
+        own = node.value.get("fix")
+        if own is not None:
+            fix = None if own.kind == "scalar" and own.value is None else self.mend(own, fix)
+        return Case(given["when"], given.get("severity"), given.get("confidence"), given.get("message"), when.span, fix)
 
-    def mend(self, node: Node) -> Mend | None:
-        known = ("title", "safety", "set", "add", "remove")
-        if node.kind != "mapping" or "title" not in node.value or "safety" not in node.value:
-            self.wrong(node.span, "a fix is a mapping with `title`, `safety` (safe or unsafe) and what it changes")
+    def mend(self, node: Node, of_rule: Mend | None) -> Mend | None:
+        """A fix. One that states its safety alone, in a case, is the rule's with that safety."""
+        known = ("title", "safety", "set", "add", "remove", "do")
+        members = node.value if node.kind == "mapping" else {}
+        inherits = of_rule is not None and list(members) == ["safety"]
+        if not inherits and ("title" not in members or "safety" not in members):
+            self.wrong(node.span, f"a fix is a mapping with `title`, `safety` ({', '.join(SAFETIES)}) and what it changes")
             return None
-        for key in node.value:
+        for key in members:
             if key not in known:
                 self.unknown(node.keys[key], known)
-        self.one_of(node.value["safety"], ("safe", "unsafe"))
-        changes = [self.pairs(node.value.get(key)) for key in ("set", "add", "remove")]
-        return Mend(self.text(node.value["title"]), node.value["safety"].text == "safe", *changes)
+        self.one_of(members["safety"], SAFETIES)
+        safety = members["safety"].text
+        if inherits and of_rule is not None:
+            return of_rule._replace(safety=safety)
+        if {"set", "add", "remove", "do"}.isdisjoint(members):
+            self.wrong(node.span, "a fix states what it changes: `set`, `add`, `remove` or `do`")
+        given, added, removed = (self.changes(members.get(key), key) for key in ("set", "add", "remove"))
+        do = self.text(members["do"]) if "do" in members else ""
+        return Mend(self.text(members["title"]), safety, given, added, removed, do, node.span)
+
+    def changes(self, node: Node | None, action: str) -> tuple[Setting, ...]:
+        """The facts that a fix changes, with their values; a list of values is as many changes."""
+        if node is None:
+            return ()
+        if node.kind != "mapping":
+            self.wrong(node.span, "a mapping of facts to values is due here")
+            return ()
+        found = []
+        for fact, value in node.value.items():
+            many = value.kind == "sequence" and action != "set"
+            found += [self.setting(node.keys[fact], item, action) for item in (value.value if many else [value])]
+        return tuple(found)
+
+    def setting(self, key: Node, value: Node, action: str) -> Setting:
+        from .facts.table import FACTS
+
+        fact = FACTS.get(key.text)
+        if fact is None:
+            from .vulkan.names import nearest
+
+            close = nearest(key.text, FACTS)
+            self.wrong(key.span, f"there is no fact {key.text[:80]}", f"did you mean `{close}`?" if close else "")
+        elif (fact.type == "LIST") != (action != "set"):
+            self.wrong(key.span, f"{fact.name} is {'a list' if fact.type == 'LIST' else 'no list'}: `{action}` is not for it")
+        elif value.kind != "scalar" or not (_names_fact(value) or _is_of(value.value, fact.type)):
+            self.wrong(value.span, f"a value of {fact.name} ({fact.type}) is due here")
+        return Setting(key.text, value.value if value.kind == "scalar" else "", value.span)
+
+
+_TYPES = {"BOOL": (bool,), "INT": (int,), "DOUBLE": (int, float), "STRING": (str,), "LIST": (str,)}
+
+
+def _is_of(value: object, type_name: str) -> bool:
+    """Whether a value is of a fact's type, or one of its list's."""
+    return type(value) in _TYPES.get(type_name, ())
+
+
+def _names_fact(node: Node) -> bool:
+    """Whether a value is a fact in braces."""
+    return isinstance(node.value, str) and node.text[:1] == "{" and node.text[-1:] == "}"

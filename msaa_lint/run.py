@@ -8,14 +8,14 @@ import gc
 import os
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import config
 from .catalogue import EDITIONS, Catalogue, load
 from .diagnostics import diagnostic
 from .discovery import STDIN, discover
-from .engine import Engine, Linted, rule_infos
-from .finding import Finding, Result, RuleInfo, Suppressed, Undecided, rank
+from .engine import Engine, Linted, Together, rule_infos
+from .finding import Finding, Price, Result, RuleInfo, Suppressed, Undecided, rank
 from .profiles import device_of, known_profiles
 from .readers import looks_like
 from .selection import Selection
@@ -24,9 +24,15 @@ from .settings import Settings, override
 from .source.text import Source, Unreadable
 from .source.tree import Limits, read
 
+if TYPE_CHECKING:
+    from .fixes.inputs import Mended
+
 Progress = Callable[[int, int, str], None]
 """Told how many of how many inputs are done, and the next one's name."""
 
+
+PRICED = frozenset({"full", "json", "sarif", "markdown", "statistics"})
+"""The outputs that show what findings cost; others need not wait for it."""
 
 GARBAGE = 200_000
 """Containers made and not yet freed since the last collection, from which one is due: the command line turns the collector off, and the
@@ -34,7 +40,12 @@ passes of a frame and their attachments refer to each other."""
 
 
 class Request(NamedTuple):
-    """What a run is asked for. `overrides` are keyword arguments of `settings.override`; `data` stands in for standard input."""
+    """What a run is asked for. `overrides` are keyword arguments of `settings.override`; `data` stands in for standard input.
+
+    `formats` are the outputs that will be printed, in place of those that settings name, and `fallback` where neither is stated: findings
+    are priced where one of them shows it. `by_price` puts the dearest first. `fix` is `write`, to mend files, or `show`, to say how; with
+    `unsafe_fixes` by fixes that may change the picture too. Standard input is never written to.
+    """
 
     paths: Sequence[str]
     overrides: Mapping[str, Any] = {}
@@ -46,14 +57,21 @@ class Request(NamedTuple):
     data: bytes | None = None
     full_rules: bool = False
     without_baseline: bool = False
+    formats: Sequence[str] = ()
+    fallback: str = "json"
+    by_price: bool = False
+    fix: str | None = None
+    unsafe_fixes: bool = False
 
 
 class Outcome(NamedTuple):
-    """A run's result, the settings that govern the current folder (its outputs and thresholds), and lines for the standard error stream."""
+    """A run's result, the settings that govern the current folder (its outputs and thresholds), lines for the standard error stream, and
+    what fixes made of inputs."""
 
     result: Result
     settings: Settings
     notes: Sequence[str]
+    mended: "Sequence[Mended]" = ()
 
 
 class Governed(NamedTuple):
@@ -73,10 +91,13 @@ class Run:
         self.undecided: list[Undecided] = []
         self.suppressed: list[Suppressed] = []
         self.sources: dict[str, Source] = {}
+        self.priced: dict[str, Together] = {}
         self._settings: dict[str | None, Settings] = {}
         self._governed: dict[str | None, Governed] = {}
         self._catalogues: dict[tuple[str, ...], Catalogue] = {}
         self._engines: dict[tuple[str, ...], Engine] = {}
+        self.prices = False
+        self.mended: list[Mended] = []
 
     def settings(self, path: str) -> Settings:
         """The settings that govern a file or folder; what is wrong with their configuration is a finding, once."""
@@ -124,18 +145,59 @@ class Run:
             return
         device = device_of(governed.settings.profile)
         severity = governed.selection.for_file(name, device.vendor if device is not None else None)
-        linted = governed.engine.lint(
-            data, name, severity, limits=limits, format=self.request.format, device=device, ignores=self.request.ignores
-        )
+
+        def judge(data: bytes, prices: bool = False) -> Linted:
+            return governed.engine.lint(
+                data, name, severity, limits=limits, format=self.request.format, device=device, ignores=self.request.ignores, prices=prices
+            )
+
+        linted = judge(data, self.prices)
+        if self.request.fix is not None and (stdin or any(found.fix is not None for found in linted.findings)):
+            from .fixes.inputs import mend
+
+            write = self.request.fix == "write"
+            target = path if write and not stdin else None
+            made = mend(data, linted, judge, self._wanted(linted, governed), self.request.unsafe_fixes, target)
+            self.mended.append(made)
+            if made.failed:
+                self.findings.append(diagnostic("MSAA921", f"the fixed text cannot be written: {made.failed}", name))
+            elif write and made.changed:
+                linted = judge(made.data, self.prices) if self.prices else made.linted
         self._keep(linted, governed)
+
+    def _wanted(self, linted: Linted, governed: Governed) -> Callable[[Finding], bool]:
+        """Whether a finding is to be fixed: what is not shown, or counted in the baseline, is left alone."""
+        here = self.settings(os.curdir)
+        least = rank(here.min_severity)
+        kept: Iterable[Finding] = linted.findings
+        if here.baseline is not None and not self.request.without_baseline:
+            from . import baseline
+
+            loaded = baseline.load(here.baseline)
+            if not isinstance(loaded, baseline.Refused):
+                kept = baseline.apply(linted.findings, loaded, [linted.file]).kept
+        rules = {found.rule for found in kept} | {"unused-suppression"}
+        settle = governed.selection.settle
+        return lambda found: found.rule in rules and rank(found.severity) >= least and settle(found) is not None
 
     def _keep(self, linted: Linted, governed: Governed) -> None:
         if linted.source is not None and (linted.findings or linted.suppressed):
             self.sources[linted.file] = linted.source
-        settled = (governed.selection.settle(found) for found in linted.findings)
-        self.findings.extend(found for found in settled if found is not None)
+        settled = [found for found in map(governed.selection.settle, linted.findings) if found is not None]
+        self.findings.extend(settled)
+        if linted.together is not None:
+            self.priced[linted.file] = self._together(linted.together, settled)
         self.undecided.extend(linted.undecided)
         self.suppressed.extend(linted.suppressed)
+
+    def _together(self, together: Together, findings: Sequence[Finding]) -> Together:
+        """What works out what findings cost together: done at once, so that documents need not be kept, unless a baseline takes some."""
+        here = self.settings(os.curdir)
+        if here.baseline is not None:
+            return together
+        least = rank(here.min_severity)
+        price = together([found for found in findings if rank(found.severity) >= least])
+        return lambda _: price
 
     def _stdin(self, limits: Limits) -> bytes:
         if self.request.data is not None:
@@ -150,6 +212,8 @@ def run(request: Request, progress: Progress | None = None) -> Outcome:
     """Lints all that a request names. Nothing raises for what an input, a page or a configuration holds: that is a finding."""
     this = Run(request)
     here = this.governed(os.curdir)
+    formats = request.formats or _names(here.settings.output) or [request.fallback]
+    this.prices = request.by_price or here.settings.fail_on_cost is not None or not PRICED.isdisjoint(formats)
     found = discover(request.paths, this.settings, looks_like)
     this.findings.extend(found.findings)
     for number, path in enumerate(found.files):
@@ -169,8 +233,12 @@ def run(request: Request, progress: Progress | None = None) -> Outcome:
     this.findings.sort(key=lambda f: (order.get(f.file, -1), f.file))
     severity = here.selection.for_file(os.curdir)
     rules: list[RuleInfo] = rule_infos(here.engine.catalogue, severity, request.full_rules)
-    result = Result(_once(this.findings), this.undecided, this.suppressed, files, this.sources, rules)
-    return Outcome(result, here.settings, notes)
+    findings = _once(this.findings)
+    together = _together(this.priced, findings)
+    if request.by_price:
+        findings.sort(key=_dearest)
+    result = Result(findings, this.undecided, this.suppressed, files, this.sources, rules, together)
+    return Outcome(result, here.settings, notes, this.mended)
 
 
 def _baseline(this: Run, here: Governed, files: list[str], notes: list[str]) -> None:
@@ -193,6 +261,13 @@ def _unusable(settings: Settings) -> list[Finding]:
     from .vulkan.names import nearest
 
     found = []
+    if settings.fail_on_cost is not None:
+        from .budget import budget
+
+        try:
+            budget(settings.fail_on_cost)
+        except ValueError as error:
+            found.append(settings.wrong("fail-on-cost", f"`{settings.fail_on_cost[:40]}` is no price", str(error)))
     if settings.edition is not None and settings.edition not in EDITIONS:
         found.append(settings.wrong("edition", f"no edition `{settings.edition[:40]}`", f"there is {', '.join(EDITIONS)}"))
     if settings.profile is not None and device_of(settings.profile) is None:
@@ -201,6 +276,25 @@ def _unusable(settings: Settings) -> list[Finding]:
         found.append(settings.wrong("profile", f"no profile `{settings.profile[:40]}`", help))
     missing = [path for path in settings.rules if not os.path.exists(path)]
     return found + [settings.wrong("rules", f"no rule page or folder `{os.path.relpath(path)}`") for path in missing]
+
+
+def _together(priced: Mapping[str, Together], findings: Sequence[Finding]) -> dict[str, Price]:
+    """What the findings that are left of each file cost together."""
+    left: dict[str, list[Finding]] = {}
+    for found in findings:
+        if found.price is not None:
+            left.setdefault(found.file, []).append(found)
+    prices = {file: priced[file](own) for file, own in left.items() if file in priced}
+    return {file: price for file, price in prices.items() if price is not None}
+
+
+def _names(outputs: Iterable[str]) -> list[str]:
+    return [text.partition("=")[0] for text in outputs]
+
+
+def _dearest(found: Finding) -> tuple[float, float]:
+    price = found.price
+    return (-price.milliwatts, -price.memory_mib) if price is not None else (0.0, 0.0)
 
 
 def _once(findings: Iterable[Finding]) -> list[Finding]:

@@ -49,8 +49,8 @@ class Settings(NamedTuple):
     All of them hold rule selectors: a name, a code, the beginning of a code (MSAA2, MSAA), or ALL. `command_line` is what the command
     line says of the same. `rules` are pages of a user's own rules, or folders of them.
 
-    Of outcomes: `fail_on` is the lowest severity that ends the run with 1, `min_severity` the lowest that is shown, `output` the outputs
-    (none: the program's choice), `baseline` the baseline's path.
+    Of outcomes: `fail_on` is the lowest severity that ends the run with 1, `fail_on_cost` the price that does (as in 50MB/s),
+    `min_severity` the lowest severity that is shown, `output` the outputs (none: the program's choice), `baseline` the baseline's path.
 
     Of inputs: `exclude` is never linted, `include` is what is linted of a folder (none: the usual names, and what looks like an input),
     `profile` a class of device or a built-in device's name, `limits` the stated ones of depth, nodes and bytes.
@@ -65,6 +65,7 @@ class Settings(NamedTuple):
     per_file_ignores: tuple[tuple[Glob, tuple[str, ...]], ...] = ()
     severity: Mapping[str, str] = {}
     fail_on: str = "warning"
+    fail_on_cost: str | None = None
     min_severity: str = "note"
     profile: str | None = None
     rules: tuple[str, ...] = ()
@@ -94,6 +95,7 @@ def override(
     ignore: Iterable[str] = (),
     severity: Mapping[str, str] | None = None,
     fail_on: str | None = None,
+    fail_on_cost: str | None = None,
     min_severity: str | None = None,
     profile: str | None = None,
     rules: Iterable[str] = (),
@@ -117,6 +119,7 @@ def override(
     single: dict[str, Any] = {
         "edition": edition,
         "fail_on": fail_on,
+        "fail_on_cost": fail_on_cost,
         "min_severity": min_severity,
         "profile": profile,
         "baseline": None if baseline is None else os.path.abspath(baseline),

@@ -20,7 +20,7 @@ def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
 
 
 def verdicts(engine: Engine, texts: list[bytes]) -> list[Linted]:
-    return [engine.lint(text, "example.yaml", as_written)._replace(source=None) for text in texts]
+    return [engine.lint(text, "example.yaml", as_written)._replace(source=None, judged=(), together=None) for text in texts]
 
 
 def test_verdicts_are_the_same_whatever_is_remembered(monkeypatch: pytest.MonkeyPatch) -> None:

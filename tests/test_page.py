@@ -76,7 +76,7 @@ cases:
     message: far too many
   - {when: image.samples > 4, severity: note}
 help: have 2
-fix: {title: two samples, safety: unsafe, set: {samples: 2}}
+fix: {title: two samples, safety: unsafe, set: {image.samples: 2}}
 vendors: [arm, img]
 references: [VUID-1]
 supersedes: [sample-count-above-four]
@@ -138,8 +138,8 @@ CONDITION = "when: image.samples > 2"
         (CONDITION, f"{CONDITION}\nat: ⟦{{a: 1}}⟧", "a text is due here"),
         (CONDITION, f"{CONDITION}\nlabels: ⟦[a]⟧", "a mapping is due here"),
         (CONDITION, f"{CONDITION}\n⟦whn⟧: 1", "unknown key `whn`"),
-        (CONDITION, f"{CONDITION}\nfix: ⟦[]⟧", "a fix is a mapping with `title`, `safety` (safe or unsafe) and what it changes"),
-        (CONDITION, f"{CONDITION}\nfix: {{title: x, safety: ⟦yes⟧}}", "one of safe, unsafe is due here"),
+        (CONDITION, f"{CONDITION}\nfix: ⟦[]⟧", "a fix is a mapping with `title`, `safety` (safe, unsafe, shown) and what it changes"),
+        (CONDITION, f"{CONDITION}\nfix: {{title: x, safety: ⟦yes⟧, set: {{image.samples: 2}}}}", "one of safe, unsafe, shown is due here"),
         (
             CONDITION,
             f"{CONDITION}\nvendors: [⟦ARM⟧]",

@@ -67,7 +67,7 @@ def test_page_has_examples(rule: Rule) -> None:
     kinds = [example.kind for example in examples(RULES / f"{rule.name}.md")]
     assert "bad" in kinds
     assert "good" in kinds
-    assert ("fixed" in kinds) == (rule.fix is not None)
+    assert ("fixed" in kinds) == bool(rule.mends)
 
 
 @pytest.mark.parametrize("example", [e for e in EXAMPLES if e.kind == "bad"], ids=str)

@@ -4,19 +4,22 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import IO, Any, NamedTuple
 
 from .. import __version__
+from ..discovery import STDIN
 from ..finding import rank
 from ..run import Outcome, Request, run
 from .options import FORMATS
 
-OVERRIDES = ("edition", "profile", "fail_on", "min_severity", "baseline")
+OVERRIDES = ("edition", "profile", "fail_on", "fail_on_cost", "min_severity", "baseline")
 SELECTORS = ("select", "extend_select", "ignore")
 LIMITS = {"max_depth": "depth", "max_nodes": "nodes", "max_bytes": "bytes"}
 
 BROKEN_PIPE = 2
+ERRORS = "<standard error>"
+"""In place of an output's file: the standard error stream."""
 
 
 class Target(NamedTuple):
@@ -49,21 +52,54 @@ def _check(given: Mapping[str, Any]) -> int:
     except ValueError as error:
         print(f"msaa-lint: {error}", file=sys.stderr)
         return 2
-    outcome = run(request(given, any(target.format == "sarif" for target in targets)), _progress())
+    fallback = "full" if sys.stdout.isatty() else "concise"
+    outcome = run(request(given, targets, fallback), _progress())
     if not targets:
-        targets = outputs(outcome.settings.output) or [Target("full" if sys.stdout.isatty() else "concise", None)]
+        targets = outputs(outcome.settings.output) or [Target(fallback, None)]
     from ..report.escape import visible
 
     for note in outcome.notes:
         print(f"msaa-lint: {visible(note)}", file=sys.stderr)
+    if given.get("fix") or given.get("diff"):
+        code = _fixed(targets, outcome, given)
+        if code is not None:
+            return code
     for target in targets:
         if not _print(target, outcome, given):
             return 2
-    return exit_code(outcome, bool(given.get("exit_zero")))
+    code = exit_code(outcome, bool(given.get("exit_zero")))
+    for file in _dear(outcome) if code == 1 else ():
+        print(f"msaa-lint: the findings of {visible(file)} cost {outcome.settings.fail_on_cost} together, or more", file=sys.stderr)
+    return code
 
 
-def request(given: Mapping[str, Any], full_rules: bool = False) -> Request:
-    """What the arguments ask of a run."""
+def _fixed(targets: list[Target], outcome: Outcome, given: Mapping[str, Any]) -> int | None:
+    """Prints what fixes did, or would do; the exit code where that is all. What goes to standard output then has it for itself."""
+    from ..report.escape import visible
+    from .fixing import print_diff, print_text, remarks
+
+    written = not given.get("diff")
+    if not written or STDIN in given["paths"]:
+        others = [target for target in targets if target.path is not None]
+        if written:
+            print_text(outcome, given.get("stdin_filename") or "<stdin>")
+            others += [target._replace(path=ERRORS) for target in targets if target.path is None]
+        targets[:] = others
+    changed = not written and print_diff(outcome, colored(given.get("color", "auto"), sys.stdout.isatty()))
+    for line in remarks(outcome, written, bool(given.get("unsafe_fixes"))):
+        print(f"msaa-lint: {visible(line)}", file=sys.stderr)
+    if written:
+        return None
+    for target in targets:
+        if not _print(target, outcome, given):
+            return 2
+    if any(found.fatal for found in outcome.result.findings):
+        return 2
+    return int(changed and not given.get("exit_zero"))
+
+
+def request(given: Mapping[str, Any], targets: Sequence[Target] = (), fallback: str = "concise") -> Request:
+    """What the arguments ask of a run. `fallback` is the output where neither they nor a configuration name one."""
     overrides: dict[str, Any] = {name: given[name] for name in OVERRIDES if name in given}
     for name in SELECTORS:
         if name in given:
@@ -81,7 +117,12 @@ def request(given: Mapping[str, Any], full_rules: bool = False) -> Request:
         ignores=not given.get("no_ignores"),
         format=given.get("input_format"),
         stdin_filename=given.get("stdin_filename"),
-        full_rules=full_rules,
+        full_rules=any(target.format == "sarif" for target in targets),
+        formats=[*(target.format for target in targets), *(["statistics"] if given.get("statistics") else [])],
+        fallback=fallback,
+        by_price=given.get("sort") == "price",
+        fix="show" if given.get("diff") else "write" if given.get("fix") else None,
+        unsafe_fixes=bool(given.get("unsafe_fixes")),
     )
 
 
@@ -104,17 +145,30 @@ def outputs(stated: Any) -> list[Target]:
 
 
 def exit_code(outcome: Outcome, exit_zero: bool = False) -> int:
-    """2 where an input or the configuration could not be used, 1 where a finding is as severe as `fail-on`, else 0."""
+    """2 where an input or the configuration could not be used, 1 where a finding is as severe as `fail-on`, or findings as dear as
+    `fail-on-cost`, else 0."""
     if any(found.fatal for found in outcome.result.findings):
         return 2
+    if exit_zero:
+        return 0
     least = rank(outcome.settings.fail_on)
-    return int(not exit_zero and any(rank(found.severity) >= least for found in outcome.result.findings))
+    return int(any(rank(found.severity) >= least for found in outcome.result.findings) or bool(_dear(outcome)))
+
+
+def _dear(outcome: Outcome) -> list[str]:
+    """The inputs whose findings cost together what `fail-on-cost` allows, or more."""
+    if outcome.settings.fail_on_cost is None:
+        return []
+    from ..budget import budget, reached
+
+    limit = budget(outcome.settings.fail_on_cost)
+    return [file for file, price in outcome.result.together.items() if reached(price, limit)]
 
 
 def _print(target: Target, outcome: Outcome, given: Mapping[str, Any]) -> bool:
     from ..report import render
 
-    if target.path is not None:
+    if target.path not in (None, ERRORS):
         try:
             with open(target.path, "w", encoding="utf-8", newline="\n") as file:
                 render(target.format, outcome.result, file.write, _options(target, outcome, given, file))
@@ -122,7 +176,7 @@ def _print(target: Target, outcome: Outcome, given: Mapping[str, Any]) -> bool:
             print(f"msaa-lint: {target.path} cannot be written: {error.strerror}", file=sys.stderr)
             return False
         return True
-    out = sys.stdout
+    out = sys.stdout if target.path is None else sys.stderr
     if hasattr(out, "reconfigure"):
         # The console's own encoding may not have what an excerpt shows; a machine format is UTF-8 whatever the locale.
         out.reconfigure(encoding="utf-8", errors="backslashreplace")

@@ -102,8 +102,7 @@ def _head(rule: Rule) -> str:
     lines = [f"**{rule.code}** {rule.name}, {rule.severity}, confidence {rule.confidence}, since edition {rule.edition or '(yours)'}."]
     if rule.vendors:
         lines.append(f"A rule of {', '.join(rule.vendors)}: a note on other devices.")
-    if rule.fix is not None:
-        lines.append(f"Fix ({'safe' if rule.fix.safe else 'unsafe'}): {rule.fix.title}.")
+    lines += [f"Fix ({mend.safety}): {mend.title}." for mend in rule.mends]
     return " ".join(lines)
 
 

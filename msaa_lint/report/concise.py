@@ -9,7 +9,7 @@ from .escape import shown
 from .paths import shown_path
 from .place import place
 from .statistics import table
-from .summary import fixable, sentence
+from .summary import fixable, price_of_all, sentence
 
 if TYPE_CHECKING:
     from ..finding import Finding, Result
@@ -44,6 +44,6 @@ def closing(result: Result, out: Write, options: Options) -> None:
     if options.statistics:
         out("".join(row + "\n" for row in table(result)))
     out(sentence(result, options) + "\n")
-    mends = fixable(result)
-    if mends:
-        out(mends + "\n")
+    for text in (price_of_all(result), fixable(result)):
+        if text:
+            out(text + "\n")

@@ -77,7 +77,7 @@ def remarks(finding: Finding, rules: Set[str]) -> list[tuple[str, str]]:
     help_text, fix = shown(finding.help), finding.fix
     how = ""
     if fix and fix.edits:
-        how = " (a safe fix)" if fix.safe else " (an unsafe fix)"
+        how = " (safe: --fix)" if fix.safe else " (unsafe: --fix --unsafe-fixes)"
     title = shown(fix.title) if fix else ""
     if help_text and title and title != help_text:
         said += [("help", help_text), ("fix", title + how)]

@@ -11,7 +11,7 @@ from .data import dump, write_list
 from .escape import clip, whole
 from .paths import relative
 from .place import place
-from .summary import tally, usable_price
+from .summary import tally, together, usable_price
 
 if TYPE_CHECKING:
     from ..finding import Finding, Result, Span
@@ -78,7 +78,7 @@ def _place(result: Result, file: str, span: Span | None) -> dict[str, int | None
 
 
 def _summary(result: Result) -> dict[str, object]:
-    count = tally(result)
+    count, price = tally(result), together(result)
     return {
         "findings": count.findings,
         "errors": count.errors,
@@ -91,6 +91,7 @@ def _summary(result: Result) -> dict[str, object]:
         "undecided": count.undecided,
         "undecided_rules": count.undecided_rules,
         "missing": {_text(fact): rules for fact, rules in count.missing},
+        "price": price._asdict() if price else None,
     }
 
 

@@ -11,7 +11,7 @@ from .escape import shown
 from .full import paragraph
 from .paths import shown_path
 from .place import place
-from .summary import cost, fixable, plural, sentence
+from .summary import cost, fixable, plural, price_of_all, sentence
 
 if TYPE_CHECKING:
     from ..finding import Finding, Result
@@ -32,9 +32,9 @@ _ADDRESS = re.compile(r"(?i)(?<=www)(?=\.)|(?<=:)(?=//)|(?<=gh)(?=-\d)")
 def render(result: Result, out: Write, options: Options) -> None:
     """Prints the summary, a table of the findings with the worst first, and for each its excerpt, as far as one comment holds them."""
     head = f"<!-- msaa-lint -->\n### msaa-lint\n\n{literal(sentence(result, options))}\n"
-    mends = fixable(result)
-    if mends:
-        head += f"\n{literal(mends)}\n"
+    for text in (price_of_all(result), fixable(result)):
+        if text:
+            head += f"\n{literal(text)}\n"
     out(head)
     if not result.findings:
         return

@@ -12,7 +12,7 @@ from .escape import clip, shown, whole
 from .fingerprint import fingerprints
 from .paths import uri
 from .place import place
-from .summary import tally, undecided, usable_price
+from .summary import tally, together, undecided, usable_price
 
 if TYPE_CHECKING:
     from ..finding import Finding, Fix, Result, Span, Suppressed
@@ -66,6 +66,9 @@ def render(result: Result, out: Write, options: Options) -> None:
     out('"columnKind": "unicodeCodePoints",\n')
     out(f'"invocations": [{dump(_invocation(result, options, len(numbered) - len(kept)))}],\n"results": ')
     write_list((_result(finding, entry, name, index, result, options) for (finding, entry), name in kept), out)
+    price = together(result)
+    if price:
+        out(f',\n"properties": {dump({"price": price._asdict()})}')
     out("\n}]\n}\n")
 
 

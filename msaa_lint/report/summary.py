@@ -83,10 +83,29 @@ def undecided(count: Tally, options: Options) -> str:
 
 
 def fixable(result: Result) -> str:
-    """`3 with a fix, 2 of them safe`; empty where nothing has one."""
+    """`3 with a fix, 2 of them safe: --fix makes the safe ones, ...`; empty where nothing has one."""
     count = tally(result)
     fixes = count.safe_fixes + count.unsafe_fixes
-    return f"{fixes} with a fix, {count.safe_fixes} of them safe" if fixes else ""
+    if not fixes:
+        return ""
+    how = {0: "--fix --unsafe-fixes makes them", fixes: "--fix makes them"}
+    both = "--fix makes the safe ones, with --unsafe-fixes all"
+    return f"{fixes} with a fix, {count.safe_fixes} of them safe: {how.get(count.safe_fixes, both)}"
+
+
+def price_of_all(result: Result) -> str:
+    """`Together they cost 2248 MB/s written, ...`; empty where nothing has a price."""
+    figures = figures_of(together(result))
+    return f"Together they cost {', '.join(f'{_size(value)} {unit}' for value, unit in figures)}" if figures else ""
+
+
+def together(result: Result) -> Price | None:
+    """What all findings of a run cost together: those of one file are worked out together, files are frames of their own."""
+    every = [price for price in result.together.values() if _usable(price)]
+    if not every:
+        return None
+    # A price is a tuple of four: Price itself is not needed here to make one.
+    return type(every[0])(*(sum(column) for column in zip(*every, strict=True)))
 
 
 def plural(n: int, word: str) -> str:
@@ -96,26 +115,31 @@ def plural(n: int, word: str) -> str:
 def usable_price(finding: Finding) -> Price | None:
     """The finding's price, or None where a figure went out of range: such a price says nothing and JSON cannot hold it."""
     price = finding.price
+    return price if price is not None and _usable(price) else None
+
+
+def _usable(price: Price) -> bool:
     limit = 1e300
-    return price if price is not None and all(-limit < figure < limit for figure in price) else None
+    return all(-limit < figure < limit for figure in price)
 
 
 def cost(finding: Finding) -> str:
     """`+2248 MB/s written, +31.6 MiB of memory`; empty where there is no price or it is nothing."""
-    price = usable_price(finding)
+    return ", ".join(f"{'+' if value > 0 else ''}{_size(value)} {unit}" for value, unit in figures_of(usable_price(finding)))
+
+
+def figures_of(price: Price | None) -> list[tuple[float, str]]:
+    """The figures of a price that are not nothing, with their units."""
     if price is None:
-        return ""
+        return []
     figures = (
         (price.write_mb_per_s, "MB/s written"),
         (price.read_mb_per_s, "MB/s read"),
         (price.memory_mib, "MiB of memory"),
         (price.milliwatts, "mW"),
     )
-    return ", ".join(f"{_figure(value)} {unit}" for value, unit in figures if value)
+    return [(value, unit) for value, unit in figures if value]
 
 
-def _figure(value: float) -> str:
-    size = abs(value)
-    if 100 <= size < 1e7:
-        return f"{value:+.0f}"
-    return f"{value:+.3g}"
+def _size(value: float) -> str:
+    return f"{value:.0f}" if 100 <= abs(value) < 1e7 else f"{value:.3g}"

@@ -24,7 +24,8 @@ RULES = {rule.name: rule for rule in CATALOGUE.rules}
 JUDGE = Judge(CATALOGUE.rules)
 
 ELSEWHERE = (
-    *("image.", "scene.", "device.", "frame.", "enabled.depth_stencil_resolve", "subpass.has_pipelines", "subpass.partial_coverage"),
+    *("image.", "scene.", "device.", "frame.", "enabled.depth_stencil_resolve", "subpass.has_pipelines"),
+    *("subpass.partial_coverage", "subpass.tile_known"),
     *("aspect.read_later", "aspect.costly_operations", "resolve.source_encoding"),
 )
 """Facts that a dump of one pipeline cannot have."""

@@ -117,7 +117,8 @@ def frame() -> Result:
     )
     sources = {file: Source(file, FORWARD), "broken.yaml": Source("broken.yaml", "a: {b")}
     files = ("broken.yaml", "passes/clean.yaml", file, "trace.rdc")
-    return Result((broken, stored, loaded, binary), undecided, (silenced, baseline), files, sources, RULES)
+    together = {file: Price(562.0, 2248.1, 31.64, 281.0)}
+    return Result((broken, stored, loaded, binary), undecided, (silenced, baseline), files, sources, RULES, together)
 
 
 def printed(name: str, run: Result, **options: object) -> str:

@@ -41,6 +41,7 @@ def test_frame_is_valid_and_states_places_and_prices() -> None:
         "undecided": 3,
         "undecided_rules": 2,
         "missing": {"image.usage": 2, "image.memory": 1},
+        "price": {"read_mb_per_s": 562.0, "write_mb_per_s": 2248.1, "memory_mib": 31.64, "milliwatts": 281.0},
     }
 
 

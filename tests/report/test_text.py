@@ -49,9 +49,9 @@ def test_summary_names_the_missing_facts_most_lacked_first() -> None:
     ("safe", "expected"),
     [
         ((), ""),
-        ((True,), "1 with a fix, 1 of them safe\n"),
-        ((False, False), "2 with a fix, 0 of them safe\n"),
-        ((True, False), "2 with a fix, 1 of them safe\n"),
+        ((True,), "1 with a fix, 1 of them safe: --fix makes them\n"),
+        ((False, False), "2 with a fix, 0 of them safe: --fix --unsafe-fixes makes them\n"),
+        ((True, False), "2 with a fix, 1 of them safe: --fix makes the safe ones, with --unsafe-fixes all\n"),
     ],
 )
 def test_summary_counts_fixes_that_have_edits(safe: tuple[bool, ...], expected: str) -> None:
@@ -78,10 +78,10 @@ def test_help_and_fix() -> None:
     edits = (Edit(Span(0, 1), "x"),)
     assert remarks(help="write less") == ["help: write less"]
     assert remarks(fix=Fix("do it", True)) == ["help: do it"]
-    assert remarks(fix=Fix("do it", True, edits)) == ["help: do it (a safe fix)"]
-    assert remarks(fix=Fix("do it", False, edits)) == ["help: do it (an unsafe fix)"]
-    assert remarks(help="do it", fix=Fix("do it", True, edits)) == ["help: do it (a safe fix)"]
-    assert remarks(help="why", fix=Fix("do it", True, edits)) == ["help: why", "fix: do it (a safe fix)"]
+    assert remarks(fix=Fix("do it", True, edits)) == ["help: do it (safe: --fix)"]
+    assert remarks(fix=Fix("do it", False, edits)) == ["help: do it (unsafe: --fix --unsafe-fixes)"]
+    assert remarks(help="do it", fix=Fix("do it", True, edits)) == ["help: do it (safe: --fix)"]
+    assert remarks(help="why", fix=Fix("do it", True, edits)) == ["help: why", "fix: do it (safe: --fix)"]
 
 
 def test_docs_are_named_for_rules_that_have_a_page() -> None:
@@ -130,6 +130,29 @@ def test_statistics_are_sorted_by_count_then_severity() -> None:
     assert "".join(parts) in printed("concise", run, statistics=True)
     render_statistics(result(), parts.append, Options())
     assert parts[-1].endswith("warning\n")
+
+
+def test_statistics_add_up_prices_and_say_what_all_cost_together() -> None:
+    stored = finding(price=Price(0.0, 2247.78, 31.6, 224.8))
+    run = result(stored, stored._replace(message="other"), finding(code="MSAA1", rule="x"))
+    run = run._replace(together={"frame.yaml": Price(100.0, 2247.78, 31.6, 234.8)})
+    parts: list[str] = []
+    render_statistics(run, parts.append, Options())
+    assert "".join(parts).split("\n") == [
+        "count  code     rule                            severity    MB/s   MiB     mW",
+        "    2  MSAA201  multisampled-attachment-stored  warning   4495.6  63.2  449.6",
+        "    1  MSAA1    x                               warning",
+        "                together                                  2347.8  31.6  234.8",
+        "",
+    ]
+
+
+def test_summary_says_what_the_findings_of_all_files_cost_together() -> None:
+    one, other = Price(0.0, 2247.78, 0.0, 224.8), Price(1.0, 0.0, 31.6, 0.1)
+    run = result(finding(), files=("a", "b"), together={"a": one, "b": other})
+    assert "Together they cost 2248 MB/s written, 1 MB/s read, 31.6 MiB of memory, 225 mW\n" in printed("concise", run)
+    assert "Together" not in printed("concise", result(finding(), together={"a": Price(0.0, 0.0, 0.0, 0.0)}))
+    assert "Together" not in printed("concise", result(finding(), together={"a": Price(float("inf"), 0.0, 0.0, 0.0)}))
 
 
 def test_unknown_output_is_refused() -> None:

@@ -1,0 +1,264 @@
+"""`msaa-lint cost`."""
+
+from __future__ import annotations
+
+import math
+import os
+import sys
+from collections.abc import Mapping, Sequence
+from typing import IO, Any, NamedTuple
+
+from .. import __version__
+from ..cost.amounts import Terms
+from ..cost.costed import Compared, compared
+from ..cost.samples import COUNTS
+from ..cost.variants import DEFAULT_COUNTS
+from ..finding import Result
+from ..project import shown
+from ..reckon import Reckoned, name_of, reckon, with_fixes
+from ..report import Options
+from ..report.escape import visible
+from ..run import Request
+from .check import BROKEN_PIPE, Target, colored
+
+FORMATS = ("full", "json", "markdown")
+MOST = 2**31 - 1
+
+
+class Unusable(Exception):
+    """An option that says nothing that can be used; its text is for the user."""
+
+
+def cost(given: Mapping[str, Any]) -> int:
+    """Prints what inputs cost; 0, or 2 where an input, an option or the configuration could not be used."""
+    try:
+        return _cost(given)
+    except Unusable as error:
+        print(f"msaa-lint: {error}", file=sys.stderr)
+        return 2
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return BROKEN_PIPE
+    except KeyboardInterrupt:
+        return 130
+    except Exception as error:
+        if given.get("traceback"):
+            raise
+        print(f"msaa-lint: the program failed: {type(error).__name__}: {str(error)[:300]} (--traceback shows where)", file=sys.stderr)
+        return 2
+
+
+class Shown(NamedTuple):
+    """What is printed: the frames, or the two inputs that are compared."""
+
+    reckoned: Reckoned
+    compared: Compared | None
+
+
+def _cost(given: Mapping[str, Any]) -> int:
+    targets = outputs(given.get("output", ()))
+    terms = terms_of(given)
+    counts = sample_counts(given["samples"]) if "samples" in given else DEFAULT_COUNTS
+    chart = given.get("chart")
+    if chart is not None:
+        chart_format(chart)
+    request = Request(
+        paths=given["paths"],
+        overrides={"profile": given["profile"]} if "profile" in given else {},
+        config=given.get("config"),
+        isolated=bool(given.get("isolated")),
+        format=given.get("input_format"),
+        stdin_filename=given.get("stdin_filename"),
+    )
+    reckoned = reckon(request, terms, counts, with_fixes)
+    made = Shown(reckoned, _compared(reckoned, request, bool(given.get("each"))))
+    for note in reckoned.notes:
+        print(f"msaa-lint: {visible(note)}", file=sys.stderr)
+    _print_errors(reckoned.wrong, given)
+    for target in targets:
+        _print(target, made, given)
+    if chart is not None:
+        _draw(chart, made)
+    return 2 if reckoned.wrong.findings else 0
+
+
+def _compared(reckoned: Reckoned, request: Request, each: bool) -> Compared | None:
+    """Two inputs that are named and no folders are compared; where one of them cannot be used, the other is shown alone."""
+    if each or len(request.paths) != 2 or any(os.path.isdir(path) for path in request.paths):
+        return None
+    old, new = (name_of(request, path) if path == "-" else shown(path) for path in request.paths)
+    frames = reckoned.of(old), reckoned.of(new)
+    return compared(old, frames[0], new, frames[1]) if all(frames) else None
+
+
+def outputs(stated: Sequence[str]) -> list[Target]:
+    """The outputs that `FORMAT[=FILE]` name; `full` where none is."""
+    targets = []
+    for text in stated:
+        name, equals, path = text.partition("=")
+        if name not in FORMATS:
+            raise Unusable(f"no output {visible(name)!r}; there are {', '.join(FORMATS)}")
+        targets.append(Target(name, path if equals and path not in ("", "-") else None))
+    if sum(target.path is None for target in targets) > 1:
+        raise Unusable("two outputs go to standard output: give all but one a file, as in --output markdown=cost.md")
+    return targets or [Target("full", None)]
+
+
+def terms_of(given: Mapping[str, Any]) -> Terms:
+    """How to reckon, by the options."""
+    width, height = size(given["size"]) if "size" in given else (None, None)
+    return Terms(
+        fps=_above_zero(given["fps"], "--fps") if "fps" in given else None,
+        width=width,
+        height=height,
+        milliwatts_per_gbps=_above_zero(given["milliwatts_per_gbps"], "--milliwatts-per-gbps") if "milliwatts_per_gbps" in given else None,
+        budget_milliwatts=_power(given["budget"]) if "budget" in given else Terms().budget_milliwatts,
+    )
+
+
+def size(text: str) -> tuple[int, int]:
+    """Width and height of `1920x1080`."""
+    sides = [int(side) for side in text.lower().split("x") if side.isascii() and side.isdigit() and len(side) <= 10]
+    if len(sides) != 2 or text.lower().count("x") != 1 or not all(1 <= side <= MOST for side in sides):
+        raise Unusable(f"--size {visible(text)!r}: WIDTHxHEIGHT in pixels is due, as in 1920x1080")
+    return sides[0], sides[1]
+
+
+def sample_counts(text: str) -> list[int]:
+    """The counts of `1,2,4`."""
+    words = [word.strip() for word in text.split(",")]
+    known = {str(count): count for count in COUNTS}
+    wrong = [word for word in words if word not in known]
+    if wrong:
+        raise Unusable(f"--samples {visible(text)!r}: numbers of {', '.join(known)} are due, with commas between")
+    return [known[word] for word in words]
+
+
+def _above_zero(value: float, option: str) -> float:
+    if not (math.isfinite(value) and value > 0):
+        raise Unusable(f"{option}: a number above 0 is due")
+    return value
+
+
+def _power(text: str) -> float:
+    """Milliwatts of `2500`, `2500mW`, `2.5W`."""
+    from ..budget import budget
+
+    try:
+        return _above_zero(float(text), "--budget")
+    except ValueError:
+        pass
+    try:
+        found = budget(text)
+    except ValueError:
+        found = None
+    if found is None or found.measures != "power":
+        raise Unusable(f"--budget {visible(text)!r}: a power above 0 is due, as in 2500, 2500mW or 2.5W")
+    return found.most
+
+
+def _print_errors(wrong: Result, given: Mapping[str, Any]) -> None:
+    """What could not be used, as `check` prints it, on the standard error stream."""
+    if not wrong.findings:
+        return
+    terminal = sys.stderr.isatty()
+    options = _options(given, sys.stderr, True)
+    if terminal:
+        from ..report.full import paragraph
+
+        lines = [paragraph(found, wrong, options, set()) + "\n" for found in wrong.findings]
+    else:
+        from ..report.concise import line
+
+        lines = [line(found, wrong, options) for found in wrong.findings]
+    _utf8(sys.stderr)
+    for text in lines:
+        print(text, file=sys.stderr)
+
+
+def _print(target: Target, made: Shown, given: Mapping[str, Any]) -> None:
+    if target.path is None:
+        _utf8(sys.stdout)
+        _render(target.format, made, sys.stdout, _options(given, sys.stdout, target.format == "full"))
+        sys.stdout.flush()
+        return
+    try:
+        with open(target.path, "w", encoding="utf-8", newline="\n") as file:
+            _render(target.format, made, file, _options(given, file, target.format == "full"))
+    except OSError as error:
+        raise Unusable(f"{visible(target.path)} cannot be written: {error.strerror}") from None
+
+
+def _render(format: str, made: Shown, out: IO[str], options: Options) -> None:
+    frames, wrong = made.reckoned.frames, made.reckoned.wrong
+    if format == "json":
+        from ..report import cost_json
+
+        if made.compared is not None:
+            cost_json.render_comparison(made.compared, wrong, out.write, options)
+        else:
+            cost_json.render(frames, wrong, out.write, options)
+        return
+    if format == "markdown":
+        from ..report import cost_markdown as report
+    else:
+        from ..report import cost_full as report  # type: ignore[no-redef]
+    if made.compared is not None:
+        report.render_comparison(made.compared, out.write, options)
+    else:
+        report.render(frames, out.write, options)
+
+
+def _utf8(out: IO[str]) -> None:
+    reconfigure = getattr(out, "reconfigure", None)
+    if reconfigure is not None:
+        reconfigure(encoding="utf-8", errors="backslashreplace")
+
+
+def _options(given: Mapping[str, Any], out: IO[str], paints: bool) -> Options:
+    terminal = out.isatty()
+    width = 0
+    if terminal:
+        import shutil
+
+        width = shutil.get_terminal_size().columns
+    return Options(color=paints and colored(given.get("color", "auto"), terminal), width=width, version=__version__)
+
+
+def chart_format(path: str) -> str:
+    """The format of a chart, by its file's ending."""
+    from ..cost.chart import FORMATS as KNOWN
+
+    ending = os.path.splitext(path)[1].lower().removeprefix(".")
+    if ending not in KNOWN:
+        raise Unusable(f"--chart {visible(path)!r}: the name of an .svg or .png file is due")
+    return ending
+
+
+def _draw(path: str, made: Shown) -> None:
+    from ..cost import chart
+    from ..report.cost_rows import head
+    from ..report.paths import shown_path
+
+    frames = made.reckoned.frames
+    if made.compared is not None and len(made.compared.old) == len(made.compared.new) == 1:
+        found, costed = chart.compared_bars(made.compared), made.compared.new[0]
+        title = f"{shown_path(made.compared.old_file, '')} → {shown_path(costed.file, '')}"
+    elif made.compared is None and len(frames) == 1:
+        found, costed = chart.bars(frames[0]), frames[0]
+        title = shown_path(costed.file, "")
+    elif frames:
+        raise Unusable(f"--chart: it is of one frame, or of two that are compared, not of {len(frames)}")
+    else:
+        return
+    try:
+        data = chart.draw(found, title, visible(head(costed.cost)), costed.cost, chart_format(path))
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] != "matplotlib":
+            raise
+        raise Unusable("--chart needs matplotlib, which is not installed: pip install 'msaa-lint[chart]'") from None
+    try:
+        with open(path, "wb") as file:
+            file.write(data)
+    except OSError as error:
+        raise Unusable(f"{visible(path)} cannot be written: {error.strerror}") from None

@@ -1,0 +1,48 @@
+"""What pages name by `do`: changes that take more than a member and a value."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ..document.records import Image
+from ..facts.facts import Subject
+from ..facts.frame import Resolve, Target
+from .changes import Change, Mending, Refused
+from .inline_resolve import resolve_in_pass
+from .members import mode_place
+from .transient import make_transient
+
+Deed = Callable[[Subject, Mending], list[Change] | Refused]
+
+
+def resolve_by_sample_zero(subject: Subject, _: Mending) -> list[Change] | Refused:
+    """SAMPLE_ZERO for both aspects: what every device offers. An aspect that is not resolved stays so, if a device allows that."""
+    resolve = subject.of
+    if not isinstance(resolve, Resolve):
+        return Refused("it is about no resolve")
+    both = subject.facts.values.get("resolve.pair_supported") is False
+    ends = [each for each in (resolve, resolve.pair) if each is not None and (both or each.mode != "NONE")]
+    if any(each.target is None and each.target_image is None for each in ends):
+        return Refused("one of the two aspects has no image to be resolved to")
+    places = [place for each in ends if (place := mode_place(each)) is not None]
+    return [Change(record, member, "set", "SAMPLE_ZERO") for record, member, _ in places]
+
+
+def allow_multisampling(subject: Subject, _: Mending) -> list[Change] | Refused:
+    """Takes away what Vulkan forbids beside more than one sample (VUID-VkImageCreateInfo-samples-02257), where it is stated."""
+    image = subject.of.image if isinstance(subject.of, Target) else None
+    if not isinstance(image, Image):
+        return Refused("the image is not described")
+    made = [Change(image, "flags", "remove", "CUBE_COMPATIBLE")]
+    for member, value in (("mipLevels", 1), ("imageType", "2D"), ("tiling", "OPTIMAL")):
+        if image.states(member):
+            made.append(Change(image, member, "set", value))
+    return made
+
+
+DEEDS: dict[str, Deed] = {
+    "make-transient": make_transient,
+    "resolve-in-pass": resolve_in_pass,
+    "resolve-by-sample-zero": resolve_by_sample_zero,
+    "allow-multisampling": allow_multisampling,
+}

@@ -1,0 +1,134 @@
+"""Inputs to costs: what `msaa-lint cost` shows. It finds and reads inputs as a run of `check` does, under the same configuration."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+from .cost.amounts import FrameCost, Terms
+from .cost.costed import Costed
+from .cost.model import frame_cost
+from .cost.variants import variants
+from .devices import DeviceProfile
+from .diagnostics import diagnostic
+from .discovery import STDIN, discover
+from .engine import Judged, Linted
+from .facts.frame import Frame
+from .facts.surroundings import profile
+from .finding import Finding, Result
+from .profiles import device_of
+from .readers import looks_like
+from .run import Request, Run
+from .source.text import Unreadable
+from .source.tree import Limits, read
+
+Fixed = Callable[[Linted, Judged, DeviceProfile | None, Terms], FrameCost | None]
+"""What a document's frame would cost with the fixes of its findings made; None where it has none."""
+
+
+class Reckoned(NamedTuple):
+    """The frames in the order of the inputs; a result that holds what could not be used and nothing else; lines for the standard error
+    stream."""
+
+    frames: Sequence[Costed]
+    wrong: Result
+    notes: Sequence[str]
+
+    def of(self, file: str) -> list[Costed]:
+        """The frames of one input."""
+        return [each for each in self.frames if each.file == file]
+
+
+def reckon(request: Request, terms: Terms, counts: Sequence[int], fixed: Fixed | None = None) -> Reckoned:
+    """What the inputs of a request cost. What an input or the configuration has wrong is a finding, and the other inputs are reckoned."""
+    this = Run(request)
+    this.governed(os.curdir)
+    found = discover(request.paths, this.settings, looks_like)
+    this.findings.extend(found.findings)
+    frames: list[Costed] = []
+    for path in found.files:
+        linted, device = _linted(this, path)
+        if linted is None:
+            continue
+        wrong = [finding for finding in linted.findings if finding.fatal]
+        this.findings.extend(wrong)
+        if linted.source is None:
+            continue
+        this.sources[linted.file] = linted.source
+        usable = linted.judged if not wrong else _readable(linted)
+        frames.extend(_costed(linted, judged, device, terms, counts, fixed) for judged in usable)
+    errors = [finding for finding in dict.fromkeys(this.findings) if finding.fatal]
+    files = list(dict.fromkeys([*(name_of(request, path) for path in found.files), *(finding.file for finding in errors)]))
+    return Reckoned(frames, Result(errors, [], [], files, this.sources, []), found.notes)
+
+
+def name_of(request: Request, path: str) -> str:
+    """What an input is called: standard input by what the request says."""
+    return (request.stdin_filename or "<stdin>") if path == STDIN else path
+
+
+def _linted(this: Run, path: str) -> tuple[Linted | None, DeviceProfile | None]:
+    """An input judged, and the device of documents that name none."""
+    request, name = this.request, name_of(this.request, path)
+    governed = this.governed(request.stdin_filename or os.curdir if path == STDIN else path)
+    limits = Limits(**{**Limits()._asdict(), **governed.settings.limits})
+    device = device_of(governed.settings.profile)
+    try:
+        data = _stdin(limits) if path == STDIN else read(path, limits)
+    except (OSError, Unreadable) as error:
+        this.findings.append(_unreadable(error, name))
+        return None, device
+    severity = governed.selection.for_file(name, device.vendor if device is not None else None)
+    linted = governed.engine.lint(data, name, severity, limits=limits, format=request.format, device=device, ignores=request.ignores)
+    return linted, device
+
+
+def _unreadable(error: OSError | Unreadable, name: str) -> Finding:
+    code = "MSAA906" if isinstance(error, Unreadable) else "MSAA901"
+    reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
+    return diagnostic(code, f"the input cannot be read: {reason}", name)
+
+
+def _stdin(limits: Limits) -> bytes:
+    data = sys.stdin.buffer.read(limits.bytes + 1)
+    if len(data) > limits.bytes:
+        raise Unreadable(f"the input is larger than the limit of {limits.bytes} bytes")
+    return data
+
+
+def _readable(linted: Linted) -> list[Judged]:
+    """Of an input with mistakes the documents that have none; where the text itself is broken, no document can be told."""
+    broken = {problem.span for judged in linted.judged for problem in judged.document.problems}
+    if any(finding.fatal and finding.span not in broken for finding in linted.findings):
+        return []
+    return [judged for judged in linted.judged if not judged.document.problems]
+
+
+def _costed(
+    linted: Linted, judged: Judged, default: DeviceProfile | None, terms: Terms, counts: Sequence[int], fixed: Fixed | None
+) -> Costed:
+    document = judged.document
+    device = profile(document.description, default)
+    cost = frame_cost(Frame(document), device, terms)
+    others = variants(document, device, terms, counts)
+    mended = fixed(linted, judged, device, terms) if fixed is not None else None
+    return Costed(linted.file, judged.number, len(linted.judged), cost, others, mended)
+
+
+def with_fixes(linted: Linted, judged: Judged, device: DeviceProfile | None, terms: Terms) -> FrameCost | None:
+    """What a document's frame would cost if every fix of its findings were made, also those that are only shown."""
+    from .fixes.changes import Change, Refused
+    from .fixes.offers import Offers
+    from .price import Prices, merged
+
+    if linted.source is None or not judged.mends:
+        return None
+    offers = Offers(linted.source, judged)
+    changes: list[tuple[Change, ...]] = []
+    for found in linted.findings:
+        own = offers.changes(found)
+        if own is not None and not isinstance(own, Refused):
+            changes.append(own)
+    return Prices(judged.document, device, terms, offers.reread).changed(merged(changes)) if changes else None

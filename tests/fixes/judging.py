@@ -1,0 +1,60 @@
+"""Descriptions read, judged and fixed, as the tests of fixes need them."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+
+from msaa_lint.catalogue import load
+from msaa_lint.document.record import Record
+from msaa_lint.engine import Engine, Linted
+from msaa_lint.finding import Finding
+from msaa_lint.fixes import rounds
+from msaa_lint.fixes.rounds import Fixed
+from msaa_lint.page import Rule
+from msaa_lint.source.comments import comments
+from msaa_lint.source.text import Source
+from msaa_lint.source.tree import Limits, parse
+
+ENGINE = Engine(load())
+
+
+def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
+    """Severities without configuration."""
+    return "note" if rule.vendors and vendor not in rule.vendors else suggested
+
+
+def lint(text: str) -> Linted:
+    return ENGINE.lint(text.encode(), "frame.yaml", as_written)
+
+
+def fixed(text: str, unsafe: bool = False) -> Fixed:
+    return rounds.fix(lint(text), lint, unsafe)
+
+
+def comments_of(text: str) -> list[str]:
+    source = Source("", text)
+    return [comment.text for comment in comments(source, parse(source, Limits()).documents)]
+
+
+def kinds(linted: Linted) -> Counter[tuple[str, str]]:
+    """The findings by rule and subject, indices aside."""
+    return Counter((found.rule, re.sub(r"\[\d+\]", "", found.subject)) for found in linted.findings)
+
+
+def rules(findings: tuple[Finding, ...] | list[Finding]) -> list[str]:
+    return sorted(found.rule for found in findings)
+
+
+def meaning(linted: Linted) -> list[object]:
+    """What the documents of a text state, their places and spellings aside."""
+    return [_meaning(judged.document.description) for judged in linted.judged]
+
+
+def _meaning(value: object) -> object:
+    if isinstance(value, Record):
+        members = value.SHAPE if value.SHAPE and hasattr(value, next(iter(value.SHAPE), "")) else ("kind", "body")
+        return (type(value).__name__, value.key, [(name, _meaning(getattr(value, name, None))) for name in members])
+    if isinstance(value, (tuple, list)):
+        return [_meaning(item) for item in value]
+    return {name: _meaning(item) for name, item in value.items()} if isinstance(value, dict) else value

@@ -1,0 +1,176 @@
+"""Descriptions written in random ways that mean the same: block and flow, quotes, names, indentation, comments, line ends, JSON."""
+
+from __future__ import annotations
+
+from random import Random
+from typing import Any
+
+from msaa_lint.source.node import Node
+from msaa_lint.source.text import Source
+from msaa_lint.source.tree import Limits, parse
+
+FLAGS = {
+    "usage": "VK_IMAGE_USAGE_",
+    "memory": "VK_MEMORY_PROPERTY_",
+    "srcStageMask": "VK_PIPELINE_STAGE_",
+    "dstStageMask": "VK_PIPELINE_STAGE_2_",
+    "srcAccessMask": "VK_ACCESS_",
+    "dstAccessMask": "VK_ACCESS_2_",
+}
+ENUMS = {
+    "loadOp": "VK_ATTACHMENT_LOAD_OP_",
+    "storeOp": "VK_ATTACHMENT_STORE_OP_",
+    "stencilLoadOp": "VK_ATTACHMENT_LOAD_OP_",
+    "stencilStoreOp": "VK_ATTACHMENT_STORE_OP_",
+    "finalLayout": "VK_IMAGE_LAYOUT_",
+    "format": "VK_FORMAT_",
+}
+
+
+def data_of(text: str) -> Any:
+    """The plain data of a description."""
+    (root,) = parse(Source("", text), Limits()).documents
+    return plain(root)
+
+
+def plain(node: Node) -> Any:
+    """What a node holds."""
+    if node.kind == "mapping":
+        return {key: plain(value) for key, value in node.value.items()}
+    return [plain(item) for item in node.value] if node.kind == "sequence" else node.value
+
+
+def written(data: Any, random: Random) -> str:
+    """A description, written in one of many ways."""
+    writer = _Json(random) if random.random() < 0.25 else _Yaml(random)
+    text = writer.document(data)
+    if random.random() < 0.3:
+        text = text.rstrip("\n")
+    return text.replace("\n", "\r\n") if random.random() < 0.3 else text
+
+
+class _Spelled:
+    def __init__(self, random: Random) -> None:
+        self.random = random
+        self.long = random.random() < 0.4
+        self.joined = random.random() < 0.3
+
+    def likely(self, share: float) -> bool:
+        return self.random.random() < share
+
+    def respelled(self, key: str, value: Any) -> Any:
+        """A member's value in the document's spelling."""
+        if key in FLAGS and isinstance(value, list):
+            names = [f"{FLAGS[key]}{name}_BIT" if self.long else name for name in value]
+            return " | ".join(names) if self.joined and names else names
+        if key in ENUMS and isinstance(value, str) and self.long:
+            return ENUMS[key] + value
+        if key in ("samples", "rasterizationSamples") and isinstance(value, int) and value > 1 and self.long:
+            return f"VK_SAMPLE_COUNT_{value}_BIT"
+        return value
+
+
+class _Json(_Spelled):
+    def document(self, data: Any) -> str:
+        self.indent = self.random.choice([0, 2, 4])
+        self.trailing = self.likely(0.3)
+        return self.value("", data, 0) + "\n"
+
+    def value(self, key: str, data: Any, depth: int) -> str:
+        data = self.respelled(key, data)
+        if isinstance(data, (dict, list)) and data:
+            pairs = list(data.items()) if isinstance(data, dict) else [("", item) for item in data]
+            inner = [(f'"{name}": ' if isinstance(data, dict) else "") + self.value(name, item, depth + 1) for name, item in pairs]
+            opened, closed = "{}" if isinstance(data, dict) else "[]"
+            if self.indent == 0 or (self.likely(0.3) and sum(map(len, inner)) < 60):
+                return opened + self.random.choice([", ", ","]).join(inner) + closed
+            blanks = " " * self.indent * (depth + 1)
+            ending = "," if self.trailing else ""
+            return f"{opened}\n{blanks}" + f",\n{blanks}".join(inner) + f"{ending}\n{' ' * self.indent * depth}{closed}"
+        return _scalar(data, '"')
+
+
+def _scalar(data: Any, quote: str) -> str:
+    if isinstance(data, dict):
+        return "{}"
+    if isinstance(data, list):
+        return "[]"
+    if isinstance(data, bool) or data is None:
+        return {True: "true", False: "false", None: "null"}[data]
+    return f"{quote}{data}{quote}" if isinstance(data, str) else str(data)
+
+
+class _Yaml(_Spelled):
+    def document(self, data: Any) -> str:
+        self.step = self.random.choice([2, 3, 4])
+        self.comments = self.random.choice([0.0, 0.2, 0.6])
+        self.flowing = self.random.choice([0.1, 0.5, 0.9])
+        self.dented = self.likely(0.5)
+        self.number = 0
+        return "".join(self.block("", data, 0)) or "{}\n"
+
+    def comment(self) -> str:
+        self.number += 1
+        return f"# {self.number}: {self.random.choice(['why', 'storeOp: STORE', 'a, b] }', '- x', 'é ☃'])}"
+
+    def tail(self) -> str:
+        return f"{self.random.choice(['  ', ' ', '    '])}{self.comment()}\n" if self.likely(self.comments) else "\n"
+
+    def above(self, indent: int) -> list[str]:
+        lines = [" " * self.random.choice([0, indent]) + self.comment() + "\n"] if self.likely(self.comments / 2) else []
+        return [*lines, "\n"] if self.likely(0.05) else lines
+
+    def text(self, data: Any, flow: bool) -> str:
+        plainly = isinstance(data, str) and data.replace("_", "").replace(" | ", "").isalnum() and not data[:1].isdigit()
+        quote = self.random.choice(["", "", '"', "'"]) if plainly else '"'
+        return _scalar(data, quote)
+
+    def key(self, name: str) -> str:
+        return f'"{name}"' if self.likely(0.1) or not name.isidentifier() else name
+
+    def block(self, key: str, data: Any, indent: int) -> list[str]:
+        """The lines of a collection in block style."""
+        lines: list[str] = []
+        blanks = " " * indent
+        pairs = list(data.items()) if isinstance(data, dict) else [("", item) for item in data]
+        for name, item in pairs:
+            item = self.respelled(name, item)
+            lines += self.above(indent)
+            head = f"{blanks}{self.key(name)}:" if isinstance(data, dict) else f"{blanks}-"
+            if isinstance(item, (dict, list)) and item and not self.likely(self.flowing if indent else 0.02):
+                if isinstance(data, list) and isinstance(item, dict):
+                    inner = self.block(name, item, indent + 2)
+                    first = next((n for n, line in enumerate(inner) if line.strip() and not line.lstrip().startswith("#")), 0)
+                    # A comment between a dash and what it begins stands above both.
+                    lines += inner[:first]
+                    lines += [f"{head} {inner[first].lstrip(' ')}", *inner[first + 1 :]]
+                else:
+                    lines.append(head + self.tail())
+                    deeper = indent if isinstance(item, list) and isinstance(data, dict) and self.dented else indent + self.step
+                    lines += self.block(name, item, deeper)
+            elif isinstance(item, (dict, list)):
+                lines.append(f"{head} {self.flow(item, indent + self.step)}{self.tail()}")
+            else:
+                lines.append(f"{head} {self.text(item, False)}{self.tail()}")
+        return lines
+
+    def flow(self, data: Any, indent: int) -> str:
+        """A collection in flow style, on one line or several."""
+        if not isinstance(data, (dict, list)):
+            return self.text(data, True)
+        pairs = list(data.items()) if isinstance(data, dict) else [("", item) for item in data]
+        opened, closed = "{}" if isinstance(data, dict) else "[]"
+        inner = [
+            (f"{self.key(name)}: " if isinstance(data, dict) else "") + self.flow(self.respelled(name, item), indent + self.step)
+            for name, item in pairs
+        ]
+        if not inner:
+            return opened + closed
+        if self.likely(0.75):
+            return opened + self.random.choice([", ", ", ", ",  "]).join(inner) + closed
+        blanks = " " * indent
+        last = self.random.choice([",", ""])
+        made = f"{opened}{self.tail()}"
+        for number, item in enumerate(inner):
+            made += f"{blanks}{item}{',' if number < len(inner) - 1 else last}{self.tail()}"
+        return f"{made}{' ' * (indent - 1)}{closed}"

@@ -1,0 +1,65 @@
+"""What holds for every fix, on every example of the repository, however it is written."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from random import Random
+
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from ..pages import all_examples
+from .judging import comments_of, fixed, kinds, lint, meaning, rules
+from .spelled import data_of, written
+
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples").rglob("*.msaa.yaml"))
+TEXTS = {str(each): each.text for each in all_examples() if each.kind == "bad"}
+TEXTS |= {path.stem: path.read_text(encoding="utf-8") for path in EXAMPLES}
+DATA = {name: data_of(text) for name, text in TEXTS.items()}
+MENDABLE = sorted(name for name, text in TEXTS.items() if fixed(text, True).fixed)
+BESIDE = ("a comment stands in between", "comments or merge keys may stand in between")
+
+
+@pytest.mark.parametrize("unsafe", [False, True])
+@pytest.mark.parametrize("name", TEXTS)
+def test_fixes_mend_and_bring_nothing(name: str, unsafe: bool) -> None:
+    check(TEXTS[name], unsafe)
+
+
+def check(text: str, unsafe: bool) -> None:
+    """The laws: what is mended is gone and nothing came; what is left has no fix that would do; a second run finds nothing to do."""
+    before = lint(text)
+    done = fixed(text, unsafe)
+    after = lint(done.text)
+    assert [found for found in after.findings if found.fatal] == []
+    assert after.findings == done.linted.findings
+    gone = kinds(before) - kinds(after)
+    assert not kinds(after) - kinds(before)
+    assert {found.rule for found in done.fixed} <= {rule for rule, _ in gone}
+    assert len(done.fixed) <= gone.total()
+    assert (done.text == text) == (not done.fixed)
+    refused = {(each.finding.rule, each.finding.span) for each in done.unfixed}
+    for found in after.findings:
+        may = found.fix is not None and not found.fix.shown and (found.fix.safe or unsafe)
+        assert not may or (found.rule, found.span) in refused
+    again = fixed(done.text, unsafe)
+    assert (again.text, again.fixed) == (done.text, ())
+    assert comments_of(done.text) == comments_of(text)
+
+
+@settings(max_examples=400, deadline=None)
+@given(st.sampled_from(MENDABLE), st.integers(0, 2**32), st.booleans())
+def test_however_it_is_written(name: str, seed: int, unsafe: bool) -> None:
+    """The same is mended, and means the same after it; comments, line ends and the end of the text stay."""
+    text = written(DATA[name], Random(seed))
+    assert not [found for found in lint(text).findings if found.fatal], text
+    check(text, unsafe)
+    plain, done = fixed(TEXTS[name], unsafe), fixed(text, unsafe)
+    if any(each.reason in BESIDE for each in done.unfixed):
+        return
+    assert rules(done.fixed) == rules(plain.fixed), text
+    assert meaning(done.linted) == meaning(plain.linted)
+    if "\r\n" in text:
+        assert done.text.count("\n") == done.text.count("\r\n")
+    assert done.text.endswith("\n") == text.endswith("\n")
