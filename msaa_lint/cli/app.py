@@ -86,6 +86,32 @@ def rule(
 
 
 @app.command()
+def cost(
+    paths: Annotated[list[str], typer.Argument(metavar="PATH...", help="Inputs; exactly two files are compared: what the second adds.")],
+    fps: Annotated[float | None, typer.Option(help="Frames a second, whatever the input says.")] = None,
+    size: Annotated[str | None, typer.Option(metavar="WxH", help="Pixels, where the input states no size.")] = None,
+    profile: Annotated[str | None, typer.Option(metavar="NAME", help="The device of inputs without one.")] = None,
+    milliwatts_per_gbps: Annotated[float | None, typer.Option(help="Power of 10^9 bytes a second.  [default: the device's, else 100]")] = None,
+    budget: Annotated[str | None, typer.Option(metavar="POWER", help="What the power is set against.  [default: 2.5W]")] = None,
+    samples: Annotated[str | None, typer.Option(metavar="N,...", help="Sample counts to reckon too.  [default: 1,2,4,8]")] = None,
+    each: Annotated[bool, typer.Option("--each", help="Show two inputs one after the other, not compared.")] = False,
+    output: Annotated[list[str] | None, typer.Option(metavar="FORMAT[=FILE]", help="full, json, markdown; =FILE writes there.")] = None,
+    chart: Annotated[str | None, typer.Option(metavar="FILE", help="Draw a chart, .svg or .png (extra `chart`).")] = None,
+    color: Annotated[Literal["auto", "always", "never"], typer.Option(help="Colour in text output.")] = "auto",
+    stdin_filename: Annotated[str | None, typer.Option(metavar="NAME", help="What to call the input from `-`.")] = None,
+    input_format: Annotated[Literal["description", "vulkan-sc"] | None, typer.Option(help="Read inputs as this.")] = None,
+    config: Annotated[str | None, typer.Option(metavar="FILE", help="Use this configuration file.")] = None,
+    isolated: Annotated[bool, typer.Option("--isolated", help="Use no configuration file.")] = False,
+    traceback: Annotated[bool, typer.Option("--traceback", help="Show where the program itself failed.")] = False,
+) -> None:
+    """Show what a frame costs: MB/s, MiB and mW per pass and attachment; or what a change adds."""
+    given = dict(locals())
+    from .cost import cost as show
+
+    raise typer.Exit(show({name: value for name, value in given.items() if value not in (None, False, [])}))
+
+
+@app.command()
 def facts(
     path: Annotated[str | None, typer.Argument(help="An input; none: every fact that a rule may ask.")] = None,
     output: Annotated[Literal["text", "json", "markdown"], typer.Option("--output", help="How to print.")] = "text",

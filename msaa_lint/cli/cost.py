@@ -190,23 +190,28 @@ def _print(target: Target, made: Shown, given: Mapping[str, Any]) -> None:
 
 
 def _render(format: str, made: Shown, out: IO[str], options: Options) -> None:
-    frames, wrong = made.reckoned.frames, made.reckoned.wrong
+    frames, wrong, both = made.reckoned.frames, made.reckoned.wrong, made.compared
     if format == "json":
         from ..report import cost_json
 
-        if made.compared is not None:
-            cost_json.render_comparison(made.compared, wrong, out.write, options)
+        if both is not None:
+            cost_json.render_comparison(both, wrong, out.write, options)
         else:
             cost_json.render(frames, wrong, out.write, options)
-        return
-    if format == "markdown":
-        from ..report import cost_markdown as report
+    elif format == "markdown":
+        from ..report import cost_markdown
+
+        if both is not None:
+            cost_markdown.render_comparison(both, out.write, options)
+        else:
+            cost_markdown.render(frames, wrong, out.write, options)
     else:
-        from ..report import cost_full as report  # type: ignore[no-redef]
-    if made.compared is not None:
-        report.render_comparison(made.compared, out.write, options)
-    else:
-        report.render(frames, out.write, options)
+        from ..report import cost_full
+
+        if both is not None:
+            cost_full.render_comparison(both, out.write, options)
+        else:
+            cost_full.render(frames, out.write, options)
 
 
 def _utf8(out: IO[str]) -> None:

@@ -121,13 +121,14 @@ def _bars(axes: Axes, found: Sequence[Bar], positions: Sequence[float], cost: Fr
     for bar, at in zip(found, positions, strict=True):
         share = 100 * bar.milliwatts / cost.budget_milliwatts
         text = f"{bar.read + bar.write:.0f} MB/s, {bar.milliwatts:.0f} mW ({share:.1f} %)"
-        axes.text(bar.read + bar.write + longest * 0.01, at, text, va="center", fontsize=9)
+        box = {"facecolor": "white", "edgecolor": "none", "pad": 1}
+        axes.text(bar.read + bar.write + longest * 0.01, at, text, va="center", fontsize=9, bbox=box)
     axes.set_yticks(positions, [bar.name for bar in found])
     axes.invert_yaxis()
-    axes.set_xlim(0, longest * 1.34)
+    axes.set_xlim(0, longest * 1.4)
     axes.set_xlabel(f"traffic with external memory, MB/s; in brackets the share of {cost.budget_milliwatts:g} mW")
     axes.ticklabel_format(axis="x", style="plain", useOffset=False)
     axes.grid(axis="x", color="#CCCCCC", linewidth=0.6)
     axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)
-    axes.legend(loc="lower right", frameon=True)
+    axes.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, frameon=False)

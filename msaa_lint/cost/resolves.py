@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..document.records import AttachmentDescription, Command, Image, TwoImages
 from ..facts.frame import RENDERING, Aspect, Attachment, Frame, Pass, Resolve, Target
 from ..facts.timeline import Timeline
-from .remade import Order, blank, command, image_of, mentioned, record, recorded, resolved, suspended, users
+from .remade import Order, blank, command, copied, image_of, mentioned, record, recorded, resolved, suspended, users
 
 TRANSIENT = "TRANSIENT_ATTACHMENT"
 BESIDE = ("COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT", "INPUT_ATTACHMENT")
@@ -156,7 +156,7 @@ def _with_resolves(order: Order, after: dict[int, dict[tuple[str, str], Command]
     for each, begun in order:
         if begun is not None:
             made += [(resolve, None) for resolve in waiting]
-            waiting = [*after.get(id(begun), {}).values()]
+            waiting = [copied(resolve) for resolve in after.get(id(begun), {}).values()]
         made.append((each, begun))
         if each.kind in ("endRenderPass", "endRendering"):
             made += [(resolve, None) for resolve in waiting]

@@ -12,7 +12,7 @@ from ..vulkan.enums import BITLESS, PREFIXES, VALUES
 from ..vulkan.names import VENDORS, parse_enum
 
 _COUNT = re.compile(r"((?:VK_)?SAMPLE_COUNT_)[0-9]+((?:_BIT)?)")
-_PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_.-]*")
+_PLAIN = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]*")
 _BOOLEANS = {"true": "false", "True": "False", "TRUE": "FALSE", "VK_TRUE": "VK_FALSE", "1": "0"}
 _OPPOSITES = {**_BOOLEANS, **{false: true for true, false in _BOOLEANS.items()}}
 

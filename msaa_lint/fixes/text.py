@@ -9,18 +9,18 @@ from typing import Any
 
 from ..document.document import Document
 from ..document.record import Record, Shape
-from ..document.records import RECORDS
 from ..finding import Edit, Span
 from ..source.node import Node
 from ..source.text import Source
 from ..vulkan.enums import VALUES
 from ..vulkan.names import parse_enum
 from .changes import PLAIN, Change, Refused
-from .layout import Collection, Edits, Text
+from .layout import Collection, Edits
+from .places import Text
+from .rendering import Rendering
 from .sharing import NOBODY, Member, Sharing, Wishes, records_of, wish, wishes
 from .spelling import Spelling, quoted
 
-_JSON = re.compile(r"""[{\[][ \t\r\n]*["{\[]""")
 _NUMBER = re.compile(r"0[xX][0-9a-fA-F]{1,16}|[0-9]{1,20}")
 
 
@@ -55,9 +55,8 @@ class Writing:
         return Sharing(self._records) if "*" in text and "&" in text else None
 
     @cached_property
-    def _json(self) -> bool:
-        root = self.document.description.node
-        return _JSON.match(self.text.text, self.text.content(root)) is not None
+    def _rendering(self) -> Rendering:
+        return Rendering(self.text, self.document.description.node, self._spelling)
 
     def edits(self, changes: Sequence[Change], wanted: Wishes = NOBODY) -> tuple[Edit, ...] | Refused:
         """As `edits`."""
@@ -149,7 +148,7 @@ class Writing:
             more = collection.remove(left)
         elif new:
             like = node.value[0].text if node.value and node.value[0].kind == "scalar" else ""
-            quote = self._item_quote(node)
+            quote = self._rendering.item_quote(node)
             more = collection.insert([quoted(self._spelling.name(enum, name, like, record), quote) for name in new])
         return more if isinstance(more, Refused) else [*edits, *more]
 
@@ -162,7 +161,7 @@ class Writing:
         quote = before if before in ("'", '"') else ""
         if _NUMBER.fullmatch(text):
             if not self.dumped:
-                return [Edit(Span(start, node.end), self._list(enum, come, record))]
+                return [Edit(Span(start, node.end), self._rendering.flags(enum, come, record))]
             mask = int(text, 0)
             for name in gone:
                 mask &= ~VALUES[enum][name]
@@ -173,12 +172,12 @@ class Writing:
         new = [self._spelling.name(enum, name, parts[0], record) for name in come]
         kept = []
         for part in parts:
-            name = parse_enum(enum, part)
-            if name in gone:
+            known = parse_enum(enum, part)
+            if known in gone:
                 # As in a list, what comes stands where something went.
                 kept += new[:1]
                 del new[:1]
-            elif name is not None and VALUES[enum][name]:
+            elif known is not None and VALUES[enum][known]:
                 kept.append(part)
         kept += new
         if not kept:
@@ -191,19 +190,14 @@ class Writing:
         record, member = group[0].record, group[0].member
         shape = record.SHAPE[member]
         if group[-1].action == "set":
-            return self._rendered(shape, group[-1].value, record)
+            return self._rendering.data(shape, group[-1].value, record)
         flags = list(getattr(record, member) or ())
         for change in group:
             if change.action == "add" and change.value not in flags:
                 flags.append(change.value)
             elif change.action == "remove" and change.value in flags:
                 flags.remove(change.value)
-        return self._list(shape[1], flags, record)
-
-    def _list(self, enum: str, names: Sequence[str], record: Record) -> str:
-        if self.dumped:
-            return self._quoted(" | ".join(self._spelling.name(enum, name, "", record) for name in names) or "0", record, True)
-        return f"[{', '.join(self._quoted(self._spelling.name(enum, name, '', record), record) for name in names)}]"
+        return self._rendering.flags(shape[1], flags, record)
 
     def _insert(self, record: Record, members: Sequence[tuple[str, str]], asked: _Asked) -> Edits:
         """Puts members into a record that does not state them in its own text."""
@@ -212,8 +206,8 @@ class Writing:
             return Refused("it does not say this in a mapping of its own")
         order = list(record.SHAPE)
         members = sorted(members, key=lambda each: order.index(each[0]))
-        quote = self._key_quote(node)
-        entries = [f"{quoted(member, quote)}{self._colon(node)}{value}" for member, value in members]
+        quote = self._rendering.key_quote(node)
+        entries = [f"{quoted(member, quote)}{self._rendering.colon(node)}{value}" for member, value in members]
         if self._sharing is not None:
             others = self._sharing.of_mapping(record)
             if any(not asked.of((other, member)) for other in others for member, _ in members):
@@ -237,7 +231,7 @@ class Writing:
         if not record.states(member):
             if any(change.action != "append" for change in group):
                 return Refused(f"there is no `{member}`")
-            return f"[{', '.join(self._rendered(shape[1], change.value, record) for change in group)}]"
+            return f"[{', '.join(self._rendering.data(shape[1], change.value, record) for change in group)}]"
         key, value = record.spelled[member]
         own = record.node.anchor is None and record.node.start <= key.start < record.node.end and value.anchor is None
         if not own or (self._sharing is not None and (self._sharing.of_key(record, member) or self._sharing.of_value(record, member))):
@@ -247,62 +241,22 @@ class Writing:
         collection = Collection(self.text, value)
         for change in group:
             if change.action == "append":
-                new.append(self._rendered(shape[1], change.value, record))
+                new.append(self._rendering.data(shape[1], change.value, record))
             elif change.action == "entry":
                 name, data = change.value
-                entry = self._rendered(shape[1], data, record)
-                new.append(f"{quoted(name, self._key_quote(value))}{self._colon(value)}{entry}" if value.kind == "mapping" else entry)
+                entry = self._rendering.data(shape[1], data, record)
+                if value.kind == "mapping":
+                    entry = f"{quoted(name, self._rendering.key_quote(value))}{self._rendering.colon(value)}{entry}"
+                new.append(entry)
             elif change.action == "item":
                 number, data = change.value
-                edits.append(Edit(value.value[number].span, self._rendered(shape[1], data, record)))
+                edits.append(Edit(value.value[number].span, self._rendering.data(shape[1], data, record)))
         dropped = [change.value for change in group if change.action == "drop"]
         more = collection.remove(dropped) if dropped else []
         put = collection.insert(new) if new else []
         if isinstance(more, Refused) or isinstance(put, Refused):
             return more if isinstance(more, Refused) else put
         return [*edits, *more, *put]
-
-    def _rendered(self, shape: Shape, data: Any, record: Record) -> str:
-        """Plain data on one line."""
-        if data is None:
-            return "null"
-        if isinstance(data, dict):
-            shapes = RECORDS[shape[1]].SHAPE if shape[0] == "record" else {}
-            quote = '"' if self._json else ""
-            inner = [f"{quoted(key, quote)}: {self._rendered(shapes.get(key, ('text',)), value, record)}" for key, value in data.items()]
-            return "{" + ", ".join(inner) + "}"
-        if isinstance(data, (list, tuple)):
-            return f"[{', '.join(self._rendered(shape[1], each, record) for each in data)}]"
-        text = self._spelling.scalar(shape, data, None, record)
-        return self._quoted(text, record, not isinstance(data, str))
-
-    def _quoted(self, text: str, record: Record, plain: bool = False) -> str:
-        if self._json:
-            return text if plain and not self.dumped else quoted(text, '"')
-        values = [value for _, value in record.spelled.values() if value.kind == "scalar" and isinstance(value.value, str)]
-        quote = self.text.text[values[0].end - 1] if values and not any(value.plain for value in values) else ""
-        return quoted(text, quote if quote in ("'", '"') and not plain else "", plain)
-
-    def _item_quote(self, node: Node) -> str:
-        if not node.value:
-            return '"' if self._json else ""
-        last = self.text.text[node.value[0].end - 1]
-        return last if last in ("'", '"') and not node.value[0].plain else ""
-
-    def _key_quote(self, node: Node) -> str:
-        first = next(iter(node.keys.values()), None)
-        if first is None:
-            return '"' if self._json else ""
-        last = self.text.text[first.end - 1]
-        return last if not first.plain and last in ("'", '"') else ""
-
-    def _colon(self, node: Node) -> str:
-        """What stands between a key and its value in a mapping."""
-        for name, key in node.keys.items():
-            between = self.text.text[key.end : node.value[name].start]
-            if between.strip(" ") == ":" and not key.plain:
-                return between
-        return ": "
 
 
 class _Asked:

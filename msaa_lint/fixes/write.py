@@ -84,15 +84,12 @@ def _fill(descriptor: int, data: bytes, like: os.stat_result) -> None:
 
 def _settle(folder: str) -> None:
     """Has the folder's entry written out as well, where the system can: the file is whole either way."""
-    try:
+    with suppress(OSError):
         descriptor = os.open(folder, os.O_RDONLY)
-    except OSError:
-        return
-    try:
-        with suppress(OSError):
+        try:
             os.fsync(descriptor)
-    finally:
-        os.close(descriptor)
+        finally:
+            os.close(descriptor)
 
 
 def _remove(path: str) -> None:

@@ -98,7 +98,8 @@ def _laid(texts: Sequence[str], figures: Sequence[str], found: Sequence[cost_row
         table.add_column(title.replace(" ", "\n") if narrow else title, justify="right", no_wrap=True, vertical="bottom")
     indent = "  " if any(row.kind == cost_rows.PASS for row in found) else ""
     for row in found:
-        cells = [clip(visible(text), LONGEST_NAME) for text in row.texts]
+        # A CI runner takes a line that begins with `::` as an order, wherever the table breaks a name.
+        cells = [clip(visible(text), LONGEST_NAME).replace("::", ":\\x3a") for text in row.texts]
         if row.kind == cost_rows.LINE:
             cells[0] = indent + cells[0]
         if narrow:

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from . import cost_rows
+from .concise import line
 from .cost_full import totals, where
 from .escape import shown
 from .markdown import LONGEST_COMMENT, literal
@@ -13,6 +14,7 @@ from .paths import shown_path
 
 if TYPE_CHECKING:
     from ..cost.costed import Compared, Costed
+    from ..finding import Result
     from . import Options, Write
 
 HEAD = "<!-- msaa-lint cost -->\n"
@@ -54,10 +56,11 @@ class _Comment:
             self._out(f"\n{self._missing} more lines and tables do not fit here.\n")
 
 
-def render(frames: Sequence[Costed], out: Write, options: Options) -> None:
-    """Prints for each frame what its passes cost and what it would cost otherwise; of several the totals first."""
+def render(frames: Sequence[Costed], wrong: Result, out: Write, options: Options) -> None:
+    """Prints what could not be used; for each frame what its passes cost and what it would cost otherwise; of several the totals first."""
     page = _Comment(out)
     page.add(f"{HEAD}### What the {'frame costs' if len(frames) == 1 else 'frames cost'}\n")
+    _remarks(page, [("error", line(found, wrong, options)) for found in wrong.findings])
     if len(frames) > 1:
         page.table(("frame",), cost_rows.FIGURES, totals(frames, options))
     for each in frames:

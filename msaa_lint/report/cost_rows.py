@@ -13,6 +13,9 @@ from ..cost.variants import AS_WRITTEN, NONE, Variant
 
 PASS, LINE, TOTAL = "pass", "line", "total"
 
+AT_LEAST = "≥ "
+"""Before what cannot be counted whole."""
+
 COLUMNS = ("pass, attachment", "aspect", "action", "samples")
 FIGURES = ("read MB/s", "write MB/s", "corrected MB/s", "memory MiB", "mW", "budget")
 CHANGES = ("old MB/s", "new MB/s", "read MB/s", "write MB/s", "memory MiB", "mW", "traffic")
@@ -40,13 +43,14 @@ def rows(cost: FrameCost) -> Iterator[Row]:
     memory = {image.name: image.committed for image in cost.images}
     for each in cost.passes:
         times = f", {each.times} times" if each.times != 1 else ""
-        yield Row(PASS, (title(each) + times, "", "", ""), _figures(each.amount, each.corrected, cost.budget_milliwatts))
+        figures = _figures(each.amount, each.corrected, cost.budget_milliwatts, bool(each.unknown))
+        yield Row(PASS, (title(each) + times, "", "", ""), figures)
         shown: set[str] = set()
         for line in each.lines:
             committed = None if line.image in shown else memory.get(line.image)
             shown.add(line.image)
             yield _line(line, rates, committed, cost.budget_milliwatts)
-    yield Row(TOTAL, ("total", "", "", ""), _figures(cost.total, cost.corrected, cost.budget_milliwatts))
+    yield Row(TOTAL, ("total", "", "", ""), _of_frame(cost))
 
 
 def _line(line: Line, rates: Rates, committed: int | None, budget: float) -> Row:
@@ -64,14 +68,26 @@ def _line(line: Line, rates: Rates, committed: int | None, budget: float) -> Row
     return Row(LINE, (line.attachment, line.aspect, line.action, str(line.samples)), figures)
 
 
-def _figures(amount: Amount, corrected: Amount | None, budget: float) -> tuple[str, ...]:
+def _of_frame(cost: FrameCost) -> tuple[str, ...]:
+    return _figures(cost.total, cost.corrected, cost.budget_milliwatts, any(each.unknown for each in cost.passes), _memory_unknown(cost))
+
+
+def _memory_unknown(cost: FrameCost) -> bool:
+    return any(image.bytes is None for image in cost.images)
+
+
+def _figures(
+    amount: Amount, corrected: Amount | None, budget: float, uncounted: bool = False, more_memory: bool = False
+) -> tuple[str, ...]:
+    """The figures of a pass or a frame; `uncounted` says that there is traffic, `more_memory` that there is memory, beside them."""
+    least, least_memory = (AT_LEAST if more else "" for more in (uncounted, more_memory))
     return (
-        figure(amount.read_mb_per_s),
-        figure(amount.write_mb_per_s),
-        "" if corrected is None else figure(corrected.traffic_mb_per_s),
-        figure(amount.memory_mib),
-        figure(amount.milliwatts, 1),
-        _share(amount, budget),
+        least + figure(amount.read_mb_per_s),
+        least + figure(amount.write_mb_per_s),
+        "" if corrected is None else least + figure(corrected.traffic_mb_per_s),
+        least_memory + figure(amount.memory_mib),
+        least + figure(amount.milliwatts, 1),
+        least + _share(amount, budget),
     )
 
 
@@ -83,12 +99,11 @@ def options_of(costed: Costed) -> list[Row]:
     """The frame as it is written, with its findings mended, and with other sample counts; none where there is nothing to choose."""
     if not costed.variants and costed.fixed is None:
         return []
-    budget = costed.cost.budget_milliwatts
     found = [("as written", costed.cost)]
     if costed.fixed is not None:
         found.append(("fixed", costed.fixed))
     found += [(variant_title(each), each.cost) for each in costed.variants if not _told(each, costed.variants)]
-    return [Row(LINE, (name,), _figures(cost.total, cost.corrected, budget)) for name, cost in found]
+    return [Row(LINE, (name,), _of_frame(cost)) for name, cost in found]
 
 
 def _told(variant: Variant, others: Sequence[Variant]) -> bool:

@@ -78,6 +78,8 @@ def remarks(finding: Finding, rules: Set[str]) -> list[tuple[str, str]]:
     how = ""
     if fix and fix.edits:
         how = " (safe: --fix)" if fix.safe else " (unsafe: --fix --unsafe-fixes)"
+    elif fix and fix.shown:
+        how = " (yours to decide)"
     title = shown(fix.title) if fix else ""
     if help_text and title and title != help_text:
         said += [("help", help_text), ("fix", title + how)]

@@ -62,7 +62,7 @@ def _finding(finding: Finding, result: Result, options: Options) -> dict[str, ob
         **_place(result, finding.file, finding.span),
         "subject": _text(finding.subject),
         "fixable": bool(fix and fix.edits),
-        "fix": {"title": _text(fix.title), "safe": fix.safe} if fix else None,
+        "fix": {"title": _text(fix.title), "safe": fix.safe, "shown": fix.shown} if fix else None,
         "price": price._asdict() if price else None,
         "labels": [{**_place(result, finding.file, label.span), "text": _text(label.text)} for label in finding.labels],
         "notes": [_text(note) for note in finding.notes],

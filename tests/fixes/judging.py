@@ -7,6 +7,7 @@ from collections import Counter
 
 from msaa_lint.catalogue import load
 from msaa_lint.document.record import Record
+from msaa_lint.document.records import Command
 from msaa_lint.engine import Engine, Linted
 from msaa_lint.finding import Finding
 from msaa_lint.fixes import rounds
@@ -53,8 +54,12 @@ def meaning(linted: Linted) -> list[object]:
 
 def _meaning(value: object) -> object:
     if isinstance(value, Record):
-        members = value.SHAPE if value.SHAPE and hasattr(value, next(iter(value.SHAPE), "")) else ("kind", "body")
-        return (type(value).__name__, value.key, [(name, _meaning(getattr(value, name, None))) for name in members])
+        if isinstance(value, Command):
+            return (value.kind, _meaning(value.body))
+        stated = {name: getattr(value, name) for name in value.SHAPE}
+        # The order of flags says nothing.
+        flags = {name: sorted(each) for name, each in stated.items() if value.SHAPE[name][0] == "flags" and each is not None}
+        return (type(value).__name__, value.key, [(name, flags.get(name, _meaning(each))) for name, each in stated.items()])
     if isinstance(value, (tuple, list)):
         return [_meaning(item) for item in value]
     return {name: _meaning(item) for name, item in value.items()} if isinstance(value, dict) else value

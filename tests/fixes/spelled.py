@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Callable
 from random import Random
 from typing import Any
 
@@ -40,9 +42,9 @@ def plain(node: Node) -> Any:
     return [plain(item) for item in node.value] if node.kind == "sequence" else node.value
 
 
-def written(data: Any, random: Random) -> str:
-    """A description, written in one of many ways."""
-    writer = _Json(random) if random.random() < 0.25 else _Yaml(random)
+def written(data: Any, random: Random, shared: float = 0.0) -> str:
+    """A description, written in one of many ways; `shared` is how likely what stood before is named by an alias or merged."""
+    writer = _Json(random) if random.random() < 0.25 and not shared else _Yaml(random, shared)
     text = writer.document(data)
     if random.random() < 0.3:
         text = text.rstrip("\n")
@@ -100,7 +102,17 @@ def _scalar(data: Any, quote: str) -> str:
     return f"{quote}{data}{quote}" if isinstance(data, str) else str(data)
 
 
+def _mergeable(data: Any) -> bool:
+    """Whether the order of its members says nothing, and its values are plain."""
+    return isinstance(data, dict) and bool({"format", "loadOp"} & set(data)) and not any(isinstance(each, dict) for each in data.values())
+
+
 class _Yaml(_Spelled):
+    def __init__(self, random: Random, shared: float) -> None:
+        super().__init__(random)
+        self.shared = shared
+        self.anchors: dict[str, tuple[str, Any]] = {}
+
     def document(self, data: Any) -> str:
         self.step = self.random.choice([2, 3, 4])
         self.comments = self.random.choice([0.0, 0.2, 0.6])
@@ -124,6 +136,23 @@ class _Yaml(_Spelled):
         plainly = isinstance(data, str) and data.replace("_", "").replace(" | ", "").isalnum() and not data[:1].isdigit()
         quote = self.random.choice(["", "", '"', "'"]) if plainly else '"'
         return _scalar(data, quote)
+
+    def sharing(self, data: Any, made: Callable[[Any], str]) -> str:
+        """A value: an alias of an equal one before it, a merge of one that it has all members of, or itself, perhaps with an anchor."""
+        if not self.likely(self.shared):
+            return made(data)
+        same = json.dumps(data)
+        if same in self.anchors:
+            return f"*{self.anchors[same][0]}"
+        for name, base in self.anchors.values():
+            if _mergeable(data) and isinstance(base, dict) and set(base) <= set(data) and self.likely(0.5):
+                rest = {key: value for key, value in data.items() if key not in base or base[key] != value}
+                inner = ", ".join([f"<<: *{name}", *(f"{key}: {made(self.respelled(key, value))}" for key, value in rest.items())])
+                return f"{{{inner}}}"
+        text = made(data)
+        name = f"a{len(self.anchors)}"
+        self.anchors[same] = (name, data if _mergeable(data) else None)
+        return f"&{name} {text}"
 
     def key(self, name: str) -> str:
         return f'"{name}"' if self.likely(0.1) or not name.isidentifier() else name
@@ -149,9 +178,9 @@ class _Yaml(_Spelled):
                     deeper = indent if isinstance(item, list) and isinstance(data, dict) and self.dented else indent + self.step
                     lines += self.block(name, item, deeper)
             elif isinstance(item, (dict, list)):
-                lines.append(f"{head} {self.flow(item, indent + self.step)}{self.tail()}")
+                lines.append(f"{head} {self.sharing(item, lambda each: self.flow(each, indent + self.step))}{self.tail()}")
             else:
-                lines.append(f"{head} {self.text(item, False)}{self.tail()}")
+                lines.append(f"{head} {self.sharing(item, lambda each: self.text(each, False))}{self.tail()}")
         return lines
 
     def flow(self, data: Any, indent: int) -> str:
@@ -161,7 +190,8 @@ class _Yaml(_Spelled):
         pairs = list(data.items()) if isinstance(data, dict) else [("", item) for item in data]
         opened, closed = "{}" if isinstance(data, dict) else "[]"
         inner = [
-            (f"{self.key(name)}: " if isinstance(data, dict) else "") + self.flow(self.respelled(name, item), indent + self.step)
+            (f"{self.key(name)}: " if isinstance(data, dict) else "")
+            + self.sharing(self.respelled(name, item), lambda each: self.flow(each, indent + self.step))
             for name, item in pairs
         ]
         if not inner:

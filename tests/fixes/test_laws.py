@@ -6,8 +6,12 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
+
+from msaa_lint.fixes.changes import PLAIN, Refused, applied
+from msaa_lint.fixes.offers import Offers
+from msaa_lint.source.edits import apply
 
 from ..pages import all_examples
 from .judging import comments_of, fixed, kinds, lint, meaning, rules
@@ -63,3 +67,40 @@ def test_however_it_is_written(name: str, seed: int, unsafe: bool) -> None:
     if "\r\n" in text:
         assert done.text.count("\n") == done.text.count("\r\n")
     assert done.text.endswith("\n") == text.endswith("\n")
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.sampled_from(MENDABLE), st.integers(0, 2**32), st.sampled_from([0.0, 0.2, 0.6]))
+def test_an_edit_makes_its_changes_and_no_others(name: str, seed: int, shared: float) -> None:
+    """The text with a fix's edits means what the records with its changes mean, also where anchors share what it changes."""
+    edits_make_changes(written(DATA[name], Random(seed), shared))
+
+
+def edits_make_changes(text: str) -> int:
+    """The law for each finding of a text; how many have been looked at."""
+    linted = lint(text)
+    assert not [found for found in linted.findings if found.fatal], text
+    assert linted.source is not None
+    (judged,) = linted.judged
+    offers = Offers(linted.source, judged)
+    count = 0
+    for found in linted.findings:
+        made = offers.changes(found)
+        if made is None or isinstance(made, Refused) or any(change.action not in PLAIN for change in made):
+            continue
+        edits = offers.edits(made)
+        if isinstance(edits, Refused):
+            continue
+        count += 1
+        with applied(made):
+            meant = meaning(linted)
+        after = apply(text, edits)
+        assert meaning(lint(after)) == meant, after
+        assert comments_of(after) == comments_of(text)
+    return count
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.sampled_from(MENDABLE), st.integers(0, 2**32), st.booleans())
+def test_what_anchors_share_is_mended_by_the_same_laws(name: str, seed: int, unsafe: bool) -> None:
+    check(written(DATA[name], Random(seed), 0.4), unsafe)
