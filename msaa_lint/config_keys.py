@@ -209,7 +209,14 @@ def _fail_on_cost(reading: Reading, key: str, value: object) -> str | None:
 
 
 def _profile(reading: Reading, key: str, value: object) -> str | None:
-    return reading.text((key,), value, "a class of device or a device's name")
+    from .devices.paths import is_path, split
+
+    text = reading.text((key,), value, "a class of device, a device's name, or the path of a report")
+    if text is None or not is_path(text):
+        return text
+    path, which = split(text)
+    full = reading.inner_path((key,), path)
+    return full and (f"{full}#{which}" if which else full)
 
 
 def _rules(reading: Reading, key: str, value: object) -> tuple[str, ...] | None:

@@ -12,6 +12,8 @@ from .document.document import Document
 from .finding import Finding, Price, RuleInfo, Suppressed, Undecided
 from .judge import Judge, Mends, Verdicts
 from .page import Rule
+from .profiles import Problem as Unknown
+from .profiles import device_for
 from .source.text import Source, Unreadable, decode
 from .source.tree import Limits, Node, parse
 
@@ -22,11 +24,12 @@ Together = Callable[[Sequence[Finding]], Price | None]
 
 
 class Judged(NamedTuple):
-    """A document of an input, the fixes of its findings, and which document of a stream it is."""
+    """A document of an input, the fixes of its findings, which document of a stream it is, and the device that it was judged for."""
 
     document: Document
     mends: Mends
     number: int = 0
+    device: DeviceProfile | None = None
 
 
 class Linted(NamedTuple):
@@ -78,10 +81,10 @@ class Engine:
         for number, root in enumerate(parsed.documents):
             document = _document(source, root, format)
             prefix = f"documents[{number}]." if len(parsed.documents) > 1 else ""
-            found, unknown, mends = self._judge(document, file, severity, device, bool(parsed.problems))
+            (found, unknown, mends), own = self._judge(document, file, severity, device, bool(parsed.problems))
             findings.extend(_within(found, prefix))
             undecided.extend(u._replace(subject=prefix + u.subject) for u in unknown)
-            judged.append(Judged(document, mends, number))
+            judged.append(Judged(document, mends, number, own))
         suppressed: list[Suppressed] = []
         if ignores and "msaa-lint" in source.text.lower():
             findings, suppressed = self._suppress(findings, source, parsed.documents, severity, {u.rule for u in undecided})
@@ -89,18 +92,26 @@ class Engine:
         together = None
         mended = [each for each in judged if each.mends]
         if mended:
-            findings, together = _mended(source, mended, findings, device, prices, format)
+            findings, together = _mended(source, mended, findings, prices, format)
         return Linted(file, source, findings, undecided, suppressed, together, judged)
 
     def _judge(
         self, document: Document, file: str, severity: Severity, device: DeviceProfile | None, broken: bool
-    ) -> Verdicts:
-        """A document's own mistakes; where it has none, what the rules say. What was misread is not judged."""
+    ) -> tuple[Verdicts, DeviceProfile | None]:
+        """A document's own mistakes; where it has none, what the rules say, and the device they judge for.
+
+        What was misread is not judged.
+        """
         if document.problems or broken:
-            return Verdicts([diagnostic(p.code, p.message, file, p.span, p.path, p.labels, p.help) for p in document.problems], [], {})
+            found = [diagnostic(p.code, p.message, file, p.span, p.path, p.labels, p.help) for p in document.problems]
+            return Verdicts(found, [], {}), None
         from .facts.subjects import subjects
 
-        return self.judge.judge(subjects(document, device), file, severity)
+        own = device_for(document.description, file, device)
+        if isinstance(own, Unknown):
+            at = document.description.place("device")
+            return Verdicts([diagnostic(own.code, own.message, file, at, "device", help=own.help)], [], {}), None
+        return self.judge.judge(subjects(document, own), file, severity), own
 
     def _suppress(
         self, findings: Sequence[Finding], source: Source, documents: Sequence[Node], severity: Severity, undecided: set[str]
@@ -115,7 +126,7 @@ class Engine:
 
 
 def _mended(
-    source: Source, judged: Sequence[Judged], findings: list[Finding], device: DeviceProfile | None, prices: bool, format: str | None
+    source: Source, judged: Sequence[Judged], findings: list[Finding], prices: bool, format: str | None
 ) -> tuple[list[Finding], Together | None]:
     """The findings with the edits of their fixes, and their prices where asked for; then also what works out prices of several together."""
     from .fixes.offers import Offers
@@ -125,7 +136,7 @@ def _mended(
     if prices:
         from .price import priced
 
-        findings, together = priced(offers, findings, device)
+        findings, together = priced(offers, findings)
     for each in offers:
         findings = each.with_edits(findings)
     return findings, together

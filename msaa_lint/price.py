@@ -14,7 +14,6 @@ from .document.record import Record
 from .document.records import BeginRenderPass, Command, Description, RenderPass
 from .engine import Together
 from .facts.frame import Frame, Pass
-from .facts.surroundings import profile
 from .finding import Finding, Price
 from .fixes.changes import PLAIN, Change, Refused, Structural, applied
 from .fixes.offers import Offers
@@ -205,13 +204,10 @@ def _figures(amount: Amount) -> tuple[float, float, float, float]:
 
 
 def priced(
-    offers: Sequence[Offers], findings: Sequence[Finding], device: DeviceProfile | None, terms: Terms | None = None
+    offers: Sequence[Offers], findings: Sequence[Finding], terms: Terms | None = None
 ) -> tuple[list[Finding], Together]:
-    """The findings of an input with their prices, and what works out what some of them cost together.
-
-    `offers` are the fixes of its documents, `device` the one of documents that name none.
-    """
-    books = [Prices(each.judged.document, profile(each.judged.document.description, device), terms, each.reread) for each in offers]
+    """The findings of an input with their prices, and what works out what some of them cost together. `offers` are its documents' fixes."""
+    books = [Prices(each.judged.document, each.judged.device, terms, each.reread) for each in offers]
     made: dict[Key, tuple[Prices, tuple[Change, ...]]] = {}
     out = []
     for found in findings:

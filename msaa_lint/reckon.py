@@ -16,7 +16,6 @@ from .diagnostics import diagnostic
 from .discovery import STDIN, discover
 from .engine import Judged, Linted
 from .facts.frame import Frame
-from .facts.surroundings import profile
 from .finding import Finding, Result
 from .profiles import device_of
 from .readers import looks_like
@@ -49,7 +48,7 @@ def reckon(request: Request, terms: Terms, counts: Sequence[int], fixed: Fixed |
     this.findings.extend(found.findings)
     frames: list[Costed] = []
     for path in found.files:
-        linted, device = _linted(this, path)
+        linted = _linted(this, path)
         if linted is None:
             continue
         wrong = [finding for finding in linted.findings if finding.fatal]
@@ -58,7 +57,7 @@ def reckon(request: Request, terms: Terms, counts: Sequence[int], fixed: Fixed |
             continue
         this.sources[linted.file] = linted.source
         usable = linted.judged if not wrong else _readable(linted)
-        frames.extend(_costed(linted, judged, device, terms, counts, fixed) for judged in usable)
+        frames.extend(_costed(linted, judged, terms, counts, fixed) for judged in usable)
     errors = [finding for finding in dict.fromkeys(this.findings) if finding.fatal]
     files = list(dict.fromkeys([*(name_of(request, path) for path in found.files), *(finding.file for finding in errors)]))
     return Reckoned(frames, Result(errors, [], [], files, this.sources, []), found.notes)
@@ -69,8 +68,8 @@ def name_of(request: Request, path: str) -> str:
     return (request.stdin_filename or "<stdin>") if path == STDIN else path
 
 
-def _linted(this: Run, path: str) -> tuple[Linted | None, DeviceProfile | None]:
-    """An input judged, and the device of documents that name none."""
+def _linted(this: Run, path: str) -> Linted | None:
+    """An input judged; None where it cannot be read."""
     request, name = this.request, name_of(this.request, path)
     governed = this.governed(request.stdin_filename or os.curdir if path == STDIN else path)
     limits = Limits(**{**Limits()._asdict(), **governed.settings.limits})
@@ -79,10 +78,9 @@ def _linted(this: Run, path: str) -> tuple[Linted | None, DeviceProfile | None]:
         data = _stdin(limits) if path == STDIN else read(path, limits)
     except (OSError, Unreadable) as error:
         this.findings.append(_unreadable(error, name))
-        return None, device
+        return None
     severity = governed.selection.for_file(name, device.vendor if device is not None else None)
-    linted = governed.engine.lint(data, name, severity, limits=limits, format=request.format, device=device, ignores=request.ignores)
-    return linted, device
+    return governed.engine.lint(data, name, severity, limits=limits, format=request.format, device=device, ignores=request.ignores)
 
 
 def _unreadable(error: OSError | Unreadable, name: str) -> Finding:
@@ -106,11 +104,8 @@ def _readable(linted: Linted) -> list[Judged]:
     return [judged for judged in linted.judged if not judged.document.problems]
 
 
-def _costed(
-    linted: Linted, judged: Judged, default: DeviceProfile | None, terms: Terms, counts: Sequence[int], fixed: Fixed | None
-) -> Costed:
-    document = judged.document
-    device = profile(document.description, default)
+def _costed(linted: Linted, judged: Judged, terms: Terms, counts: Sequence[int], fixed: Fixed | None) -> Costed:
+    document, device = judged.document, judged.device
     cost = frame_cost(Frame(document), device, terms)
     others = variants(document, device, terms, counts)
     mended = fixed(linted, judged, device, terms) if fixed is not None else None

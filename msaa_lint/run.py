@@ -16,7 +16,7 @@ from .diagnostics import diagnostic
 from .discovery import STDIN, discover
 from .engine import Engine, Linted, Together, rule_infos
 from .finding import Finding, Price, Result, RuleInfo, Suppressed, Undecided, rank
-from .profiles import device_of, known_profiles
+from .profiles import Problem, device_of, profile_of
 from .readers import looks_like
 from .selection import Selection
 from .selectors import unknown_selectors
@@ -258,7 +258,6 @@ def _baseline(this: Run, here: Governed, files: list[str], notes: list[str]) -> 
 
 def _unusable(settings: Settings) -> list[Finding]:
     """Words of the settings that mean nothing: an edition, a profile, paths of rules that are not there."""
-    from .vulkan.names import nearest
 
     found = []
     if settings.fail_on_cost is not None:
@@ -270,10 +269,9 @@ def _unusable(settings: Settings) -> list[Finding]:
             found.append(settings.wrong("fail-on-cost", f"`{settings.fail_on_cost[:40]}` is no price", str(error)))
     if settings.edition is not None and settings.edition not in EDITIONS:
         found.append(settings.wrong("edition", f"no edition `{settings.edition[:40]}`", f"there is {', '.join(EDITIONS)}"))
-    if settings.profile is not None and device_of(settings.profile) is None:
-        close = nearest(settings.profile, known_profiles())
-        help = f"did you mean `{close}`?" if close else f"there are {', '.join(known_profiles())}"
-        found.append(settings.wrong("profile", f"no profile `{settings.profile[:40]}`", help))
+    unknown = profile_of(settings.profile) if settings.profile is not None else None
+    if isinstance(unknown, Problem):
+        found.append(settings.wrong("profile", unknown.message, unknown.help))
     missing = [path for path in settings.rules if not os.path.exists(path)]
     return found + [settings.wrong("rules", f"no rule page or folder `{os.path.relpath(path)}`") for path in missing]
 

@@ -280,7 +280,7 @@ resolve-outside-pass = "off"
         (
             'profile = " "\n',
             (1, 11, 1, 14, '" "'),
-            "an empty value where a class of device or a device's name is due in `profile` of msaa-lint.toml",
+            "an empty value where a class of device, a device's name, or the path of a report is due in `profile` of msaa-lint.toml",
             "",
         ),
         (

@@ -44,6 +44,7 @@ def test_the_readme_shows_a_real_finding() -> None:
 
 PAGES = [
     "docs/cost.md",
+    "docs/devices.md",
     *sorted(path.name for path in ROOT.glob("*.md")),
     "docs/format.md",
     "docs/configuration.md",

@@ -91,7 +91,9 @@ def cost(
     fps: Annotated[float | None, typer.Option(help="Frames a second, whatever the input says.")] = None,
     size: Annotated[str | None, typer.Option(metavar="WxH", help="Pixels, where the input states no size.")] = None,
     profile: Annotated[str | None, typer.Option(metavar="NAME", help="The device of inputs without one.")] = None,
-    milliwatts_per_gbps: Annotated[float | None, typer.Option(help="Power of 10^9 bytes a second.  [default: the device's, else 100]")] = None,
+    milliwatts_per_gbps: Annotated[
+        float | None, typer.Option(help="Power of 10^9 bytes a second.  [default: the device's, else 100]")
+    ] = None,
     budget: Annotated[str | None, typer.Option(metavar="POWER", help="What the power is set against.  [default: 2.5W]")] = None,
     samples: Annotated[str | None, typer.Option(metavar="N,...", help="Sample counts to reckon too.  [default: 1,2,4,8]")] = None,
     each: Annotated[bool, typer.Option("--each", help="Show two inputs one after the other, not compared.")] = False,
@@ -109,6 +111,21 @@ def cost(
     from .cost import cost as show
 
     raise typer.Exit(show({name: value for name, value in given.items() if value not in (None, False, [])}))
+
+
+@app.command()
+def device(
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[NAME|PATH]...", help="Built-in devices and reports; - is standard input; none: the running drivers."),
+    ] = None,
+    output: Annotated[Literal["text", "json", "description"], typer.Option("--output", help="How to print.")] = "text",
+    listing: Annotated[bool, typer.Option("--list", help="List the built-in devices.")] = False,
+) -> None:
+    """Show what a device offers for multisampling."""
+    from .device import device as show
+
+    raise typer.Exit(show(names or [], output, listing))
 
 
 @app.command()

@@ -97,7 +97,7 @@ def outputs(stated: Sequence[str]) -> list[Target]:
     for text in stated:
         name, equals, path = text.partition("=")
         if name not in FORMATS:
-            raise Unusable(f"no output {visible(name)!r}; there are {', '.join(FORMATS)}")
+            raise Unusable(f"no output '{visible(name)}'; there are {', '.join(FORMATS)}")
         targets.append(Target(name, path if equals and path not in ("", "-") else None))
     if sum(target.path is None for target in targets) > 1:
         raise Unusable("two outputs go to standard output: give all but one a file, as in --output markdown=cost.md")
@@ -120,7 +120,7 @@ def size(text: str) -> tuple[int, int]:
     """Width and height of `1920x1080`."""
     sides = [int(side) for side in text.lower().split("x") if side.isascii() and side.isdigit() and len(side) <= 10]
     if len(sides) != 2 or text.lower().count("x") != 1 or not all(1 <= side <= MOST for side in sides):
-        raise Unusable(f"--size {visible(text)!r}: WIDTHxHEIGHT in pixels is due, as in 1920x1080")
+        raise Unusable(f"--size '{visible(text)}': WIDTHxHEIGHT in pixels is due, as in 1920x1080")
     return sides[0], sides[1]
 
 
@@ -130,7 +130,7 @@ def sample_counts(text: str) -> list[int]:
     known = {str(count): count for count in COUNTS}
     wrong = [word for word in words if word not in known]
     if wrong:
-        raise Unusable(f"--samples {visible(text)!r}: numbers of {', '.join(known)} are due, with commas between")
+        raise Unusable(f"--samples '{visible(text)}': numbers of {', '.join(known)} are due, with commas between")
     return [known[word] for word in words]
 
 
@@ -153,7 +153,7 @@ def _power(text: str) -> float:
     except ValueError:
         found = None
     if found is None or found.measures != "power":
-        raise Unusable(f"--budget {visible(text)!r}: a power above 0 is due, as in 2500, 2500mW or 2.5W")
+        raise Unusable(f"--budget '{visible(text)}': a power above 0 is due, as in 2500, 2500mW or 2.5W")
     return found.most
 
 
@@ -236,7 +236,7 @@ def chart_format(path: str) -> str:
 
     ending = os.path.splitext(path)[1].lower().removeprefix(".")
     if ending not in KNOWN:
-        raise Unusable(f"--chart {visible(path)!r}: the name of an .svg or .png file is due")
+        raise Unusable(f"--chart '{visible(path)}': the name of an .svg or .png file is due")
     return ending
 
 

@@ -35,9 +35,16 @@ class Missing(Exception):
 def device(stated: Sequence[str], output: Output = "text", listing: bool = False) -> int:
     """Prints what devices offer; 0, or 2 where one cannot be had."""
     try:
-        return _list(output) if listing else _show(stated, output)
+        code = _list(output) if listing else _show(stated, output)
+        sys.stdout.flush()
+        return code
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 2
+    except KeyboardInterrupt:
+        return 130
+    except Exception as error:
+        print(f"msaa-lint: the program failed: {type(error).__name__}: {shown(str(error)[:300])}", file=sys.stderr)
         return 2
 
 

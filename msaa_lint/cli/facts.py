@@ -63,7 +63,7 @@ def _subjects(fact: Fact) -> list[str]:
 
 def of_input(path: str, output: str, profile: str | None) -> int:
     """Prints the facts of every subject of an input; 2 where it cannot be read."""
-    from ..profiles import device_of
+    from ..profiles import Problem, device_for, device_of
 
     try:
         data = sys.stdin.buffer.read() if path == "-" else read(path, Limits())
@@ -84,9 +84,12 @@ def of_input(path: str, output: str, profile: str | None) -> int:
         for mistake in document.problems:
             where = source.position(mistake.span.start)
             print(f"msaa-lint: {visible(path)}:{where.line}:{where.column}: {visible(mistake.message)}", file=sys.stderr)
-        wrong = wrong or bool(document.problems)
-        if not document.problems:
-            rows.extend(_row(subject, source) for subject in subjects(document, device_of(profile)))
+        device = device_for(document.description, path, device_of(profile)) if not document.problems else None
+        if isinstance(device, Problem):
+            print(f"msaa-lint: {visible(path)}: {visible(device.message)}", file=sys.stderr)
+        wrong = wrong or bool(document.problems) or isinstance(device, Problem)
+        if not document.problems and not isinstance(device, Problem):
+            rows.extend(_row(subject, source) for subject in subjects(document, device))
     if output == "json":
         import json
 

@@ -24,8 +24,8 @@ COLUMNS = {
 """The table's columns: attachments by aspect (`none`: passes without), then images that shaders read or write."""
 
 PRINCIPAL = (
-    "sampleRateShading", "dynamicRendering", "multisampledRenderToSingleSampled", "shaderStorageImageMultisample", "variableMultisampleRate",
-    "extendedDynamicState3RasterizationSamples", "customResolve",
+    "sampleRateShading", "dynamicRendering", "multisampledRenderToSingleSampled", "shaderStorageImageMultisample",
+    "variableMultisampleRate", "extendedDynamicState3RasterizationSamples", "customResolve",
 )  # fmt: skip
 PRINCIPAL_EXTENSIONS = ("VK_KHR_depth_stencil_resolve", "VK_EXT_sample_locations")
 """What is worth saying of a device that does not offer it."""

@@ -13,11 +13,11 @@ DEFAULT_EFFICIENT_SAMPLES = 4
 
 
 def profile(description: Description, default: DeviceProfile | None = None) -> DeviceProfile | None:
-    """The device that a description names or describes, else the given one."""
+    """The device that a description describes, or the built-in one that it names, else the given one: that of the report that it names."""
     stated = description.device
     if isinstance(stated, Device):
         return described(stated)
-    return builtin(stated) if stated is not None else default
+    return builtin(stated) or default if stated is not None else default
 
 
 def described(device: Device) -> DeviceProfile:

@@ -67,9 +67,10 @@ def _device(binder: Binder, description: Description) -> None:
     if not isinstance(description.device, str):
         return
     from ..devices import builtin, names
+    from ..devices.paths import is_path
 
     name = description.device
-    if builtin(name) is not None or name.endswith((".json", ".txt", ".xml")):
+    if builtin(name) is not None or is_path(name):
         return
     close = nearest(name, names())
     help = f"did you mean `{close}`?" if close else f"built-in devices: {', '.join(names())}"

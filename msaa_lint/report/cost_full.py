@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 LONGEST_NAME = 60
 """Code points of a name in a table; JSON has the rest."""
 
+MOST_ROWS = 1000
+"""Of a table: more nobody reads, and laying one out takes a millisecond."""
+
 NARROWEST_NAME = 12
 _UNCUT = 10_000
 _STYLES = {cost_rows.PASS: "bold", cost_rows.LINE: "", cost_rows.TOTAL: "bold"}
@@ -68,7 +71,7 @@ def _table(texts: Sequence[str], figures: Sequence[str], found: Iterable[cost_ro
     from rich.console import Console
     from rich.measure import Measurement
 
-    made = [*found]
+    made = _few([*found])
     if not made:
         return
     width = options.width or _UNCUT
@@ -85,6 +88,17 @@ def _table(texts: Sequence[str], figures: Sequence[str], found: Iterable[cost_ro
     console.print(table)
     lines = buffer.getvalue().split("\n")
     out("\n" + "\n".join(line if options.color else line.rstrip(" ") for line in lines))
+
+
+def _few(found: list[cost_rows.Row]) -> list[cost_rows.Row]:
+    """The rows that a table shows: the first, the totals, and how many there are between."""
+    if len(found) <= MOST_ROWS:
+        return found
+    totals = [row for row in found[MOST_ROWS:] if row.kind == cost_rows.TOTAL]
+    left = len(found) - MOST_ROWS - len(totals)
+    said = f"and {left} more, which --output json has"
+    rest = cost_rows.Row(cost_rows.PASS, (said, *("" for _ in found[0].texts[1:])), tuple("" for _ in found[0].figures))
+    return [*found[:MOST_ROWS], rest, *totals]
 
 
 def _laid(texts: Sequence[str], figures: Sequence[str], found: Sequence[cost_rows.Row], narrow: bool) -> Table:

@@ -1,0 +1,167 @@
+"""The one module that knows the package `vulkan`, mended: structures keep what they point to, and failed calls have one exception.
+
+`load()` gives the package, to be used as its own documentation says, but that
+
+- a structure keeps alive everything that it was made of. The package (1.3.275.1) frees what the elements of a list point to, what a
+  structure nested by value points to, and the bytes of `pCode`: a driver then reads freed memory.
+- every result but VK_SUCCESS raises `VulkanError`, with Vulkan's name, also results that the package does not know.
+- any sequence is taken for an array: an empty one, a generator, a NumPy array.
+- the constants that the package lacks are there, and those of errors have Vulkan's values.
+
+`push_bytes` makes what `vkCmdPushConstants` takes. `instance.py` opens instances and devices with it.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterable
+from types import ModuleType
+from typing import Any
+
+from .results import RESULTS, Unusable, VulkanError
+
+PACKAGE = "the Python package `vulkan` is not there: pip install 'msaa-lint[confirm]'"
+LOADER = "there is no Vulkan loader (libvulkan.so.1, vulkan-1.dll): install a Vulkan driver; on Debian `apt install libvulkan1`"
+
+_loaded: ModuleType | None = None
+
+
+def load() -> Any:
+    """The package `vulkan`, mended. Unusable where it, or the loader that it opens, is not there."""
+    global _loaded
+    if _loaded is None:
+        try:
+            import vulkan
+            from vulkan import _vulkan
+        except ImportError as error:
+            missing = error.name in ("vulkan", "cffi", "_cffi_backend")
+            raise Unusable(PACKAGE if missing else f"`vulkan` cannot be loaded: {error}") from None
+        except OSError:
+            raise Unusable(LOADER) from None
+        _keep_alive(_vulkan)
+        _vulkan.exception_codes = _Results()
+        for name, value in _constants().items():
+            setattr(_vulkan, name, value)
+            setattr(vulkan, name, value)
+        _loaded = vulkan
+    return _loaded
+
+
+class _Results:
+    """In the place of the package's exceptions by their codes: `raise exception_codes[result]` is what its functions do."""
+
+    def __getitem__(self, result: int) -> VulkanError:
+        return VulkanError(result, sys._getframe(1).f_code.co_name)
+
+
+def _keep_alive(module: Any) -> None:
+    cast, new, kept, cdata = module._cast_ptr2, module._new, module._weakkey_dict, module.ffi.CData
+
+    def listed(value: Any) -> Any:
+        plain = isinstance(value, (cdata, str, bytes, bytearray, memoryview, module.StrWrap)) or not isinstance(value, Iterable)
+        return value if plain else list(value)
+
+    def _cast_ptr2(value: Any, kind: Any) -> Any:
+        value = listed(value)
+        pointer, owner = cast(value, kind)
+        if isinstance(value, list):
+            kept[owner] = (*kept.get(owner, ()), *value)
+        return pointer, owner
+
+    def _new(ctype: str, **members: Any) -> Any:
+        stated = {name: listed(value) for name, value in members.items()}
+        made = new(ctype, **stated)
+        # Lists as they are now: their owner may empty them.
+        kept[made] = (*kept.get(made, ()), *(tuple(v) if isinstance(v, list) else v for v in stated.values() if v is not None))
+        return made
+
+    module._cast_ptr2, module._new = _cast_ptr2, _new
+
+
+def _constants() -> dict[str, Any]:
+    versions = {f"VK_API_VERSION_1_{minor}": packed(0, 1, minor, 0) for minor in range(5)}
+    return {
+        **versions,
+        "VK_MAKE_API_VERSION": packed,
+        "VK_HEADER_VERSION": 275,
+        "VK_HEADER_VERSION_COMPLETE": packed(0, 1, 3, 275),
+        **{name: result for result, name in RESULTS.items()},
+    }
+
+
+def packed(variant: int, major: int, minor: int, patch: int) -> int:
+    """A version as Vulkan packs it into 32 bits."""
+    return variant << 29 | major << 22 | minor << 12 | patch
+
+
+def has(function: str) -> bool:
+    """Whether the loader exports a function: an old one lacks those of later versions."""
+    try:
+        return bool(getattr(load().lib, function, None))
+    except AttributeError:
+        return False
+
+
+def text(value: Any) -> str:
+    """A char array or `const char*` of a structure as text; empty for NULL."""
+    ffi = load().ffi
+    if isinstance(value, str):
+        return value
+    return "" if value == ffi.NULL else ffi.string(value).decode("utf-8", "replace")
+
+
+def chain(head: Any, *following: Any) -> Any:
+    """Links structures by pNext, in that order, and keeps them alive by the first; gives the first."""
+    vk = load()
+    kept = vk._vulkan._weakkey_dict
+    for before, after in zip((head, *following), following, strict=False):
+        before.pNext = vk.ffi.cast("void*", vk.ffi.addressof(after))
+    kept[head] = (*kept.get(head, ()), *following)
+    return head
+
+
+def push_bytes(data: bytes) -> Any:
+    """Bytes as the `const void*` that vkCmdPushConstants and vkCmdUpdateBuffer take. Whoever asks keeps it until the call is done."""
+    return load().ffi.from_buffer("char[]", data)
+
+
+def procedure(owner: Any, name: str, device: bool = False) -> Callable[..., Any]:
+    """A function of an instance (or `device`), whether core or of an enabled extension. VulkanError where there is none."""
+    vk = load()
+    try:
+        found: Callable[..., Any] = (vk.vkGetDeviceProcAddr if device else vk.vkGetInstanceProcAddr)(owner, name)
+        return found
+    except vk.ExtensionNotSupportedError:
+        # The package's word for core functions, which it has as its own.
+        if hasattr(vk, name) and has(name):
+            found = getattr(vk, name)
+            return found
+    except vk.ProcedureNotFoundError:
+        pass
+    raise VulkanError(-7, name)
+
+
+def instance_version() -> tuple[int, int, int]:
+    """The version of Vulkan that the loader knows."""
+    number = load().vkEnumerateInstanceVersion() if has("vkEnumerateInstanceVersion") else packed(0, 1, 0, 0)
+    return version_of(number)
+
+
+def version_of(number: int) -> tuple[int, int, int]:
+    """Major, minor and patch of a packed version."""
+    return number >> 22 & 0x7F, number >> 12 & 0x3FF, number & 0xFFF
+
+
+def layers() -> dict[str, tuple[int, int, int]]:
+    """The layers there are, and the version of Vulkan that each is written for."""
+    return {text(each.layerName): version_of(each.specVersion) for each in load().vkEnumerateInstanceLayerProperties()}
+
+
+def extensions(layer: str | None = None) -> frozenset[str]:
+    """The instance extensions there are, or those of a layer."""
+    return frozenset(text(each.extensionName) for each in load().vkEnumerateInstanceExtensionProperties(layer))
+
+
+def physical_name(physical: Any) -> str:
+    """The name of a physical device."""
+    return text(load().vkGetPhysicalDeviceProperties(physical).deviceName)
