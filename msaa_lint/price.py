@@ -203,9 +203,7 @@ def _figures(amount: Amount) -> tuple[float, float, float, float]:
     return amount.read_mb_per_s, amount.write_mb_per_s, amount.memory_mib, amount.milliwatts
 
 
-def priced(
-    offers: Sequence[Offers], findings: Sequence[Finding], terms: Terms | None = None
-) -> tuple[list[Finding], Together]:
+def priced(offers: Sequence[Offers], findings: Sequence[Finding], terms: Terms | None = None) -> tuple[list[Finding], Together]:
     """The findings of an input with their prices, and what works out what some of them cost together. `offers` are its documents' fixes."""
     books = [Prices(each.judged.document, each.judged.device, terms, each.reread) for each in offers]
     made: dict[Key, tuple[Prices, tuple[Change, ...]]] = {}

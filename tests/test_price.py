@@ -83,13 +83,16 @@ def test_without_a_size_nothing_has_a_price() -> None:
 
 
 def test_a_fix_that_saves_nothing_costs_nothing() -> None:
-    text = ATTACHED + """
+    text = (
+        ATTACHED
+        + """
 pipelines:
   p:
     renderPass: scene
     multisampleState: {rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 0.2}
     subpass: 0
 """
+    )
     assert prices(lint(text))["MSAA502 pipelines.p"] == Price(0.0, 0.0, 0.0, 0.0)
 
 
@@ -147,12 +150,14 @@ def frames(draw: st.DrawFn) -> str:
             commands += [{"beginRenderPass": {"renderPass": name}}, "endRenderPass"]
             color = each["attachments"]["color"]["image"]
             commands += draw(
-                st.sampled_from([
-                    [],
-                    [{"resolveImage": {"srcImage": color, "dstImage": f"{color}_1x"}}],
-                    [{"readImage": {"image": "depth", "samples": 1}}],
-                    [{"readImage": {"image": f"{color}_1x"}}],
-                ])
+                st.sampled_from(
+                    [
+                        [],
+                        [{"resolveImage": {"srcImage": color, "dstImage": f"{color}_1x"}}],
+                        [{"readImage": {"image": "depth", "samples": 1}}],
+                        [{"readImage": {"image": f"{color}_1x"}}],
+                    ]
+                )
             )
         description["commands"] = commands
     return json.dumps(description)

@@ -90,7 +90,7 @@ def cost(
     paths: Annotated[list[str], typer.Argument(metavar="PATH...", help="Inputs; exactly two files are compared: what the second adds.")],
     fps: Annotated[float | None, typer.Option(help="Frames a second, whatever the input says.")] = None,
     size: Annotated[str | None, typer.Option(metavar="WxH", help="Pixels, where the input states no size.")] = None,
-    profile: Annotated[str | None, typer.Option(metavar="NAME", help="The device of inputs without one.")] = None,
+    profile: Annotated[str | None, typer.Option(metavar="NAME|PATH", help="The device of inputs without one.")] = None,
     milliwatts_per_gbps: Annotated[
         float | None, typer.Option(help="Power of 10^9 bytes a second.  [default: the device's, else 100]")
     ] = None,
@@ -106,11 +106,14 @@ def cost(
     isolated: Annotated[bool, typer.Option("--isolated", help="Use no configuration file.")] = False,
     traceback: Annotated[bool, typer.Option("--traceback", help="Show where the program itself failed.")] = False,
 ) -> None:
-    """Show what a frame costs: MB/s, MiB and mW per pass and attachment; or what a change adds."""
+    """Show what a frame costs: MB/s, MiB and mW per pass and attachment; or what a change adds.
+
+    Exits with 0, or with 2 where an input, an option, the configuration or the program failed; the other inputs are still shown.
+    """
     given = dict(locals())
     from .cost import cost as show
 
-    raise typer.Exit(show({name: value for name, value in given.items() if value not in (None, False, [])}))
+    raise typer.Exit(show({name: value for name, value in given.items() if value is not None and value is not False and value != []}))
 
 
 @app.command()
@@ -143,7 +146,7 @@ def facts(
 @app.command()
 def schema(
     which: Annotated[
-        Literal["description", "json-v1"], typer.Argument(help="Of the description format, or of --output json.")
+        Literal["description", "json-v1", "cost-v1"], typer.Argument(help="Of the description format, or of what --output json prints.")
     ] = "description",
 ) -> None:
     """Print a JSON Schema."""

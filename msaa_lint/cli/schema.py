@@ -9,13 +9,13 @@ from ..vulkan.names import VENDORS
 
 
 def schema(which: str) -> int:
-    """Prints the schema of the description format, or of the JSON output."""
+    """Prints the schema of the description format, or of the JSON that `check` (json-v1) or `cost` (cost-v1) prints."""
     import json
 
     if which == "description":
         print(json.dumps(description_schema(), indent=2))
     else:
-        path = os.path.join(os.path.dirname(os.path.dirname(__file__)), "report", "json_v1.schema.json")
+        path = os.path.join(os.path.dirname(os.path.dirname(__file__)), "report", f"{which.replace('-', '_')}.schema.json")
         with open(path, encoding="utf-8") as file:
             print(file.read(), end="")
     return 0

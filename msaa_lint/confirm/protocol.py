@@ -60,11 +60,13 @@ _WELL_FORMED: dict[str, Callable[[Event], bool]] = {
     **dict.fromkeys(EVENTS, _any),
     "pass": _numbered,
     "created": lambda found: _numbered(found) and isinstance(found.get("ok"), bool),
-    "message": lambda found: (found.get("pass") is None or _numbered(found))
-    and isinstance(found.get("id"), str)
-    and isinstance(found.get("text"), str),
-    "pixels": lambda found: all(isinstance(found.get(name), str) for name in ("image", "path"))
-    and all(_number(found.get(name)) for name in ("format", "width", "height")),
+    "message": lambda found: (
+        (found.get("pass") is None or _numbered(found)) and isinstance(found.get("id"), str) and isinstance(found.get("text"), str)
+    ),
+    "pixels": lambda found: (
+        all(isinstance(found.get(name), str) for name in ("image", "path"))
+        and all(_number(found.get(name)) for name in ("format", "width", "height"))
+    ),
     "time": lambda found: _numbered(found) and isinstance(found.get("ms"), (int, float)) and 0 <= found["ms"] < 1e9,
     "failed": lambda found: isinstance(found.get("reason"), str),
     "opened": lambda found: isinstance(found.get("device"), dict),

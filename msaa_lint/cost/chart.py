@@ -24,7 +24,7 @@ READ_COLOR, WRITE_COLOR = "#56B4E9", "#D55E00"
 """Sky blue and vermilion of Okabe and Ito's palette: apart for every kind of colour blindness, and in grey; reads are hatched besides."""
 
 _BAR, _GAP = 0.72, 0.55
-_SETTINGS: dict[str, Any] = {
+_SETTINGS: Any = {
     "svg.hashsalt": "msaa-lint",
     "svg.fonttype": "none",
     "text.parse_math": False,

@@ -53,7 +53,8 @@ def test_facts(tmp_path: Path) -> None:
 def test_schema(tmp_path: Path) -> None:
     schema = json.loads(run(tmp_path, "schema").stdout)
     assert "renderPasses" in schema["properties"]
-    assert json.loads(run(tmp_path, "schema", "json-v1").stdout)
+    assert json.loads(run(tmp_path, "schema", "json-v1").stdout)["$id"] == "urn:msaa-lint:json-v1"
+    assert json.loads(run(tmp_path, "schema", "cost-v1").stdout)["$id"] == "urn:msaa-lint:cost-v1"
 
 
 def test_init_makes_a_project_that_lints(tmp_path: Path) -> None:
