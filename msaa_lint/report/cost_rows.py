@@ -208,9 +208,9 @@ def sentence(found: Comparison, budget: float) -> str:
 
 
 def head(cost: FrameCost) -> str:
-    """What a frame is reckoned with."""
+    """What a frame is reckoned with. Our own words come first, so that no line begins with text of an input."""
     device = cost.device if cost.device is not None else "no device"
-    return f"{device}, {cost.fps:g} frames a second, {cost.milliwatts_per_gbps:g} mW for each GB/s, budget {cost.budget_milliwatts:g} mW"
+    return f"{cost.fps:g} frames a second on {device}, {cost.milliwatts_per_gbps:g} mW for each GB/s, budget {cost.budget_milliwatts:g} mW"
 
 
 def remarks(cost: FrameCost) -> list[tuple[str, str]]:

@@ -77,7 +77,7 @@ def test_table_in_a_pipe(folder: Path) -> None:
     done = run(folder, "cost", "a.msaa.yaml")
     assert (done.returncode, done.stderr) == (0, "")
     lines = done.stdout.splitlines()
-    assert lines[0] == "a.msaa.yaml: no device, 100 frames a second, 100 mW for each GB/s, budget 2500 mW"
+    assert lines[0] == "a.msaa.yaml: 100 frames a second on no device, 100 mW for each GB/s, budget 2500 mW"
     total = next(line for line in lines if line.startswith("total"))
     assert total.split() == ["total", "0.00", "20.00", "0.19", "2.0", "0.1", "%"]
     assert "\x1b" not in done.stdout
@@ -96,7 +96,7 @@ def test_documents_of_one_file(folder: Path) -> None:
     (folder / "two.yaml").write_text(f"{SIZED}---\n{MENDED}", encoding="utf-8")
     found = report(folder, "two.yaml")
     assert [(each["document"], traffic(each["total"])) for each in found["frames"]] == [(0, (0, 20)), (1, (0, 4))]
-    assert "two.yaml, document 2: no device" in run(folder, "cost", "two.yaml").stdout
+    assert "two.yaml, document 2: 100 frames a second on no device" in run(folder, "cost", "two.yaml").stdout
 
 
 def test_two_files_are_compared(folder: Path) -> None:
@@ -204,7 +204,7 @@ def test_an_input_that_cannot_be_used_is_said_as_check_says_it_and_the_others_ar
     assert done.returncode == 2
     checked = run(folder, "check", "broken.msaa.yaml", "--output", "concise").stdout.splitlines()
     assert done.stderr.splitlines() == [line for line in checked if ": error[" in line]
-    assert "a.msaa.yaml: no device" in done.stdout
+    assert "a.msaa.yaml: 100 frames a second on no device" in done.stdout
     found = report(folder, "broken.msaa.yaml", "a.msaa.yaml", code=2)
     assert [each["file"] for each in found["errors"]] == ["broken.msaa.yaml"] * len(found["errors"])
     assert found["file"] == "a.msaa.yaml", "what is left of two is listed"

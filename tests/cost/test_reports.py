@@ -251,6 +251,12 @@ def test_no_name_acts_on_who_compares(old: Costed, new: Costed) -> None:
     validator().validate(json.loads(printed(cost_json.render_comparison, found, NOTHING)))
 
 
+def test_no_line_of_a_comment_begins_with_the_name_of_a_device() -> None:
+    frame = costed(SEPARATE)
+    frame = frame._replace(cost=frame.cost._replace(device="::stop-commands::x"))
+    harmless(printed(cost_markdown.render, [frame], NOTHING))
+
+
 def test_markup_of_rich_is_text() -> None:
     frame = costed(SEPARATE)
     named = frame.cost.passes[0]._replace(name="[bold red]x[/] :smile: [link=http://evil.example]y[/link]")
