@@ -23,6 +23,14 @@ def main() -> None:
             # Nor is there anything to gain from the collection with which Python ends.
             gc.freeze()
             sys.exit(code)
+    if arguments[:1] == ["confirm"]:
+        from .cli.confirm_options import read as read_confirm
+
+        given = read_confirm(arguments[1:])
+        if given is not None:
+            from .cli.confirm import confirm
+
+            sys.exit(confirm(given))
     if arguments == ["--version"]:
         from . import __version__
 

@@ -44,9 +44,9 @@ EXPECTED: dict[str, list[tuple[int, str]]] = {
     "frame/deferred-forward.msaa.yaml": [
         (16, "multisampled-attachment-loaded"),
         (19, "multisampled-attachment-loaded"),
-        (35, "multisampled-float-blending"),
-        (45, "multisampled-stencil-stored"),
-        (57, "framebuffer-readback"),
+        (43, "multisampled-float-blending"),
+        (53, "multisampled-stencil-stored"),
+        (65, "framebuffer-readback"),
     ],
 }
 

@@ -117,8 +117,12 @@ MAY_IMPORT = {
     "readers": {"readers", "devices", "document", "finding", "source", "vulkan"},
     "facts": {"facts", "devices", "document", "finding", "vulkan"},
     "cost": {"cost", "devices", "document", "facts", "finding", "vulkan"},
-    "report": {"report", "cost", "finding", "source"},
-}
+    "confirm": {
+        "confirm", "condition", "cost", "devices", "diagnostics", "discovery", "document", "engine", "facts", "finding", "fixes",
+        "profiles", "readers", "run", "source", "vulkan",
+    },
+    "report": {"report", "confirm", "cost", "finding", "source"},
+}  # fmt: skip
 """The arrows of CONTRIBUTING.md: a part, and all of ours that it may know."""
 
 ONLY_IN = {

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Annotated, Any, Literal
 
 import typer
 
 from .. import __version__
+from .confirm_options import CONFIRM
 from .options import CHECK, Option
 
 app = typer.Typer(
@@ -60,16 +61,30 @@ def _check(**given: Any) -> None:
     raise typer.Exit(check({"paths": paths, **{name: value for name, value in given.items() if value not in (None, False, [])}}))
 
 
-def _from_table(command: Callable[..., None]) -> Callable[..., None]:
-    paths = Annotated[list[str], typer.Argument(metavar="PATH...", help="Files and folders; - is standard input.")]
-    first = inspect.Parameter("paths", inspect.Parameter.KEYWORD_ONLY, annotation=paths)
-    parameters = [first, *(_parameter(option) for option in CHECK)]
+def _confirm(**given: Any) -> None:
+    """Try what is described on a Vulkan device: is it created, what does the validation layer say, does a fix keep the picture.
+
+    Exits with 0 where all is confirmed, 1 where something disagrees or a driver died, 2 where an input or the environment failed.
+    """
+    from .confirm import confirm
+
+    paths = given.pop("paths") or []
+    raise typer.Exit(confirm({"paths": paths, **{name: value for name, value in given.items() if value not in (None, False, [])}}))
+
+
+def _from_table(command: Callable[..., None], table: Sequence[Option], needs_paths: bool = True) -> Callable[..., None]:
+    argument = typer.Argument(metavar="PATH...", help="Files and folders; - is standard input.")
+    paths: Any = Annotated[list[str], argument] if needs_paths else Annotated[list[str] | None, argument]
+    none: Any = inspect.Parameter.empty if needs_paths else None
+    first = inspect.Parameter("paths", inspect.Parameter.KEYWORD_ONLY, default=none, annotation=paths)
+    parameters = [first, *(_parameter(option) for option in table)]
     command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
     command.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     return command
 
 
-app.command("check")(_from_table(_check))
+app.command("check")(_from_table(_check, CHECK))
+app.command("confirm")(_from_table(_confirm, CONFIRM, needs_paths=False))
 
 
 @app.command()

@@ -5,28 +5,19 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Mapping, Sequence
-from typing import IO, Any, NamedTuple
+from typing import IO, Any
 
 from .. import __version__
 from ..discovery import STDIN
 from ..finding import rank
 from ..run import Outcome, Request, run
+from .common import BROKEN_PIPE, Target, colored, settings
 from .options import FORMATS
 
-OVERRIDES = ("edition", "profile", "fail_on", "fail_on_cost", "min_severity", "baseline")
-SELECTORS = ("select", "extend_select", "ignore")
 LIMITS = {"max_depth": "depth", "max_nodes": "nodes", "max_bytes": "bytes"}
 
-BROKEN_PIPE = 2
 ERRORS = "<standard error>"
 """In place of an output's file: the standard error stream."""
-
-
-class Target(NamedTuple):
-    """An output, and the file it goes to; None is standard output."""
-
-    format: str
-    path: str | None
 
 
 def check(given: Mapping[str, Any]) -> int:
@@ -100,12 +91,7 @@ def _fixed(targets: list[Target], outcome: Outcome, given: Mapping[str, Any]) ->
 
 def request(given: Mapping[str, Any], targets: Sequence[Target] = (), fallback: str = "concise") -> Request:
     """What the arguments ask of a run. `fallback` is the output where neither they nor a configuration name one."""
-    overrides: dict[str, Any] = {name: given[name] for name in OVERRIDES if name in given}
-    for name in SELECTORS:
-        if name in given:
-            overrides[name] = [word.strip() for each in given[name] for word in each.split(",") if word.strip()]
-    if "rules" in given:
-        overrides["rules"] = given["rules"]
+    overrides = settings(given)
     limits = {limit: given[name] for name, limit in LIMITS.items() if name in given}
     if limits:
         overrides["limits"] = limits
@@ -214,17 +200,6 @@ def _options(target: Target, outcome: Outcome, given: Mapping[str, Any], out: IO
 
 def _gitlab_root(format: str) -> str:
     return os.environ.get("CI_PROJECT_DIR", "") if format == "gitlab" else ""
-
-
-def colored(asked: str, terminal: bool) -> bool:
-    """Whether to colour: as asked, else by NO_COLOR (no-color.org), FORCE_COLOR and CLICOLOR_FORCE, else on a terminal that is not dumb."""
-    if asked != "auto":
-        return asked == "always"
-    if os.environ.get("NO_COLOR"):
-        return False
-    if os.environ.get("FORCE_COLOR") or os.environ.get("CLICOLOR_FORCE", "0") not in ("", "0"):
-        return True
-    return terminal and os.environ.get("TERM") != "dumb"
 
 
 MANY = 200

@@ -19,7 +19,7 @@ from ..reckon import Reckoned, name_of, reckon, with_fixes
 from ..report import Options
 from ..report.escape import visible
 from ..run import Request
-from .check import BROKEN_PIPE, Target, colored
+from .common import BROKEN_PIPE, Target, colored
 
 FORMATS = ("full", "json", "markdown")
 MOST = 2**31 - 1

@@ -73,8 +73,8 @@ class Child:
     def answers(self, seconds: float | None = None) -> Iterator[Event]:
         """The answers to a request, the last of them included (`done`, `failed`, `opened`, `devices`).
 
-        Ended where the child dies, writes garbage or goes on for longer than the limit from now, or from the last pass that it announced.
-        It is then closed already.
+        Ended where the child dies, writes garbage or goes on for longer than the limit from now, or from the last pass that it announced
+        or timed. It is then closed already.
         """
         limit = seconds if seconds is not None else self.limits.seconds
         deadline = time.monotonic() + limit
@@ -91,7 +91,7 @@ class Child:
             except Garbage as error:
                 self.close()
                 raise Ended("garbage", f"the process with the driver in it wrote {error}, and was ended") from None
-            if found["event"] == "pass":
+            if found["event"] in ("pass", "time"):
                 deadline = time.monotonic() + limit
             yield found
             if found["event"] in ("done", "failed", "opened", "devices"):
@@ -159,7 +159,8 @@ class Child:
 
 def _patience(limit: float, request: Mapping[str, Any]) -> float:
     """Seconds after which the child ends by itself, should the parent be gone: more than the parent would ever wait."""
-    return limit * (2 + len(request.get("passes") or ())) + 5
+    repeats = int((request.get("want") or {}).get("repeats", 0))
+    return min(limit * (2 + len(request.get("passes") or ())) * (1 + repeats) + 5, 1e6)
 
 
 def signal_name(number: int) -> str:

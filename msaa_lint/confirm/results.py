@@ -72,3 +72,7 @@ class VulkanError(Exception):
 
 class Unusable(Exception):
     """There is nothing to talk to (no package, loader, driver or layer): why, and what to install."""
+
+
+class NotWritten(Exception):
+    """A picture could not be written: which, and why."""

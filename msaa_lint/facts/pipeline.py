@@ -59,6 +59,7 @@ def pipeline_facts(
     dynamic = set(pipeline.dynamicState)
     samples, at = _rasterization_samples(pipeline, draws)
     facts.put("pipeline.rasterization_samples", samples, at)
+    facts.put("pipeline.samples_dynamic", SAMPLES_DYNAMIC in pipeline.dynamicState)
     if state is not None:
         facts.put("pipeline.sample_shading", state.sampleShadingEnable, state.place("sampleShadingEnable"))
         facts.put("pipeline.sample_shading_chosen", _subpass_key(pipeline) in chosen_in)

@@ -215,6 +215,7 @@ _PIPELINE = (
         "INT",
         "rasterizationSamples; where it is dynamic state, what the commands set for all its draws; unknown where it rasterizes nothing",
     ),
+    Fact("pipeline.samples_dynamic", "BOOL", "its sample count is dynamic state; never unknown"),
     Fact("pipeline.attachment_samples", "INT", "the sample count that its subpass or rendering has; unknown beside a custom resolve"),
     Fact("pipeline.sample_shading", "BOOL", "sampleShadingEnable"),
     Fact(

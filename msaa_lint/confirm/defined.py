@@ -1,0 +1,151 @@
+"""Which images hold what the description says, and which anything: what is undefined is neither shown nor compared."""
+
+from __future__ import annotations
+
+from . import parts
+from .parts import CLEAR, COLOR, DEPTH, LOAD, NONE, STENCIL, STORE, Framebuffer, Pass, Plan, Step, Subpass
+
+Key = tuple[int, int]
+"""An image by its number, and one of its aspects."""
+
+
+class Contents:
+    """What the images of a plan hold, step by step."""
+
+    def __init__(self, plan: Plan) -> None:
+        self.plan = plan
+        self.known: set[Key] = set()
+
+    def outputs(self) -> list[Key]:
+        """Single-sampled images that hold what is defined, aspect by aspect."""
+        return [
+            (number, aspect)
+            for number, image in enumerate(self.plan.images)
+            for aspect in (COLOR, DEPTH, STENCIL)
+            if image.samples == 1 and image.aspects & aspect and (number, aspect) in self.known
+        ]
+
+    def whole(self, number: int, aspects: int | None = None) -> bool:
+        """Whether all that an image holds (or some aspects) is defined."""
+        own = self.plan.images[number].aspects if aspects is None else aspects
+        return all((number, aspect) in self.known for aspect in (COLOR, DEPTH, STENCIL) if own & aspect)
+
+    def reads(self, step: Step) -> list[int]:
+        """The images that a pass reads and that hold something; the others it does not read."""
+        return [inner.image for inner in step.inner if inner.kind == "read" and self.readable(inner.image)]
+
+    def readable(self, number: int) -> bool:
+        """Whether a shader of ours can read an image: it holds something, may be sampled, and is not of integers."""
+        image = self.plan.images[number]
+        usage = image.usage & parts.SAMPLED and not image.usage & parts.TRANSIENT
+        aspect = image.aspects & (COLOR | DEPTH)
+        return bool(usage and aspect and image.numeric not in ("UINT", "SINT") and image.type == 1) and self.whole(number, aspect)
+
+    def begin(self, each: Pass, step: Step) -> None:
+        """What a pass leaves."""
+        framebuffer = each.framebuffers[step.framebuffer]
+        if each.kind == parts.RENDERING:
+            self._rendering(each, step, framebuffer)
+        else:
+            self._render_pass(each, step, framebuffer)
+
+    def transfer(self, step: Step) -> None:
+        """What a command outside of passes leaves."""
+        if step.kind in ("resolve", "copy", "blit"):
+            source, target = (self.plan.images[n] for n in (step.source, step.target))
+            aspects = source.aspects & target.aspects
+            whole = (source.width, source.height) == (target.width, target.height) or step.kind == "blit"
+            plain = source.layers == target.layers == source.levels == target.levels == 1
+            self._set(step.target, target.aspects, False) if not whole or not plain else None
+            for aspect in (COLOR, DEPTH, STENCIL):
+                if aspects & aspect:
+                    self._set(step.target, aspect, whole and plain and (step.source, aspect) in self.known)
+        elif step.kind == "clear":
+            self._set(step.target, self.plan.images[step.target].aspects, True)
+        elif step.kind == "copyIn":
+            self._set(step.target, self.plan.images[step.target].aspects, False)
+
+    def _set(self, number: int, aspects: int, defined: bool) -> None:
+        keys = {(number, aspect) for aspect in (COLOR, DEPTH, STENCIL) if aspects & aspect}
+        self.known = self.known | keys if defined else self.known - keys
+
+    def _load(self, number: int, aspect: int, operation: int, kept: bool, full: bool) -> None:
+        before = (number, aspect) in self.known and kept
+        self._set(number, aspect, full or before if operation == CLEAR else before if operation == LOAD else False)
+
+    def _full(self, step: Step, number: int, layers: int) -> bool:
+        image = self.plan.images[number]
+        return step.area == (0, 0, image.width, image.height) and layers >= image.layers and image.levels == 1 and image.depth == 1
+
+    def _render_pass(self, each: Pass, step: Step, framebuffer: Framebuffer) -> None:
+        used = {r.attachment for s in each.subpasses for r in (*s.colors, *s.resolves, *s.depth_stencil, *s.depth_resolve, *s.inputs)}
+        layers = max(framebuffer.layers, *(subpass.view_mask.bit_count() for subpass in each.subpasses))
+        for index, (attachment, number) in enumerate(zip(each.attachments, framebuffer.images, strict=True)):
+            full = self._full(step, number, layers)
+            image = self.plan.images[number]
+            if index not in used:
+                self._set(number, image.aspects, False)
+                continue
+            kept = attachment.initial != 0
+            self._load(number, image.aspects & (COLOR | DEPTH), attachment.load, kept, full)
+            if image.aspects & STENCIL:
+                stencil_kept = attachment.stencil_initial != 0 if attachment.stencil_initial != NONE else kept
+                self._load(number, STENCIL, attachment.stencil_load, stencil_kept, full)
+        for number, subpass in enumerate(each.subpasses):
+            self._subpass(each, step, framebuffer, number, subpass, layers)
+        for attachment, number in zip(each.attachments, framebuffer.images, strict=True):
+            image = self.plan.images[number]
+            if attachment.store != STORE:
+                self._set(number, image.aspects & (COLOR | DEPTH), False)
+            if attachment.stencil_store != STORE:
+                self._set(number, STENCIL, False)
+
+    def _subpass(self, each: Pass, step: Step, framebuffer: Framebuffer, at: int, subpass: Subpass, layers: int) -> None:
+        images = framebuffer.images
+        covered = self._covers(step, at)
+        for reference in subpass.colors:
+            number = images[reference.attachment] if reference.attachment != NONE else NONE
+            if number != NONE and covered and self._full(step, number, layers):
+                self._set(number, COLOR, True)
+        for color, target in zip(subpass.colors, subpass.resolves, strict=False):
+            if NONE not in (color.attachment, target.attachment):
+                self._resolve(step, images[color.attachment], images[target.attachment], COLOR, layers)
+        for depth, target in zip(subpass.depth_stencil, subpass.depth_resolve, strict=False):
+            for aspect, mode in ((DEPTH, subpass.depth_mode), (STENCIL, subpass.stencil_mode)):
+                if mode and self.plan.images[images[target.attachment]].aspects & aspect:
+                    self._resolve(step, images[depth.attachment], images[target.attachment], aspect, layers)
+
+    def _covers(self, step: Step, subpass: int) -> bool:
+        """Whether what a subpass draws covers every pixel."""
+        own = [inner for inner in step.inner if inner.subpass == subpass]
+        return any(i.covers for i in own if i.kind == "draw") or any(i.kind == "read" and self.readable(i.image) for i in own)
+
+    def _resolve(self, step: Step, source: int, target: int, aspect: int, layers: int) -> None:
+        # A source of one sample, or a target of several, is no resolve.
+        fitting = self.plan.images[source].samples > 1 and self.plan.images[target].samples == 1
+        whole = self._full(step, target, layers) or (target, aspect) in self.known
+        self._set(target, aspect, fitting and whole and (source, aspect) in self.known)
+
+    def _rendering(self, each: Pass, step: Step, framebuffer: Framebuffer) -> None:
+        layers = max(framebuffer.layers, each.view_mask.bit_count())
+        rendered = [(r, _ROLES[r.role]) for r in each.rendered if r.image != NONE]
+        for r, aspect in rendered:
+            if each.flags & RESUMING:
+                continue
+            self._load(r.image, aspect, r.load, True, self._full(step, r.image, layers))
+        covered = self._covers(step, 0)
+        for r, aspect in rendered:
+            if aspect == COLOR and covered and self._full(step, r.image, layers):
+                self._set(r.image, COLOR, True)
+        if each.flags & SUSPENDING:
+            return
+        for r, aspect in rendered:
+            if r.mode and r.resolve_image != NONE:
+                self._resolve(step, r.image, r.resolve_image, aspect, layers)
+            if r.store != STORE:
+                self._set(r.image, aspect, False)
+
+
+_ROLES = {"color": COLOR, "depth": DEPTH, "stencil": STENCIL}
+SUSPENDING, RESUMING = 2, 4
+"""VkRenderingFlagBits."""

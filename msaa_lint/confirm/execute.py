@@ -1,0 +1,135 @@
+"""Runs plans on a device, in the process that it is called in: a driver may end it, so `worker` is what calls it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from . import parts
+from .build import Built
+from .devices import devices
+from .draw import SUSPENDING, Recorder
+from .opening import Session, Tell
+from .parts import SAMPLED, TRANSFER_SOURCE, TRANSIENT, Plan, Step, from_json
+from .readback import bring_back, bring_samples
+from .resample import pictured
+from .results import VulkanError
+from .submit import Submitter
+
+
+class Want(NamedTuple):
+    """What is asked of a run. `pixels` is a folder that images are written to. With `repeats` passes are timed, after `warmups`, at the
+    size that is described, otherwise pictures of at most 512 texels a side are drawn; `size` draws at a size. `samples_of` is an image
+    whose samples are written one by one."""
+
+    pixels: str | None = None
+    repeats: int = 0
+    warmups: int = 0
+    size: Sequence[int] | None = None
+    samples_of: str | None = None
+
+
+def run(session: Session, plan: Plan, passes: Sequence[int] | None, want: Want, tell: Tell) -> None:
+    """Creates and draws passes of a plan (None: all that are not refused) in the frame's order, and tells of what comes of it.
+
+    Events: `pass` before a pass is touched, `created`, `message` of the layer, `pixels` and `sample` of files, `time`, at last `done`. A
+    pass that the driver does not create is left out, and a device that is lost ends it. Unusable and programming errors are raised.
+    """
+    plan = _sized(plan, want)
+    asked = range(len(plan.passes)) if passes is None else passes
+    going = [n for n in asked if 0 <= n < len(plan.passes) and not plan.passes[n].refused]
+    session.at = None
+    session.telling(tell)
+    opened = session.opened(plan)
+    sampled = next((n for n, image in enumerate(plan.images) if image.name == want.samples_of), None)
+    if sampled is not None:
+        images = list(plan.images)
+        images[sampled] = images[sampled]._replace(usage=(images[sampled].usage | SAMPLED) & ~TRANSIENT)
+        plan = plan._replace(images=tuple(images))
+    built = Built(opened, plan, _read_back(plan) if want.pixels is not None else {})
+    submitter: Submitter | None = None
+    at = -1
+    try:
+        made = []
+        for at in going:
+            tell({"event": "pass", "pass": at})
+            session.at = at
+            try:
+                built.made(at)
+            except VulkanError as error:
+                tell({"event": "created", "pass": at, "ok": False, "error": error.name})
+                continue
+            made.append(at)
+            tell({"event": "created", "pass": at, "ok": True, "error": ""})
+        submitter = Submitter(opened, want.repeats > 0)
+        # Twice for the layer: what a frame leaves is what the next finds.
+        for turn in range(want.warmups + want.repeats if want.repeats else 2 if session.layer is not None else 1):
+            recorder = Recorder(built)
+            times: dict[int, float] = {}
+            for at, steps in segments(plan, made):
+                session.at = at
+                if turn == 0:
+                    tell({"event": "pass", "pass": at})
+                times[at] = times.get(at, 0.0) + _drawn(recorder, submitter, steps)
+            if want.repeats and turn >= want.warmups:
+                for number, time in times.items():
+                    tell({"event": "time", "pass": number, "ms": round(time, 6), "source": submitter.source})
+        session.at = None
+        if want.pixels is not None:
+            bring_back(recorder, submitter, want.pixels, tell)
+            if sampled is not None and sampled in built.images:
+                bring_samples(recorder, submitter, sampled, want.pixels, tell)
+    except VulkanError as error:
+        if at < 0:
+            raise
+        tell({"event": "created", "pass": at, "ok": False, "error": error.name})
+    finally:
+        session.at = None
+        if submitter is not None:
+            submitter.close()
+        built.close()
+    tell({"event": "done"})
+
+
+def _sized(plan: Plan, want: Want) -> Plan:
+    from .resample import resized
+
+    if want.size is not None:
+        return resized(plan, (want.size[0], want.size[1]))
+    return plan if want.repeats else pictured(plan)
+
+
+def _read_back(plan: Plan) -> dict[int, int]:
+    """The usage that reading back needs, of the images that it may be of."""
+    one = {n: image for n, image in enumerate(plan.images) if image.samples == 1 and not image.usage & TRANSIENT}
+    return {n: TRANSFER_SOURCE for n, image in one.items() if image.type == 1}
+
+
+def segments(plan: Plan, made: Sequence[int]) -> Iterator[tuple[int, list[Step]]]:
+    """The steps of the passes that are there, in groups that are submitted together: a pass with the commands after it."""
+    group: list[Step] = []
+    there = set(made)
+    images = {image for number in made for image in plan.passes[number].images}
+    for step in plan.steps:
+        if step.number not in there or not {step.source, step.target} - {parts.NONE} <= images:
+            continue
+        suspended = bool(group) and group[-1].kind == "begin" and plan.passes[group[-1].number].flags & SUSPENDING
+        if step.kind == "begin" and group and not suspended and any(each.kind == "begin" for each in group):
+            yield group[0].number, group
+            group = []
+        group.append(step)
+    if group:
+        yield group[0].number, group
+
+
+def _drawn(recorder: Recorder, submitter: Submitter, steps: Sequence[Step]) -> float:
+    buffer = submitter.begin()
+    recorder.layouts.fence(buffer)
+    submitter.start()
+    for step in steps:
+        recorder.step(buffer, step)
+    submitter.stop()
+    return submitter.end(buffer, timed=True)
+
+
+__all__ = ["Session", "Want", "devices", "from_json", "run", "segments"]

@@ -1,0 +1,340 @@
+"""What the Khronos validation layer says of multisampling, by families of its messages, and the rules of ours that answer to each.
+
+A family outlives the ids of its messages: VUIDs are renumbered, best practices lose prefixes and gain vendors from one version of the
+layer to the next. `messages.classify` finds the family of a message.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+Version = tuple[int, int, int]
+
+RENDER_PASS, RENDER_PASS_2, RENDERING = "renderPass", "renderPass2", "rendering"
+"""How a pass is created: vkCreateRenderPass, vkCreateRenderPass2 or vkCmdBeginRendering."""
+
+LEGACY = (RENDER_PASS, RENDER_PASS_2)
+MOBILE = ("arm", "img")
+
+
+class Looks(NamedTuple):
+    """Where the layer looks, so that where it does not its silence says nothing. What is empty does not limit it.
+
+    `passes` are kinds of passes; `vendors` those whose checks have it, one of which must be on; `since` the first version of the layer with
+    it. With `lazy` it needs a device with lazily allocated memory. With `device` it judges the device that it runs on, whatever the
+    description is for. `when` is a condition over the facts of what our finding is about: its kind of subject, the condition, in words.
+    `at` says what it looks at where that is another matter than ours, to which ours is an answer all the same.
+    """
+
+    passes: tuple[str, ...] = ()
+    vendors: tuple[str, ...] = ()
+    since: Version | None = None
+    lazy: bool = False
+    device: bool = False
+    when: tuple[tuple[str, str, str], ...] = ()
+    at: str = ""
+
+
+class Family(NamedTuple):
+    """Messages that mean one thing.
+
+    `ids` are the numbers of VUIDs (`03067`), and the words that the names of best practices share over versions and vendors
+    (`non-transient-ms-image`). Where a VUID's number is none that is known, `structures` and `words` decide: patterns of the structure or
+    command in the id and of the message's text.
+    """
+
+    name: str
+    rules: tuple[str, ...]
+    ids: tuple[str, ...]
+    says: str
+    looks: Looks = Looks()
+    structures: str = ""
+    words: str = ""
+
+
+def _ids(words: str) -> tuple[str, ...]:
+    return tuple(words.split())
+
+
+_SUBPASS = r"VkSubpassDescription2?"
+_RENDERING = r"VkRendering(Attachment)?Info"
+_RESOLVE = r"(vkCmdResolveImage|VkResolveImageInfo)\w*"
+_DEPTH_RESOLVE = r"VkSubpassDescriptionDepthStencilResolve\w*"
+_IMAGE = r"VkImageCreateInfo"
+_ATTACHMENT = r"VkAttachmentDescription2?"
+
+_AMD = '"STORAGE" in image.usage || "MUTABLE_FORMAT" in image.flags'
+
+FAMILIES = (
+    Family(
+        "sample-count-unsupported",
+        ("sample-count-unsupported",),
+        _ids("02258 08745"),
+        "an image's sample count is none that the device offers for its format",
+        Looks(device=True),
+        _IMAGE,
+        r"samples.*(not supported|imageCreateSampleCounts)",
+    ),
+    Family(
+        "mixed-sample-counts",
+        ("mixed-sample-counts",),
+        _ids("01418 09430 09431 09456 06868 06869 06870 06872 01417 03071 01506 03070 06857 06858 09429"),
+        "attachments of one subpass or rendering differ in their sample counts",
+        Looks(),
+        rf"{_SUBPASS}|VkRenderingInfo",
+        r"[Ss]ubpass.*(sample|color).*(differ|inconsistent|match|same)|sample count.*(differ|inconsistent|match|same)"
+        r"|MultisampledRenderToSingleSampled.*not VK_SAMPLE_COUNT_1",
+    ),
+    Family(
+        "rasterization-samples",
+        ("rasterization-samples-mismatch",),
+        _ids("06853 06854 00757 01505 01411 01412 04740 07284 07285 07286 07287 08644 07935 09211 06185 06186 06187 07474"),
+        "a pipeline's rasterizationSamples is not the sample count of what it draws to",
+        Looks(when=(("pipeline", "!pipeline.samples_dynamic", "it looks at the count in the pipeline, not at one that commands set"),)),
+        r"VkGraphicsPipelineCreateInfo|vkCmdDraw\w*",
+        r"(rasterizationSamples|PipelineMultisampleState|VkPipeline|sample count).*(match|equal|!=|same)",
+    ),
+    Family(
+        "multisampled-image",
+        ("multisampled-image-invalid",),
+        ("02257",),
+        "a multisampled image has mip levels, another shape than 2D, faces of a cube, or linear tiling",
+        Looks(),
+        _IMAGE,
+        r"([Mm]ulti-?sampl|samples).*(mips|mipLevels|VK_IMAGE_TYPE_2D|CUBE_COMPATIBLE)",
+    ),
+    Family(
+        "transient-usage",
+        ("transient-usage-conflict",),
+        _ids("00963 00966 01925 02539 02797 02798"),
+        "TRANSIENT_ATTACHMENT stands beside a usage that is no attachment's, or beside none",
+        Looks(),
+        _IMAGE,
+        r"TRANSIENT_ATTACHMENT|Transient attachment",
+    ),
+    Family(
+        "lazy-memory",
+        ("lazily-allocated-without-transient",),
+        _ids("01047 01614"),
+        "an image that is no transient attachment is bound to a type of memory that its requirements leave out",
+        Looks(lazy=True),
+        r"vkBindImageMemory|VkBindImageMemoryInfo",
+        r"memoryTypeBits|[mM]emory[ _]type",
+    ),
+    Family(
+        "load-from-undefined",
+        ("load-from-undefined",),
+        (
+            *_ids("06699 06700 06704 06705 vkCreateRenderPass-attatchment"),
+            *_ids("vkCreateRenderPass-attachment-color-depth vkCreateRenderPass-attachment-stencil"),
+        ),
+        "an attachment is loaded from the layout UNDEFINED",
+        Looks(),
+        _ATTACHMENT,
+        r"LOAD_OP_LOAD.*UNDEFINED|UNDEFINED.*LOAD_OP_LOAD",
+    ),
+    Family(
+        "resolve-without-ends",
+        ("resolve-target-missing",),
+        _ids("00847 03065 09335 03177 06862"),
+        "a resolve has a target and no source, or a mode and no target",
+        Looks(),
+        rf"{_SUBPASS}|{_DEPTH_RESOLVE}|{_RENDERING}",
+        r"resolve (from|attachment).*VK_ATTACHMENT_UNUSED|resolveImageView must not be VK_NULL_HANDLE",
+    ),
+    Family(
+        "resolve-source-samples",
+        ("resolve-source-single-sampled",),
+        _ids("00848 03066 09338 03179 06861 00257"),
+        "what is resolved has one sample",
+        Looks(),
+        rf"{_SUBPASS}|{_DEPTH_RESOLVE}|{_RENDERING}|{_RESOLVE}",
+        r"resolve from.*SAMPLE_COUNT_1|srcImage sample count is VK_SAMPLE_COUNT_1|DepthStencilAttachment has sample count"
+        r"|(imageView|Image sample count).* must not have a VK_SAMPLE_COUNT_1",
+    ),
+    Family(
+        "resolve-target-samples",
+        ("resolve-target-multisampled",),
+        _ids("00849 03067 03180 06864 00259"),
+        "what is resolved to has more than one sample",
+        Looks(),
+        rf"{_SUBPASS}|{_DEPTH_RESOLVE}|{_RENDERING}|{_RESOLVE}",
+        r"resolve into.*must have VK_SAMPLE_COUNT_1|dstImage sample count.*is not"
+        r"|resolve attachment \d+ which has sample count|resolveImageView sample count must",
+    ),
+    Family(
+        "resolve-formats",
+        ("resolve-format-mismatch",),
+        _ids("00850 03068 09339 03181 03182 06865 01386"),
+        "a resolve goes from one format to another",
+        Looks(),
+        rf"{_SUBPASS}|{_DEPTH_RESOLVE}|{_RENDERING}|{_RESOLVE}",
+        r"different format|must have the same (VkFormat|number of bits)|[Ff]ormat.*(differ|not equal|identical|match)",
+    ),
+    Family(
+        "depth-resolve-modes-none",
+        ("depth-resolve-mode-none",),
+        _ids("03178 06873"),
+        "a depth-stencil resolve attachment is named, and both modes are NONE",
+        Looks(),
+        _DEPTH_RESOLVE,
+        r"resolve modes? (is|are) VK_RESOLVE_MODE_NONE",
+    ),
+    Family(
+        "depth-resolve-modes",
+        ("depth-resolve-mode-unsupported", "depth-averaged", "stencil-resolve-average"),
+        _ids("03183 03184 03185 03186 06102 06103 06104 06105 06874 06875 06876 06877 10989 10990 10991 10992"),
+        "depth or stencil is resolved by a mode, or a pair of modes, that the device does not offer",
+        Looks(device=True),
+        rf"{_DEPTH_RESOLVE}|VkRenderingInfo|VkResolveImageInfo2",
+        r"supported(Depth|Stencil)ResolveModes|invalid (depth|stencil)ResolveMode|independentResolve"
+        r"|stencilResolveMode \(\w+\) must be identical|resolveMode structure with invalid mode",
+    ),
+    Family(
+        "depth-resolve-structure",
+        ("depth-resolve-unavailable",),
+        ("VkSubpassDescription2-pNext-pNext",),
+        "a depth-stencil resolve is chained to a subpass without Vulkan 1.2 or VK_KHR_depth_stencil_resolve",
+        Looks(device=True),
+    ),
+    Family(
+        "integer-resolve-mode",
+        ("integer-multisampled-target",),
+        _ids("06130 06129"),
+        "integers are resolved by a mode other than SAMPLE_ZERO, or other colour by one other than AVERAGE",
+        Looks(passes=(RENDERING,), at="the mode that integers are resolved by"),
+        _RENDERING,
+        r"resolve mode.*for (non-)?integer formats",
+    ),
+    Family(
+        "sample-shading-feature",
+        ("sample-shading-feature-missing",),
+        ("00784",),
+        "sample shading is on without the feature sampleRateShading",
+        Looks(device=True),
+        r"VkPipelineMultisampleStateCreateInfo",
+        r"sampleRateShading",
+    ),
+    Family(
+        "min-sample-shading",
+        ("min-sample-shading-out-of-range",),
+        ("00786",),
+        "minSampleShading is not from 0 to 1",
+        Looks(when=(("pipeline", "pipeline.sample_shading", "it looks at minSampleShading where sample shading is on"),)),
+        r"VkPipelineMultisampleStateCreateInfo",
+        r"minSampleShading",
+    ),
+    Family(
+        "non-transient-ms-image",
+        ("multisampled-image-not-transient",),
+        ("non-transient-ms-image",),
+        "a multisampled image is not TRANSIENT_ATTACHMENT",
+        Looks(vendors=MOBILE),
+    ),
+    Family(
+        "should-be-transient",
+        ("multisampled-image-not-transient",),
+        ("attachment-should-be-transient",),
+        "an attachment that a framebuffer neither loads nor stores is not TRANSIENT_ATTACHMENT",
+        Looks(passes=LEGACY, lazy=True),
+    ),
+    Family(
+        "should-not-be-transient",
+        ("transient-needs-memory",),
+        ("attachment-should-not-be-transient",),
+        "a transient attachment of a framebuffer is loaded or stored",
+        Looks(passes=LEGACY),
+    ),
+    Family(
+        "non-lazy-transient-image",
+        ("transient-not-lazily-allocated",),
+        ("non-lazy-transient-image",),
+        "a transient attachment is in memory that is not lazily allocated, which the device offers",
+        Looks(lazy=True),
+    ),
+    Family(
+        "too-large-sample-count",
+        ("sample-count-above-four",),
+        ("too-large-sample-count",),
+        "an image has more than four samples",
+        Looks(vendors=MOBILE),
+    ),
+    Family(
+        "image-requires-memory",
+        ("multisampled-attachment-stored", "multisampled-attachment-loaded", "multisampled-depth-stored", "multisampled-stencil-stored"),
+        ("image-requires-memory",),
+        "a multisampled attachment is loaded or stored",
+        Looks(passes=(RENDER_PASS,)),
+    ),
+    Family(
+        "attachment-needs-readback",
+        ("multisampled-attachment-loaded", "framebuffer-readback", "resolve-target-loaded", "multisampled-stencil-stored"),
+        ("attachment-needs-readback",),
+        "an attachment is loaded",
+        Looks(passes=LEGACY, vendors=MOBILE, when=(("aspect", 'aspect.load == "LOAD"', "it looks at loads, not at clears and stores"),)),
+    ),
+    Family(
+        "discarded-then-loaded",
+        ("multisampled-result-lost", "resolve-target-not-stored", "multisampled-attachment-loaded", "multisampled-stencil-stored"),
+        ("StoreOpDontCareThenLoadOpLoad",),
+        "a pass loads what the pass before it discarded",
+        Looks(passes=LEGACY, at="what a later pass loads"),
+    ),
+    Family(
+        "redundant-store",
+        ("multisampled-attachment-stored", "multisampled-depth-stored", "multisampled-stencil-stored"),
+        ("RenderPass-redundant-store",),
+        "a pass clears what the pass before it stored",
+        Looks(passes=LEGACY, vendors=MOBILE, at="what a later pass clears"),
+    ),
+    Family(
+        "transfer-then-loaded",
+        ("multisampled-attachment-loaded", "framebuffer-readback"),
+        ("RenderPass-inefficient-clear", "blitimage-loadopload", "copyimage-loadopload", "resolveimage-loadopload"),
+        "a pass loads what a clear, copy, blit or resolve command wrote",
+        Looks(passes=LEGACY, vendors=MOBILE, at="what transfer commands wrote"),
+    ),
+    Family(
+        "clear-values",
+        (),
+        ("ClearValueWithoutLoadOpClear",),
+        "a pass is begun with clear values, and clears no attachment",
+        Looks(passes=LEGACY),
+    ),
+    Family(
+        "resolve-mode-none",
+        ("resolve-mode-none",),
+        ("ResolveModeNone",),
+        "a rendering names a resolve image, and its resolve mode is NONE",
+        Looks(passes=(RENDERING,), since=(1, 3, 278), when=(("resolve", 'resolve.aspect == "color"', "it looks at colour alone"),)),
+    ),
+    Family(
+        "resolving-image",
+        ("resolve-outside-pass",),
+        ("resolving-image",),
+        "an image is resolved by vkCmdResolveImage",
+        Looks(vendors=("arm",)),
+    ),
+    Family(
+        "multisampled-blending",
+        ("multisampled-float-blending",),
+        ("multisampled-blending",),
+        "a multisampled pipeline blends into a float format",
+        Looks(passes=LEGACY, vendors=("arm",)),
+    ),
+    Family(
+        "amd-render-targets",
+        ("attachment-blocks-compression",),
+        ("vkImage-AvoidConcurrentRenderTargets", "vkImage-DontUseMutableRenderTargets", "vkImage-DontUseStorageRenderTargets"),
+        "a render target has STORAGE usage, MUTABLE_FORMAT or CONCURRENT sharing",
+        Looks(vendors=("amd",), when=(("image", _AMD, "it looks at usage and flags; of sharing too, which takes several queue families"),)),
+    ),
+    Family(
+        "nvidia-linear-tiling",
+        ("attachment-blocks-compression",),
+        ("CreateImage-TilingLinear",),
+        "an image has linear tiling",
+        Looks(vendors=("nvidia",), when=(("image", 'image.tiling == "LINEAR"', "it looks at tiling alone"),)),
+    ),
+)
+"""In the order of the documentation: what Vulkan forbids, then what the best practices advise."""

@@ -1,0 +1,191 @@
+"""The documents to confirm: found, read and judged as `check` does it, each with the version that the safe fixes make of it."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import NamedTuple
+
+from ..devices import DeviceProfile
+from ..diagnostics import diagnostic
+from ..discovery import STDIN, discover
+from ..document.document import Document
+from ..engine import Judged, Linted
+from ..facts.frame import Frame, Pass
+from ..facts.surroundings import profile
+from ..finding import Finding, Undecided
+from ..fixes.inputs import Mended, mend
+from ..profiles import device_of
+from ..readers import looks_like
+from ..run import Governed, Request, Run
+from ..source.text import Unreadable
+from ..source.tree import Limits, read
+
+
+class Input(NamedTuple):
+    """One document: its frame as written and, where safe fixes change its text, as fixed.
+
+    `findings` are those of the document, `silenced` those that a comment suppresses, `undecided` rules that could say nothing of it;
+    `mended` are those that the fixes took away. `device` is the profile that it is judged for. `number` of `many` says which document of a
+    stream it is.
+    """
+
+    file: str
+    frame: Frame
+    findings: tuple[Finding, ...]
+    silenced: tuple[Finding, ...] = ()
+    fixed: Frame | None = None
+    mended: tuple[Finding, ...] = ()
+    undecided: tuple[Undecided, ...] = ()
+    device: DeviceProfile | None = None
+    number: int = 0
+    many: int = 1
+
+    @property
+    def prefix(self) -> str:
+        """What the paths of a document of a stream begin with."""
+        return f"documents[{self.number}]." if self.many > 1 else ""
+
+
+class Inputs(NamedTuple):
+    """What there is to confirm, findings that say why some of it cannot be, and lines for the standard error stream."""
+
+    inputs: list[Input]
+    wrong: list[Finding]
+    notes: list[str]
+
+
+def inputs(request: Request) -> Inputs:
+    """The documents of a request, in the order of the files."""
+    this = Run(request)
+    this.governed(os.curdir)
+    found = discover(request.paths, this.settings, looks_like)
+    this.findings.extend(found.findings)
+    made: list[Input] = []
+    for path in found.files:
+        made.extend(_of_file(this, path))
+    wrong = [finding for finding in dict.fromkeys(this.findings) if finding.fatal]
+    return Inputs(made, wrong, list(found.notes))
+
+
+def _of_file(this: Run, path: str) -> list[Input]:
+    request, stdin = this.request, path == STDIN
+    name = (request.stdin_filename or "<stdin>") if stdin else path
+    governed = this.governed(request.stdin_filename or os.curdir if stdin else path)
+    limits = Limits(**{**Limits()._asdict(), **governed.settings.limits})
+    try:
+        data = _stdin(limits) if stdin else read(path, limits)
+    except (OSError, Unreadable) as error:
+        code = "MSAA906" if isinstance(error, Unreadable) else "MSAA901"
+        reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
+        this.findings.append(diagnostic(code, f"the input cannot be read: {reason}", name))
+        return []
+    device = device_of(governed.settings.profile)
+    severity = governed.selection.for_file(name, device.vendor if device is not None else None)
+
+    def judge(data: bytes) -> Linted:
+        return governed.engine.lint(data, name, severity, limits=limits, format=request.format, device=device, ignores=request.ignores)
+
+    linted = judge(data)
+    this.findings.extend(finding for finding in linted.findings if finding.fatal)
+    if any(finding.fatal for finding in linted.findings) or linted.source is None:
+        return []
+    mended = mend(data, linted, judge, lambda _: True, False, None) if any(f.fix is not None for f in linted.findings) else None
+    return [_input(name, linted, judged, mended, governed, device) for judged in linted.judged]
+
+
+def _stdin(limits: Limits) -> bytes:
+    data = sys.stdin.buffer.read(limits.bytes + 1)
+    if len(data) > limits.bytes:
+        raise Unreadable(f"the input is larger than the limit of {limits.bytes} bytes")
+    return data
+
+
+def _input(name: str, linted: Linted, judged: Judged, mended: Mended | None, governed: Governed, device: DeviceProfile | None) -> Input:
+    many = len(linted.judged)
+    made = Input(name, Frame(judged.document), (), number=judged.number, many=many)
+    settled = [found for found in map(governed.selection.settle, linted.findings) if found is not None]
+    return made._replace(
+        findings=_own(settled, made.prefix),
+        silenced=_own([each.finding for each in linted.suppressed], made.prefix),
+        fixed=_fixed(judged.document, mended, judged.number),
+        mended=_own(mended.fixed if mended is not None else (), made.prefix),
+        undecided=tuple(
+            each._replace(subject=each.subject.removeprefix(made.prefix))
+            for each in linted.undecided
+            if each.subject.startswith(made.prefix)
+        ),
+        device=profile(judged.document.description, device),
+    )
+
+
+def _fixed(before: Document, mended: Mended | None, number: int) -> Frame | None:
+    """The frame of a document after the fixes; None where they leave that document as it is."""
+    if mended is None or not mended.changed or number >= len(mended.linted.judged):
+        return None
+    if not any(found.subject.startswith(f"documents[{number}].") for found in mended.fixed) and len(mended.linted.judged) > 1:
+        return None
+    return Frame(mended.linted.judged[number].document)
+
+
+def _own(findings: Sequence[Finding], prefix: str) -> tuple[Finding, ...]:
+    """The findings of one document of a stream, their subjects without its number."""
+    if not prefix:
+        return tuple(findings)
+    return tuple(f._replace(subject=f.subject.removeprefix(prefix)) for f in findings if f.subject.startswith(prefix))
+
+
+def of_pass(frame: Frame, each: Pass, findings: Sequence[Finding]) -> list[Finding]:
+    """The findings that have to do with a pass: of itself, of its images, framebuffers and pipelines, and of the commands about those.
+
+    What is of no pass in particular is every pass's.
+    """
+    owners = _owners(frame)
+    return [found for found in findings if owners.has(each, found.subject)]
+
+
+class _Owners:
+    """The passes of a frame that have to do with what is at a path."""
+
+    def __init__(self, frame: Frame) -> None:
+        self._by_path: dict[str, set[int]] = {}
+        self._known: dict[str, frozenset[int]] = {}
+        for each in frame.passes:
+            for path in _paths(frame, each):
+                self._by_path.setdefault(path, set()).add(id(each))
+
+    def has(self, each: Pass, subject: str) -> bool:
+        """Whether a path, or what it is within, is a pass's; what is of no pass is every pass's."""
+        owners = self.of(subject)
+        return not owners or id(each) in owners
+
+    def of(self, path: str) -> frozenset[int]:
+        """The passes of a path, by their identity."""
+        if path not in self._known:
+            cut = max(path.rfind("."), path.rfind("["))
+            above = self.of(path[:cut]) if cut > 0 else frozenset()
+            self._known[path] = above | self._by_path.get(path, set())
+        return self._known[path]
+
+
+@lru_cache(maxsize=4)
+def _owners(frame: Frame) -> _Owners:
+    return _Owners(frame)
+
+
+def _paths(frame: Frame, each: Pass) -> set[str]:
+    images = {target.name for attachment in each.attachments for target in attachment.targets if target.image is not None}
+    for subpass in each.subpasses:
+        images.update(r.target_image.name for r in subpass.resolves if r.target_image is not None and r.target_image.image is not None)
+    paths = {each.path, *(frame.targets[name].path for name in images if name in frame.targets)}
+    paths.update(pipeline.path for pipeline, of in frame.pipelines if of is each or of is None)
+    paths.update(framebuffer.path for framebuffer in frame.framebuffers.get(each.name, ()))
+    for position in each.begun:
+        paths.add(frame.commands[position].path)
+    for command in frame.commands:
+        named = {getattr(command.body, member, None) for member in ("image", "srcImage", "dstImage")}
+        if named & images:
+            paths.add(command.path)
+    return paths

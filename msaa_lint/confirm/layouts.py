@@ -1,0 +1,97 @@
+"""The layouts that the images of a frame are in, and the barriers of our own between its steps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from .build import Built
+from .parts import COLOR, DEPTH, STENCIL
+
+UNDEFINED, GENERAL, COLOR_LAYOUT, DEPTH_LAYOUT, DEPTH_READ_LAYOUT, READ_LAYOUT, SOURCE_LAYOUT, TARGET_LAYOUT = range(8)
+"""VkImageLayout."""
+
+TRANSFER, COLOR_OUTPUT, TESTS, SHADERS = 0x1000, 0x400, 0x300, 0x880
+EVERYTHING = TRANSFER | COLOR_OUTPUT | TESTS | SHADERS
+MEMORY = 0x18000
+"""VkPipelineStageFlagBits; VkAccessFlagBits' memory reads and writes."""
+
+USES = {
+    COLOR_LAYOUT: (COLOR_OUTPUT, 0x180),
+    DEPTH_LAYOUT: (TESTS, 0x600),
+    DEPTH_READ_LAYOUT: (TESTS | SHADERS, 0x220),
+    READ_LAYOUT: (SHADERS, 0x20),
+    SOURCE_LAYOUT: (TRANSFER, 0x800),
+    TARGET_LAYOUT: (TRANSFER, 0x1000),
+    UNDEFINED: (0x1, 0),
+    1000001002: (0x2000, 0),
+}
+"""By layout: the stages and accesses that use an image in it; in others, any."""
+
+READING = (DEPTH_READ_LAYOUT, READ_LAYOUT)
+PRESENT_LAYOUT = 1000001002
+
+
+Wanted = tuple[int, int, int | None]
+"""An image, the layout it is to be in, and stencil's own where that is another."""
+
+
+class Layouts:
+    """Where every aspect of every image is."""
+
+    def __init__(self, built: Built) -> None:
+        self.built = built
+        self.vk = built.vk
+        self.known: dict[tuple[int, int], int] = {}
+
+    def now(self, image: int, aspect: int) -> int:
+        """The layout of an aspect."""
+        return self.known.get((image, aspect), UNDEFINED)
+
+    def left(self, image: int, layout: int, stencil: int | None = None) -> None:
+        """What a pass or a barrier of the frame left an image in."""
+        for aspect in self._aspects(image):
+            self.known[image, aspect] = stencil if stencil is not None and aspect == STENCIL else layout
+
+    def into(self, buffer: Any, wanted: Sequence[Wanted]) -> None:
+        """Records barriers that bring images into layouts: (image, layout, stencil's own or None). UNDEFINED asks for nothing."""
+        through: list[Wanted] = [(image, GENERAL, None) for image, layout, _ in wanted if self._blank(image) and layout in READING]
+        if through:
+            self._barrier(buffer, through)
+        self._barrier(buffer, wanted)
+
+    def fence(self, buffer: Any) -> None:
+        """Records that everything so far is done, and seen by everything after."""
+        barrier = self.vk.VkMemoryBarrier(srcAccessMask=MEMORY, dstAccessMask=MEMORY)
+        self.vk.vkCmdPipelineBarrier(buffer, EVERYTHING, EVERYTHING, 0, 1, [barrier], 0, None, 0, None)
+
+    def _blank(self, image: int) -> bool:
+        return all(self.now(image, aspect) == UNDEFINED for aspect in self._aspects(image))
+
+    def _aspects(self, image: int) -> list[int]:
+        return [aspect for aspect in (COLOR, DEPTH, STENCIL) if self.built.plan.images[image].aspects & aspect]
+
+    def _barrier(self, buffer: Any, wanted: Sequence[Wanted]) -> None:
+        vk = self.vk
+        barriers, before, after = [], 0, 0
+        for image, layout, stencil in wanted:
+            moves: dict[tuple[int, int], int] = {}
+            for aspect in self._aspects(image):
+                own = stencil if stencil is not None and aspect == STENCIL else layout
+                old = self.now(image, aspect)
+                if own not in (UNDEFINED, old):
+                    moves[old, own] = moves.get((old, own), 0) | aspect
+                    self.known[image, aspect] = own
+            for (old, new), aspects in moves.items():
+                old_stages, old_access = USES.get(old, (EVERYTHING, MEMORY))
+                new_stages, new_access = USES.get(new, (EVERYTHING, MEMORY))
+                before, after = before | old_stages, after | new_stages
+                barriers.append(
+                    vk.VkImageMemoryBarrier(
+                        srcAccessMask=old_access, dstAccessMask=new_access, oldLayout=old, newLayout=new,
+                        srcQueueFamilyIndex=0xFFFFFFFF, dstQueueFamilyIndex=0xFFFFFFFF, image=self.built.image(image),
+                        subresourceRange=vk.VkImageSubresourceRange(aspectMask=aspects, levelCount=0xFFFFFFFF, layerCount=0xFFFFFFFF),
+                    )
+                )  # fmt: skip
+        if barriers:
+            vk.vkCmdPipelineBarrier(buffer, before or EVERYTHING, after or EVERYTHING, 0, 0, None, 0, None, len(barriers), barriers)

@@ -1,0 +1,308 @@
+"""A device, opened for plans: the instance with the validation layer and its messages, and logical devices with what plans need of them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from . import binding
+from .binding import chain, extensions, layers, load, procedure
+from .devices import _device
+from .instance import Device, Instance, Message, no_driver
+from .parts import Plan
+from .results import Unusable, VulkanError
+from .scene import vertices
+from .shaders.spirv import read
+
+Tell = Callable[[dict[str, Any]], None]
+
+VALIDATION = "VK_LAYER_KHRONOS_validation"
+BEST_PRACTICES = "VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT"
+VENDOR_CHECKS = "VALIDATION_CHECK_ENABLE_VENDOR_SPECIFIC_"
+ENABLES = "VK_LAYER_ENABLES"
+"""Vendors' checks are turned on by the environment alone; on Linux its separator is a colon."""
+
+EXTENSIONS = (
+    "VK_KHR_swapchain", "VK_EXT_extended_dynamic_state3", "VK_EXT_load_store_op_none", "VK_KHR_load_store_op_none",
+    "VK_KHR_create_renderpass2", "VK_KHR_depth_stencil_resolve", "VK_KHR_multiview", "VK_KHR_maintenance2", "VK_KHR_dynamic_rendering",
+    "VK_KHR_synchronization2", "VK_KHR_separate_depth_stencil_layouts", "VK_EXT_rasterization_order_attachment_access",
+)  # fmt: skip
+"""Enabled wherever offered; those that Vulkan has since taken up only below that version."""
+
+TAKEN_UP = {
+    "VK_KHR_create_renderpass2": (1, 2), "VK_KHR_depth_stencil_resolve": (1, 2), "VK_KHR_multiview": (1, 1),
+    "VK_KHR_maintenance2": (1, 1), "VK_KHR_dynamic_rendering": (1, 3), "VK_KHR_synchronization2": (1, 3),
+    "VK_KHR_separate_depth_stencil_layouts": (1, 2),
+}  # fmt: skip
+
+FEATURES = (
+    "sampleRateShading", "alphaToOne", "independentBlend", "depthClamp", "fillModeNonSolid", "dualSrcBlend",
+    "shaderStorageImageMultisample",
+)  # fmt: skip
+"""Features of VkPhysicalDeviceFeatures that are enabled wherever offered."""
+
+FORMAT_USAGES = {"attachment": 0, "sampled": 0x4, "storage": 0x8, "input": 0x80, "transient": 0x40}
+"""Usages besides that of an attachment by which formats are asked for their sample counts."""
+
+VERTEX_BUFFER, VISIBLE = 0x80, 0x6
+"""VK_BUFFER_USAGE_VERTEX_BUFFER_BIT; host-visible and coherent memory, of VkMemoryPropertyFlagBits."""
+
+MOST_FORMATS = 185
+"""The formats of Vulkan 1.0 are numbered from 1 to this."""
+
+
+class Session:
+    """An instance, and one physical device of it; one in a process. `tell` is told of what the layer says.
+
+    `name` is a part of the device's name (None: the first that is the CPU, else the first); `validation` asks for the validation layer,
+    which is left out where it is not there; `vendors` are those whose checks it makes. Unusable where no device is there.
+    """
+
+    def __init__(self, name: str | None = None, validation: bool = True, vendors: Iterable[str] = ("arm", "img")) -> None:
+        self.vk = load()
+        self.vendors = tuple(vendors)
+        self.at: int | None = None
+        self.tell: Tell | None = None
+        self._waiting: list[Message] = []
+        self._deaf = False
+        self._devices: dict[tuple[Any, ...], Opened] = {}
+        there = layers() if validation else {}
+        self.layer: dict[str, Any] | None = None
+        if VALIDATION in there:
+            version = ".".join(map(str, there[VALIDATION]))
+            self.layer = {"name": VALIDATION, "version": version, "vendors": list(self.vendors)}
+        self.instance = self._instance()
+        try:
+            self.physical = self._chosen(name)
+            # What asking for what is not supported comes to is no news.
+            self._deaf = True
+            self.device: dict[str, Any] = {**_device(self.physical), "formats": formats(self.physical)}
+            self._deaf = False
+        except BaseException:
+            self.instance.__exit__(None, None, None)
+            raise
+        self.names = frozenset(each["extensionName"] for each in self.device["extensions"])
+        self.version = min(binding.version_of(self.device["properties"]["apiVersion"])[:2], self.instance.version)
+
+    def _instance(self) -> Instance:
+        wanted = [name for name in ("VK_KHR_surface",) if name in extensions()]
+        following = []
+        if self.layer is not None:
+            # Best practices by a structure; the environment may ask for more.
+            checks = [BEST_PRACTICES, *(VENDOR_CHECKS + vendor.upper() for vendor in self.vendors)]
+            stated = os.environ.get(ENABLES, "")
+            os.environ[ENABLES] = ":".join(dict.fromkeys([*filter(None, stated.split(":")), *checks]))
+            if "VK_EXT_validation_features" in extensions(VALIDATION):
+                wanted.append("VK_EXT_validation_features")
+                following.append(self.vk.VkValidationFeaturesEXT(pEnabledValidationFeatures=[2]))
+        made = Instance((VALIDATION,) if self.layer is not None else (), wanted, self._said, following=following)
+        return made.__enter__()
+
+    def _said(self, message: Message) -> None:
+        if self._deaf:
+            return
+        if self.tell is None:
+            self._waiting.append(message)
+        else:
+            self.tell({"event": "message", "pass": self.at, "id": message.id, "severity": message.severity, "text": message.text[:4000]})
+
+    def telling(self, tell: Tell) -> None:
+        """Has `tell` told of what the layer says, and of what it said before anyone listened."""
+        self.tell = tell
+        waiting, self._waiting = self._waiting, []
+        for message in waiting:
+            self._said(message)
+
+    def _chosen(self, name: str | None) -> Any:
+        found = self.instance.physical_devices()
+        properties = [self.vk.vkGetPhysicalDeviceProperties(each) for each in found]
+        if name is None:
+            cpu = self.vk.VK_PHYSICAL_DEVICE_TYPE_CPU
+            return next((each for each, its in zip(found, properties, strict=True) if its.deviceType == cpu), found[0])
+        names = [binding.text(its.deviceName) for its in properties]
+        for device, its in zip(found, names, strict=True):
+            if name.casefold() in its.casefold():
+                return device
+        raise Unusable(f"no device is named {name}: there are {', '.join(names)}" if names else no_driver())
+
+    def opened(self, plan: Plan) -> Opened:
+        """A logical device with what a plan needs; the same one for plans that need the same."""
+        key = (tuple(name for name in plan.extensions if name in self.names), plan.without)
+        if key not in self._devices:
+            self.at, before = None, self.at
+            self._devices[key] = Opened(self, *key)
+            self.at = before
+        return self._devices[key]
+
+    def close(self) -> None:
+        """Destroys everything."""
+        for each in self._devices.values():
+            each.close()
+        self._devices.clear()
+        self.instance.__exit__(None, None, None)
+
+
+class Opened:
+    """A logical device, with what lives as long as it: the command pool, shader modules, layouts."""
+
+    def __init__(self, session: Session, special: tuple[str, ...], without: tuple[str, ...]) -> None:
+        self.vk = vk = session.vk
+        self.session = session
+        wanted = [name for name in EXTENSIONS if name in session.names and session.version < TAKEN_UP.get(name, (9, 9))]
+        if "VK_KHR_surface" not in extensions() and "VK_KHR_swapchain" in wanted:
+            wanted.remove("VK_KHR_swapchain")
+        if "VK_EXT_load_store_op_none" in wanted and "VK_KHR_load_store_op_none" in wanted:
+            # The same under two names; layers that are older than the second do not know it.
+            wanted.remove("VK_KHR_load_store_op_none")
+        self.extensions = frozenset((*wanted, *special))
+        self.device = Device(session.physical, sorted(self.extensions), self._features(special, without))
+        self.device.__enter__()
+        self.handle = self.device.handle
+        self.queue = self.device.queue
+        pool = vk.VkCommandPoolCreateInfo(queueFamilyIndex=self.device.family)
+        self.pool = vk.vkCreateCommandPool(self.handle, pool, None)
+        self.memory = vk.vkGetPhysicalDeviceMemoryProperties(session.physical)
+        self.modules: dict[Any, Any] = {}
+        self._layouts: dict[str, Any] = {}
+        self._functions: dict[str, Callable[..., Any]] = {}
+        self._vertices: tuple[Any, Any] | None = None
+
+    def _features(self, special: tuple[str, ...], without: tuple[str, ...]) -> Any:
+        vk, offered = self.vk, self.session.device
+        own = {name: 1 for name in FEATURES if offered["features"].get(name) and name not in without}
+        following = []
+        for structure, names in {
+            "VkPhysicalDeviceVulkan11Features": ("multiview",),
+            "VkPhysicalDeviceVulkan12Features": ("separateDepthStencilLayouts", "imagelessFramebuffer"),
+            "VkPhysicalDeviceVulkan13Features": ("dynamicRendering", "synchronization2"),
+            "VkPhysicalDeviceExtendedDynamicState3FeaturesEXT": (
+                "extendedDynamicState3RasterizationSamples",
+                "extendedDynamicState3SampleMask",
+                "extendedDynamicState3AlphaToCoverageEnable",
+            ),
+            "VkPhysicalDeviceMultisampledRenderToSingleSampledFeaturesEXT": ("multisampledRenderToSingleSampled",),
+        }.items():
+            if structure.endswith("SampledFeaturesEXT") and "VK_EXT_multisampled_render_to_single_sampled" not in special:
+                continue
+            found = {name: 1 for name in names if offered.get(structure, {}).get(name)}
+            if found:
+                following.append(getattr(vk, structure)(**found))
+        core = vk.VkPhysicalDeviceFeatures(**own)
+        if self.session.version < (1, 1):
+            return core
+        if self.session.version < (1, 3) and "VK_KHR_dynamic_rendering" in self.extensions:
+            following.append(vk.VkPhysicalDeviceDynamicRenderingFeatures(dynamicRendering=1))
+        return chain(vk.VkPhysicalDeviceFeatures2(features=core), *following)
+
+    def call(self, name: str) -> Callable[..., Any]:
+        """A function of the device: of Vulkan itself, else of an extension. VulkanError where it has neither."""
+        if name not in self._functions:
+            core = self.session.version >= SINCE.get(name, (1, 0)) and not name.endswith("EXT")
+            found = getattr(self.vk, name, None) if core and binding.has(name) else None
+            if found is None:
+                found = procedure(self.handle, name if name.endswith("EXT") else f"{name}KHR", device=True)
+            self._functions[name] = found
+        return self._functions[name]
+
+    def module(self, shader: str, outputs: tuple[str, ...] | None = None) -> Any:
+        """The module of a built-in shader; of a fragment shader that has every kind of output with those of `outputs` alone."""
+        key = (shader, outputs)
+        if key not in self.modules:
+            self.modules[key] = self.compiled(read(shader, outputs))
+        return self.modules[key]
+
+    def compiled(self, code: bytes) -> Any:
+        """A module of SPIR-V."""
+        return self.vk.vkCreateShaderModule(self.handle, self.vk.VkShaderModuleCreateInfo(codeSize=len(code), pCode=code), None)
+
+    def layout(self, kind: str) -> tuple[Any, Any]:
+        """The pipeline layout of `scene`, `read` or `samples`, and its set layout if it has one."""
+        if kind not in self._layouts:
+            self._layouts[kind] = self._new_layout(kind)
+        found: tuple[Any, Any] = self._layouts[kind]
+        return found
+
+    def _new_layout(self, kind: str) -> tuple[Any, Any]:
+        vk = self.vk
+        stage = {"scene": 1, "read": 16, "samples": 32}[kind]
+        bindings = []
+        if kind != "scene":
+            bindings.append(vk.VkDescriptorSetLayoutBinding(binding=0, descriptorType=1, descriptorCount=1, stageFlags=stage))
+        if kind == "samples":
+            bindings.append(vk.VkDescriptorSetLayoutBinding(binding=1, descriptorType=7, descriptorCount=1, stageFlags=stage))
+        sets = []
+        if bindings:
+            sets.append(vk.vkCreateDescriptorSetLayout(self.handle, vk.VkDescriptorSetLayoutCreateInfo(pBindings=bindings), None))
+        pushed = [vk.VkPushConstantRange(stageFlags=stage, offset=0, size=16)] if kind != "samples" else []
+        create = vk.VkPipelineLayoutCreateInfo(pSetLayouts=sets, pPushConstantRanges=pushed)
+        return vk.vkCreatePipelineLayout(self.handle, create, None), sets[0] if sets else None
+
+    def vertices(self) -> Any:
+        """A buffer with the scene's vertices."""
+        if self._vertices is None:
+            vk, data = self.vk, vertices()
+            buffer = vk.vkCreateBuffer(self.handle, vk.VkBufferCreateInfo(size=len(data), usage=VERTEX_BUFFER), None)
+            needs = vk.vkGetBufferMemoryRequirements(self.handle, buffer)
+            kind = self.memory_type(needs.memoryTypeBits, VISIBLE)
+            allocate = vk.VkMemoryAllocateInfo(allocationSize=needs.size, memoryTypeIndex=kind)
+            memory = vk.vkAllocateMemory(self.handle, allocate, None)
+            vk.vkBindBufferMemory(self.handle, buffer, memory, 0)
+            vk.vkMapMemory(self.handle, memory, 0, len(data), 0)[:] = data
+            vk.vkUnmapMemory(self.handle, memory)
+            self._vertices = (buffer, memory)
+        return self._vertices[0]
+
+    def memory_type(self, bits: int, *wishes: int) -> int:
+        """The first type of memory within `bits` that has all of the first of some masks of properties that any has."""
+        memory = self.memory
+        for wish in (*wishes, 0):
+            for number in range(memory.memoryTypeCount):
+                if bits >> number & 1 and memory.memoryTypes[number].propertyFlags & wish == wish:
+                    return number
+        raise VulkanError(-2, "vkAllocateMemory")
+
+    def close(self) -> None:
+        vk = self.vk
+        for module in self.modules.values():
+            vk.vkDestroyShaderModule(self.handle, module, None)
+        for layout, own in self._layouts.values():
+            vk.vkDestroyPipelineLayout(self.handle, layout, None)
+            if own is not None:
+                vk.vkDestroyDescriptorSetLayout(self.handle, own, None)
+        if self._vertices is not None:
+            vk.vkDestroyBuffer(self.handle, self._vertices[0], None)
+            vk.vkFreeMemory(self.handle, self._vertices[1], None)
+        vk.vkDestroyCommandPool(self.handle, self.pool, None)
+        self.device.__exit__(None, None, None)
+
+
+SINCE = {
+    "vkCreateRenderPass2": (1, 2), "vkCmdBeginRenderPass2": (1, 2), "vkCmdNextSubpass2": (1, 2), "vkCmdEndRenderPass2": (1, 2),
+    "vkCmdBeginRendering": (1, 3), "vkCmdEndRendering": (1, 3), "vkCmdPipelineBarrier2": (1, 3),
+}  # fmt: skip
+
+
+def formats(physical: Any) -> dict[str, dict[str, int]]:
+    """What can be rendered to, by the VkFormat's number: `features` and `linear` are VkFormatFeatureFlags of both tilings, `counts` the
+    sample counts of attachments, `sampled`, `storage`, `input` and `transient` those with that usage too (0: not at all)."""
+    vk = load()
+    found = {}
+    for number in range(1, MOST_FORMATS):
+        features = vk.vkGetPhysicalDeviceFormatProperties(physical, number)
+        own = {"features": features.optimalTilingFeatures, "linear": features.linearTilingFeatures}
+        attachment = 0x10 if own["features"] & 0x80 else 0x20 if own["features"] & 0x200 else 0
+        if attachment:
+            for name, usage in FORMAT_USAGES.items():
+                own["counts" if name == "attachment" else name] = _counts(physical, number, attachment | usage)
+        if attachment or own["features"]:
+            found[str(number)] = own
+    return found
+
+
+def _counts(physical: Any, number: int, usage: int) -> int:
+    try:
+        counts: int = load().vkGetPhysicalDeviceImageFormatProperties(physical, number, 1, 0, usage, 0).sampleCounts
+        return counts
+    except VulkanError:
+        return 0

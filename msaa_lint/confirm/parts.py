@@ -1,0 +1,279 @@
+"""The parts of a plan: what is created and recorded, in Vulkan's integers, as it goes to the child process.
+
+A plan is made of named tuples of numbers, texts and one another; `to_json` and `from_json` carry it over a pipe. An index of -1 is none.
+"""
+
+# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+NONE = -1
+
+RENDER_PASS = "renderPass"
+RENDERING = "rendering"
+FRAME = "frame"
+"""Kinds of passes. `frame` stands for a description without any: its images, pipelines and commands."""
+
+COLOR, DEPTH, STENCIL = 1, 2, 4
+"""VkImageAspectFlagBits."""
+
+TRANSIENT, SAMPLED, STORAGE, TRANSFER_SOURCE, TRANSFER_TARGET = 0x40, 0x4, 0x8, 0x1, 0x2
+COLOR_ATTACHMENT, DEPTH_ATTACHMENT, INPUT_ATTACHMENT = 0x10, 0x20, 0x80
+"""VkImageUsageFlagBits."""
+
+LOAD, CLEAR, LOAD_DONT_CARE = 0, 1, 2
+STORE, STORE_DONT_CARE = 0, 1
+"""VkAttachmentLoadOp and VkAttachmentStoreOp."""
+
+
+class Image(NamedTuple):
+    """An image. `width` to `layers` are as described; `numeric` is the colour's type (`SFLOAT`, `UINT`, ..., empty without colour), `bytes`
+    what a texel takes, `lazy` asks for lazily allocated memory where there is such."""
+
+    name: str
+    format: int
+    samples: int
+    usage: int
+    width: int
+    height: int
+    depth: int
+    layers: int
+    levels: int
+    type: int
+    tiling: int
+    flags: int
+    lazy: bool
+    aspects: int
+    numeric: str
+    bytes: int = 4
+
+
+class Attachment(NamedTuple):
+    """VkAttachmentDescription2; the layouts of stencil alone are -1 where they are those of the whole."""
+
+    format: int
+    samples: int
+    flags: int
+    load: int
+    store: int
+    stencil_load: int
+    stencil_store: int
+    initial: int
+    final: int
+    stencil_initial: int = NONE
+    stencil_final: int = NONE
+
+
+class Reference(NamedTuple):
+    """VkAttachmentReference2."""
+
+    attachment: int
+    layout: int = 0
+    aspects: int = 0
+
+
+class Subpass(NamedTuple):
+    """VkSubpassDescription2. `depth_stencil` and `depth_resolve` hold one reference or none; `single_sampled` is the count of
+    VkMultisampledRenderToSingleSampledInfoEXT, 0 without."""
+
+    flags: int = 0
+    inputs: tuple[Reference, ...] = ()
+    colors: tuple[Reference, ...] = ()
+    resolves: tuple[Reference, ...] = ()
+    depth_stencil: tuple[Reference, ...] = ()
+    depth_resolve: tuple[Reference, ...] = ()
+    depth_mode: int = 0
+    stencil_mode: int = 0
+    preserves: tuple[int, ...] = ()
+    view_mask: int = 0
+    single_sampled: int = 0
+
+
+class Dependency(NamedTuple):
+    """VkSubpassDependency2; masks are those of the second synchronization version."""
+
+    source: int
+    target: int
+    source_stages: int
+    target_stages: int
+    source_accesses: int
+    target_accesses: int
+    flags: int
+    view_offset: int
+
+
+class Rendered(NamedTuple):
+    """VkRenderingAttachmentInfo. `role` is color, depth or stencil; an unused slot has no image."""
+
+    role: str
+    image: int = NONE
+    layout: int = 0
+    mode: int = 0
+    resolve_image: int = NONE
+    resolve_layout: int = 0
+    load: int = LOAD_DONT_CARE
+    store: int = STORE
+
+
+class Framebuffer(NamedTuple):
+    """VkFramebufferCreateInfo, with images in place of views."""
+
+    images: tuple[int, ...]
+    width: int
+    height: int
+    layers: int
+
+
+class Blend(NamedTuple):
+    """VkPipelineColorBlendAttachmentState."""
+
+    enable: bool = False
+    mask: int = 15
+    source: int = 6
+    target: int = 7
+    operation: int = 0
+    source_alpha: int = 1
+    target_alpha: int = 7
+    alpha_operation: int = 0
+
+
+class Stage(NamedTuple):
+    """VkPipelineShaderStageCreateInfo with the SPIR-V at `path`; `constants` are (id, value) of its specialization."""
+
+    stage: int
+    path: str
+    name: str
+    constants: tuple[tuple[int, float], ...] = ()
+
+
+class Pipeline(NamedTuple):
+    """VkGraphicsPipelineCreateInfo. `subpass` is the one it is of; `formats` the attachments' in dynamic rendering, 0 for unused ones;
+    `sample_shading` the least share of samples that is shaded, -1 where it is off."""
+
+    name: str
+    subpass: int
+    samples: int
+    sample_shading: float = -1.0
+    mask: tuple[int, ...] = ()
+    alpha_to_coverage: bool = False
+    alpha_to_one: bool = False
+    dynamic: tuple[int, ...] = ()
+    depth_test: bool = False
+    depth_write: bool = False
+    depth_compare: int = 1
+    stencil_test: bool = False
+    blends: tuple[Blend, ...] = ()
+    numerics: tuple[str, ...] = ()
+    discard: bool = False
+    depth_clamp: bool = False
+    depth_bias: bool = False
+    polygon_mode: int = 0
+    formats: tuple[int, ...] = ()
+    depth_format: int = 0
+    stencil_format: int = 0
+    view_mask: int = 0
+    stages: tuple[Stage, ...] = ()
+
+
+class Inner(NamedTuple):
+    """What is recorded within a pass.
+
+    `draw` draws the scene by `pipeline`, over a backdrop where `backdrop`; `covers` says that it then writes to every pixel.
+    `read` puts `image` on every pixel, as a shader that reads it does; `samples` sets the dynamic count to `value`; `clear` clears.
+    """
+
+    kind: str
+    subpass: int
+    pipeline: int = NONE
+    backdrop: bool = False
+    covers: bool = False
+    image: int = NONE
+    value: int = 0
+    aspects: int = 0
+
+
+class Pass(NamedTuple):
+    """A render pass (`api` 1 or 2: by which structure it is created), a dynamic rendering, or the frame itself. `refused` says why no
+    device can run it, empty where one may."""
+
+    name: str
+    path: str
+    kind: str
+    api: int
+    refused: str = ""
+    flags: int = 0
+    attachments: tuple[Attachment, ...] = ()
+    subpasses: tuple[Subpass, ...] = ()
+    dependencies: tuple[Dependency, ...] = ()
+    rendered: tuple[Rendered, ...] = ()
+    framebuffers: tuple[Framebuffer, ...] = ()
+    pipelines: tuple[Pipeline, ...] = ()
+    layers: int = 1
+    view_mask: int = 0
+    single_sampled: int = 0
+    images: tuple[int, ...] = ()
+
+
+class Step(NamedTuple):
+    """What is recorded, in order: `begin` a pass with a framebuffer over an area (x, y, width, height), or a command outside of passes
+    (`resolve`, `copy`, `blit`, `clear`, `copyOut`, `barrier`, `present`) on images. `number` is the pass it is told with."""
+
+    kind: str
+    number: int
+    framebuffer: int = 0
+    area: tuple[int, ...] = ()
+    inner: tuple[Inner, ...] = ()
+    source: int = NONE
+    target: int = NONE
+    masks: tuple[int, ...] = ()
+    layouts: tuple[tuple[int, int, int], ...] = ()
+
+
+class Plan(NamedTuple):
+    """A frame. `steps` are recorded in their order; `defaults` say in words what was not described and what was taken for it;
+    `extensions` and `without` are what of a device must and must not be enabled; `reversed` that greater depths are nearer."""
+
+    file: str = ""
+    images: tuple[Image, ...] = ()
+    passes: tuple[Pass, ...] = ()
+    steps: tuple[Step, ...] = ()
+    defaults: tuple[str, ...] = ()
+    extensions: tuple[str, ...] = ()
+    without: tuple[str, ...] = ()
+    reversed: bool = False
+    hdr: bool = False
+
+
+def to_json(plan: Any) -> Any:
+    """A plan, or a part of one, as objects, lists, numbers and texts."""
+    if hasattr(plan, "_asdict"):
+        return {name: to_json(value) for name, value in plan._asdict().items()}
+    return [to_json(each) for each in plan] if isinstance(plan, tuple) else plan
+
+
+def from_json(data: Mapping[str, Any]) -> Plan:
+    """The plan that `to_json` gave. KeyError, TypeError or ValueError where it is none."""
+    made: Plan = _read(Plan, data)
+    return made
+
+
+_WITHIN: dict[str, type] = {
+    "images": Image, "passes": Pass, "steps": Step, "attachments": Attachment, "subpasses": Subpass, "dependencies": Dependency,
+    "rendered": Rendered, "framebuffers": Framebuffer, "pipelines": Pipeline, "inputs": Reference, "colors": Reference,
+    "resolves": Reference, "depth_stencil": Reference, "depth_resolve": Reference, "blends": Blend, "stages": Stage, "inner": Inner,
+}  # fmt: skip
+"""By the name of a member: what its elements are."""
+
+
+def _read(kind: Any, data: Mapping[str, Any]) -> Any:
+    members = {}
+    for name, value in data.items():
+        if isinstance(value, list):
+            part = _WITHIN.get(name)
+            value = tuple(_read(part, each) if part is not None and isinstance(each, dict) else _tuple(each) for each in value)
+        members[name] = value
+    return kind(**members)
+
+
+def _tuple(value: Any) -> Any:
+    return tuple(_tuple(each) for each in value) if isinstance(value, list) else value

@@ -1,0 +1,137 @@
+"""The picture as written against that of the fixed version: which images differ, by how many pixels, and where the first is."""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from .texels import Texels, aspect_of, format_name, format_of, texel_bytes, texels
+
+
+class Raw(NamedTuple):
+    """An image as it was read back."""
+
+    format: int
+    width: int
+    height: int
+    data: bytes
+    aspect: str = ""
+
+
+class Compared(NamedTuple):
+    """One image of both versions. `equal` is None where they are not compared, and `reason` says why.
+
+    `differing` of `pixels` differ; `first` is the first of them by rows. `greatest` is in steps of the format (codes of normalised and
+    integer components, units in the last place of floats). `tolerance` are the steps that the specification allows, `why` for what.
+    """
+
+    image: str
+    equal: bool | None
+    differing: int = 0
+    pixels: int = 0
+    first: tuple[int, int] | None = None
+    greatest: float = 0.0
+    tolerance: int = 0
+    why: str = ""
+    reason: str = ""
+
+    @property
+    def words(self) -> str:
+        """What is to be said of it, in one line."""
+        if self.equal is None:
+            return f"not compared: {self.reason}"
+        if not self.differing:
+            return f"the same, {self.pixels} pixels"
+        steps = "not a number" if math.isinf(self.greatest) else f"{self.greatest:.0f} step{'s' if self.greatest != 1 else ''}"
+        at = f"({self.first[0]}, {self.first[1]})" if self.first is not None else "?"
+        found = f"{self.differing} of {self.pixels} pixels differ, the first at {at}, by at most {steps}"
+        return f"{found}; {self.tolerance} allowed: {self.why}" if self.tolerance else found
+
+
+def compare(
+    as_written: Mapping[str, Raw], fixed: Mapping[str, Raw], tolerances: Mapping[str, tuple[int, str]] | None = None
+) -> list[Compared]:
+    """Every image of either version, in the order of their names.
+
+    `tolerances` give the steps that may lie between two right answers, and why: Vulkan does not say how an average is rounded. An image
+    that only one version leaves defined is not compared.
+    """
+    allowed = tolerances or {}
+    out = []
+    for name in sorted({*as_written, *fixed}):
+        before, after = as_written.get(name), fixed.get(name)
+        if before is None or after is None:
+            left = "the fixed version" if after is None else "the version as written"
+            out.append(Compared(name, None, reason=f"{left} leaves nothing defined in it"))
+        else:
+            out.append(_compare(name, before, after, *allowed.get(name, (0, ""))))
+    return out
+
+
+def _compare(name: str, before: Raw, after: Raw, tolerance: int, why: str) -> Compared:
+    if (before.format, before.width, before.height) != (after.format, after.width, after.height):
+        return Compared(name, None, reason="its format or size is another in the fixed version")
+    form = format_of(format_name(before.format))
+    size = texel_bytes(form, aspect_of(form, before.aspect)) if form is not None else 0
+    if not size or not before.width:
+        return Compared(name, None, reason="its format cannot be compared")
+    if len(before.data) != len(after.data) or len(before.data) % (size * before.width):
+        return Compared(name, None, reason="it did not come back whole")
+    count = len(before.data) // size
+    one, other = _masked(before, form), _masked(after, form)
+    if one == other:
+        return Compared(name, True, 0, count, tolerance=tolerance, why=why)
+    places = [n for n in range(count) if one[n * size : (n + 1) * size] != other[n * size : (n + 1) * size]]
+    greatest = _greatest(before, after, places)
+    first = places[0] % before.width, places[0] // before.width
+    return Compared(name, greatest <= tolerance, len(places), count, first, greatest, tolerance, why)
+
+
+def _masked(raw: Raw, form: object) -> bytes:
+    """The bytes that mean something: of 24-bit depth in 32 bits the highest eight do not."""
+    if getattr(form, "depth_bits", 0) == 24 and raw.aspect != "stencil":
+        data = bytearray(raw.data)
+        data[3::4] = bytes(len(data) // 4)
+        return bytes(data)
+    return raw.data
+
+
+def _greatest(before: Raw, after: Raw, places: list[int]) -> float:
+    """The greatest difference among some texels, in steps of the format."""
+    one, other = read(before), read(after)
+    if one is None or other is None:
+        return math.inf
+    steps = 0.0
+    for name, plane in one.planes.items():
+        values = other.planes[name]
+        steps = max(steps, max((_steps(plane[n], values[n], one, name) for n in places), default=0.0))
+    return steps
+
+
+def _steps(a: float, b: float, of: Texels, component: str) -> float:
+    if of.numeric not in ("SFLOAT", "UFLOAT"):
+        return abs(a - b)
+    if a == b or (math.isnan(a) and math.isnan(b)):
+        return 0.0
+    if not (math.isfinite(a) and math.isfinite(b)):
+        return math.inf
+    bits = of.bits[component]
+    if bits in (10, 11) or of.numeric == "UFLOAT":
+        # Both are exact in a half float, whose last place is 2^(bits of its mantissa - theirs) of theirs.
+        return abs(_ordered(a, 16) - _ordered(b, 16)) / (1 << (15 - bits if bits in (10, 11) else 1))
+    return float(abs(_ordered(a, bits) - _ordered(b, bits)))
+
+
+def _ordered(value: float, bits: int) -> int:
+    """A float's place among all floats of its width: neighbours are 1 apart, and both zeros are 0."""
+    form, whole = {16: ("<e", "<h"), 32: ("<f", "<i"), 64: ("<d", "<q")}[bits]
+    (code,) = struct.unpack(whole, struct.pack(form, value))
+    return int(code) if code >= 0 else -(int(code) + (1 << (bits - 1)))
+
+
+def read(raw: Raw) -> Texels | None:
+    """An image's components; None where its format has none that can be shown."""
+    form = format_of(format_name(raw.format))
+    return texels(form, raw.data, raw.width, raw.aspect) if form is not None else None

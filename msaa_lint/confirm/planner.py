@@ -1,0 +1,43 @@
+"""Plans, the gate and the agreement, as a trial asks for them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from ..facts.frame import Frame
+from . import plan
+from .agreement import agreement
+from .inputs import Input
+from .looking import kind, looking
+from .messages import Message
+from .planned import Planned, PlannedPass, Planner, Told
+from .verdict import Said
+
+
+class Plans:
+    """Plans by `plan.plan`; `api` is the version of the structures of render passes, None the one that a description can have."""
+
+    def __init__(self, api: int | None = None) -> None:
+        self.api = api
+
+    def plan(self, frame: Frame, file: str, size: tuple[int, int] | None, samples: int | None) -> Planned:
+        made = plan.plan(frame, file=file, size=size, samples=samples, api=self.api)
+        passes = [PlannedPass(each.name, each.path, each.refused, kind(each.api, each.kind != "renderPass")) for each in made.passes]
+        return Planned(plan.to_json(made), made, passes, made.defaults)
+
+    def gate(self, planned: Planned, device: Mapping[str, Any]) -> dict[int, str]:
+        from . import gate
+
+        return gate.gate(planned.own, device)
+
+    def rows(self, input: Input, planned: Planned, told: Told) -> Mapping[int, Sequence[Said]]:
+        kinds = {number: planned.passes[number].kind for number in told.numbers}
+        names = {number: planned.passes[number].name for number in told.numbers}
+        messages = [Message(each["id"], each["text"], str(each.get("severity", "warning")), each.get("pass")) for each in told.messages]
+        at = looking(told.layer, told.device, kinds, told.vendors)
+        found = agreement(input.frame, names, [*input.findings, *input.silenced], messages, at, input.undecided, input.device)
+        return {n: [Said(row.verdict, row.id, row.family, row.rule, row.text, row.reason) for row in rows] for n, rows in found.items()}
+
+
+PLANNER: Planner = Plans()

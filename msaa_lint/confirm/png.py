@@ -1,0 +1,220 @@
+"""Pictures for people: PNG files of images as written, fixed, their difference, and an edge enlarged. No library but zlib."""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import struct
+import zlib
+from typing import NamedTuple
+
+from .results import NotWritten
+from .texels import Plane, Texels
+
+EDGE = 16
+"""Pixels, each way, of what is enlarged, and how many each of them becomes."""
+
+_GAP = 8
+_LEVELS = 1 << 14
+
+
+class Picture(NamedTuple):
+    """Pixels of three bytes, red, green, blue, as a display takes them (sRGB)."""
+
+    width: int
+    height: int
+    rgb: bytes
+
+
+def png(picture: Picture) -> bytes:
+    """A picture as a PNG file (ISO/IEC 15948): 8-bit RGB, marked as sRGB; the same picture gives the same bytes."""
+    row = picture.width * 3
+    lines = b"".join(b"\0" + picture.rgb[n * row : (n + 1) * row] for n in range(picture.height))
+    header = struct.pack(">IIBBBBB", picture.width, picture.height, 8, 2, 0, 0, 0)
+    chunks = [(b"IHDR", header), (b"sRGB", b"\0"), (b"IDAT", zlib.compress(lines, 6)), (b"IEND", b"")]
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in chunks
+    )
+
+
+def encoded(linear: float) -> float:
+    """The sRGB code, 0 to 1, of linear light (IEC 61966-2-1); what is out of range is clamped, what is no number is 0."""
+    if not linear > 0:
+        return 0.0
+    return linear * 12.92 if linear <= 0.0031308 else min(1.055 * linear ** (1 / 2.4) - 0.055, 1.0)
+
+
+def picture(image: Texels) -> Picture:
+    """An image as a display shows it.
+
+    Stored codes of UNORM and sRGB formats are what a display takes. Floats are linear light, clamped and encoded. Integers, depth and
+    stencil are grey or coloured from their least to their greatest value. Alpha is left out.
+    """
+    scale = _scale(image)
+    planes = {name: _codes(plane, image, name, scale) for name, plane in image.planes.items() if name in "RGBDS"}
+    grey = planes.get("D") or planes.get("S") or (planes.get("R") if len(planes) == 1 else None)
+    count = image.width * image.height
+    black = bytes(count)
+    rgb = bytearray(3 * count)
+    for n, name in enumerate("RGB"):
+        rgb[n::3] = grey if grey is not None else planes.get(name, black)
+    return Picture(image.width, image.height, bytes(rgb))
+
+
+def _scale(image: Texels) -> tuple[float, float]:
+    """The least and greatest value of what is shown from one to the other."""
+    if image.aspect == "color" and image.numeric not in ("UINT", "SINT"):
+        return 0.0, 0.0
+    values = [v for name, plane in image.planes.items() if name != "A" for v in (min(plane), max(plane)) if math.isfinite(v)]
+    return (min(values), max(values)) if values else (0.0, 0.0)
+
+
+def _codes(plane: Plane, image: Texels, component: str, scale: tuple[float, float]) -> bytes:
+    low, high = scale
+    if high > low:
+        return bytes(_code((value - low) / (high - low)) for value in plane)
+    if image.aspect != "color" or image.numeric in ("UINT", "SINT"):
+        return bytes(len(plane))
+    bits = image.bits[component]
+    if image.numeric in ("UNORM", "SRGB"):
+        if bits == 8:
+            return bytes(bytearray(int(value) for value in plane)) if not isinstance(plane, bytes) else plane
+        most = (1 << bits) - 1
+        return bytes(_code(value / most) for value in plane)
+    if image.numeric == "SNORM":
+        most = (1 << (bits - 1)) - 1
+        return bytes(_code(value / most) for value in plane)
+    return bytes(_OF_LIGHT[_level(value)] for value in plane)
+
+
+def _level(value: float) -> int:
+    return 0 if not value > 0 else _LEVELS if value >= 1 else int(value * _LEVELS + 0.5)
+
+
+def _code(share: float) -> int:
+    return 0 if not share > 0 else 255 if share >= 1 else int(share * 255 + 0.5)
+
+
+_OF_LIGHT = bytes(_code(encoded(n / _LEVELS)) for n in range(_LEVELS + 1))
+"""Codes of linear light in 16384 steps: the steepest part of the curve has one code for five of them."""
+
+
+def difference(before: Texels, after: Texels) -> Picture:
+    """Where two images differ: black where they do not, else their difference, scaled so that the greatest is white.
+
+    The least is still plainly seen, and so is one that only alpha has.
+    """
+    count = before.width * before.height
+    amounts = [0.0] * count
+    for name, plane in before.planes.items():
+        for n, (a, b) in enumerate(zip(plane, after.planes[name], strict=True)):
+            if a != b and not (a != a and b != b):
+                apart = abs(a - b)
+                amounts[n] = max(amounts[n], apart if math.isfinite(apart) else 0.0, 5e-324)
+    most = max(amounts, default=0.0)
+    codes = bytes(0 if not amount else 64 + int(191 * (amount / most)) for amount in amounts)
+    rgb = bytearray(3 * count)
+    for n in range(3):
+        rgb[n::3] = codes
+    return Picture(before.width, before.height, bytes(rgb))
+
+
+def edge(picture: Picture) -> tuple[int, int]:
+    """The corner of the part of a picture with the most different colours: an edge, smoothed if anything is."""
+    best, at = 0, (0, 0)
+    for y in range(0, max(picture.height - EDGE, 0) + 1, EDGE // 2):
+        for x in range(0, max(picture.width - EDGE, 0) + 1, EDGE // 2):
+            colours = len(set(_pixels(picture, x, y)))
+            if colours > best:
+                best, at = colours, (x, y)
+    return at
+
+
+def around(picture: Picture, place: tuple[int, int]) -> tuple[int, int]:
+    """The corner of the part that has a pixel in its middle, as far as the picture goes."""
+    x, y = place
+    return max(min(x - EDGE // 2, picture.width - EDGE), 0), max(min(y - EDGE // 2, picture.height - EDGE), 0)
+
+
+def _pixels(picture: Picture, x: int, y: int) -> list[bytes]:
+    wide = min(EDGE, picture.width - x)
+    rows = (((y + n) * picture.width + x) * 3 for n in range(min(EDGE, picture.height - y)))
+    return [picture.rgb[row + 3 * n : row + 3 * n + 3] for row in rows for n in range(wide)]
+
+
+def enlarged(pictures: list[Picture], corner: tuple[int, int]) -> Picture:
+    """The same part of pictures of one size, each pixel sixteen wide and high, beside each other."""
+    x, y = corner
+    first = pictures[0]
+    wide, high = min(EDGE, first.width - x), min(EDGE, first.height - y)
+    lines = []
+    for n in range(high):
+        line = bytearray()
+        for number, each in enumerate(pictures):
+            if number:
+                line += b"\x80" * (3 * _GAP)
+            row = ((y + n) * each.width + x) * 3
+            for m in range(wide):
+                line += each.rgb[row + 3 * m : row + 3 * m + 3] * EDGE
+        lines.append(bytes(line) * EDGE)
+    return Picture((wide * EDGE + _GAP) * len(pictures) - _GAP, high * EDGE, b"".join(lines))
+
+
+def file_name(*parts: str) -> str:
+    """A file's name from names of an input: letters, digits, `.`, `-`, `_`; nothing hidden or that leads elsewhere; none too long."""
+    clean = [re.sub(r"[^A-Za-z0-9._-]+", "_", part.replace(os.sep, "-").replace("/", "-"))[-60:].strip("._-") or "_" for part in parts]
+    return "-".join(clean)[-200:]
+
+
+class Album:
+    """A folder of pictures. What is in it under a name is replaced, never followed where it is a link. NotWritten where it cannot be."""
+
+    def __init__(self, folder: str) -> None:
+        self.folder = folder
+        self.written: list[str] = []
+        try:
+            os.makedirs(folder, exist_ok=True)
+        except OSError as error:
+            raise NotWritten(f"no pictures can be written to {folder}: {error.strerror}") from None
+
+    def write(self, picture: Picture, *parts: str) -> str:
+        """Writes a picture and gives its path. Names that come out the same are told apart by a number."""
+        stem = file_name(*parts)
+        name, count = f"{stem}.png", 1
+        while name.lower() in self.written:
+            count += 1
+            name = f"{stem}-{count}.png"
+        self.written.append(name.lower())
+        path = os.path.join(self.folder, name)
+        try:
+            _replace(path, png(picture))
+        except OSError as error:
+            raise NotWritten(f"{path} cannot be written: {error.strerror}") from None
+        return path
+
+
+def _replace(path: str, data: bytes) -> None:
+    beside = f"{path}.{os.getpid()}.tmp"
+    descriptor = os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o644)
+    try:
+        with os.fdopen(descriptor, "wb") as file:
+            file.write(data)
+        os.replace(beside, path)
+    except BaseException:
+        os.unlink(beside)
+        raise
+
+
+def show(album: Album, stem: tuple[str, ...], before: Texels, after: Texels | None, first: tuple[int, int] | None) -> list[str]:
+    """The pictures of one image: as written; and where there is a fixed version that, the difference, and an edge of all three."""
+    as_written = picture(before)
+    paths = [album.write(as_written, *stem, "as-written")]
+    beside = [as_written]
+    if after is not None and (after.width, after.height) == (before.width, before.height) and after.planes.keys() == before.planes.keys():
+        fixed, apart = picture(after), difference(before, after)
+        paths += [album.write(fixed, *stem, "fixed"), album.write(apart, *stem, "difference")]
+        beside += [fixed, apart]
+    corner = around(as_written, first) if first is not None else edge(as_written)
+    paths.append(album.write(enlarged(beside, corner), *stem, "edge"))
+    return paths

@@ -1,0 +1,114 @@
+"""What images hold, brought back: their texels as they are stored, and single samples of multisampled ones."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from .build import CACHED, COHERENT, HOST_VISIBLE, Built
+from .draw import Recorder
+from .layouts import DEPTH_READ_LAYOUT, READ_LAYOUT, SOURCE_LAYOUT
+from .opening import Tell
+from .parts import COLOR, DEPTH, STENCIL, TRANSFER_SOURCE, Image
+from .submit import Submitter
+
+MOST_BYTES = 256 << 20
+"""Bytes of one image that are brought back."""
+
+DEPTH_BYTES = {124: 2, 128: 2, 125: 4, 126: 4, 129: 4, 130: 4}
+"""By the VkFormat's number: bytes of a texel's depth in a buffer."""
+
+NAMES = {COLOR: "", DEPTH: "", STENCIL: "stencil"}
+
+
+class Buffer:
+    """Memory that the device writes and we read."""
+
+    def __init__(self, built: Built, size: int, usage: int) -> None:
+        self.built, self.size = built, size
+        vk, handle = built.vk, built.opened.handle
+        self.handle = vk.vkCreateBuffer(handle, vk.VkBufferCreateInfo(size=size, usage=usage), None)
+        needs = vk.vkGetBufferMemoryRequirements(handle, self.handle)
+        visible = HOST_VISIBLE | COHERENT
+        kind = built.opened.memory_type(needs.memoryTypeBits, visible | CACHED, visible)
+        self.memory = vk.vkAllocateMemory(handle, vk.VkMemoryAllocateInfo(allocationSize=needs.size, memoryTypeIndex=kind), None)
+        vk.vkBindBufferMemory(handle, self.handle, self.memory, 0)
+
+    def write_to(self, path: str) -> None:
+        """Its bytes, into a file."""
+        vk, handle = self.built.vk, self.built.opened.handle
+        mapped = vk.vkMapMemory(handle, self.memory, 0, self.size, 0)
+        try:
+            with open(path, "wb") as file:
+                file.write(mapped)
+        finally:
+            vk.vkUnmapMemory(handle, self.memory)
+
+    def close(self) -> None:
+        """Destroys it."""
+        vk, handle = self.built.vk, self.built.opened.handle
+        vk.vkDestroyBuffer(handle, self.handle, None)
+        vk.vkFreeMemory(handle, self.memory, None)
+
+
+def texel_bytes(image: Image, aspect: int) -> int:
+    """Bytes of a texel's aspect in a buffer; 0 where they are not known."""
+    if aspect == STENCIL:
+        return 1
+    return DEPTH_BYTES.get(image.format, 0) if aspect == DEPTH else image.bytes
+
+
+def bring_back(recorder: Recorder, submitter: Submitter, folder: str, tell: Tell) -> None:
+    """Writes every image that holds what is defined into a file, and tells of it. The images are left as they are for nothing after."""
+    built, vk = recorder.built, recorder.vk
+    taken: list[tuple[int, int, Buffer]] = []
+    buffer = submitter.begin()
+    recorder.layouts.fence(buffer)
+    for number, aspect in recorder.contents.outputs():
+        image = built.plan.images[number]
+        size = texel_bytes(image, aspect) * image.width * image.height * image.layers
+        if not size or size > MOST_BYTES or number not in built.images or not _source(built, number):
+            continue
+        target = Buffer(built, size, 2)
+        taken.append((number, aspect, target))
+        recorder.layouts.into(buffer, [(number, SOURCE_LAYOUT, None)])
+        layers = vk.VkImageSubresourceLayers(aspectMask=aspect, mipLevel=0, baseArrayLayer=0, layerCount=image.layers)
+        region = vk.VkBufferImageCopy(imageSubresource=layers, imageExtent=vk.VkExtent3D(image.width, image.height, 1))
+        vk.vkCmdCopyImageToBuffer(buffer, built.image(number), SOURCE_LAYOUT, target.handle, 1, [region])
+    submitter.end(buffer)
+    for number, aspect, target in taken:
+        image = built.plan.images[number]
+        stencil = aspect == STENCIL and image.aspects != STENCIL
+        path = os.path.join(folder, f"{number}{'-stencil' if stencil else ''}.raw")
+        target.write_to(path)
+        target.close()
+        found = {"event": "pixels", "image": f"{image.name}:stencil" if stencil else image.name, "format": image.format}
+        tell({**found, "width": image.width, "height": image.height * image.layers, "path": path, "aspect": NAMES[aspect]})
+
+
+def _source(built: Built, number: int) -> bool:
+    return bool((built.plan.images[number].usage | built.more_usage.get(number, 0)) & TRANSFER_SOURCE)
+
+
+def bring_samples(recorder: Recorder, submitter: Submitter, number: int, folder: str, tell: Tell) -> None:
+    """Writes every sample of a multisampled image into a file: four 32-bit floats a sample, sample after sample, rows from the top."""
+    built, vk, opened = recorder.built, recorder.vk, recorder.built.opened
+    image = built.plan.images[number]
+    target = Buffer(built, image.width * image.height * image.samples * 16, 0x20)
+    layout, set_layout = opened.layout("samples")
+    stage = vk.VkPipelineShaderStageCreateInfo(stage=32, module=opened.module("samples.comp"), pName="main")
+    create = vk.VkComputePipelineCreateInfo(stage=stage, layout=layout)
+    pipeline = built.own(vk.vkDestroyPipeline, vk.vkCreateComputePipelines(opened.handle, None, 1, [create], None)[0])
+    buffer = submitter.begin()
+    recorder.layouts.fence(buffer)
+    recorder.layouts.into(buffer, [(number, READ_LAYOUT if image.aspects & COLOR else DEPTH_READ_LAYOUT, None)])
+    vk.vkCmdBindPipeline(buffer, 1, pipeline)
+    descriptor: Any = recorder.descriptor(set_layout, number, target.handle)
+    vk.vkCmdBindDescriptorSets(buffer, 1, layout, 0, 1, [descriptor], 0, None)
+    vk.vkCmdDispatch(buffer, -(-image.width // 8), -(-image.height // 8), 1)
+    submitter.end(buffer)
+    path = os.path.join(folder, f"{number}-samples.raw")
+    target.write_to(path)
+    target.close()
+    own = {"width": image.width, "height": image.height, "samples": image.samples, "format": image.format, "path": path}
+    tell({"event": "sample", "image": image.name, **own})

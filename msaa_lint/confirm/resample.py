@@ -1,0 +1,124 @@
+"""Plans of another size or with another sample count."""
+
+from __future__ import annotations
+
+from .parts import NONE, STORE, Framebuffer, Image, Pass, Pipeline, Plan, Reference, Step, Subpass
+
+LARGEST = 512
+"""Texels of the longer side of a picture."""
+
+
+def resized(plan: Plan, size: tuple[int, int]) -> Plan:
+    """A plan whose largest pass is of a size in pixels, everything else in proportion."""
+    width = max([f.width for each in plan.passes for f in each.framebuffers] or [i.width for i in plan.images] or [1])
+    height = max([f.height for each in plan.passes for f in each.framebuffers] or [i.height for i in plan.images] or [1])
+    return _scaled(plan, (size[0], width), (size[1], height))
+
+
+def pictured(plan: Plan, largest: int = LARGEST) -> Plan:
+    """A plan for a picture: at most `largest` texels on each side, in the described proportion."""
+    side = max([max(i.width, i.height) for i in plan.images] or [1])
+    return plan if side <= largest else _scaled(plan, (largest, side), (largest, side))
+
+
+def _scaled(plan: Plan, by_x: tuple[int, int], by_y: tuple[int, int]) -> Plan:
+    def across(value: int) -> int:
+        return max(1, value * by_x[0] // by_x[1])
+
+    def down(value: int) -> int:
+        return max(1, value * by_y[0] // by_y[1])
+
+    def image(each: Image) -> Image:
+        width, height = across(each.width), down(each.height) if each.type else each.height
+        levels = min(each.levels, max(width, height, each.depth).bit_length()) if each.levels <= _most_levels(each) else each.levels
+        return each._replace(width=width, height=height, levels=levels)
+
+    def framebuffer(each: Framebuffer) -> Framebuffer:
+        return each._replace(width=across(each.width), height=down(each.height))
+
+    def step(each: Step) -> Step:
+        if not each.area:
+            return each
+        x, y, width, height = each.area
+        left, top = x * by_x[0] // by_x[1], y * by_y[0] // by_y[1]
+        return each._replace(area=(left, top, max(1, across(x + width) - left), max(1, down(y + height) - top)))
+
+    passes = tuple(each._replace(framebuffers=tuple(map(framebuffer, each.framebuffers))) for each in plan.passes)
+    return plan._replace(images=tuple(map(image, plan.images)), passes=passes, steps=tuple(map(step, plan.steps)))
+
+
+def _most_levels(image: Image) -> int:
+    """The levels of a whole chain."""
+    return max(image.width, image.height, image.depth).bit_length()
+
+
+def resampled(plan: Plan, samples: int) -> Plan:
+    """A plan with `samples` wherever several are described.
+
+    With one sample a pass draws to what it resolves to, and a command that resolves copies.
+    """
+
+    def count(stated: int) -> int:
+        return samples if stated > 1 else stated
+
+    def made(each: Pass) -> Pass:
+        each = each._replace(
+            attachments=tuple(a._replace(samples=count(a.samples)) for a in each.attachments),
+            pipelines=tuple(_counted(p, samples) for p in each.pipelines),
+            single_sampled=count(each.single_sampled),
+            subpasses=tuple(s._replace(single_sampled=count(s.single_sampled)) for s in each.subpasses),
+        )
+        return _unresolved(each) if samples == 1 else each
+
+    steps = plan.steps
+    if samples == 1:
+        steps = tuple(step._replace(kind="copy") if step.kind == "resolve" else step for step in steps)
+    images = tuple(_image(each, samples) for each in plan.images)
+    return plan._replace(images=images, passes=tuple(map(made, plan.passes)), steps=steps)
+
+
+def _image(each: Image, samples: int) -> Image:
+    return each._replace(samples=samples) if each.samples > 1 else each
+
+
+def _counted(each: Pipeline, samples: int) -> Pipeline:
+    return each._replace(samples=samples) if each.samples > 1 else each
+
+
+def _unresolved(each: Pass) -> Pass:
+    """A pass of one sample, drawing to what it resolves to."""
+    instead: dict[int, int] = {}
+    for subpass in each.subpasses:
+        for color, resolved in zip(subpass.colors, subpass.resolves, strict=False):
+            if NONE not in (color.attachment, resolved.attachment):
+                instead.setdefault(color.attachment, resolved.attachment)
+        for depth, resolved in zip(subpass.depth_stencil, subpass.depth_resolve, strict=False):
+            if subpass.depth_mode or subpass.stencil_mode:
+                instead.setdefault(depth.attachment, resolved.attachment)
+    attachments = list(each.attachments)
+    for source, target in instead.items():
+        own, other = attachments[source], attachments[target]
+        attachments[target] = other._replace(load=own.load, stencil_load=own.stencil_load, initial=own.initial, store=STORE)
+
+    def reference(stated: Reference) -> Reference:
+        return stated._replace(attachment=instead.get(stated.attachment, stated.attachment))
+
+    def subpass_of(own: Subpass) -> Subpass:
+        return own._replace(
+            colors=tuple(map(reference, own.colors)),
+            inputs=tuple(map(reference, own.inputs)),
+            depth_stencil=tuple(map(reference, own.depth_stencil)),
+            resolves=(),
+            depth_resolve=(),
+            depth_mode=0,
+            stencil_mode=0,
+            preserves=tuple(dict.fromkeys(instead.get(p, p) for p in own.preserves)),
+        )
+
+    rendered = tuple(
+        r._replace(image=r.resolve_image, resolve_image=NONE, mode=0, layout=r.resolve_layout, store=STORE)
+        if r.resolve_image != NONE and r.mode
+        else r._replace(mode=0)
+        for r in each.rendered
+    )
+    return each._replace(attachments=tuple(attachments), subpasses=tuple(map(subpass_of, each.subpasses)), rendered=rendered)

@@ -1,0 +1,73 @@
+"""Command buffers, submitted and waited for, and how long the device took."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+from .opening import Opened
+
+BOTTOM, TOP = 0x2000, 0x1
+"""VkPipelineStageFlagBits."""
+
+FOREVER = 0xFFFFFFFFFFFFFFFF
+
+
+class Submitter:
+    """Records and submits, one command buffer at a time."""
+
+    def __init__(self, opened: Opened, timed: bool = False) -> None:
+        self.opened = opened
+        self.vk = vk = opened.vk
+        allocate = vk.VkCommandBufferAllocateInfo(commandPool=opened.pool, level=0, commandBufferCount=1)
+        self.buffer = vk.vkAllocateCommandBuffers(opened.handle, allocate)[0]
+        self.fence = vk.vkCreateFence(opened.handle, vk.VkFenceCreateInfo(), None)
+        self.queries: Any = None
+        if timed and opened.device.timestamp_bits:
+            self.queries = vk.vkCreateQueryPool(opened.handle, vk.VkQueryPoolCreateInfo(queryType=2, queryCount=2), None)
+        self.source = "timestamp" if self.queries is not None else "wall"
+        self.mask = (1 << opened.device.timestamp_bits) - 1
+        self.period: float = opened.session.device["properties"]["limits"]["timestampPeriod"]
+
+    def begin(self) -> Any:
+        """A command buffer to record into."""
+        self.vk.vkResetCommandPool(self.opened.handle, self.opened.pool, 0)
+        self.vk.vkBeginCommandBuffer(self.buffer, self.vk.VkCommandBufferBeginInfo(flags=1))
+        if self.queries is not None:
+            self.vk.vkCmdResetQueryPool(self.buffer, self.queries, 0, 2)
+        return self.buffer
+
+    def start(self) -> None:
+        """Records where the device's clock is read first."""
+        if self.queries is not None:
+            self.vk.vkCmdWriteTimestamp(self.buffer, BOTTOM, self.queries, 0)
+
+    def stop(self) -> None:
+        """Records where the device's clock is read last."""
+        if self.queries is not None:
+            self.vk.vkCmdWriteTimestamp(self.buffer, BOTTOM, self.queries, 1)
+
+    def end(self, buffer: Any, timed: bool = False) -> float:
+        """Submits and waits: milliseconds between `start` and `stop`, without a clock of the device those of submitting and waiting."""
+        vk, opened = self.vk, self.opened
+        vk.vkEndCommandBuffer(buffer)
+        before = time.perf_counter()
+        vk.vkQueueSubmit(opened.queue, 1, [vk.VkSubmitInfo(pCommandBuffers=[buffer])], self.fence)
+        vk.vkWaitForFences(opened.handle, 1, [self.fence], 1, FOREVER)
+        passed = (time.perf_counter() - before) * 1000
+        vk.vkResetFences(opened.handle, 1, [self.fence])
+        if not timed or self.queries is None:
+            return passed
+        read = vk.ffi.new("uint64_t[2]")
+        # With 64 bits each, once they are there.
+        vk.vkGetQueryPoolResults(opened.handle, self.queries, 0, 2, 16, read, 8, 3)
+        passed = float((read[1] - read[0]) & self.mask)
+        return passed * self.period / 1e6
+
+    def close(self) -> None:
+        """Destroys its own."""
+        vk, handle = self.vk, self.opened.handle
+        vk.vkDestroyFence(handle, self.fence, None)
+        if self.queries is not None:
+            vk.vkDestroyQueryPool(handle, self.queries, None)
+        vk.vkFreeCommandBuffers(handle, self.opened.pool, 1, [self.buffer])
