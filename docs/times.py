@@ -49,8 +49,9 @@ def main() -> None:
                 continue
             times = each["time_ms"]
             told = times.get("difference") or {}
-            words = told.get("words", "") if isinstance(told, dict) else str(told)
-            print(f"| {samples} | {name} | {each['name']} | {cell(times['as_written'])} | {cell(times.get('fixed'))} | {words} |")
+            print(
+                f"| {samples} | {name} | {each['name']} | {cell(times['as_written'])} | {cell(times.get('fixed'))} | {told.get('says', '')} |"
+            )
     print(f"\n{device.get('name')}, {device.get('driver')}, {arguments.size}, {arguments.repeats} repeats: median and its 95 % interval.")
 
 

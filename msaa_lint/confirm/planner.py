@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..facts.frame import Frame
-from . import plan
+from . import gate, plan
 from .agreement import agreement
 from .inputs import Input
 from .looking import kind, looking
@@ -27,8 +27,6 @@ class Plans:
         return Planned(plan.to_json(made), made, passes, made.defaults)
 
     def gate(self, planned: Planned, device: Mapping[str, Any]) -> dict[int, str]:
-        from . import gate
-
         return gate.gate(planned.own, device)
 
     def rows(self, input: Input, planned: Planned, told: Told) -> Mapping[int, Sequence[Said]]:

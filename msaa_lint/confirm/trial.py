@@ -58,9 +58,11 @@ def trial(
     asked = session.name or ""
     try:
         session.start()
+        # Imports what planning needs while the device opens.
+        planner = planner or _planner()
         found = inputs()
         session.meanwhile = meanwhile
-        this = _Trial(session, terms, session.open(), planner or _planner())
+        this = _Trial(session, terms, session.open(), planner)
         verdicts = [verdict for each in found for verdict in this.input(each)]
     except Unusable as error:
         return DeviceRun(None, unusable=str(error), asked=asked)
