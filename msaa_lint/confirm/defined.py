@@ -15,6 +15,7 @@ class Contents:
     def __init__(self, plan: Plan) -> None:
         self.plan = plan
         self.known: set[Key] = set()
+        self.suspended: set[Key] = set()
 
     def outputs(self) -> list[Key]:
         """Single-sampled images that hold what is defined, aspect by aspect."""
@@ -102,11 +103,10 @@ class Contents:
 
     def _subpass(self, each: Pass, step: Step, framebuffer: Framebuffer, at: int, subpass: Subpass, layers: int) -> None:
         images = framebuffer.images
-        covered = self._covers(step, at)
-        for reference in subpass.colors:
-            number = images[reference.attachment] if reference.attachment != NONE else NONE
-            if number != NONE and covered and self._full(step, number, layers):
-                self._set(number, COLOR, True)
+        covered = self._covers(step, at) and (framebuffer.layers == 1 or subpass.view_mask > 0)
+        colors = [images[reference.attachment] for reference in subpass.colors if reference.attachment != NONE]
+        depths = [images[reference.attachment] for reference in subpass.depth_stencil]
+        self._drawn(each, step, at, colors, depths[0] if depths else NONE, covered, layers)
         for color, target in zip(subpass.colors, subpass.resolves, strict=False):
             if NONE not in (color.attachment, target.attachment):
                 self._resolve(step, images[color.attachment], images[target.attachment], COLOR, layers)
@@ -114,6 +114,18 @@ class Contents:
             for aspect, mode in ((DEPTH, subpass.depth_mode), (STENCIL, subpass.stencil_mode)):
                 if mode and self.plan.images[images[target.attachment]].aspects & aspect:
                     self._resolve(step, images[depth.attachment], images[target.attachment], aspect, layers)
+
+    def _drawn(self, each: Pass, step: Step, at: int, colors: list[int], depth: int, covered: bool, layers: int) -> None:
+        """What draws leave in colours: all of it defined where they cover every pixel, none of it where undefined depth decides."""
+        drawn = [each.pipelines[i.pipeline] for i in step.inner if i.kind == "draw" and i.subpass == at]
+        tests = any(p.depth_test and p.depth_compare not in (NEVER, ALWAYS) for p in drawn)
+        if depth != NONE and tests and self.plan.images[depth].aspects & DEPTH and (depth, DEPTH) not in self.known:
+            for number in colors:
+                self._set(number, COLOR, False)
+            return
+        for number in colors:
+            if covered and self._full(step, number, layers):
+                self._set(number, COLOR, True)
 
     def _covers(self, step: Step, subpass: int) -> bool:
         """Whether what a subpass draws covers every pixel."""
@@ -131,13 +143,18 @@ class Contents:
         rendered = [(r, _ROLES[r.role]) for r in each.rendered if r.image != NONE]
         for r, aspect in rendered:
             if each.flags & RESUMING:
+                self.known |= self.suspended & {(r.image, aspect)}
+                self.suspended.discard((r.image, aspect))
                 continue
             self._load(r.image, aspect, r.load, True, self._full(step, r.image, layers))
-        covered = self._covers(step, 0)
-        for r, aspect in rendered:
-            if aspect == COLOR and covered and self._full(step, r.image, layers):
-                self._set(r.image, COLOR, True)
+        covered = self._covers(step, 0) and (framebuffer.layers == 1 or each.view_mask > 0)
+        colors = [r.image for r, aspect in rendered if aspect == COLOR]
+        self._drawn(each, step, 0, colors, next((r.image for r, aspect in rendered if aspect == DEPTH), NONE), covered, layers)
         if each.flags & SUSPENDING:
+            # Nothing is stored before the rendering ends.
+            keys = {(r.image, aspect) for r, aspect in rendered}
+            self.suspended |= self.known & keys
+            self.known -= keys
             return
         for r, aspect in rendered:
             if r.mode and r.resolve_image != NONE:
@@ -145,6 +162,9 @@ class Contents:
             if r.store != STORE:
                 self._set(r.image, aspect, False)
 
+
+NEVER, ALWAYS = 0, 7
+"""VkCompareOp."""
 
 _ROLES = {"color": COLOR, "depth": DEPTH, "stencil": STENCIL}
 SUSPENDING, RESUMING = 2, 4

@@ -10,7 +10,7 @@ from .defined import Contents
 from .layouts import DEPTH_READ_LAYOUT, READ_LAYOUT, SOURCE_LAYOUT, TARGET_LAYOUT, UNDEFINED, Layouts
 from .parts import CLEAR, COLOR, DEPTH, NONE, STENCIL, Inner, Pass, Step
 from .plan_dynamic import COVERAGE_DYNAMIC, MASK_DYNAMIC, SAMPLES_DYNAMIC
-from .scene import BACKDROP, CORNERS
+from .scene import BACKDROP
 
 PEAK, HDR_PEAK = 1.0, 8.0
 CLEARED = (0.125, 0.25, 0.5, 1.0)
@@ -140,7 +140,8 @@ class Recorder:
         images = [i.image for i in own if i.kind == "read" and i.image in reads]
         filled = bool(images) and self._fill(buffer, step, subpass, list(dict.fromkeys(images)))
         count, turn = 0, 0
-        vk.vkCmdBindVertexBuffers(buffer, 0, 1, [self.built.opened.vertices()], [0])
+        drawn, vertices = self.built.opened.vertices(self.plan.vertices)
+        vk.vkCmdBindVertexBuffers(buffer, 0, 1, [drawn], [0])
         for inner in own:
             if inner.kind == "samples":
                 count = inner.value
@@ -152,8 +153,8 @@ class Recorder:
                 self._dynamic(buffer, pipeline, count)
                 peak = HDR_PEAK if self.plan.hdr else PEAK
                 vk.vkCmdPushConstants(buffer, self.built.opened.layout("scene")[0], 1, 0, 8, _scene(vk, peak, turn))
-                first = 0 if inner.backdrop and not filled else BACKDROP
-                vk.vkCmdDraw(buffer, len(CORNERS) - first, 1, first, 0)
+                first = 0 if (inner.backdrop and not filled) or self.plan.vertices else BACKDROP
+                vk.vkCmdDraw(buffer, vertices - first, 1, first, 0)
                 turn += 1
 
     def _dynamic(self, buffer: Any, pipeline: parts.Pipeline, count: int) -> None:

@@ -102,6 +102,10 @@ def _way(plan: Plan, each: Pass, offered: Offered) -> Iterator[str]:
     viewed = any(s.view_mask for s in each.subpasses) or each.view_mask
     if viewed and not (offered.extension("VK_KHR_multiview") and offered.feature("multiview")):
         yield "the device has no multiview"
+    views = max([each.view_mask.bit_length(), *(s.view_mask.bit_length() for s in each.subpasses)])
+    most = offered.device.get("VkPhysicalDeviceVulkan11Properties", {}).get("maxMultiviewViewCount")
+    if most is not None and views > int(most):
+        yield f"it renders {views} views, and the device has maxMultiviewViewCount {most}"
     single = each.single_sampled or any(s.single_sampled for s in each.subpasses)
     if single and not (offered.extension(SINGLE_SAMPLED) and offered.feature("multisampledRenderToSingleSampled")):
         yield f"the device has no {SINGLE_SAMPLED}"
@@ -136,7 +140,8 @@ def _image(image: Image, offered: Offered) -> Iterator[str]:
         if offered.formats and image.format < FIRST_VERSION_FORMATS:
             yield f"the device has no images of {name}, as {image.name} is one"
         return
-    if not image.usage & (parts.COLOR_ATTACHMENT | parts.DEPTH_ATTACHMENT):
+    attached = image.usage & (parts.COLOR_ATTACHMENT | parts.DEPTH_ATTACHMENT)
+    if not attached and image.samples == 1:
         return
     if "counts" not in said:
         yield f"the device does not render to {name}, as {image.name} is one"
@@ -212,9 +217,10 @@ def _resolves(plan: Plan, each: Pass, offered: Offered) -> Iterator[str]:
         if not subpass.depth_stencil:
             yield "it resolves depth or stencil in a subpass that has no such attachment"
             continue
-        aspects = _aspects(each.attachments[subpass.depth_stencil[0].attachment].format)
+        own, target = (each.attachments[r[0].attachment].format for r in (subpass.depth_stencil, subpass.depth_resolve))
+        aspects = _aspects(own) & _aspects(target)
         yield from _modes(subpass.depth_mode, subpass.stencil_mode, aspects, offered)
-    modes = {r.role: r.mode for r in each.rendered if r.role != "color" and r.image != NONE and r.resolve_image != NONE}
+    modes = {r.role: r.mode for r in each.rendered if r.role != "color" and r.image != NONE}
     if any(modes.values()):
         aspects = (DEPTH if "depth" in modes else 0) | (STENCIL if "stencil" in modes else 0)
         yield from _modes(modes.get("depth", 0), modes.get("stencil", 0), aspects, offered)
@@ -240,13 +246,15 @@ def _pipelines(plan: Plan, each: Pass, offered: Offered) -> Iterator[str]:
         if counts is not None and not int(counts) & samples:
             yield f"the device does not rasterize with {samples} samples (framebufferColorSampleCounts: {_counts(int(counts))})"
     for pipeline in each.pipelines:
-        for reason in _pipeline(plan, pipeline, offered):
+        for reason in _pipeline(plan, each, pipeline, offered):
             yield f"{pipeline.name}: {reason}"
 
 
-def _pipeline(plan: Plan, pipeline: Pipeline, offered: Offered) -> Iterator[str]:
+def _pipeline(plan: Plan, each: Pass, pipeline: Pipeline, offered: Offered) -> Iterator[str]:
     limit = "framebufferColorSampleCounts" if pipeline.numerics or pipeline.formats else "framebufferNoAttachmentsSampleCounts"
-    if "UINT" in pipeline.numerics or "SINT" in pipeline.numerics or pipeline.depth_format:
+    subpass = each.subpasses[pipeline.subpass] if 0 <= pipeline.subpass < len(each.subpasses) else None
+    depth = pipeline.depth_format or pipeline.stencil_format or (subpass is not None and subpass.depth_stencil)
+    if "UINT" in pipeline.numerics or "SINT" in pipeline.numerics or depth:
         # Integers have a limit of their own that drivers and the layer do not keep to; images are asked about by format.
         limit = ""
     counts = offered.limits.get(limit)
@@ -264,7 +272,10 @@ def _pipeline(plan: Plan, pipeline: Pipeline, offered: Offered) -> Iterator[str]
     for state, name in DYNAMIC.items():
         if state in pipeline.dynamic and not ("VK_EXT_extended_dynamic_state3" in offered.names and offered.feature(name)):
             yield f"the device has no {name}"
-    for number, blend in zip(pipeline.formats, pipeline.blends, strict=False):
+    formats = pipeline.formats
+    if subpass is not None:
+        formats = tuple(each.attachments[r.attachment].format if r.attachment != NONE else 0 for r in subpass.colors)
+    for number, blend in zip(formats, pipeline.blends, strict=False):
         said = offered.formats.get(str(number))
         if blend.enable and said is not None and not said.get("features", 0) & BLEND_FEATURE:
             yield f"the device does not blend {format_name(number)}"

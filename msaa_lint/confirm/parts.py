@@ -231,7 +231,8 @@ class Step(NamedTuple):
 
 class Plan(NamedTuple):
     """A frame. `steps` are recorded in their order; `defaults` say in words what was not described and what was taken for it;
-    `extensions` and `without` are what of a device must and must not be enabled; `reversed` that greater depths are nearer."""
+    `extensions` and `without` are what of a device must and must not be enabled; `reversed` that greater depths are nearer. `vertices` is a
+    file of triangles to draw in place of the scene: x, y and depth in clip coordinates, 32-bit floats."""
 
     file: str = ""
     images: tuple[Image, ...] = ()
@@ -242,6 +243,7 @@ class Plan(NamedTuple):
     without: tuple[str, ...] = ()
     reversed: bool = False
     hdr: bool = False
+    vertices: str = ""
 
 
 def to_json(plan: Any) -> Any:

@@ -64,7 +64,7 @@ class Images:
         self.words: list[str] = []
         self._used: dict[int, _Used] = {}
         self._numbers: dict[int, int] = {}
-        self.base, self.sized = _base(frame)
+        self.base, self._sized = _base(frame)
         for name, target in frame.targets.items():
             self._add(target, name)
         for each in frame.passes:
@@ -72,6 +72,11 @@ class Images:
         self._commands()
         self._settle()
         self.made = tuple(self._image(used) for used in self._used.values())
+
+    @property
+    def sized(self) -> bool:
+        """Whether every image has a size that something states."""
+        return self._sized or all(used.area != (0, 0) for used in self._used.values())
 
     def of(self, target: Target) -> int:
         """The number of a target's image."""
@@ -188,7 +193,7 @@ class Images:
         assert form is not None and used.samples is not None
         usage, flags, lazy = used.usage, 0, False
         type_name, tiling, levels, layers, depth = "2D", 0, 1, max(used.layers, used.viewed, 1), 1
-        width, height = used.area if used.area[0] > self.base[0] or used.area[1] > self.base[1] or not self.sized else self.base
+        width, height = used.area if used.area[0] > self.base[0] or used.area[1] > self.base[1] or not self._sized else self.base
         width, height = width or self.base[0], height or self.base[1]
         if record is None and used.single_sampled and used.samples == 1:
             flags = RENDER_TO_SINGLE_SAMPLED

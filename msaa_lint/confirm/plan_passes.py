@@ -8,13 +8,14 @@ from ..document.records import (
     AttachmentDescription,
     AttachmentReference,
     BeginRendering,
+    DepthStencilResolve,
     RenderingAttachment,
     RenderPass,
     SubpassDependency,
 )
 from ..document.records import Subpass as DescribedSubpass
 from ..facts.begin import targets_at
-from ..facts.frame import RENDERING, Attachment, Frame
+from ..facts.frame import RENDERING, Attachment, Frame, PassSubpass
 from ..facts.frame import Pass as Joined
 from . import parts
 from .parts import LOAD, LOAD_DONT_CARE, NONE, STORE, STORE_DONT_CARE, TRANSIENT, Dependency, Framebuffer, Reference, Subpass
@@ -77,7 +78,8 @@ class Passes:
         version = enabled.apiVersion if enabled is not None else None
         if enabled is None or version is None or _version(version) >= (1, 2) or "VK_KHR_create_renderpass2" in (enabled.extensions or ()):
             return 2
-        second = any(s.record.depthStencilResolve or s.single_sampled for s in each.subpasses if isinstance(s.record, DescribedSubpass))
+        records = [s.record for s in each.subpasses if isinstance(s.record, DescribedSubpass)]
+        second = any(s.single_sampled for s in each.subpasses) or any(r.depthStencilResolve or r.viewMask for r in records)
         return 2 if second else 1
 
     def _render_pass(self, each: Joined, made: parts.Pass) -> parts.Pass:
@@ -184,7 +186,7 @@ class Passes:
         target = self._reference(chained.attachment, indices, DEPTH_LAYOUT) if chained is not None else None
         preserves = tuple(self._reference(r, indices, UNDEFINED).attachment for r in record.preserveAttachments)
         own = each.subpasses[at]
-        single = own.single_sampled_count or (max([i.samples for i in self.images.made] or [1]) if own.single_sampled else 0)
+        single = self._single_sampled(own, record.path)
         return Subpass(
             mask("VkSubpassDescriptionFlagBits", record.flags),
             tuple(inputs),
@@ -192,11 +194,11 @@ class Passes:
             tuple(resolves),
             (depth,) if depth is not None and depth.attachment != NONE else (),
             (target,) if target is not None and target.attachment != NONE else (),
-            self._mode(chained.depthResolveMode) if chained is not None else 0,
-            self._mode(chained.stencilResolveMode) if chained is not None else 0,
+            self._mode(chained, "depthResolveMode") if chained is not None else 0,
+            self._mode(chained, "stencilResolveMode") if chained is not None else 0,
             tuple(p for p in preserves if p != NONE),
             record.viewMask or 0,
-            single if single > 1 else 4 if own.single_sampled else 0,
+            single,
         )
 
     def _input(self, each: Joined, at: int, made: Reference, stated: str | None) -> Reference:
@@ -208,9 +210,22 @@ class Passes:
         usual = GENERAL if both else DEPTH_READ_LAYOUT if not image.aspects & parts.COLOR else READ_LAYOUT
         return made._replace(layout=made.layout if stated is not None else usual, aspects=image.aspects)
 
-    @staticmethod
-    def _mode(name: str | None) -> int:
+    def _single_sampled(self, own: PassSubpass, path: str) -> int:
+        """The count that single-sampled attachments are rendered with; 0 where they are not."""
+        if not own.single_sampled:
+            return 0
+        if own.single_sampled_count is not None:
+            return own.single_sampled_count
+        several = max([image.samples for image in self.images.made] or [1])
+        taken = several if several > 1 else 4
+        self.words.append(f"rasterizationSamples of {path}.multisampledRenderToSingleSampled is not stated: {taken} is taken")
+        return taken
+
+    def _mode(self, resolve: DepthStencilResolve, member: str) -> int:
         """A resolve mode; sample zero, which every device has, where none is stated."""
+        name = getattr(resolve, member)
+        if name is None:
+            self.words.append(f"{member} of {resolve.path} is not stated: SAMPLE_ZERO is taken")
         return number("VkResolveModeFlagBits", name) if name is not None else 1
 
     @staticmethod
@@ -277,7 +292,7 @@ class Passes:
         numbers = [n for each in rendered for n in (each.image, each.resolve_image) if n != NONE]
         width, height = self.size(numbers)
         own = each.subpasses[0]
-        single = own.single_sampled_count or 4 if own.single_sampled else 0
+        single = self._single_sampled(own, record.path)
         flags = mask("VkRenderingFlagBits", record.flags) & (SUSPENDING | RESUMING)
         return made._replace(
             flags=flags,

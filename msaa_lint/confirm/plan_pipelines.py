@@ -8,9 +8,11 @@ from collections.abc import Sequence
 from ..document.records import ColorBlendAttachment
 from ..document.records import Pipeline as Described
 from ..vulkan.enums import VALUES
+from ..vulkan.formats import format_of
 from .parts import DEPTH, STENCIL, Blend, Image, Pipeline, Stage
 from .plan_dynamic import KEPT_DYNAMIC, SCISSOR, VIEWPORT
 from .plan_words import mask, number
+from .shaders.spirv import needs
 
 LESS, GREATER = 1, 4
 """VkCompareOp."""
@@ -92,11 +94,16 @@ def _formats(record: Described, made: Pipeline) -> Pipeline:
     return made._replace(
         formats=formats or made.formats,
         blends=(*made.blends, *(Blend() for _ in formats))[: len(formats)] if formats else made.blends,
-        numerics=(*made.numerics, *("SFLOAT" for _ in formats))[: len(formats)] if formats else made.numerics,
+        numerics=tuple(map(_numeric, stated.colorAttachmentFormats)) if formats else made.numerics,
         depth_format=VALUES["VkFormat"][stated.depthAttachmentFormat] if stated.depthAttachmentFormat else made.depth_format,
         stencil_format=VALUES["VkFormat"][stated.stencilAttachmentFormat] if stated.stencilAttachmentFormat else made.stencil_format,
         view_mask=stated.viewMask or 0,
     )
+
+
+def _numeric(name: str | None) -> str:
+    found = format_of(name) if name is not None else None
+    return found.numeric if found is not None else ""
 
 
 def _dynamic(record: Described, made: Pipeline, words: list[str]) -> Pipeline:
@@ -112,18 +119,41 @@ def _dynamic(record: Described, made: Pipeline, words: list[str]) -> Pipeline:
 
 def _shaders(record: Described, made: Pipeline, folder: str, words: list[str]) -> Pipeline:
     """The described SPIR-V of a vertex and a fragment stage, where its files are there; it is the driver's to judge, in its own process."""
-    stages = []
+    stages: list[Stage] = []
+    described = {each.stage for each in record.stages}
     for each in record.stages:
         path = os.path.join(folder, each.module) if each.module is not None else ""
         if not path or each.stage not in ("VERTEX", "FRAGMENT") or not os.path.isfile(path):
             if path or each.stage is not None:
                 words.append(f"the {(each.stage or 'unnamed').lower()} shader of {record.key} is not there: a built-in one is taken")
             continue
+        reason = _undrivable(path, each.stage, "VERTEX" in described)
+        if reason:
+            words.append(f"the {each.stage.lower()} shader of {record.key} {reason}: a built-in one is taken")
+            continue
         constants = tuple((int(constant), float(value)) for constant, value in (each.specialization or {}).items())
         stages.append(Stage(number("VkShaderStageFlagBits", each.stage), path, each.name or "main", constants))
     if record.vertexInputState is not None and not any(stage.stage == 1 for stage in stages):
         words.append(f"the vertex input of {record.key} is left out: the built-in shader makes its own vertices")
     return made._replace(stages=tuple(stages))
+
+
+MOST_SPIRV = 4 << 20
+"""Bytes of a shader that are read."""
+
+
+def _undrivable(path: str, stage: str, with_vertices: bool) -> str:
+    """Why a described shader cannot be run here; empty where it can. What a driver makes of it is seen in its own process."""
+    try:
+        with open(path, "rb") as file:
+            found = needs(file.read(MOST_SPIRV + 1)[:MOST_SPIRV])
+    except (OSError, ValueError) as error:
+        return f"cannot be read ({error.strerror if isinstance(error, OSError) else error})"
+    if "descriptors" in found:
+        return "reads descriptors, which are not described"
+    if "inputs" in found and (stage == "VERTEX" or not with_vertices):
+        return "has inputs, which are not described"
+    return ""
 
 
 def _blend(record: ColorBlendAttachment) -> Blend:

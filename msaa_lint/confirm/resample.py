@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from .parts import NONE, STORE, Framebuffer, Image, Pass, Pipeline, Plan, Reference, Step, Subpass
 
+CUBE_COMPATIBLE = 0x10
+"""VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT."""
+
 LARGEST = 512
 """Texels of the longer side of a picture."""
 
@@ -30,6 +33,9 @@ def _scaled(plan: Plan, by_x: tuple[int, int], by_y: tuple[int, int]) -> Plan:
 
     def image(each: Image) -> Image:
         width, height = across(each.width), down(each.height) if each.type else each.height
+        if each.flags & CUBE_COMPATIBLE:
+            # A cube's faces are squares; views and framebuffers may be smaller than the image.
+            width = height = max(width, height)
         levels = min(each.levels, max(width, height, each.depth).bit_length()) if each.levels <= _most_levels(each) else each.levels
         return each._replace(width=width, height=height, levels=levels)
 
@@ -40,8 +46,10 @@ def _scaled(plan: Plan, by_x: tuple[int, int], by_y: tuple[int, int]) -> Plan:
         if not each.area:
             return each
         x, y, width, height = each.area
-        left, top = x * by_x[0] // by_x[1], y * by_y[0] // by_y[1]
-        return each._replace(area=(left, top, max(1, across(x + width) - left), max(1, down(y + height) - top)))
+        whole = framebuffer(plan.passes[each.number].framebuffers[each.framebuffer])
+        left, top = min(x * by_x[0] // by_x[1], whole.width - 1), min(y * by_y[0] // by_y[1], whole.height - 1)
+        right, bottom = min(across(x + width), whole.width), min(down(y + height), whole.height)
+        return each._replace(area=(left, top, max(1, right - left), max(1, bottom - top)))
 
     passes = tuple(each._replace(framebuffers=tuple(map(framebuffer, each.framebuffers))) for each in plan.passes)
     return plan._replace(images=tuple(map(image, plan.images)), passes=passes, steps=tuple(map(step, plan.steps)))
@@ -61,16 +69,23 @@ def resampled(plan: Plan, samples: int) -> Plan:
     def count(stated: int) -> int:
         return samples if stated > 1 else stated
 
+    def single(stated: int) -> int:
+        # Vulkan renders multisampled to single-sampled with several samples or not at all.
+        return count(stated) if samples > 1 else 0
+
     def made(each: Pass) -> Pass:
         each = each._replace(
             attachments=tuple(a._replace(samples=count(a.samples)) for a in each.attachments),
             pipelines=tuple(_counted(p, samples) for p in each.pipelines),
-            single_sampled=count(each.single_sampled),
-            subpasses=tuple(s._replace(single_sampled=count(s.single_sampled)) for s in each.subpasses),
+            single_sampled=single(each.single_sampled),
+            subpasses=tuple(s._replace(single_sampled=single(s.single_sampled)) for s in each.subpasses),
         )
         return _unresolved(each) if samples == 1 else each
 
-    steps = plan.steps
+    steps = tuple(
+        step._replace(inner=tuple(i._replace(value=count(i.value)) if i.kind == "samples" else i for i in step.inner))
+        for step in plan.steps
+    )
     if samples == 1:
         steps = tuple(step._replace(kind="copy") if step.kind == "resolve" else step for step in steps)
     images = tuple(_image(each, samples) for each in plan.images)

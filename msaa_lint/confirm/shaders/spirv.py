@@ -16,6 +16,9 @@ OUTPUTS = {"float": 0, "sint": 8, "uint": 16}
 SLOTS = 8
 
 OP_NAME, OP_ENTRY_POINT, OP_VARIABLE, OP_STORE, OP_DECORATE = 5, 15, 59, 62, 71
+LEAST = {OP_NAME: 2, OP_ENTRY_POINT: 4, OP_VARIABLE: 4, OP_STORE: 3, OP_DECORATE: 3}
+"""Words that these have at least."""
+
 DECORATION_LOCATION, DECORATION_BINDING, DECORATION_SET = 30, 33, 34
 OUTPUT, INPUT = 3, 1
 """Instructions, decorations and storage classes of SPIR-V."""
@@ -48,6 +51,8 @@ def instructions(words: array.array[int]) -> Iterator[tuple[int, array.array[int
         length = words[at] >> 16
         if not length or at + length > len(words):
             raise ValueError("not SPIR-V: an instruction goes beyond its end")
+        if length < LEAST.get(words[at] & 0xFFFF, 1):
+            raise ValueError("not SPIR-V: an instruction is too short")
         yield words[at] & 0xFFFF, words[at : at + length]
         at += length
 
@@ -56,7 +61,9 @@ def with_outputs(code: bytes, outputs: Sequence[str]) -> bytes:
     """SPIR-V with the outputs that are asked for, at the locations of their attachments, and without the others."""
     words = words_of(code)
     written = {i[2] for op, i in instructions(words) if op == OP_VARIABLE and i[3] == OUTPUT}
-    locations = {i[1]: i[3] for op, i in instructions(words) if op == OP_DECORATE and i[2] == DECORATION_LOCATION and i[1] in written}
+    if len(outputs) > SLOTS:
+        raise ValueError(f"a built-in shader has {SLOTS} outputs of each kind")
+    locations = {i[1]: i[3] for i in _located(words) if i[1] in written}
     kept = {OUTPUTS[kind] + slot: slot for slot, kind in enumerate(outputs) if kind}
     dropped = {variable for variable, location in locations.items() if location not in kept}
     made = words[:HEADER]
@@ -71,12 +78,19 @@ def with_outputs(code: bytes, outputs: Sequence[str]) -> bytes:
     return made.tobytes()
 
 
+def _located(words: array.array[int]) -> Iterator[array.array[int]]:
+    """The decorations that give locations."""
+    return (i for op, i in instructions(words) if op == OP_DECORATE and i[2] == DECORATION_LOCATION and len(i) > 3)
+
+
 def _without(entry: array.array[int], dropped: set[int]) -> array.array[int]:
     """An entry point without some variables of its interface."""
     name = 3
     # The name is a text that ends with a zero byte.
-    while all(byte for byte in entry[name].to_bytes(4, sys.byteorder)):
+    while name < len(entry) and all(entry[name].to_bytes(4, sys.byteorder)):
         name += 1
+    if name == len(entry):
+        raise ValueError("not SPIR-V: the name of an entry point does not end")
     made = entry[: name + 1] + array.array("I", [each for each in entry[name + 1 :] if each not in dropped])
     made[0] = len(made) << 16 | OP_ENTRY_POINT
     return made
