@@ -40,6 +40,7 @@ class Options(NamedTuple):
     repeats: int
     size: tuple[int, int] | None
     samples: int | None
+    resolves: bool
 
 
 def confirm(given: Mapping[str, Any]) -> int:
@@ -100,6 +101,7 @@ def options(given: Mapping[str, Any]) -> Options:
         given.get("repeats", 15),
         size(given["size"]) if "size" in given else None,
         samples,
+        bool(given.get("resolves")),
     )
 
 
@@ -147,7 +149,7 @@ def _tried(given: Mapping[str, Any], asked: Options, first: Session) -> int:
     from ..confirm.session import Session, environment
     from ..confirm.trial import Terms, trial
 
-    terms = Terms(asked.gate, asked.image, asked.time, asked.repeats, asked.size, asked.samples, len(asked.devices) > 1)
+    terms = Terms(asked.gate, asked.image, asked.time, asked.repeats, asked.size, asked.samples, len(asked.devices) > 1, asked.resolves)
     runs = []
     found: list[Any] = []
 

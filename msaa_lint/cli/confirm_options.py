@@ -16,6 +16,7 @@ CONFIRM = (
     Option("time", "flag", "Measure time.  [default: on a GPU, not on a software driver]"),
     Option("no_time", "flag", "Measure no time."),
     Option("repeats", "number", "How often each version of a pass is timed.  [default: 15]", "N"),
+    Option("resolves", "flag", "Hold what resolves give against their samples, those of colour too; depth and stencil always are."),
     Option("size", "text", "Pixels, whatever the input says.", "WxH"),
     Option("samples", "number", "Sample count of every multisampled image, whatever the input says.", "N"),
     Option("select", "text", "Rules to use in place of the edition's: names, codes, prefixes (MSAA2), ALL.", "RULES", many=True),

@@ -10,6 +10,9 @@ from .protocol import Event
 MOST_MESSAGES = 200
 """Messages of the layer that are kept of one pass."""
 
+SAMPLES_OF = ":samples"
+"""What follows the name of an image whose samples were read back one by one."""
+
 
 class Ran(NamedTuple):
     """What came of one pass. `end` is empty where it went through, else `died`, `timed-out` or `left`; `reason` says how.
@@ -63,6 +66,8 @@ class Collected:
         kind, number = event["event"], event.get("pass")
         if kind == "pixels":
             self.images[event["image"]] = event
+        elif kind == "sample":
+            self.images[event["image"] + SAMPLES_OF] = event
         elif kind == "failed":
             self.failed = event["reason"]
         elif kind == "message" and number is None:

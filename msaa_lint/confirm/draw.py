@@ -320,8 +320,10 @@ class Recorder:
         self.layouts.into(buffer, [(step.target, TARGET_LAYOUT, None)])
         whole = vk.VkImageSubresourceRange(aspectMask=image.aspects, levelCount=image.levels, layerCount=image.layers)
         if image.aspects & COLOR:
-            color = self._clear(step.target).color
-            vk.vkCmdClearColorImage(buffer, self.built.image(step.target), TARGET_LAYOUT, vk.ffi.addressof(color), 1, [whole])
+            # Kept, for the colour is within it.
+            clear = self._clear(step.target)
+            color = vk.ffi.addressof(clear.color)
+            vk.vkCmdClearColorImage(buffer, self.built.image(step.target), TARGET_LAYOUT, color, 1, [whole])
         else:
             clear = vk.VkClearDepthStencilValue(self._far(), 0)
             vk.vkCmdClearDepthStencilImage(buffer, self.built.image(step.target), TARGET_LAYOUT, clear, 1, [whole])

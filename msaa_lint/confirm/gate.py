@@ -251,15 +251,15 @@ def _pipelines(plan: Plan, each: Pass, offered: Offered) -> Iterator[str]:
 
 
 def _pipeline(plan: Plan, each: Pass, pipeline: Pipeline, offered: Offered) -> Iterator[str]:
-    limit = "framebufferColorSampleCounts" if pipeline.numerics or pipeline.formats else "framebufferNoAttachmentsSampleCounts"
     subpass = each.subpasses[pipeline.subpass] if 0 <= pipeline.subpass < len(each.subpasses) else None
     depth = pipeline.depth_format or pipeline.stencil_format or (subpass is not None and subpass.depth_stencil)
-    if "UINT" in pipeline.numerics or "SINT" in pipeline.numerics or depth:
-        # Integers have a limit of their own that drivers and the layer do not keep to; images are asked about by format.
-        limit = ""
-    counts = offered.limits.get(limit)
-    if counts is not None and not int(counts) & pipeline.samples:
-        yield f"the device does not rasterize with {pipeline.samples} samples ({limit}: {_counts(int(counts))})"
+    limits = ["framebufferDepthSampleCounts"] if depth else []
+    # Integers have a limit of their own that drivers and the layer do not keep to; images are asked about by format.
+    limits += ["framebufferColorSampleCounts"] if any(kind not in ("UINT", "SINT", "") for kind in pipeline.numerics) else []
+    for limit in limits if depth or any(pipeline.numerics) else ["framebufferNoAttachmentsSampleCounts"]:
+        counts = offered.limits.get(limit)
+        if counts is not None and not int(counts) & pipeline.samples:
+            yield f"the device does not rasterize with {pipeline.samples} samples ({limit}: {_counts(int(counts))})"
     for wanted, name in (
         (pipeline.sample_shading >= 0, "sampleRateShading"),
         (pipeline.alpha_to_one, "alphaToOne"),

@@ -34,6 +34,7 @@ NOISE = (
     Noise(("TransitionUndefinedToReadOnly", "AvoidImageToImageCopy", "ClearAttachment-ClearImage"), _CALLS),
     Noise(("multiple-pipelines-caches", "multiple-pipelines-no-cache", "TooManyPipelines", "Pipeline-SortAndBind"), _CALLS),
     Noise(("MinimizeNumDynamicStates", "CreatePipelinesLayout-KeepLayoutSmall", "CreatePipelineLayout"), _CALLS),
+    Noise(("SpirvDeprecated_WorkgroupSize",), "it is about a shader of confirm's own"),
     Noise(("redundant-attachment-on-tile", "depth-pre-pass-usage", "Zcull-LessGreaterRatio"), _SCENE),
     Noise(("small-indexed-drawcalls", "SwitchTessGeometryMesh", "Shader-OutputNotConsumed"), _SCENE),
     Noise(("ClearColor-NotCompressed", "ClearAttachment-FastClearValues", "ClearValueCountHigherThanAttachmentCount"), _VALUES),

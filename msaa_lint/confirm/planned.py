@@ -8,6 +8,7 @@ from typing import Any, NamedTuple, Protocol
 from ..facts.frame import Frame
 from .inputs import Input
 from .protocol import Event
+from .session import Session
 from .verdict import Said
 
 
@@ -50,6 +51,10 @@ class Planner(Protocol):
 
     def gate(self, planned: Planned, device: Mapping[str, Any]) -> dict[int, str]:
         """The passes that a device does not support, by their number, and why."""
+        ...
+
+    def deviations(self, session: Session, planned: Planned, device: Mapping[str, Any], color: bool) -> Mapping[int, Sequence[str]]:
+        """What resolves of passes give that they should not, in words, by the pass; of colour too where that is asked for."""
         ...
 
     def rows(self, input: Input, planned: Planned, told: Told) -> Mapping[int, Sequence[Said]]:

@@ -6,12 +6,13 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..facts.frame import Frame
-from . import gate, plan
+from . import gate, plan, resolving
 from .agreement import agreement
 from .inputs import Input
 from .looking import kind, looking
 from .messages import Message
 from .planned import Planned, PlannedPass, Planner, Told
+from .session import Session
 from .verdict import Said
 
 
@@ -20,6 +21,7 @@ class Plans:
 
     def __init__(self, api: int | None = None) -> None:
         self.api = api
+        self._known: resolving.Cache = {}
 
     def plan(self, frame: Frame, file: str, size: tuple[int, int] | None, samples: int | None) -> Planned:
         made = plan.plan(frame, file=file, size=size, samples=samples, api=self.api)
@@ -28,6 +30,11 @@ class Plans:
 
     def gate(self, planned: Planned, device: Mapping[str, Any]) -> dict[int, str]:
         return gate.gate(planned.own, device)
+
+    def deviations(self, session: Session, planned: Planned, device: Mapping[str, Any], color: bool) -> Mapping[int, Sequence[str]]:
+        found = resolving.deviations(session, planned.own, device, self._known, color)
+        numbers = range(len(planned.passes)) if found else ()
+        return {number: [each.words for each in resolving.of_pass(planned.own, number, found)] for number in numbers}
 
     def rows(self, input: Input, planned: Planned, told: Told) -> Mapping[int, Sequence[Said]]:
         kinds = {number: planned.passes[number].kind for number in told.numbers}

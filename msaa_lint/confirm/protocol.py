@@ -67,6 +67,10 @@ _WELL_FORMED: dict[str, Callable[[Event], bool]] = {
         all(isinstance(found.get(name), str) for name in ("image", "path"))
         and all(_number(found.get(name)) for name in ("format", "width", "height"))
     ),
+    "sample": lambda found: (
+        all(isinstance(found.get(name), str) for name in ("image", "path"))
+        and all(_number(found.get(name)) for name in ("format", "width", "height", "samples"))
+    ),
     "time": lambda found: _numbered(found) and isinstance(found.get("ms"), (int, float)) and 0 <= found["ms"] < 1e9,
     "failed": lambda found: isinstance(found.get("reason"), str),
     "opened": lambda found: isinstance(found.get("device"), dict),

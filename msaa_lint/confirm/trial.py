@@ -33,7 +33,8 @@ NOTHING_TO_COMPARE = "there is no picture to compare: no image of one sample hol
 
 class Terms(NamedTuple):
     """What is asked of a trial: whether to ask the gate, where pictures go, whether to time (None: on a GPU), how often, at which size,
-    with how many samples; `several` devices have folders of their own for their pictures."""
+    with how many samples; `resolves` has those of colour held against their samples too; `several` devices have folders of their own for
+    their pictures."""
 
     gate: bool = True
     image: str | None = None
@@ -42,6 +43,7 @@ class Terms(NamedTuple):
     size: tuple[int, int] | None = None
     samples: int | None = None
     several: bool = False
+    resolves: bool = False
 
 
 def trial(
@@ -116,6 +118,7 @@ class _Trial:
         versions = {"as written": before, **({"fixed": after} if after is not None else {})}
         timed = times(self.session, versions, self.terms.repeats, self.about.software) if self.timed else {}
         said, model = self.said(each, before), _model(each)
+        deviating = self.planner.deviations(self.session, before.planned, self.device, self.terms.resolves) if before.run.passes else {}
         verdicts = []
         if not before.planned.passes:
             verdicts.append(Verdict(each.file, "", each.prefix.rstrip("."), SKIPPED, "it has no pass"))
@@ -127,7 +130,7 @@ class _Trial:
                 continue
             own = [image for image in compared if _concerns(image.image, one, each.frame, len(before.planned.passes))]
             told = why or (NOTHING_TO_COMPARE if after is not None and pixels_equal(own) is None else "")
-            notes = (*verdict.notes, *([told] if told else ()))
+            notes = (*verdict.notes, *([told] if told else ()), *deviating.get(number, ()))
             verdict = verdict._replace(images=tuple(own), pixels_equal=pixels_equal(own), notes=notes)
             fixed_number = after.number(one.name) if after is not None else None
             fixed = after.run.passes.get(fixed_number) if after is not None and fixed_number is not None else None

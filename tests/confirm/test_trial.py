@@ -65,6 +65,9 @@ class Fake:
     def gate(self, planned: Planned, device: Mapping[str, Any]) -> dict[int, str]:
         return {n: "8 samples are not offered" for n, each in enumerate(planned.passes) if each.name in self.gated}
 
+    def deviations(self, session: Session, planned: Planned, device: Mapping[str, Any], color: bool) -> dict[int, list[str]]:
+        return {}
+
     def rows(self, input: Input, planned: Planned, told: Told) -> dict[int, tuple[Said, ...]]:
         return dict.fromkeys(told.numbers, self.said)
 
