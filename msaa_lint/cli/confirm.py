@@ -158,7 +158,8 @@ def _tried(given: Mapping[str, Any], asked: Options, first: Session) -> int:
             found.append(_inputs(given))
         return found[0].inputs
 
-    runs.append(trial(first, read, terms, meanwhile=_warm))
+    shown = any(target.format == "full" for target in asked.targets)
+    runs.append(trial(first, read, terms, meanwhile=_warm if shown else None))
     for name in asked.devices[1:]:
         with Session(name, validation=asked.layer, limits=asked.limits, environment=environment(name)) as session:
             runs.append(trial(session, read, terms, meanwhile=_warm))
