@@ -49,9 +49,8 @@ def main() -> None:
                 continue
             times = each["time_ms"]
             told = times.get("difference") or {}
-            print(
-                f"| {samples} | {name} | {each['name']} | {cell(times['as_written'])} | {cell(times.get('fixed'))} | {told.get('says', '')} |"
-            )
+            cells = [cell(times["as_written"]), cell(times.get("fixed")), told.get("says", "")]
+            print(f"| {samples} | {name} | {each['name']} | {' | '.join(cells)} |")
     print(f"\n{device.get('name')}, {device.get('driver')}, {arguments.size}, {arguments.repeats} repeats: median and its 95 % interval.")
 
 
