@@ -183,12 +183,10 @@ def _tried(given: Mapping[str, Any], asked: Options, first: Session) -> int:
 
 
 def _warm() -> None:
-    """Imports what the verdicts and the text report need, while the child draws."""
+    """Imports what the text report needs, while the child draws."""
     import rich.box
     import rich.console
     import rich.table  # noqa: F401
-
-    from ..cost import model  # noqa: F401
 
 
 def _inputs(given: Mapping[str, Any]) -> Any:

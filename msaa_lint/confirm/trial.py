@@ -117,7 +117,8 @@ class _Trial:
         pictures = self.pictures(each, before, after, compared)
         versions = {"as written": before, **({"fixed": after} if after is not None else {})}
         timed = times(self.session, versions, self.terms.repeats, self.about.software) if self.timed else {}
-        said, model = self.said(each, before), _model(each)
+        # The model's figures stand beside times alone, and take a while to reckon.
+        said, model = self.said(each, before), _model(each) if self.timed else {}
         deviating = self.planner.deviations(self.session, before.planned, self.device, self.terms.resolves) if before.run.passes else {}
         verdicts = []
         if not before.planned.passes:
