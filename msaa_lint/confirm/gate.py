@@ -79,6 +79,11 @@ class Offered:
         """A limit; a large number where it is not stated."""
         return int(self.limits.get(name, 1 << 30))
 
+    @property
+    def dynamic_rendering(self) -> bool:
+        """Whether there are passes and pipelines without render passes."""
+        return self.extension("VK_KHR_dynamic_rendering") and self.feature("dynamicRendering")
+
     def resolves(self, name: str) -> int | None:
         """A member of VkPhysicalDeviceDepthStencilResolveProperties; None where nothing is said."""
         for structure in ("VkPhysicalDeviceVulkan12Properties", "VkPhysicalDeviceDepthStencilResolveProperties"):
@@ -94,8 +99,7 @@ def _reasons(plan: Plan, each: Pass, offered: Offered) -> Iterator[str]:
 
 def _way(plan: Plan, each: Pass, offered: Offered) -> Iterator[str]:
     """What its kind of pass needs."""
-    dynamic = "VK_KHR_dynamic_rendering"
-    if each.kind == parts.RENDERING and not (offered.extension(dynamic) and offered.feature("dynamicRendering")):
+    if each.kind == parts.RENDERING and not offered.dynamic_rendering:
         yield "the device has no dynamic rendering"
     if each.api == 2 and not offered.extension("VK_KHR_create_renderpass2"):
         yield "the device has no VK_KHR_create_renderpass2"
@@ -253,6 +257,8 @@ def _pipelines(plan: Plan, each: Pass, offered: Offered) -> Iterator[str]:
 def _pipeline(plan: Plan, each: Pass, pipeline: Pipeline, offered: Offered) -> Iterator[str]:
     subpass = each.subpasses[pipeline.subpass] if 0 <= pipeline.subpass < len(each.subpasses) else None
     depth = pipeline.depth_format or pipeline.stencil_format or (subpass is not None and subpass.depth_stencil)
+    if pipeline.subpass == NONE and not offered.dynamic_rendering:
+        yield "the device has no dynamic rendering"
     limits = ["framebufferDepthSampleCounts"] if depth else []
     # Integers have a limit of their own that drivers and the layer do not keep to; images are asked about by format.
     limits += ["framebufferColorSampleCounts"] if any(kind not in ("UINT", "SINT", "") for kind in pipeline.numerics) else []

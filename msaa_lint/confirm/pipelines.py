@@ -81,7 +81,8 @@ def _create(built: Built, each: Pass, pipeline: Pipeline, render_pass: Any, stag
     # One attribute, the scene's positions.
     bindings = [vk.VkVertexInputBindingDescription(binding=0, stride=VERTEX_BYTES)] if scene else []
     inputs = [vk.VkVertexInputAttributeDescription(format=POSITION_FORMAT)] if scene else []
-    rendering = render_pass is None
+    # A pipeline of no subpass is of dynamic rendering, whatever pass it is created with.
+    rendering = render_pass is None or pipeline.subpass == parts.NONE
     depth = pipeline.depth_test or pipeline.stencil_test or _has_depth(each, pipeline)
     create = vk.VkGraphicsPipelineCreateInfo(
         pStages=stages,
@@ -97,8 +98,8 @@ def _create(built: Built, each: Pass, pipeline: Pipeline, render_pass: Any, stag
         pColorBlendState=_blend(built, pipeline) if pipeline.blends else None,
         pDynamicState=vk.VkPipelineDynamicStateCreateInfo(pDynamicStates=list(pipeline.dynamic)),
         layout=layout,
-        renderPass=render_pass,
-        subpass=max(pipeline.subpass, 0) if not rendering else 0,
+        renderPass=render_pass if not rendering else None,
+        subpass=pipeline.subpass if not rendering else 0,
     )  # fmt: skip
     if rendering:
         following = vk.VkPipelineRenderingCreateInfo(
@@ -134,8 +135,8 @@ def _shield(built: Built) -> Any:
 
 
 def _has_depth(each: Pass, pipeline: Pipeline) -> bool:
-    if each.kind == parts.RENDER_PASS:
-        return bool(each.subpasses[max(pipeline.subpass, 0)].depth_stencil)
+    if each.kind == parts.RENDER_PASS and pipeline.subpass != parts.NONE:
+        return bool(each.subpasses[pipeline.subpass].depth_stencil)
     return bool(pipeline.depth_format or pipeline.stencil_format)
 
 

@@ -112,6 +112,9 @@ class _Plan:
         begun: tuple[Joined, int] | None = None
         at = 0
         for position, command in enumerate(self.frame.commands):
+            if len(self.steps) >= MOST_STEPS:
+                self.words.append(f"commands after the first {MOST_STEPS} are left out")
+                return
             if position in by_position:
                 begun, within = (by_position[position], position), []
                 at = self.numbers[id(begun[0])]
@@ -120,14 +123,14 @@ class _Plan:
                     self._begin(passes[at], begun[0], at, begun[1], within)
                 begun = within = None
             elif within is not None:
-                within.append(command)
+                if len(within) < MOST_STEPS:
+                    within.append(command)
+                else:
+                    self.words.append(f"commands after the first {MOST_STEPS} of a pass are left out")
             elif command.kind in TRANSFERS:
                 self._transfer(command, at)
             elif command.kind in ("readImage", "writeImage"):
                 self.words.append(f"{command.kind} outside of a pass is left out")
-            if len(self.steps) > MOST_STEPS:
-                self.words.append(f"commands after the first {MOST_STEPS} are left out")
-                return
         if begun is not None and within is not None:
             self._begin(passes[at], begun[0], at, begun[1], within)
 
@@ -139,6 +142,9 @@ class _Plan:
         source = self.images.named(getattr(body, "srcImage", None) or getattr(body, "image", None))
         target = self.images.named(getattr(body, "dstImage", None) or getattr(body, "image", None))
         if (source, target) == (NONE, NONE) or (kind in ("resolve", "copy", "blit") and NONE in (source, target)):
+            return
+        if NONE not in (source, target) and not self.images.made[source].aspects & self.images.made[target].aspects:
+            self.words.append(f"{command.kind} between color and depth is left out")
             return
         self.steps.append(Step(kind, at, source=source, target=target))
 
@@ -170,6 +176,8 @@ class _Plan:
         whole = each.framebuffers[framebuffer]
         x, y = max(area.x or 0, 0) if area is not None else 0, max(area.y or 0, 0) if area is not None else 0
         x, y = min(x, whole.width - 1), min(y, whole.height - 1)
+        if area is not None and ((area.width or 0) + x > whole.width or (area.height or 0) + y > whole.height):
+            self.words.append(f"the area of {each.name} goes beyond its images: it is cut there")
         width = min((area.width if area is not None else None) or whole.width, whole.width - x)
         height = min((area.height if area is not None else None) or whole.height, whole.height - y)
         inner: list[Inner] = []

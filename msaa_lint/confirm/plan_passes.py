@@ -183,6 +183,8 @@ class Passes:
         if depth is not None and depth.attachment in {r.attachment for r in inputs} and depth.attachment != NONE:
             depth = depth._replace(layout=DEPTH_READ_LAYOUT)
         chained = record.depthStencilResolve
+        source = each.attachments[depth.attachment] if depth is not None and depth.attachment != NONE else None
+        stencil = source is None or bool(self.images.made[self.images.of(source.targets[0])].aspects & parts.STENCIL)
         target = self._reference(chained.attachment, indices, DEPTH_LAYOUT) if chained is not None else None
         preserves = tuple(self._reference(r, indices, UNDEFINED).attachment for r in record.preserveAttachments)
         own = each.subpasses[at]
@@ -195,7 +197,7 @@ class Passes:
             (depth,) if depth is not None and depth.attachment != NONE else (),
             (target,) if target is not None and target.attachment != NONE else (),
             self._mode(chained, "depthResolveMode") if chained is not None else 0,
-            self._mode(chained, "stencilResolveMode") if chained is not None else 0,
+            self._mode(chained, "stencilResolveMode", stencil) if chained is not None else 0,
             tuple(p for p in preserves if p != NONE),
             record.viewMask or 0,
             single,
@@ -221,10 +223,10 @@ class Passes:
         self.words.append(f"rasterizationSamples of {path}.multisampledRenderToSingleSampled is not stated: {taken} is taken")
         return taken
 
-    def _mode(self, resolve: DepthStencilResolve, member: str) -> int:
-        """A resolve mode; sample zero, which every device has, where none is stated."""
+    def _mode(self, resolve: DepthStencilResolve, member: str, there: bool = True) -> int:
+        """A resolve mode; sample zero, which every device has, where none is stated. Of an aspect that is not there nothing is said."""
         name = getattr(resolve, member)
-        if name is None:
+        if name is None and there:
             self.words.append(f"{member} of {resolve.path} is not stated: SAMPLE_ZERO is taken")
         return number("VkResolveModeFlagBits", name) if name is not None else 1
 
@@ -269,8 +271,10 @@ class Passes:
             if record is None and name is None and len(stated) == 1:
                 record = next(iter(stated.values()))
             width, height = self.size(numbers)
-            width = min(width, record.width or width) if record is not None else width
-            height = min(height, record.height or height) if record is not None else height
+            stated_size = (record.width or width, record.height or height) if record is not None else (width, height)
+            if stated_size[0] > width or stated_size[1] > height:
+                self.words.append(f"the framebuffer of {each.name} is larger than its images: {width}x{height} is taken")
+            width, height = min(width, stated_size[0]), min(height, stated_size[1])
             layers = (record.layers or 1) if record is not None else 1
             found.append(Framebuffer(tuple(numbers), width, height, layers))
         return tuple(found)

@@ -123,7 +123,10 @@ def _shaders(record: Described, made: Pipeline, folder: str, words: list[str]) -
     described = {each.stage for each in record.stages}
     for each in record.stages:
         path = os.path.join(folder, each.module) if each.module is not None else ""
-        if not path or each.stage not in ("VERTEX", "FRAGMENT") or not os.path.isfile(path):
+        if each.stage is not None and each.stage not in ("VERTEX", "FRAGMENT"):
+            words.append(f"the {each.stage.lower()} shader of {record.key} is left out: only vertices and fragments are shaded here")
+            continue
+        if not path or each.stage is None or not os.path.isfile(path):
             if path or each.stage is not None:
                 words.append(f"the {(each.stage or 'unnamed').lower()} shader of {record.key} is not there: a built-in one is taken")
             continue

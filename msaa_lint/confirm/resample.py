@@ -119,6 +119,8 @@ def _unresolved(each: Pass) -> Pass:
         return stated._replace(attachment=instead.get(stated.attachment, stated.attachment))
 
     def subpass_of(own: Subpass) -> Subpass:
+        used = {reference(r).attachment for r in (*own.colors, *own.inputs, *own.depth_stencil)}
+        kept = dict.fromkeys(instead.get(p, p) for p in own.preserves)
         return own._replace(
             colors=tuple(map(reference, own.colors)),
             inputs=tuple(map(reference, own.inputs)),
@@ -127,7 +129,7 @@ def _unresolved(each: Pass) -> Pass:
             depth_resolve=(),
             depth_mode=0,
             stencil_mode=0,
-            preserves=tuple(dict.fromkeys(instead.get(p, p) for p in own.preserves)),
+            preserves=tuple(p for p in kept if p not in used),
         )
 
     rendered = tuple(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import struct
 import subprocess
 import sys
@@ -135,6 +136,8 @@ renderPasses:
     subpasses: [{depthStencilAttachment: d, depthStencilResolve: {attachment: r, depthResolveMode: MIN}}]
 """
     assert one(planned(resolve)).api == 2
+    assert one(planned(resolve.replace("subpasses: [", "subpasses: [{depthStencilAttachment: d}, "))).api == 2
+    assert one(planned(re.sub(", depthStencilResolve: {.*?}", "", resolve))).api == 1
     single = """\
 enabled: {apiVersion: '1.1'}
 renderPasses:
@@ -299,6 +302,74 @@ renderPasses:
     )
 
 
+def test_what_is_only_read_stays_to_be_read() -> None:
+    made = planned(
+        """\
+renderPasses:
+  p:
+    attachments:
+      g: {format: R8G8B8A8_UNORM, samples: 4, loadOp: LOAD, storeOp: STORE}
+      d: {format: D32_SFLOAT, samples: 4, loadOp: LOAD, storeOp: STORE}
+      o: {format: R8G8B8A8_UNORM, samples: 4, loadOp: LOAD, storeOp: STORE}
+    subpasses: [{inputAttachments: [g, d], colorAttachments: [o]}]
+"""
+    )
+    layouts = [(each.initial, each.final) for each in one(made).attachments]
+    assert layouts == [(READ_LAYOUT, READ_LAYOUT), (DEPTH_READ_LAYOUT, DEPTH_READ_LAYOUT), (COLOR_LAYOUT, COLOR_LAYOUT)]
+
+
+@pytest.mark.parametrize(
+    ("stated", "final"), [("", COLOR_LAYOUT), ("initialLayout: UNDEFINED", COLOR_LAYOUT), ("initialLayout: GENERAL", GENERAL)]
+)
+def test_what_no_subpass_uses_stays_as_it_is(stated: str, final: int) -> None:
+    unused = f"{{format: R8G8B8A8_UNORM, samples: 1, loadOp: CLEAR, storeOp: STORE, {stated}}}"
+    made = planned(f"renderPasses: {{p: {{attachments: [{CLEARED}, {unused}], subpasses: [{{colorAttachments: [0]}}]}}}}\n")
+    assert one(made).attachments[1].final == final
+
+
+@pytest.mark.parametrize(
+    ("layouts", "initial", "final"),
+    [
+        ("", -1, -1),
+        ("initialLayout: DEPTH_STENCIL_ATTACHMENT_OPTIMAL", -1, -1),
+        ("initialLayout: DEPTH_ATTACHMENT_OPTIMAL", 1000241002, 1000241002),
+        ("finalLayout: DEPTH_READ_ONLY_OPTIMAL", 1000241002, 1000241002),
+        ("finalLayout: DEPTH_READ_ONLY_OPTIMAL, stencilFinalLayout: STENCIL_READ_ONLY_OPTIMAL", 1000241002, 1000241003),
+        ("finalLayout: DEPTH_READ_ONLY_OPTIMAL, stencilLoadOp: CLEAR", UNDEFINED, 1000241002),
+    ],
+)
+def test_stencil_has_layouts_of_its_own_beside_those_of_depth_alone(layouts: str, initial: int, final: int) -> None:
+    load = "" if "stencilLoadOp" in layouts else "stencilLoadOp: LOAD, "
+    described = f"{{format: D24_UNORM_S8_UINT, samples: 4, loadOp: LOAD, {load}{layouts}}}"
+    made = planned(f"renderPasses: {{p: {{attachments: [{described}], subpasses: [{{depthStencilAttachment: 0}}]}}}}\n")
+    (attachment,) = one(made).attachments
+    assert (attachment.stencil_initial, attachment.stencil_final) == (initial, final)
+    alone = planned(f"renderPasses: {{p: {{attachments: [{described.replace('D24_UNORM_S8_UINT', 'D32_SFLOAT')}], subpasses: [{{}}]}}}}\n")
+    assert (one(alone).attachments[0].stencil_initial, one(alone).attachments[0].stencil_final) == (-1, -1)
+
+
+@pytest.mark.parametrize(
+    ("layout", "writes"),
+    [
+        ("DEPTH_STENCIL_ATTACHMENT_OPTIMAL", True),
+        ("GENERAL", True),
+        ("DEPTH_STENCIL_READ_ONLY_OPTIMAL", False),
+        ("DEPTH_READ_ONLY_OPTIMAL", False),
+        ("READ_ONLY_OPTIMAL", False),
+    ],
+)
+def test_depth_is_not_written_where_its_layout_is_for_reading(layout: str, writes: bool) -> None:
+    depth = "{format: D32_SFLOAT, samples: 4, loadOp: CLEAR, storeOp: STORE}"
+    subpass = f"{{depthStencilAttachment: {{attachment: 0, layout: {layout}}}}}"
+    (pipeline,) = one(planned(f"renderPasses: {{p: {{attachments: [{depth}], subpasses: [{subpass}]}}}}\n")).pipelines
+    assert (pipeline.depth_test, pipeline.depth_write) == (True, writes)
+    rendered = "{image: d, loadOp: CLEAR, storeOp: STORE, imageLayout: " + layout + "}"
+    images = "images: {d: {format: D32_SFLOAT, samples: 4}}\n"
+    rendering = f"{images}commands: [{{beginRendering: {{depthAttachment: {rendered}}}}}, endRendering]\n"
+    (pipeline,) = one(planned(rendering)).pipelines
+    assert (pipeline.depth_test, pipeline.depth_write) == (True, writes)
+
+
 # Passes that nothing can run
 
 
@@ -444,7 +515,7 @@ renderPasses:
             f"storeOp of renderPasses.main.attachments.{name} is not stated: STORE is taken",
         ]
     resolve = "renderPasses.main.subpasses[0].depthStencilResolve"
-    expected += [f"{mode} of {resolve} is not stated: SAMPLE_ZERO is taken" for mode in ("depthResolveMode", "stencilResolveMode")]
+    expected += [f"depthResolveMode of {resolve} is not stated: SAMPLE_ZERO is taken"]
     assert list(made.defaults) == expected
 
 
@@ -544,6 +615,10 @@ commands:
     )
     assert (made.images[0].width, made.images[0].height) == (64, 48)
     assert made.defaults == ()
+    other = "images: {b: {format: R8G8B8A8_UNORM, samples: 1}, a: {format: R8G8B8A8_UNORM, samples: 1}}\n"
+    both = planned(other + "commands: [{beginRendering: {renderArea: {width: 64, height: 48}, colorAttachments: [{image: a}]}}]\n")
+    assert [(each.width, each.height) for each in both.images] == [(256, 256), (64, 48)]
+    assert "no size is stated: 256x256 is taken" in both.defaults
 
 
 def test_modes_and_counts_of_resolves_that_are_not_stated_are_said() -> None:
@@ -597,7 +672,10 @@ commands:
     each = one(made)
     assert each.framebuffers == (Framebuffer((0, 1), 16, 48, 1), Framebuffer((1, 0), 32, 64, 1), Framebuffer((1, 0), 32, 64, 1))
     assert [(step.framebuffer, step.area) for step in begins(made)] == [(0, (8, 8, 8, 4)), (1, (0, 63, 4, 1)), (2, (0, 0, 32, 64))]
-    assert made.defaults == ("p alternates between framebuffers: the first is taken",)
+    assert made.defaults == (
+        "p alternates between framebuffers: the first is taken",
+        "the area of p goes beyond its images: it is cut there",
+    )
 
 
 def test_the_only_framebuffer_of_a_pass_is_its_own() -> None:
@@ -689,6 +767,23 @@ commands:
     assert (pipeline.depth_format, pipeline.stencil_format, pipeline.view_mask) == (D24S8, D24S8, 3)
     assert (pipeline.depth_test, pipeline.depth_write, pipeline.stencil_test) == (True, False, False)
     assert [step.number for step in made.steps] == [0, 1]
+
+
+def test_a_rendering_tests_what_is_attached() -> None:
+    text = """\
+images: {d: {format: D24_UNORM_S8_UINT, samples: 4}, c: {format: R8G8B8A8_UNORM, samples: 4}}
+commands:
+  - beginRendering:
+      colorAttachments: [{image: c, loadOp: CLEAR, storeOp: STORE}, null]
+      stencilAttachment: {image: d, loadOp: CLEAR, storeOp: STORE}
+  - endRendering
+"""
+    made = planned(text)
+    (pipeline,) = one(made).pipelines
+    assert (pipeline.depth_format, pipeline.stencil_format) == (0, D24S8)
+    assert (pipeline.depth_test, pipeline.depth_write, pipeline.stencil_test) == (False, False, True)
+    # What is unused is not in need of a backdrop.
+    assert made.steps[0].inner == (Inner("draw", 0, 0),)
 
 
 def test_depth_and_stencil_of_two_images_are_refused() -> None:
@@ -856,6 +951,33 @@ def test_the_outputs_of_a_pipeline_of_no_pass_are_of_its_formats() -> None:
     (pipeline,) = one(made).pipelines
     assert pipeline.formats == (R32_UINT, 0, 14, RGBA8)
     assert [numeric if numeric in ("UINT", "SINT", "") else "float" for numeric in pipeline.numerics] == ["UINT", "", "SINT", "float"]
+
+
+def test_a_pipeline_of_depth_alone_has_no_colours() -> None:
+    (pipeline,) = one(planned("pipelines: {x: {rendering: {depthAttachmentFormat: D32_SFLOAT}}}\n")).pipelines
+    assert (pipeline.formats, pipeline.blends, pipeline.numerics, pipeline.depth_format) == ((), (), (), D32)
+
+
+def test_a_rendering_draws_with_the_pipelines_that_it_names() -> None:
+    made = planned(
+        """\
+images: {c: {format: R8G8B8A8_UNORM, samples: 4}}
+pipelines:
+  x: {rendering: {colorAttachmentFormats: [R8G8B8A8_UNORM]}, multisampleState: {rasterizationSamples: 4}}
+  y: {rendering: {colorAttachmentFormats: [R8G8B8A8_UNORM]}}
+commands:
+  - beginRendering: {colorAttachments: [{image: c, loadOp: CLEAR, storeOp: STORE}]}
+  - draw: {}
+  - draw: {pipeline: y}
+  - draw: {pipeline: x}
+  - draw: {pipeline: y}
+  - endRendering
+"""
+    )
+    assert [pipeline.name for pipeline in one(made).pipelines] == ["built-in 0", "y", "x"]
+    assert [inner.pipeline for inner in made.steps[0].inner] == [0, 1, 2, 1]
+    # Its count is not stated: it is that of what it draws to.
+    assert [pipeline.samples for pipeline in one(made).pipelines] == [4, 4, 4]
 
 
 # Commands

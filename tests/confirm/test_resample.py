@@ -188,6 +188,16 @@ def test_one_sample_draws_to_the_target() -> None:
     )
 
 
+def test_what_a_subpass_uses_it_does_not_preserve() -> None:
+    """VUID-VkSubpassDescription2-pPreserveAttachments-03074."""
+    first = Subpass(colors=(Reference(0, COLOR),), resolves=(Reference(1, COLOR),))
+    second = Subpass(inputs=(Reference(1, 5, 1),), colors=(Reference(2, COLOR),), preserves=(0,))
+    third = Subpass(colors=(Reference(2, COLOR),), preserves=(0, 1))
+    each = Pass("p", "p", parts.RENDER_PASS, 2, attachments=(attachment(4), attachment(), attachment()), subpasses=(first, second, third))
+    made = resampled(Plan("f", passes=(each,)), 1).passes[0]
+    assert [subpass.preserves for subpass in made.subpasses] == [(), (), (1,)]
+
+
 def test_a_depth_resolve_of_no_aspect_is_none() -> None:
     subpass = Subpass(depth_stencil=(Reference(0, DEPTH),), depth_resolve=(Reference(1, DEPTH),))
     each = Pass("p", "p", parts.RENDER_PASS, 2, attachments=(attachment(4), attachment()), subpasses=(subpass,))
