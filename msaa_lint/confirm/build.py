@@ -9,6 +9,7 @@ from . import parts, pipelines
 from .binding import chain
 from .opening import Opened
 from .parts import NONE, Framebuffer, Pass, Plan, Reference
+from .scene import VERTEX_BYTES
 
 DEVICE_LOCAL, HOST_VISIBLE, COHERENT, CACHED, LAZY = 0x1, 0x2, 0x4, 0x8, 0x10
 """VkMemoryPropertyFlagBits."""
@@ -36,6 +37,7 @@ class Built:
         self.more_usage = more_usage or {}
         self._views: dict[tuple[int, int, int, int], Any] = {}
         self._readers: dict[tuple[int, int, bool], Any] = {}
+        self._vertices: tuple[Any, int] | None = None
         self._made: list[tuple[Callable[..., None], Any]] = []
 
     def own(self, destroy: Callable[..., None], handle: Any) -> Any:
@@ -60,6 +62,20 @@ class Built:
                 self.framebuffers[number, index] = self._framebuffer(number, each, framebuffer)
         for index, pipeline in enumerate(each.pipelines):
             self.pipelines[number, index] = pipelines.made(self, each, pipeline, self.render_passes.get(number))
+
+    def vertices(self) -> tuple[Any, int]:
+        """The vertices that are drawn, and how many they are: those of the plan's file, else the scene's. ValueError where it has none."""
+        if not self.plan.vertices:
+            return self.opened.vertices()
+        if self._vertices is None:
+            with open(self.plan.vertices, "rb") as file:
+                data = file.read()
+            if not data or len(data) % (3 * VERTEX_BYTES):
+                raise ValueError(f"{self.plan.vertices} holds no triangles")
+            buffer, memory = self.opened.buffer(data)
+            self.own(self.vk.vkFreeMemory, memory)
+            self._vertices = self.own(self.vk.vkDestroyBuffer, buffer), len(data) // VERTEX_BYTES
+        return self._vertices
 
     def reader(self, number: int, subpass: int, samples: bool) -> Any:
         """A pipeline that puts an image on every pixel of a subpass; None where the pass has none to take after."""

@@ -140,7 +140,7 @@ class Recorder:
         images = [i.image for i in own if i.kind == "read" and i.image in reads]
         filled = bool(images) and self._fill(buffer, step, subpass, list(dict.fromkeys(images)))
         count, turn = 0, 0
-        drawn, vertices = self.built.opened.vertices(self.plan.vertices)
+        drawn, vertices = self.built.vertices()
         vk.vkCmdBindVertexBuffers(buffer, 0, 1, [drawn], [0])
         for inner in own:
             if inner.kind == "samples":

@@ -166,7 +166,7 @@ class Opened:
         self.modules: dict[Any, Any] = {}
         self._layouts: dict[str, Any] = {}
         self._functions: dict[str, Callable[..., Any]] = {}
-        self._vertices: dict[str, tuple[Any, Any, int]] = {}
+        self._vertices: tuple[Any, Any] | None = None
 
     def _features(self, special: tuple[str, ...], without: tuple[str, ...]) -> Any:
         vk, offered = self.vk, self.session.device
@@ -238,20 +238,23 @@ class Opened:
         create = vk.VkPipelineLayoutCreateInfo(pSetLayouts=sets, pPushConstantRanges=pushed)
         return vk.vkCreatePipelineLayout(self.handle, create, None), sets[0] if sets else None
 
-    def vertices(self, path: str = "") -> tuple[Any, int]:
-        """A buffer with the vertices of a file, or the scene's, and how many they are."""
-        if path not in self._vertices:
-            vk, data = self.vk, _vertices_of(path)
-            buffer = vk.vkCreateBuffer(self.handle, vk.VkBufferCreateInfo(size=len(data), usage=VERTEX_BUFFER), None)
-            needs = vk.vkGetBufferMemoryRequirements(self.handle, buffer)
-            kind = self.memory_type(needs.memoryTypeBits, VISIBLE)
-            allocate = vk.VkMemoryAllocateInfo(allocationSize=needs.size, memoryTypeIndex=kind)
-            memory = vk.vkAllocateMemory(self.handle, allocate, None)
-            vk.vkBindBufferMemory(self.handle, buffer, memory, 0)
-            vk.vkMapMemory(self.handle, memory, 0, len(data), 0)[:] = data
-            vk.vkUnmapMemory(self.handle, memory)
-            self._vertices[path] = (buffer, memory, len(data) // VERTEX_BYTES)
-        return self._vertices[path][0], self._vertices[path][2]
+    def vertices(self) -> tuple[Any, int]:
+        """A buffer with the scene's vertices, and how many they are."""
+        if self._vertices is None:
+            self._vertices = self.buffer(vertices())
+        return self._vertices[0], len(vertices()) // VERTEX_BYTES
+
+    def buffer(self, data: bytes) -> tuple[Any, Any]:
+        """A buffer of vertices with their data, and its memory, which are the caller's to destroy."""
+        vk = self.vk
+        buffer = vk.vkCreateBuffer(self.handle, vk.VkBufferCreateInfo(size=len(data), usage=VERTEX_BUFFER), None)
+        needs = vk.vkGetBufferMemoryRequirements(self.handle, buffer)
+        kind = self.memory_type(needs.memoryTypeBits, VISIBLE)
+        memory = vk.vkAllocateMemory(self.handle, vk.VkMemoryAllocateInfo(allocationSize=needs.size, memoryTypeIndex=kind), None)
+        vk.vkBindBufferMemory(self.handle, buffer, memory, 0)
+        vk.vkMapMemory(self.handle, memory, 0, len(data), 0)[:] = data
+        vk.vkUnmapMemory(self.handle, memory)
+        return buffer, memory
 
     def memory_type(self, bits: int, *wishes: int) -> int:
         """The first type of memory within `bits` that has all of the first of some masks of properties that any has."""
@@ -270,21 +273,11 @@ class Opened:
             vk.vkDestroyPipelineLayout(self.handle, layout, None)
             if own is not None:
                 vk.vkDestroyDescriptorSetLayout(self.handle, own, None)
-        for buffer, memory, _ in self._vertices.values():
-            vk.vkDestroyBuffer(self.handle, buffer, None)
-            vk.vkFreeMemory(self.handle, memory, None)
+        if self._vertices is not None:
+            vk.vkDestroyBuffer(self.handle, self._vertices[0], None)
+            vk.vkFreeMemory(self.handle, self._vertices[1], None)
         vk.vkDestroyCommandPool(self.handle, self.pool, None)
         self.device.__exit__(None, None, None)
-
-
-def _vertices_of(path: str) -> bytes:
-    if not path:
-        return vertices()
-    with open(path, "rb") as file:
-        data = file.read()
-    if not data or len(data) % (3 * VERTEX_BYTES):
-        raise ValueError(f"{path} holds no triangles")
-    return data
 
 
 SINCE = {
