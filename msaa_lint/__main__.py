@@ -31,6 +31,14 @@ def main() -> None:
             from .cli.confirm import confirm
 
             sys.exit(confirm(given))
+    if arguments[:1] == ["study"]:
+        from .cli.study_options import read as read_study
+
+        given = read_study(arguments[1:])
+        if given is not None:
+            from .cli.study import study
+
+            sys.exit(study(given))
     if arguments == ["--version"]:
         from . import __version__
 

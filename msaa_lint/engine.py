@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from .catalogue import Catalogue
 from .devices import DeviceProfile
@@ -16,6 +16,10 @@ from .profiles import Problem as Unknown
 from .profiles import device_for
 from .source.text import Source, Unreadable, decode
 from .source.tree import Limits, Node, parse
+
+if TYPE_CHECKING:
+    from .facts.frame import Frame
+    from .facts.study import Studied
 
 Severity = Callable[[Rule, str, str | None], str | None]
 
@@ -111,7 +115,14 @@ class Engine:
         if isinstance(own, Unknown):
             at = document.description.place("device")
             return Verdicts([diagnostic(own.code, own.message, file, at, "device", help=own.help)], [], {}), None
-        return self.judge.judge(subjects(document, own), file, severity), own
+
+        def study(frame: Frame) -> Studied:
+            # Where a count is above what devices do efficiently; nothing of it is loaded otherwise.
+            from .studied import studied
+
+            return studied(frame, file)
+
+        return self.judge.judge(subjects(document, own, study), file, severity), own
 
     def _suppress(
         self, findings: Sequence[Finding], source: Source, documents: Sequence[Node], severity: Severity, undecided: set[str]

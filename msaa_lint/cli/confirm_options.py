@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from .options import Given, Option, _take
+from . import options
+from .options import Given, Option
 
 CONFIRM = (
     Option("device", "text", "A device, by a part of its name.  [default: llvmpipe where it is there, else the first]", "NAME", many=True),
@@ -34,32 +35,7 @@ CONFIRM = (
     Option("traceback", "flag", "Show where the program itself failed."),
 )
 
-_BY_FLAG = {option.flag: option for option in CONFIRM}
-
 
 def read(arguments: Sequence[str]) -> Given | None:
     """What the arguments of `confirm` say; None where they are not well formed, or ask for help."""
-    given: Given = {"paths": []}
-    rest = iter(arguments)
-    for argument in rest:
-        if argument == "--":
-            given["paths"].extend(rest)
-            break
-        if argument == "-" or not argument.startswith("-"):
-            given["paths"].append(argument)
-            continue
-        flag, equals, value = argument.partition("=")
-        option = _BY_FLAG.get(flag)
-        if option is None or (option.kind == "flag" and equals):
-            return None
-        if option.kind == "flag":
-            given[option.name] = True
-            continue
-        if not equals:
-            following = next(rest, None)
-            if following is None:
-                return None
-            value = following
-        if not _take(option, value, given):
-            return None
-    return given if given["paths"] or given.get("list_devices") else None
+    return options.read(arguments, CONFIRM, ("list_devices",))

@@ -59,14 +59,16 @@ CHECK = (
     Option("traceback", "flag", "Show where the program itself failed."),
 )
 
-_BY_FLAG = {option.flag: option for option in CHECK}
-
 Given = dict[str, Any]
 """Option names with their values, and `paths`. What is not given is not in it."""
 
 
-def read(arguments: Sequence[str]) -> Given | None:
-    """What the arguments of `check` say; None where they are not well formed, or ask for help."""
+def read(arguments: Sequence[str], table: Sequence[Option] = CHECK, alone: Sequence[str] = ()) -> Given | None:
+    """What the arguments of a command say; None where they are not well formed or ask for help.
+
+    A path is due, unless one of the flags `alone` stands for it.
+    """
+    options = {option.flag: option for option in table}
     given: Given = {"paths": []}
     rest = iter(arguments)
     for argument in rest:
@@ -77,7 +79,7 @@ def read(arguments: Sequence[str]) -> Given | None:
             given["paths"].append(argument)
             continue
         flag, equals, value = argument.partition("=")
-        option = _BY_FLAG.get(flag)
+        option = options.get(flag)
         if option is None:
             return None
         if option.kind == "flag":
@@ -92,7 +94,7 @@ def read(arguments: Sequence[str]) -> Given | None:
             value = following
         if not _take(option, value, given):
             return None
-    return given if given["paths"] else None
+    return given if given["paths"] or any(given.get(name) for name in alone) else None
 
 
 def _take(option: Option, value: str, given: Given) -> bool:

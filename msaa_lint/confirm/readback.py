@@ -12,7 +12,7 @@ from .opening import Tell
 from .parts import COLOR, DEPTH, STENCIL, TRANSFER_SOURCE, Image
 from .submit import Submitter
 
-MOST_BYTES = 256 << 20
+MOST_BYTES = 1 << 30
 """Bytes of one image that are brought back."""
 
 DEPTH_BYTES = {124: 2, 128: 2, 125: 4, 126: 4, 129: 4, 130: 4}

@@ -13,21 +13,30 @@ from .frame import Attachment, Frame
 from .image import Bindings, image_facts
 from .pipeline import draws_of, pipeline_facts, subpass_of, unshaded
 from .resolve import command_facts, resolve_facts, writers_of
+from .study import UNSTUDIED, Finder, put_study
 from .subpass import pipelines_drawn, subpass_facts
 from .surroundings import profile, surroundings
 from .timeline import Timeline
 
 
-def subjects(document: Document, default_device: DeviceProfile | None = None) -> Iterator[Subject]:
-    """The subjects of a document with their facts, in the order of the document's sections. Each fact is found once."""
+def subjects(document: Document, default_device: DeviceProfile | None = None, study: Finder | None = None) -> Iterator[Subject]:
+    """The subjects of a document with their facts, in the order of the document's sections. Each fact is found once.
+
+    `study` finds the record of the frame's study.
+    """
     device = profile(document.description, default_device)
     frame = Frame(document)
     timeline = Timeline(frame)
     around = surroundings(document.description, device)
     images: dict[int, Facts] = {}
     bindings = Bindings(frame)
-    for target in frame.all_targets:
+    targets, efficient = frame.all_targets, around.values["device.max_efficient_samples"]
+    assert isinstance(efficient, int)
+    above = {id(target) for target in targets if target.samples is not None and target.samples > efficient}
+    studied = study(frame) if above and study is not None else UNSTUDIED
+    for target in targets:
         facts = image_facts(target, bindings, frame, timeline, device)
+        put_study(facts, target.samples, studied if id(target) in above else UNSTUDIED)
         images[id(target.record)] = facts
         yield Subject("image", target.path, target.record.head, Facts(around, facts), target)
     of_subpass: dict[str, Facts] = {}

@@ -26,6 +26,7 @@ WORDS: dict[str, tuple[str, ...]] = {
     "tone mapping": ("AFTER_RESOLVE", "IN_PASS", "NONE"),
     "depth direction": ("STANDARD", "REVERSED"),
     "wants": ("ANY", "NEAREST", "FARTHEST"),
+    "study": ("NONE", "JUSTIFIES", "DECLINES", "STALE", "UNUSABLE"),
     "numeric": ("UNORM", "SNORM", "USCALED", "SSCALED", "UINT", "SINT", "UFLOAT", "SFLOAT", "SRGB", "SFIXED5", "BOOL"),
     "vendor": (
         "arm", "img", "amd", "nvidia", "qualcomm", "apple", "intel", "broadcom", "samsung", "mesa", "khronos", "huawei",
@@ -107,6 +108,14 @@ _IMAGE = (
     Fact("image.averaged_by_reader", "BOOL", "a shader that reads it is stated to average its samples"),
     Fact("image.share_of_devices", "INT", "per cent of 2,035 devices in reports that offer its sample count"),
     Fact("image.share_of_tilers", "INT", "per cent of the tile-based ones among them that do"),
+    Fact(
+        "image.study",
+        "STRING",
+        "how the record of `msaa-lint study` beside the description stands to its sample count, where that is above the device's "
+        "max_efficient_samples; NONE elsewhere; never unknown",
+        "study",
+    ),
+    Fact("image.study_says", "STRING", "what that record found, or why it does not count; never unknown"),
 )
 _PASS = (
     Fact("pass.kind", "STRING", "a VkRenderPass or a vkCmdBeginRendering", "pass kind"),
