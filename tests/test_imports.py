@@ -121,7 +121,9 @@ MAY_IMPORT = {
         "confirm", "condition", "cost", "devices", "diagnostics", "discovery", "document", "engine", "facts", "finding", "fixes",
         "profiles", "readers", "run", "source", "vulkan",
     },
-    "study": {"__version__", "study", "confirm", "cost", "devices", "document", "facts", "finding", "readers", "source", "studied", "vulkan"},
+    "study": {
+        "__version__", "study", "confirm", "cost", "devices", "document", "facts", "finding", "readers", "source", "studied", "vulkan",
+    },
     "report": {"report", "confirm", "cost", "finding", "source", "study"},
 }  # fmt: skip
 """The arrows of CONTRIBUTING.md: a part, and all of ours that it may know."""
