@@ -27,6 +27,9 @@ STYLES = {MSAA: ("#0072B2", "o", "MSAA"), SAMPLE_SHADING: ("#E69F00", "s", "samp
 """Colours of Okabe and Ito's palette and shapes besides: told apart by everybody, and in grey."""
 
 _COLUMNS = 3
+_NARROW = 3.0
+"""Errors within so many times each other are drawn on a linear scale: a logarithmic one would have no number to show."""
+
 _WIDE, _HIGH = 4.6, 3.7
 
 
@@ -50,13 +53,13 @@ def plot(study: Study, format: str) -> bytes:
         for panel in panels.flat[len(scenes) :]:
             panel.set_axis_off()
         for panel, scene in zip(panels.flat, scenes, strict=False):
-            _panel(panel, study, drawn(study.of(scene.name)))
+            _panel(panel, drawn(study.of(scene.name)))
             panel.set_title(shown(scene.name), loc="left", fontsize=10, fontweight="bold")
             panel.set_ylabel("RMSE of coverage" if scene.coverage else "RMSE of linear colour")
         if scenes:
             figure.legend(handles=_legend(), loc="outside lower left", ncols=4, frameon=False)
-        where = shown(study.device) if study.device else "no time is known"
-        figure.suptitle(f"Error against time: {where}, {study.size[0]}x{study.size[1]}", x=0.01, ha="left", fontsize=11)
+        title = f"Error against time: {shown(study.device)}" if study.device else "Error against samples: no time is known"
+        figure.suptitle(f"{title}, {study.size[0]}x{study.size[1]}", x=0.01, ha="left", fontsize=11)
         out = io.BytesIO()
         about: dict[str, Any] = {"Date": None, "Creator": "msaa-lint"} if format == "svg" else {"Software": "msaa-lint"}
         figure.savefig(out, format=format, metadata=about, dpi=150)
@@ -75,21 +78,25 @@ def place(point: Point) -> tuple[float, float]:
     return cost, point.rmse
 
 
-def _panel(axes: Axes, study: Study, points: Sequence[Point]) -> None:
+def _panel(axes: Axes, points: Sequence[Point]) -> None:
     for kind, (color, shape, _) in STYLES.items():
         own = [place(point) for point in points if point.technique.kind == kind]
         if own:
             costs, errors = zip(*own, strict=True)
             axes.scatter(costs, errors, color=color, marker=shape, s=34, edgecolors="black", linewidths=0.6, zorder=3)
-    front = sorted(place(point) for point in points if point.best)
+    places = [place(point) for point in points]
+    timed = all(point.time_ms is not None for point in points)
+    # Without a time the front is of several costs, and no line in a plane.
+    front = sorted(place(point) for point in points if point.best and timed)
     if front:
         costs, errors = zip(*front, strict=True)
         axes.plot(costs, errors, color="black", linewidth=1.2, drawstyle="steps-post", zorder=2)
-    if all(error > 0 for _, error in map(place, points)):
+    least, most = min(error for _, error in places), max(error for _, error in places)
+    if least > 0 and most > _NARROW * least:
         axes.set_yscale("log")
-    if all(cost > 0 for cost, _ in map(place, points)):
+    if all(cost > 0 for cost, _ in places):
         axes.set_xscale("log")
-    axes.set_xlabel("time, ms" if study.device else "samples and shader invocations of a pixel")
+    axes.set_xlabel("time, ms" if timed else "samples and shader invocations of a pixel")
     axes.margins(0.14)
     _names(axes, points)
     axes.grid(which="both", color="#DDDDDD", linewidth=0.5)
@@ -144,4 +151,4 @@ def _legend() -> list[Any]:
         Line2D([], [], color=color, marker=shape, linestyle="none", markeredgecolor="black", markeredgewidth=0.6, label=label)
         for color, shape, label in STYLES.values()
     ]
-    return [*marks, Line2D([], [], color="black", linewidth=1.2, label="nothing here beats it")]
+    return [*marks, Line2D([], [], color="black", linewidth=1.2, label="nothing here beats it (names in bold)")]

@@ -42,24 +42,35 @@ def advice(points: Sequence[Point]) -> list[Advice]:
 
 def _of_scene(points: Sequence[Point]) -> Iterator[tuple[str, str]]:
     counts = sorted((point for point in points if point.technique.kind == MSAA), key=lambda point: point.technique.samples)
-    yield from _steps(counts)
+    yield from _steps(points, counts)
     yield from _shading(points, counts)
     yield from _supersampling(points, counts)
     yield from _choice(points)
 
 
-def _steps(counts: Sequence[Point]) -> Iterator[tuple[str, str]]:
+def _why_no_count(points: Sequence[Point], best: Point) -> str:
+    """Why samples do not help, as far as what helps, and what ran, tell."""
+    if any(point.rmse < NOTHING * best.rmse for point in points if point.technique.shaded > 1):
+        return "what is wrong lies inside of triangles, which multisampling shades once a pixel"
+    if "tone-mapping" in best.effects:
+        return "bright samples outweigh all others where light is averaged before it is mapped to the display"
+    if "depth-test" in best.effects:
+        return "samples do not make depth more precise"
+    return "nothing that was measured helps"
+
+
+def _steps(points: Sequence[Point], counts: Sequence[Point]) -> Iterator[tuple[str, str]]:
     """From each count of samples to the next."""
     if len(counts) > 1 and counts[0].rmse == counts[-1].rmse == 0:
         yield f"{counts[0].technique.name} is exact here", "nothing in this picture lies between samples"
         return
     multisampled = [point for point in counts if point.technique.samples > 1]
     if len(counts) > 2 and counts[0].rmse > 0 and min(point.rmse for point in multisampled) > NOTHING * counts[0].rmse:
-        best = min(multisampled, key=lambda point: point.rmse)
+        best = min(multisampled, key=lambda point: (float(f"{point.rmse:.3g}"), point.technique))
         yield (
-            f"no count of samples helps here: {best.technique.name} leaves {_percent(best.rmse, counts[0].rmse)} of "
+            f"no count of samples helps here: the best, {best.technique.name}, leaves {_percent(best.rmse, counts[0].rmse)} of "
             f"{counts[0].technique.name}'s error{_times(best, counts[0])}",
-            "what is wrong lies inside of triangles, which multisampling shades once a pixel",
+            _why_no_count(points, best),
         )
         return
     halved = False
@@ -85,23 +96,24 @@ def _steps(counts: Sequence[Point]) -> Iterator[tuple[str, str]]:
 
 
 def _shading(points: Sequence[Point], counts: Sequence[Point]) -> Iterator[tuple[str, str]]:
-    """Sample shading against the same count without it, at the largest count that has both (and a time, where any has one), with the most
-    invocations."""
+    """Sample shading against the same count without it: where it gains most; or that it gains nothing, said of the largest count (that has
+    a time, where any has one) with the most invocations."""
     plain = {point.technique.samples: point for point in counts}
     shaded = [point for point in points if point.technique.kind == SAMPLE_SHADING and point.technique.samples in plain]
-    if not shaded:
-        return
-    most = max(shaded, key=lambda point: (point.time_ms is not None, point.technique.samples, point.technique.shaded))
-    than = plain[most.technique.samples]
-    name, work = than.technique.name, f"{most.technique.shaded} shader invocations a pixel in place of {than.technique.shaded}"
-    if than.rmse == 0 or most.rmse > NOTHING * than.rmse:
-        yield f"sample shading gains nothing here: at {name} its error is {name}'s{_times(most, than)}", f"an edge is the same for {work}"
-        return
-    reason = f"RMSE {most.rmse:.4f} against {than.rmse:.4f}, by {work}"
-    yield (
-        f"shading {most.technique.shaded} samples at {name} leaves {_percent(most.rmse, than.rmse)} of its error{_times(most, than)}",
-        reason,
-    )
+    gaining = [point for point in shaded if point.rmse <= NOTHING * plain[point.technique.samples].rmse]
+    if gaining and min(point.rmse for point in shaded) < min(point.rmse for point in plain.values()):
+        best = min(gaining, key=lambda point: (point.rmse, point.technique))
+        than = plain[best.technique.samples]
+        reason = f"RMSE {best.rmse:.4f} against {than.rmse:.4f}, by {best.technique.shaded} shader invocations a pixel in place of 1"
+        left = _percent(best.rmse, than.rmse)
+        yield f"shading {best.technique.shaded} samples at {than.technique.name} leaves {left} of its error{_times(best, than)}", reason
+    elif shaded:
+        most = max(shaded, key=lambda point: (point.time_ms is not None, point.technique.samples, point.technique.shaded))
+        name, than = f"{most.technique.samples}x", plain[most.technique.samples]
+        yield (
+            f"sample shading gains nothing here: at {name} its error is {name}'s{_times(most, than)}",
+            f"an edge is the same for {most.technique.shaded} shader invocations a pixel in place of 1",
+        )
 
 
 def _supersampling(points: Sequence[Point], counts: Sequence[Point]) -> Iterator[tuple[str, str]]:
@@ -116,7 +128,9 @@ def _supersampling(points: Sequence[Point], counts: Sequence[Point]) -> Iterator
     for pairs in (worse, better):
         if pairs:
             reason = ", ".join(f"RMSE {one.rmse:.4f} against {other.rmse:.4f}" for one, other in pairs)
-            if pairs is worse:
+            if pairs is worse and "alpha-to-coverage" in pairs[0][0].effects:
+                reason += "; the alpha of a single sample is all or nothing"
+            elif pairs is worse:
                 reason += "; a grid's samples share rows and columns, so that it tells fewer positions of an edge apart"
             texts = [
                 f"{one.technique.name} {one.rmse / other.rmse:.2g} times {other.technique.name}'s{_times(one, other)}"
@@ -174,6 +188,9 @@ def ruling(points: Sequence[Point], samples: int) -> Ruling:
         return Ruling(False, f"{base.technique.name} is exact")
     if own.rmse > ABOVE_FOUR * base.rmse:
         return Ruling(False, f"more than three quarters of {base.technique.name}'s error is left")
+    if all(point.time_ms is None for point in points):
+        # More samples always have less error: what they cost decides.
+        return Ruling(False, "its time was not measured, which `--device NAME` does")
     if own.best:
         return Ruling(True)
     if own.time_ms is None and any(point.time_ms is not None for point in points):

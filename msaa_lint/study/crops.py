@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _GAP = 8
+_PERIOD = 8
 _GREY = b"\x80\x80\x80"
 
 _DOT = 3
@@ -31,20 +32,36 @@ def crops(album: Album, name: str, scene: Any, techniques: Sequence[Technique], 
     from .simulate import simulated
 
     exact = displayed(truth(scene, Technique(MSAA, 1), bits).image)
-    # Where they differ most, the first technique says.
-    corner = None
+    # Where to look, the first technique says; of the others nothing else is drawn.
+    corner = aligned(most_different(displayed(simulated(scene, techniques[0], bits).image), exact))
+    part = window(scene, *corner)
+    cut = exact[corner[1] : corner[1] + part.height, corner[0] : corner[0] + part.width]
     rows: list[Picture] = []
     for kind in KINDS:
-        row, names = [exact], ["exact"]
-        for technique in (each for each in techniques if each.kind == kind):
-            made = displayed(simulated(scene, technique, bits).image)
-            corner = corner if corner is not None else most_different(made, exact)
-            row.append(made)
-            names.append(short(technique))
-        if len(row) > 1 and corner is not None:
-            parts = enlarged([_picture(each) for each in row], corner)
-            rows += [lettered(names, (parts.width + _GAP) // len(row) - _GAP), parts]
+        own = [technique for technique in techniques if technique.kind == kind]
+        if own:
+            row = [cut, *(displayed(simulated(part, technique, bits).image) for technique in own)]
+            parts = enlarged([_picture(each) for each in row], (0, 0))
+            rows += [lettered(["exact", *map(short, own)], part.width * EDGE), parts]
     return album.write(stacked(rows), name, "crops")
+
+
+def aligned(corner: tuple[int, int]) -> tuple[int, int]:
+    """A corner a little before, so that patterns that repeat every few pixels (dithers) lie in the part as in the whole."""
+    return corner[0] // _PERIOD * _PERIOD, corner[1] // _PERIOD * _PERIOD
+
+
+def window(scene: Any, x: int, y: int) -> Any:
+    """The part of a scene from a corner on, at most 16 pixels wide and high: drawn, it is what that part of the whole is."""
+    width, height = min(EDGE, scene.width - x), min(EDGE, scene.height - y)
+    whole = scene.shade
+
+    def shade(triangle: NDArray[np.int32], across: NDArray[np.float64], down: NDArray[np.float64]) -> NDArray[np.float64]:
+        made: NDArray[np.float64] = whole(triangle, across + x, down + y)
+        return made
+
+    triangles = scene.triangles - (x, y)
+    return scene._replace(width=width, height=height, triangles=triangles, shade=shade if whole is not None else None)
 
 
 def displayed(linear: NDArray[Any]) -> NDArray[np.uint8]:

@@ -97,7 +97,7 @@ def _merged(begins: Floats, ends: Floats, turns: Floats) -> _Edges:
     slanted = (corners[:, 1] < corners[:, 3]) & (sign != 0)
     corners, sign = corners[slanted], sign[slanted]
     if not len(sign):
-        return _Edges(*corners.T, sign)
+        return _Edges(sign, sign, sign, sign, sign)
     order = np.lexsort(corners.T)
     corners, sign = corners[order], sign[order]
     new = np.flatnonzero(np.concatenate(([True], (corners[1:] != corners[:-1]).any(axis=1))))
@@ -107,7 +107,7 @@ def _merged(begins: Floats, ends: Floats, turns: Floats) -> _Edges:
 
 
 def _summed(edges: _Edges, top: int, bottom: int, left: int, right: int) -> tuple[Floats, Floats]:
-    """The areas right of edges in rows `top` to `bottom`, columns `left` to `right`: what is added from a column on, and what to it alone."""
+    """What is right of edges in rows `top` to `bottom`, columns `left` to `right`: what counts from a column on, and what for it alone."""
     rows, columns = bottom - top, right - left
     first = np.clip(np.floor(edges.y0), top, bottom).astype(np.int64)
     count = np.maximum(np.clip(np.ceil(edges.y1), top, bottom).astype(np.int64) - first, 0)

@@ -63,16 +63,18 @@ def masks(rows: Rows, width: int, height: int, samples: int) -> NDArray[np.bool_
     while lanes < samples and lanes * lane.itemsize < 8:
         lanes *= 2
     word = np.dtype(f"<u{lanes * lane.itemsize}")
-    found = np.empty((height, width, samples), dtype=np.bool_)
+    planes = []
     for n in range(0, samples, lanes):
-        some = range(n, min(n + lanes, samples))
-        counted = _summed(rows, some, 8 * lane.itemsize, width, height, word)
-        each = counted[..., None].view(lane.newbyteorder("<"))[..., : len(some)]
-        if most <= 1 and len(some) == samples == lanes:
-            # Counts of 0 and 1, in the order of the samples, a byte each: truth values as they are.
-            return each.view(np.bool_)
-        np.not_equal(each, 0, out=found[..., n : n + lanes])
-    return found
+        counted = _summed(rows, range(n, min(n + lanes, samples)), 8 * lane.itemsize, width, height, word)
+        # Counts of 0 and 1, a byte each, are truth values as they are.
+        each = counted.view(np.bool_) if most <= 1 else counted.view(lane.newbyteorder("<")) != 0
+        planes.append(each.reshape(height, width, lanes))
+    if len(planes) == 1:
+        return np.ascontiguousarray(planes[0][..., :samples])
+    found = np.empty((height, width, len(planes) * lanes), dtype=np.bool_)
+    for n, plane in enumerate(planes):
+        found.view(f"u{lanes}")[..., n] = plane.view(f"u{lanes}")[..., 0]
+    return np.ascontiguousarray(found[..., :samples])
 
 
 def hits(rows: Rows, width: int, height: int) -> NDArray[np.int64]:

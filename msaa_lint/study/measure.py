@@ -1,4 +1,4 @@
-"""How far a picture is from the exact one. Sums are made in double precision: blocks by NumPy's pairwise sum, those together by math.fsum."""
+"""How far a picture is from the exact one. Sums are in double precision: blocks by NumPy's pairwise sum, those together by math.fsum."""
 
 from __future__ import annotations
 

@@ -10,6 +10,9 @@ from .points import Point
 SAME = 1.05
 """What takes up to so many times the time of another takes the same: clocks say no more."""
 
+FIGURES = 3
+"""Figures of an error that are compared: what differs by less differs by rounding."""
+
 Vector = tuple[float, ...]
 """What is better the less there is of it: the error first, then one cost or several."""
 
@@ -45,7 +48,11 @@ def _as_fast(one: Point, other: Point) -> bool:
 def _less_work(one: Point, other: Point) -> bool:
     """Whether a point has the very error of another by fewer samples or shader invocations, and no more of either."""
     work = (one.technique.samples, one.technique.shaded), (other.technique.samples, other.technique.shaded)
-    return one.rmse == other.rmse and beats(*work)
+    return _error(one) == _error(other) and beats(*work)
+
+
+def _error(point: Point) -> float:
+    return float(f"{point.rmse:.{FIGURES}g}")
 
 
 def _groups(points: Sequence[Point]) -> list[list[int]]:
@@ -62,10 +69,10 @@ def vectors(points: Sequence[Point]) -> list[Vector | None]:
     one, and the model's bytes where it has them of all.
     """
     if any(point.time_ms is not None for point in points):
-        return [(point.rmse, point.time_ms) if point.time_ms is not None else None for point in points]
+        return [(_error(point), point.time_ms) if point.time_ms is not None else None for point in points]
     known = all(point.bytes_per_frame is not None for point in points)
     return [
-        (point.rmse, float(point.technique.samples), float(point.technique.shaded), (point.bytes_per_frame or 0.0) if known else 0.0)
+        (_error(point), float(point.technique.samples), float(point.technique.shaded), (point.bytes_per_frame or 0.0) if known else 0.0)
         for point in points
     ]
 

@@ -145,9 +145,9 @@ class _Draw:
             band.written[batch.pixel] |= batch.mask
         color, several = _texels(batch.color), batch.color.shape[1] > 1
         for sample in range(self.samples):
-            drawn: NDArray[np.bool_] | slice = chosen(batch.mask, sample)
-            # Most batches are within shapes, where every fragment has every sample.
-            drawn = slice(None) if np.all(drawn) else drawn
+            has = chosen(batch.mask, sample)
+            # Most fragments are within shapes, where each has every sample: whole batches are moved without being searched.
+            drawn = slice(None) if has.all() else has
             pixels, plane = batch.pixel[drawn], _texels(band.color[sample])
             own = color[drawn, group_of(sample, self.drawing.groups) if several else 0]
             if self.write is not None:

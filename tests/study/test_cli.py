@@ -219,8 +219,9 @@ def test_a_record_lies_beside_its_description(tmp_path: Path) -> None:
         [sys.executable, "-m", "msaa_lint", "check", "--isolated", "--select", "MSAA101", "frame.msaa.yaml"],
         cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, check=False,
     )  # fmt: skip
-    assert checked.returncode == 0
-    assert "which its study justifies: it leaves " in checked.stdout
+    assert checked.returncode == 1
+    assert "which its study does not justify: it leaves " in checked.stdout
+    assert "its time was not measured, which `--device NAME` does" in checked.stdout
     refused = run(tmp_path, "frame.msaa.yaml", *SMALL, "--record", "--techniques", "ssaa")
     assert refused.returncode == 2 and "--record: no sample count was measured" in refused.stderr
 

@@ -79,6 +79,12 @@ def test_what_a_device_does_not_draw_is_not_on_its_front() -> None:
     assert best(points) == ["1x", "2x", "4x", "16x"]
 
 
+def test_errors_that_differ_by_rounding_are_the_same() -> None:
+    four, eight = point(Technique(MSAA, 4), rmse=0.17606), point(Technique(MSAA, 8), rmse=0.17605)
+    assert best([four, eight]) == ["4x"]
+    assert best([four, eight._replace(rmse=0.1754)]) == ["4x", "8x"]
+
+
 def test_scenes_have_fronts_of_their_own() -> None:
     points = [point(Technique(MSAA, 1), "a", rmse=0.1), point(Technique(MSAA, 1), "b", rmse=0.2)]
     assert [each.best for each in marked(points)] == [True, True]

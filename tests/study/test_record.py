@@ -194,7 +194,8 @@ def test_the_record_says_what_was_found(beside: Path) -> None:
 def test_without_a_time_that_is_said(tmp_path: Path) -> None:
     path = tmp_path / "frame.msaa.yaml"
     write(str(path), [study(with_times=False)])
-    assert image_study(path, FRAME) == (JUSTIFIES, "it leaves 50 % of 4x's error, at no known time, at 1920x1080")
+    words = "it leaves 50 % of 4x's error, at no known time, at 1920x1080; its time was not measured, which `--device NAME` does"
+    assert image_study(path, FRAME) == ("DECLINES", words)
 
 
 def test_a_count_of_at_most_four_asks_for_no_record(beside: Path) -> None:

@@ -22,10 +22,12 @@ from msaa_lint.report.study_json import render as as_json
 from msaa_lint.report.study_plot import FORMATS, drawn, place, plot
 from msaa_lint.report.study_text import render as as_text
 from msaa_lint.study.advice import Advice, advice
-from msaa_lint.study.crops import displayed, lettered, most_different, short, stacked
+from msaa_lint.study.crops import aligned, displayed, lettered, most_different, short, stacked, window
 from msaa_lint.study.outcome import Pictured, Study, Untimed
 from msaa_lint.study.pareto import marked
-from msaa_lint.study.points import MSAA, SAMPLE_SHADING, Point, Technique, techniques
+from msaa_lint.study.points import MSAA, SAMPLE_SHADING, SSAA, Point, Technique, techniques
+from msaa_lint.study.scenes import scene
+from msaa_lint.study.simulate import simulated
 from msaa_lint.study.tasks import Failed
 
 from .fakes import point, timed
@@ -209,6 +211,18 @@ def test_a_crop_is_where_pictures_differ_most(width: int, height: int, data: st.
     assert left <= x < left + 16 and top <= y < top + 16
     assert 0 <= left <= max(width - 16, 0) and 0 <= top <= max(height - 16, 0)
     assert most_different(one, one) == (0, 0)
+
+
+@pytest.mark.parametrize("name", ["edge-fan", "zone-plate", "foliage-to-coverage", "intersecting", "hdr-emitter"])
+@pytest.mark.parametrize("technique", [Technique(MSAA, 4), Technique(SAMPLE_SHADING, 4, 1.0), Technique(SSAA, 9, grid=3)])
+def test_a_part_is_drawn_as_in_the_whole(name: str, technique: Technique) -> None:
+    whole = scene(name, 96, 64)
+    x, y = aligned((45, 30))
+    assert (x, y) == (40, 24)
+    part = simulated(window(whole, x, y), technique).image
+    assert part.shape == (16, 16, 4)
+    np.testing.assert_allclose(part, simulated(whole, technique).image[y : y + 16, x : x + 16], rtol=0, atol=1e-6)
+    assert simulated(window(whole, 88, 56), technique).image.shape == (8, 8, 4)
 
 
 def test_names_stand_above_their_crops() -> None:

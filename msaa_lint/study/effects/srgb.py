@@ -15,7 +15,8 @@ def stored(color: Floats) -> Floats:
     from ..resolve import from_srgb, to_srgb, to_unorm
 
     made = np.empty_like(color)
-    made[..., :3] = from_srgb(to_unorm(to_srgb(color[..., :3])))
+    codes = np.rint(np.nan_to_num(to_srgb(color[..., :3])).astype(np.float64) * 255)
+    made[..., :3] = from_srgb(codes / 255)
     made[..., 3] = to_unorm(color[..., 3])
     return made
 
