@@ -9,6 +9,7 @@ from ..confirm.outcome import DeviceRun
 from ..confirm.timing import Timing
 from ..confirm.verdict import STATUSES, WRONG, Said, Verdict
 from . import Options, Write
+from .console import opened
 from .escape import shown
 
 STYLES = {"confirmed": "green", "refused": "yellow", "skipped": "", **dict.fromkeys(WRONG, "bold red")}
@@ -17,26 +18,7 @@ _WORDS = {"both": "both", "ours": "ours alone", "theirs": "theirs alone", "expla
 
 def render(runs: Sequence[DeviceRun], out: Write, options: Options) -> None:
     """Prints every device's table and what there is to say below it; of several devices first one table with all of them."""
-    from rich.console import Console
-
-    class Sink:
-        def write(self, text: str) -> int:
-            out(text)
-            return len(text)
-
-        def flush(self) -> None:
-            pass
-
-    console = Console(
-        file=Sink(),  # type: ignore[arg-type]
-        width=options.width or 140,
-        color_system="standard" if options.color else None,
-        force_terminal=options.color,
-        highlight=False,
-        markup=False,
-        emoji=False,
-        legacy_windows=False,
-    )
+    console = opened(out, options)
     usable = [run for run in runs if not run.unusable]
     if len(usable) > 1:
         console.print(_side_by_side(usable))

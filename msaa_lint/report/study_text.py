@@ -9,6 +9,7 @@ from typing import Any
 from ..study.outcome import Pictured, Study
 from ..study.points import Point
 from . import Options, Write
+from .console import opened
 from .escape import shown
 
 MARK = "*"
@@ -16,26 +17,7 @@ MARK = "*"
 
 def render(study: Study, out: Write, options: Options) -> None:
     """Prints every scene's table, effects and advice, then where the figures are from."""
-    from rich.console import Console
-
-    class Sink:
-        def write(self, text: str) -> int:
-            out(text)
-            return len(text)
-
-        def flush(self) -> None:
-            pass
-
-    console = Console(
-        file=Sink(),  # type: ignore[arg-type]
-        width=options.width or 140,
-        color_system="standard" if options.color else None,
-        force_terminal=options.color,
-        highlight=False,
-        markup=False,
-        emoji=False,
-        legacy_windows=False,
-    )
+    console = opened(out, options)
     for number, scene in enumerate(study.scenes):
         if number:
             console.print()
