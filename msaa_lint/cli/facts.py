@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
+from functools import partial
 
 from ..facts.facts import Subject
 from ..facts.table import FACTS, GLOBAL, SUBJECTS, Fact
@@ -79,6 +80,7 @@ def of_input(path: str, output: str, profile: str | None) -> int:
     for root in parsed.documents:
         from .. import readers
         from ..facts.subjects import subjects
+        from ..studied import studied
 
         document = readers.read(source, root)
         for mistake in document.problems:
@@ -89,7 +91,8 @@ def of_input(path: str, output: str, profile: str | None) -> int:
             print(f"msaa-lint: {visible(path)}: {visible(device.message)}", file=sys.stderr)
         wrong = wrong or bool(document.problems) or isinstance(device, Problem)
         if not document.problems and not isinstance(device, Problem):
-            rows.extend(_row(subject, source) for subject in subjects(document, device))
+            study = partial(studied, file=path)
+            rows.extend(_row(subject, source) for subject in subjects(document, device, study))
     if output == "json":
         import json
 

@@ -117,11 +117,12 @@ def _shading(points: Sequence[Point], counts: Sequence[Point]) -> Iterator[tuple
 
 
 def _supersampling(points: Sequence[Point], counts: Sequence[Point]) -> Iterator[tuple[str, str]]:
-    """SSAA grids against the multisampling of as many samples; where there is none, of the most samples that are fewer."""
+    """SSAA grids against the multisampling of as many samples; of 3x3, which there is none for, against 8."""
     worse: list[tuple[Point, Point]] = []
     better: list[tuple[Point, Point]] = []
     for point in (each for each in points if each.technique.kind == SSAA):
-        fewer = [each for each in counts if 1 < each.technique.samples <= point.technique.samples]
+        most = point.technique.samples
+        fewer = [each for each in counts if max(1, most / 2) < each.technique.samples <= most]
         if fewer and fewer[-1].rmse > 0:
             left = point.rmse / fewer[-1].rmse
             (worse if left > 1 / NOTHING else better if left < NOTHING else []).append((point, fewer[-1]))

@@ -40,7 +40,7 @@ def rows(triangles: NDArray[np.int64], width: int, height: int, locations: NDArr
     """
     corners, places = _checked(triangles, locations, subpixels)
     x, y = corners[..., 0], corners[..., 1]
-    inside = (x.max(axis=1) >= 0) & (x.min(axis=1) < subpixels * width) & (y.max(axis=1) > 0) & (y.min(axis=1) < subpixels * height)
+    inside = (x.max(axis=1) > 0) & (x.min(axis=1) < subpixels * width) & (y.max(axis=1) > 0) & (y.min(axis=1) < subpixels * height)
     fits = _fits(corners, subpixels, width, height)
     parts: list[Rows] = []
     for chosen, number in ((fits, np.int64), (~fits, object)):
@@ -127,10 +127,10 @@ def _column(edge: _Edge, part: slice, counts: NDArray[np.int64], start: NDArray[
     below = np.repeat(edge.below[part], counts)
     if above.dtype == object:
         return _clipped(-(-above // below), width)
-    # The quotient in double precision is the whole number sought or a neighbour of it wherever it lies in the picture: which, the
+    # The quotient in double precision gives the column sought or a neighbour of it, wherever that lies in the picture: which, the
     # remainder tells. It takes a third of the time that a division of int64 does.
     guess = above / below
-    found: NDArray[np.int64] = np.ceil(np.clip(guess, -1.0, width + 1.0, out=guess), out=guess).astype(np.int64)
+    found: NDArray[np.int64] = np.ceil(np.clip(guess, 0.0, float(width), out=guess), out=guess).astype(np.int64)
     above -= found * below
     found += above > 0
     found -= above <= -below

@@ -44,11 +44,12 @@ def total(values: NDArray[np.floating]) -> float:
     """The sum, in double precision. Infinities of both signs, and NaN, give NaN."""
     # NumPy adds pairwise along the fastest axis alone: what is summed is one row.
     row = np.ascontiguousarray(values).reshape(-1)
-    sums = [float(np.sum(row[start : start + BLOCK], dtype=np.float64)) for start in range(0, len(row), BLOCK)]
-    try:
-        return math.fsum(sums)
-    except (ValueError, OverflowError):
-        return float(np.sum(sums))
+    with np.errstate(invalid="ignore", over="ignore"):
+        sums = [float(np.sum(row[start : start + BLOCK], dtype=np.float64)) for start in range(0, len(row), BLOCK)]
+        try:
+            return math.fsum(sums)
+        except (ValueError, OverflowError):
+            return float(np.sum(sums))
 
 
 def difference(measured: NDArray[np.floating], exact: NDArray[np.floating]) -> Floats:

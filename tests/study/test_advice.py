@@ -98,6 +98,7 @@ def test_grids_are_held_against_as_many_samples() -> None:
         "(RMSE 0.1443 against 0.0722, RMSE 0.0962 against 0.0361, RMSE 0.0722 against 0.0363; a grid's samples share rows and columns, "
         "so that it tells fewer positions of an edge apart)"
     ) in says([*plain, *grids])
+    assert not any("SSAA" in line for line in says([plain[2], grids[1], grids[2]])), "4x is not as many as 9 or 16"
     better = [each._replace(rmse=0.03) for each in grids]
     assert (
         "SSAA has less error than as many samples: SSAA 2x2 0.42 times 4x's for 2 times the time, "

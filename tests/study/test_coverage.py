@@ -86,6 +86,19 @@ def test_many_triangles_are_each_as_alone(corners: NDArray[np.int64], samples: i
     assert same(found, Rows(*(np.concatenate(column) for column in zip(*named, strict=True))))
 
 
+def test_near_and_far_triangles_come_back_in_their_order() -> None:
+    """Those of Python's integers are solved apart from those of int64."""
+    near, far = [(0, 0), (700, 0), (0, 700)], [(-(2**31), -(2**31)), (2**31, -(2**31)), (500, 2**31)]
+    found = rows(np.array([far, near, far, near, near, far]), WIDTH, HEIGHT, standard(4))
+    assert sorted(set(found.triangle.tolist())) == [0, 1, 2, 3, 4, 5]
+    order = list(zip(found.triangle.tolist(), found.row.tolist(), strict=True))
+    assert order == sorted(order)
+    for n, corners in enumerate((far, near)):
+        alone, own = rows(np.array([corners]), WIDTH, HEIGHT, standard(4)), found.triangle == n
+        assert np.array_equal(found.left[own], alone.left)
+        assert np.array_equal(found.right[own], alone.right)
+
+
 @settings(max_examples=100, deadline=None)
 @given(triangles(most=12), COUNTS)
 def test_python_s_integers_give_what_int64_gives(corners: NDArray[np.int64], samples: int) -> None:

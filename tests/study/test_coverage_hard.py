@@ -20,12 +20,12 @@ SIDE = 8
 """Pixels of the picture's side."""
 
 
-def near_ties(pixels: int, trials: int, seed: int, samples: int = 16) -> tuple[NDArray[np.int64], NDArray[np.int64], list[int]]:
+def near_ties(pixels: int, trials: int, seed: int, across: int = SIDE) -> tuple[NDArray[np.int64], NDArray[np.int64], list[int]]:
     """Pairs of triangles at an edge of about `pixels` pixels that misses a sample by the least there is: an edge function of 1 or -1.
 
     Gives the triangles (2 * trials, 3, 2), those of each pair on either side of their edge and clockwise on the screen, the sample
-    (trials, 2) that each edge misses, and which of the pattern's samples it is. By Bezout's identity: for a run and a rise without a
-    common divisor there are whole numbers that make run * v - rise * u = 1.
+    (trials, 2) that each edge misses, in a picture `across` pixels wide, and which of the pattern's 16 samples it is. By Bezout's
+    identity: for a run and a rise without a common divisor there are whole numbers that make run * v - rise * u = 1.
     """
     random = np.random.default_rng(seed)
     triangles, missed, which = [], [], []
@@ -43,8 +43,8 @@ def near_ties(pixels: int, trials: int, seed: int, samples: int = 16) -> tuple[N
         u, v = u - steps * run, v - steps * rise
         if not 0 <= u * run + v * rise <= run * run + rise * rise:
             continue
-        own = int(random.integers(samples))
-        sample = standard(samples)[own] + SUBPIXELS * random.integers(0, SIDE, 2)
+        own = int(random.integers(16))
+        sample = standard(16)[own] + SUBPIXELS * random.integers(0, (across, SIDE), 2)
         x, y = int(sample[0]) - u, int(sample[1]) - v
         start, end = (x, y), (x + run, y + rise)
         assert edge(start, end, (int(sample[0]), int(sample[1]))) == side
@@ -56,9 +56,9 @@ def near_ties(pixels: int, trials: int, seed: int, samples: int = 16) -> tuple[N
     return np.array(triangles, dtype=np.int64), np.array(missed, dtype=np.int64), which
 
 
-def says(triangles: NDArray[np.int64], missed: NDArray[np.int64], which: list[int]) -> list[bool]:
+def says(triangles: NDArray[np.int64], missed: NDArray[np.int64], which: list[int], across: int = SIDE) -> list[bool]:
     """What rows() says of every triangle and the sample near its edge."""
-    found = rows(triangles, SIDE, SIDE, standard(16))
+    found = rows(triangles, across, SIDE, standard(16))
     return [
         hit(found, n, int(missed[n // 2][1]) // SUBPIXELS, int(missed[n // 2][0]) // SUBPIXELS, which[n // 2])
         for n in range(len(triangles))
@@ -76,6 +76,13 @@ def test_near_ties_are_told(pixels: int, trials: int) -> None:
     # The sample is on one side of the edge, so that one triangle of each pair has it.
     assert [exact[n] + exact[n + 1] for n in range(0, 2 * trials, 2)] == [1] * trials
     assert says(triangles, missed, which) == exact
+
+
+@pytest.mark.parametrize(("pixels", "across"), [(1024, 2**14), (2**20, 2**14), (2**20, 2**20), (2**22, 2**20)])
+def test_near_ties_are_told_in_columns_far_to_the_right(pixels: int, across: int) -> None:
+    """There a quotient in double precision is too coarse, and its remainder must tell."""
+    triangles, missed, which = near_ties(pixels, 400, pixels, across)
+    assert says(triangles, missed, which, across) == true(triangles, missed)
 
 
 @pytest.mark.parametrize(
