@@ -85,6 +85,20 @@ def test_near_ties_are_told_in_columns_far_to_the_right(pixels: int, across: int
     assert says(triangles, missed, which, across) == true(triangles, missed)
 
 
+def test_edges_through_samples_where_a_quotient_in_double_precision_is_rounded_past_them() -> None:
+    """In columns millions of pixels away, still in int64: a top left corner on a centre has it."""
+    random = np.random.default_rng(11)
+    column, rise = random.integers(2**22, 2**23, 400), random.integers(2**29, 2**30, 400)
+    x = column * SUBPIXELS + 128
+    run = -random.integers(0, 2**20, 400)
+    triangles = np.stack([np.stack(corner, axis=1) for corner in ((x, 0 * x + 128), (x + 512, 0 * x + 128), (x + run, rise + 128))], axis=1)
+    found = rows(triangles, 2**23 + 8, 1, standard(1))
+    assert np.array_equal(found.left[:, 0], column)
+    assert np.array_equal(found.right[:, 0], column + 2)
+    quotients = (column * SUBPIXELS * rise) / (SUBPIXELS * rise)
+    assert (quotients > column).sum() > 10
+
+
 @pytest.mark.parametrize(
     ("pixels", "number", "least"),
     [(64, np.float32, 0.2), (1024, np.float32, 0.4), (16384, np.float32, 0.4), (2**20, np.float32, 0.4), (2**20, np.float64, 0.08)],

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..resolve import average
 from .drawing import Floats
 
 MODES = ("SAMPLE_ZERO", "AVERAGE", "MIN", "MAX")
@@ -23,6 +24,4 @@ def resolved(depth: Floats, mode: str) -> Floats:
         return np.asarray(np.maximum.reduce(depth, axis=0), np.float32)
     if mode != "AVERAGE":
         raise ValueError(f"{mode} is no depth resolve mode: they are {', '.join(MODES)}")
-    from ..resolve import average
-
     return average(depth)

@@ -5,33 +5,28 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..resolve import from_srgb, to_srgb, to_unorm
 from .drawing import Floats
 
 MODES = ("linear-light", "encoded")
 
+LIGHT: Floats = from_srgb(np.arange(256) / 255)
+"""By code."""
+
 
 def stored(color: Floats) -> Floats:
-    """What is read back of what is written, in linear light."""
-    from ..resolve import from_srgb, to_srgb, to_unorm
-
-    made = np.empty_like(color)
-    codes = np.rint(np.nan_to_num(to_srgb(color[..., :3])).astype(np.float64) * 255)
-    made[..., :3] = from_srgb(codes / 255)
-    made[..., 3] = to_unorm(color[..., 3])
-    return made
+    """What is read back of what is written, in linear light. NaN is kept as 0."""
+    codes = np.rint(np.nan_to_num(to_srgb(color[..., :3])) * np.float32(255)).astype(np.uint8)
+    return _colors(to_unorm(color), LIGHT[codes])
 
 
 def encoded(samples: Floats) -> Floats:
     """Samples as the codes that a UNORM format averages, in [0, 1]."""
-    from ..resolve import to_srgb
-
     return _colors(samples, to_srgb(samples[..., :3]))
 
 
 def decoded(picture: Floats) -> Floats:
     """The averaged codes as light."""
-    from ..resolve import from_srgb
-
     return _colors(picture, from_srgb(picture[..., :3]))
 
 
