@@ -114,6 +114,16 @@ def test_shared_edges_leave_no_trace() -> None:
     assert np.array_equal(half, areas(np.array([(1.25, 1.25), (5.25, 1.25), (5.25, 5.25), (1.25, 5.25)]), 8, 8))
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_neither_do_edges_that_end_on_others(seed: int) -> None:
+    """A quadrilateral cut in two, one of the parts again from the middle of the cut: inside of it every pixel is 1, exactly."""
+    along = np.random.default_rng(seed).integers(-3 * SUBPIXELS, 3 * SUBPIXELS, 2) / SUBPIXELS
+    middle, across = np.array((3.0, 3.0)), np.array((-along[1], along[0]))
+    a, b, left, right = middle - along, middle + along, middle + across, middle - across
+    together = areas_of(np.array([(a, b, left), (a, middle, right), (middle, b, right)]), SIDE, SIDE)
+    assert worst(together, exact(np.array([a, left, b, right]))) <= ACCURACY
+
+
 @pytest.mark.parametrize(
     ("polygon", "total"),
     [

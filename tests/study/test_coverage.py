@@ -208,6 +208,21 @@ def test_the_means_of_the_standard_patterns(samples: int, mean: int) -> None:
     assert mean * 32 == SUBPIXELS * (15 if samples == 16 else 16)
 
 
+def test_the_order_of_samples_is_that_of_the_specification_s_table() -> None:
+    """In pixels, as it is printed there."""
+    eight = (
+        "(0.5625,0.3125) (0.4375,0.6875) (0.8125,0.5625) (0.3125,0.1875) (0.1875,0.8125) (0.0625,0.4375) (0.6875,0.9375) (0.9375,0.0625)"
+    )
+    sixteen = (
+        "(0.5625,0.5625) (0.4375,0.3125) (0.3125,0.625) (0.75,0.4375) (0.1875,0.375) (0.625,0.8125) (0.8125,0.6875) (0.6875,0.1875) "
+        "(0.375,0.875) (0.5,0.0625) (0.25,0.125) (0.125,0.75) (0.0,0.5) (0.9375,0.25) (0.875,0.9375) (0.0625,0.0)"
+    )
+    four = "(0.375,0.125) (0.875,0.375) (0.125,0.625) (0.625,0.875)"
+    for samples, table in {1: "(0.5,0.5)", 2: "(0.75,0.75) (0.25,0.25)", 4: four, 8: eight, 16: sixteen}.items():
+        places = [tuple(float(number) for number in place.strip("()").split(",")) for place in table.split()]
+        assert (standard(samples) / SUBPIXELS).tolist() == [list(place) for place in places]
+
+
 def test_the_standard_patterns_have_every_row_and_column_once() -> None:
     for samples in STANDARD:
         places = standard(samples)

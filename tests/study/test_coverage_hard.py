@@ -88,11 +88,12 @@ def test_near_ties_are_told_in_columns_far_to_the_right(pixels: int, across: int
 def test_edges_through_samples_where_a_quotient_in_double_precision_is_rounded_past_them() -> None:
     """In columns millions of pixels away, still in int64: a top left corner on a centre has it."""
     random = np.random.default_rng(11)
-    column, rise = random.integers(2**22, 2**23, 400), random.integers(2**29, 2**30, 400)
+    column, rise = random.integers(15 * 2**19, 2**23 - 2, 400), random.integers(2**30, 5 * 2**28, 400)
     x = column * SUBPIXELS + 128
-    run = -random.integers(0, 2**20, 400)
-    triangles = np.stack([np.stack(corner, axis=1) for corner in ((x, 0 * x + 128), (x + 512, 0 * x + 128), (x + run, rise + 128))], axis=1)
-    found = rows(triangles, 2**23 + 8, 1, standard(1))
+    run = -random.integers(0, 2**8, 400)
+    level = np.full_like(x, 128)
+    triangles = np.moveaxis(np.array([(x, level), (x + 512, level), (x + run, level + rise)]), -1, 0)
+    found = rows(triangles, 2**23, 1, standard(1))
     assert np.array_equal(found.left[:, 0], column)
     assert np.array_equal(found.right[:, 0], column + 2)
     quotients = (column * SUBPIXELS * rise) / (SUBPIXELS * rise)

@@ -46,7 +46,7 @@ def test_masks_are_what_any_triangle_covers_and_hits_count_them(corners: NDArray
 
 
 def test_pixels_between_the_samples_of_a_narrow_triangle_are_no_fragments() -> None:
-    """A needle that has one sample of the second pixel and the other of the eleventh: it crosses those between, and covers nothing there."""
+    """A needle that has one sample of the second pixel and the other of the eleventh, and crosses those between."""
     locations = np.array([(0, 0), (0, 128)])
     needle = np.array([[(256, 0), (260, 0), (3856, 200)]])
     found = fragments(rows(needle, 12, 1, locations), 2)

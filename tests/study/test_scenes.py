@@ -223,8 +223,8 @@ def test_pieces_of_any_triangles_fill_the_picture_once(corners: list[tuple[int, 
     draws = np.random.default_rng(seed)
     colors = np.concatenate([draws.random((len(triangles), 3)), np.ones((len(triangles), 1))], axis=1)
     depths = draws.random((len(triangles), 3))
-    found = visible.pieces(triangles, colors, depths, BLACK, (20, 18), visible.Look(depth=True))
-    assert sum(abs(visible.size(piece.polygon)) for piece in found) == pytest.approx(20 * 18, abs=1e-6)
+    found = visible.tiles(triangles, colors, depths, BLACK, (20, 18), visible.Look(depth=True))
+    assert sum(abs(visible.size(piece.polygon)) for _, _, pieces in found for piece in pieces) == pytest.approx(20 * 18, abs=1e-6)
 
 
 OBJ = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nf 1 2 3 4\n"

@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 
 MOST_BYTES = 64 << 20
 MOST_TRIANGLES = 100_000
-"""The exact picture of overlapping triangles takes about a minute for as many."""
+"""The exact picture of as many that overlap takes minutes."""
 
 FORMATS = {".obj": "obj", ".ply": "ply"}
 

@@ -8,7 +8,7 @@ precision.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -28,6 +28,9 @@ Color = tuple[float, float, float, float]
 
 TILE = 16
 """Pixels of a tile's side: few triangles meet one, so that the work grows with their number and not with its square."""
+
+ABREAST = 64
+"""Tiles beside each other, and below, whose areas are worked out together."""
 
 SLIVER = 1e-12
 """Pieces of a smaller area, in pixels, are dropped."""
@@ -125,15 +128,16 @@ def _mixed(color: Color, behind: Color) -> Color:
     return red, green, blue, alpha + (1 - alpha) * behind[3]
 
 
-def pieces(triangles: Floats, colors: Floats, depths: Floats | None, background: RGBA, size: tuple[int, int], look: Look) -> list[Piece]:
-    """The pieces of a picture of that size (width, height), tile by tile."""
+def tiles(
+    triangles: Floats, colors: Floats, depths: Floats | None, background: RGBA, size: tuple[int, int], look: Look
+) -> Iterator[tuple[int, int, list[Piece]]]:
+    """The tiles of a picture of that size (width, height): left, top and pieces of each."""
     width, height = size
     surfaces = planes(triangles, depths) if depths is not None else np.zeros((len(triangles), 3))
     low, high = triangles.min(axis=1), triangles.max(axis=1)
     edges = [_edges(triangle) for triangle in triangles]
     news = [Piece([], _four(color), (float(a), float(b), float(c))) for color, (a, b, c) in zip(colors, surfaces, strict=True)]
     cleared = 0.0 if look.reversed else 1.0
-    made = []
     for top in range(0, height, TILE):
         bottom = min(top + TILE, height)
         beside = np.flatnonzero((low[:, 1] < bottom) & (high[:, 1] > top))
@@ -144,13 +148,32 @@ def pieces(triangles: Floats, colors: Floats, depths: Floats | None, background:
             for number in beside[(low[beside, 0] < right) & (high[beside, 0] > left)]:
                 if edges[number]:
                     found = _inserted(found, edges[number], news[number], look)
-            made += found
-    return made
+            yield left, top, found
 
 
 def _four(color: Floats) -> Color:
     red, green, blue, alpha = map(float, color)
     return red, green, blue, alpha
+
+
+class _Part(NamedTuple):
+    """What a tile has of one colour, as triangles."""
+
+    left: int
+    top: int
+    color: Color
+    triangles: list[list[Point]]
+
+
+def _areas(parts: list[_Part]) -> Floats:
+    """The areas of parts within the pixels of their tiles (P, TILE, TILE), worked out side by side in one picture."""
+    corners = []
+    for number, part in enumerate(parts):
+        row, column = divmod(number, ABREAST)
+        corners.append(np.array(part.triangles) + np.array((TILE * column - part.left, TILE * row - part.top)))
+    rows = -(-len(parts) // ABREAST)
+    found = areas_of(np.concatenate(corners), TILE * ABREAST, TILE * rows)
+    return found.reshape(rows, TILE, ABREAST, TILE).swapaxes(1, 2).reshape(-1, TILE, TILE)
 
 
 def overlapping(
@@ -165,19 +188,28 @@ def overlapping(
     """What gives the exact picture (H, W, 4) of triangles (T, 3, 2), and the pixels that an edge or a crossing line goes through: those
     that no colour fills whole. `shown` maps the colour of a piece to what is displayed."""
 
+    def display(color: Color) -> Floats:
+        return np.array(color) if shown is None else shown(np.array(color))
+
     def both(triangles: Floats) -> tuple[Floats, NDArray[np.bool_]]:
-        kinds: dict[Color, list[list[Point]]] = {}
-        for piece in pieces(triangles, colors, depths, background, (width, height), look):
-            kinds.setdefault(piece.color, []).extend(shapes.fan(piece.polygon))
         picture, whole = np.zeros((height, width, 4)), np.zeros((height, width), bool)
-        for color, found in kinds.items():
-            parts = np.array(found)
-            left, top = np.floor(parts.min(axis=(0, 1))).astype(int)
-            right, bottom = np.ceil(parts.max(axis=(0, 1))).astype(int)
-            area = areas_of(parts - (left, top), int(right - left), int(bottom - top))
-            display = np.array(color) if shown is None else shown(np.array(color))
-            picture[top:bottom, left:right] += area[..., None] * display
-            whole[top:bottom, left:right] |= area > 1 - NOTHING
+        parts: list[_Part] = []
+        for left, top, found in tiles(triangles, colors, depths, background, (width, height), look):
+            kinds: dict[Color, list[list[Point]]] = {}
+            for piece in found:
+                kinds.setdefault(piece.color, []).extend(shapes.fan(piece.polygon))
+            if len(kinds) == 1:
+                picture[top : top + TILE, left : left + TILE] = display(found[0].color)
+                whole[top : top + TILE, left : left + TILE] = True
+            else:
+                parts += [_Part(left, top, color, own) for color, own in kinds.items()]
+        for start in range(0, len(parts), ABREAST * ABREAST):
+            some = parts[start : start + ABREAST * ABREAST]
+            for part, area in zip(some, _areas(some), strict=False):
+                pixels = slice(part.top, min(part.top + TILE, height)), slice(part.left, min(part.left + TILE, width))
+                area = area[: pixels[0].stop - part.top, : pixels[1].stop - part.left]
+                picture[pixels] += area[..., None] * display(part.color)
+                whole[pixels] |= area > 1 - NOTHING
         return picture, ~whole
 
     remembered: list[tuple[bytes, tuple[Floats, NDArray[np.bool_]]]] = []
