@@ -12,20 +12,9 @@ from itertools import pairwise
 
 from ..facts.frame import RENDER_PASS, Frame, Pass
 from ..facts.subpass import samples_of
+from ..vulkan.sample_locations import STANDARD
 from .amounts import Shading
 from .sizes import Area
-
-STANDARD_LOCATIONS: dict[int, tuple[tuple[int, int], ...]] = {
-    1: ((8, 8),),
-    2: ((12, 12), (4, 4)),
-    4: ((6, 2), (14, 6), (2, 10), (10, 14)),
-    8: ((9, 5), (7, 11), (13, 9), (5, 3), (3, 13), (1, 7), (11, 15), (15, 1)),
-    16: (
-        (9, 9), (7, 5), (5, 10), (12, 7), (3, 6), (10, 13), (13, 11), (11, 3),
-        (6, 14), (8, 1), (4, 2), (2, 12), (0, 8), (15, 4), (14, 15), (1, 0),
-    ),
-}  # fmt: skip
-"""The standard sample locations of the Vulkan specification (Rasterization), in sixteenths of a pixel from its upper left corner."""
 
 LEGS = (1, 2, 4, 8, 16, 32)
 """Right triangles of these legs, in pixels, stand in tables for small ones."""
@@ -49,7 +38,7 @@ def invocations_per_area(leg: int, samples: int) -> float:
     """
     # In thirty-seconds of a pixel, where the middle between two heights is whole. At height y a copy that was moved by (x, z) covers from
     # x to x + side - (y - z): between the heights below, every gap is linear in y, and what is covered in the middle is the mean.
-    moved = [(-2 * x, -2 * y) for x, y in STANDARD_LOCATIONS[samples]]
+    moved = [(-2 * x, -2 * y) for x, y in STANDARD[samples]]
     side = 32 * leg
     heights = {y for _, y in moved} | {y + side for _, y in moved}
     heights |= {x + y + side - other for x, y in moved for other, _ in moved}
@@ -98,7 +87,7 @@ def edge_term(leg: int, samples: int) -> tuple[float, float]:
 
     The mixed area is the sum over the triangle's sides of their length times how far P reaches along the side's outward normal.
     """
-    corners = hull(STANDARD_LOCATIONS[samples])
+    corners = hull(STANDARD[samples])
     turned = [(-x, -y) for x, y in corners]
     area = sum(_turn((0, 0), a, b) for a, b in zip(corners, corners[1:] + corners[:1], strict=True))
     # Normals scaled by their sides' lengths: (-1, 0) and (0, -1) of the legs, (1, 1) of the third side.

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from ..confirm import gate, plan
 from ..confirm.collected import SAMPLES_OF
-from ..confirm.draw import CLEARED
 from ..confirm.results import Unusable
+from ..confirm.scene import CLEARED
 from ..confirm.session import Session
 from .described import frame_of
 from .points import MSAA, Technique

@@ -5,20 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..vulkan.sample_locations import STANDARD
+
 SUBPIXELS = 256
 """Steps to a pixel: coordinates are whole numbers of 1/256 pixel."""
-
-STANDARD: dict[int, tuple[tuple[int, int], ...]] = {
-    1: ((8, 8),),
-    2: ((12, 12), (4, 4)),
-    4: ((6, 2), (14, 6), (2, 10), (10, 14)),
-    8: ((9, 5), (7, 11), (13, 9), (5, 3), (3, 13), (1, 7), (11, 15), (15, 1)),
-    16: (
-        *((9, 9), (7, 5), (5, 10), (12, 7), (3, 6), (10, 13), (13, 11), (11, 3)),
-        *((6, 14), (8, 1), (4, 2), (2, 12), (0, 8), (15, 4), (14, 15), (1, 0)),
-    ),
-}
-"""x and y of every sample in sixteenths of a pixel, from its upper left, in sample order, by the table of the specification."""
 
 
 def standard(samples: int) -> NDArray[np.int64]:

@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from msaa_lint.study.coverage import rows
 from msaa_lint.study.exact_area import areas, areas_of
 from msaa_lint.study.fragments import fragments, masks
-from msaa_lint.study.locations import STANDARD, SUBPIXELS, standard
+from msaa_lint.study.locations import SUBPIXELS, standard
+from msaa_lint.vulkan.sample_locations import STANDARD
 
 WIDTH, HEIGHT = 1920, 1080
 LARGE = np.array([[(10, 20), (WIDTH * SUBPIXELS - 77, 300 * SUBPIXELS), (500 * SUBPIXELS + 3, HEIGHT * SUBPIXELS - 9)]])

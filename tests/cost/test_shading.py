@@ -8,7 +8,6 @@ import pytest
 
 from msaa_lint.cost.shading import (
     EDGES,
-    STANDARD_LOCATIONS,
     edge_term,
     hull,
     invocations_at_most,
@@ -16,6 +15,7 @@ from msaa_lint.cost.shading import (
     shaded_samples,
     supersampling,
 )
+from msaa_lint.vulkan.sample_locations import STANDARD
 
 from .frames import cost, of_pass
 
@@ -50,7 +50,7 @@ def test_agrees_with_every_position_on_a_fine_grid(leg: int, samples: int) -> No
         for x, y in product(range(-1, leg + 2), repeat=2):
             count += any(
                 left < (sx := x * grid + a * 4) and low < (sy := y * grid + b * 4) and (sx - left) + (sy - low) < side
-                for a, b in STANDARD_LOCATIONS[samples]
+                for a, b in STANDARD[samples]
             )
     assert invocations_per_area(leg, samples) == pytest.approx(count / grid**2 / (leg * leg / 2), rel=0.02)
 
@@ -74,13 +74,13 @@ def test_the_hull_is_tight_for_large_triangles() -> None:
 
 def test_mixed_area_of_four_samples() -> None:
     """The hull is a square of area 0.3125; along the legs it reaches 6/16, along the third side (1, 1) 8/16: 2 V = 1.25 L."""
-    assert len(hull(STANDARD_LOCATIONS[4])) == 4
+    assert len(hull(STANDARD[4])) == 4
     assert edge_term(4, 4) == (5.0, 0.3125)
     assert edge_term(4, 1) == (0.0, 0.0)
 
 
 def test_standard_locations_are_distinct_in_x_and_y() -> None:
-    for samples, places in STANDARD_LOCATIONS.items():
+    for samples, places in STANDARD.items():
         assert len(places) == samples == len({x for x, _ in places}) == len({y for _, y in places})
 
 

@@ -290,6 +290,16 @@ def test_what_is_not_installed_is_said(tmp_path: Path, missing: str, arguments: 
     assert words in done.stderr
 
 
+def test_only_ssim_needs_scikit_image(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setitem(sys.modules, "skimage", None)
+    given = {"paths": ["edge-fan"], "jobs": 1, "size": "64x48", "samples": "4", "techniques": MSAA}
+    assert command.study(given) == 0
+    capsys.readouterr()
+    assert command.study({**given, "ssim": True}) == 2
+    wanted = "msaa-lint: --ssim needs scikit-image, which is not installed: pip install 'msaa-lint[ssim]'\n"
+    assert capsys.readouterr() == ("", wanted)
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="process groups are POSIX")
 @pytest.mark.parametrize("jobs", ["1", "2"])
 def test_an_interrupted_sweep_loses_nothing_and_goes_on(tmp_path: Path, jobs: str) -> None:

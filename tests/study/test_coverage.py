@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from msaa_lint.study import coverage
 from msaa_lint.study.coverage import Rows, rows
 from msaa_lint.study.fragments import masks
-from msaa_lint.study.locations import STANDARD, SUBPIXELS, grid, jittered, random, standard
+from msaa_lint.study.locations import SUBPIXELS, grid, jittered, random, standard
+from msaa_lint.vulkan.sample_locations import STANDARD
 
 from .rational import covered
 

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from msaa_lint.study.coverage import rows
 from msaa_lint.study.fragments import hits, masks
-from msaa_lint.study.locations import STANDARD, SUBPIXELS, standard
+from msaa_lint.study.locations import SUBPIXELS, standard
+from msaa_lint.vulkan.sample_locations import STANDARD
 
 from .rational import covered, covers, edge, hit, naive
 
