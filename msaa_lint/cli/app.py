@@ -10,7 +10,7 @@ import typer
 
 from .. import __version__
 from .confirm_options import CONFIRM
-from .options import CHECK, Option
+from .options import CHECK, SHARED, Option
 from .study_options import STUDY
 
 app = typer.Typer(
@@ -89,7 +89,16 @@ def _from_table(command: Callable[..., None], table: Sequence[Option], needs_pat
     paths: Any = Annotated[list[str], argument] if needs_paths else Annotated[list[str] | None, argument]
     none: Any = inspect.Parameter.empty if needs_paths else None
     first = inspect.Parameter("paths", inspect.Parameter.KEYWORD_ONLY, default=none, annotation=paths)
-    parameters = [first, *(_parameter(option) for option in table)]
+    return _taking(command, [first, *(_parameter(option) for option in table)])
+
+
+def _sharing(command: Callable[..., None]) -> Callable[..., None]:
+    """A command with the options that several have, after its own."""
+    own = inspect.signature(command, eval_str=True).parameters.values()
+    return _taking(command, [*(each for each in own if each.kind != inspect.Parameter.VAR_KEYWORD), *map(_parameter, SHARED)])
+
+
+def _taking(command: Callable[..., None], parameters: Sequence[inspect.Parameter]) -> Callable[..., None]:
     command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
     command.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     return command
@@ -114,6 +123,7 @@ def rule(
 
 
 @app.command()
+@_sharing
 def cost(
     paths: Annotated[list[str], typer.Argument(metavar="PATH...", help="Inputs; exactly two files are compared: what the second adds.")],
     fps: Annotated[float | None, typer.Option(help="Frames a second, whatever the input says.")] = None,
@@ -127,18 +137,14 @@ def cost(
     each: Annotated[bool, typer.Option("--each", help="Show two inputs one after the other, not compared.")] = False,
     output: Annotated[list[str] | None, typer.Option(metavar="FORMAT[=FILE]", help="full, json, markdown; =FILE writes there.")] = None,
     chart: Annotated[str | None, typer.Option(metavar="FILE", help="Draw a chart, .svg or .png (extra `chart`).")] = None,
-    color: Annotated[Literal["auto", "always", "never"], typer.Option(help="Colour in text output.")] = "auto",
-    stdin_filename: Annotated[str | None, typer.Option(metavar="NAME", help="What to call the input from `-`.")] = None,
-    input_format: Annotated[Literal["description", "vulkan-sc"] | None, typer.Option(help="Read inputs as this.")] = None,
-    config: Annotated[str | None, typer.Option(metavar="FILE", help="Use this configuration file.")] = None,
-    isolated: Annotated[bool, typer.Option("--isolated", help="Use no configuration file.")] = False,
-    traceback: Annotated[bool, typer.Option("--traceback", help="Show where the program itself failed.")] = False,
+    **shared: Any,
 ) -> None:
     """Show what a frame costs: MB/s, MiB and mW per pass and attachment; or what a change adds.
 
     Exits with 0, or with 2 where an input, an option, the configuration or the program failed; the other inputs are still shown.
     """
     given = dict(locals())
+    given |= given.pop("shared")
     from .cost import cost as show
 
     raise typer.Exit(show({name: value for name, value in given.items() if value is not None and value is not False and value != []}))

@@ -11,9 +11,10 @@ from .. import __version__
 from ..discovery import STDIN
 from ..finding import rank
 from ..run import Outcome, Request, run
-from .common import BROKEN_PIPE, Target, colored, settings
+from .common import Target, colored, ended, outputs, settings, utf_8
 from .options import FORMATS
 
+EXAMPLE = "sarif=findings.sarif"
 LIMITS = {"max_depth": "depth", "max_nodes": "nodes", "max_bytes": "bytes"}
 
 ERRORS = "<standard error>"
@@ -22,31 +23,15 @@ ERRORS = "<standard error>"
 
 def check(given: Mapping[str, Any]) -> int:
     """Lints what the arguments name and prints it; the exit code."""
-    try:
-        return _check(given)
-    except BrokenPipeError:
-        # Whoever reads us has gone; Python would complain once more when it closes the stream.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return BROKEN_PIPE
-    except KeyboardInterrupt:
-        return 130
-    except Exception as error:
-        if given.get("traceback"):
-            raise
-        print(f"msaa-lint: the program failed: {type(error).__name__}: {str(error)[:300]} (--traceback shows where)", file=sys.stderr)
-        return 2
+    return ended(_check, given)
 
 
 def _check(given: Mapping[str, Any]) -> int:
-    try:
-        targets = outputs(given.get("output", ()))
-    except ValueError as error:
-        print(f"msaa-lint: {error}", file=sys.stderr)
-        return 2
+    targets = outputs(given.get("output", ()), FORMATS, EXAMPLE)
     fallback = "full" if sys.stdout.isatty() else "concise"
     outcome = run(request(given, targets, fallback), _progress())
     if not targets:
-        targets = outputs(outcome.settings.output) or [Target(fallback, None)]
+        targets = outputs(outcome.settings.output, FORMATS, EXAMPLE) or [Target(fallback, None)]
     from ..report.escape import visible
 
     for note in outcome.notes:
@@ -112,24 +97,6 @@ def request(given: Mapping[str, Any], targets: Sequence[Target] = (), fallback: 
     )
 
 
-def outputs(stated: Any) -> list[Target]:
-    """The outputs that `FORMAT[=FILE]` name. ValueError for an unknown one, and for two on standard output."""
-    targets = []
-    for text in stated:
-        name, equals, path = text.partition("=")
-        if name not in FORMATS:
-            from ..report.escape import visible
-            from ..vulkan.names import nearest
-
-            close = nearest(name, FORMATS)
-            hint = f"did you mean {close}?" if close else f"there are {', '.join(FORMATS)}"
-            raise ValueError(f"no output {visible(name)!r}; {hint}")
-        targets.append(Target(name, path if equals and path not in ("", "-") else None))
-    if sum(target.path is None for target in targets) > 1:
-        raise ValueError("two outputs go to standard output: give all but one a file, as in --output sarif=findings.sarif")
-    return targets
-
-
 def exit_code(outcome: Outcome, exit_zero: bool = False) -> int:
     """2 where an input or the configuration could not be used, 1 where a finding is as severe as `fail-on`, or findings as dear as
     `fail-on-cost`, else 0."""
@@ -163,9 +130,7 @@ def _print(target: Target, outcome: Outcome, given: Mapping[str, Any]) -> bool:
             return False
         return True
     out = sys.stdout if target.path is None else sys.stderr
-    if hasattr(out, "reconfigure"):
-        # The console's own encoding may not have what an excerpt shows; a machine format is UTF-8 whatever the locale.
-        out.reconfigure(encoding="utf-8", errors="backslashreplace")
+    utf_8(out)
     options = _options(target, outcome, given, out)
     if given.get("statistics") and target.format in ("full", "concise"):
         from ..report.statistics import render as count

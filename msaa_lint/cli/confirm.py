@@ -3,28 +3,22 @@
 from __future__ import annotations
 
 import math
-import os
-import signal
 import sys
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import IO, TYPE_CHECKING, Any, NamedTuple
 
 from .. import __version__
 from ..confirm.child import Limits
 from ..confirm.results import NotWritten, Unusable
 from ..report.escape import visible
-from .common import BROKEN_PIPE, Target, colored, settings
+from .common import MOST_PIXELS, Mistake, Target, colored, ended, outputs, settings, size, written
 
 if TYPE_CHECKING:
     from ..confirm.session import Session
 
 FORMATS = ("full", "json")
-MOST_PIXELS = 16384
 COUNTS = (1, 2, 4, 8, 16, 32, 64)
-
-
-class Mistake(Exception):
-    """An option that says nothing that can be used; its text is for the user."""
 
 
 class Options(NamedTuple):
@@ -45,42 +39,7 @@ class Options(NamedTuple):
 
 def confirm(given: Mapping[str, Any]) -> int:
     """Tries what the arguments name on a device and prints what came of it; the exit code."""
-    handler = _terminable()
-    try:
-        if given.get("list_devices"):
-            return list_devices(given)
-        if not given["paths"]:
-            raise Mistake("PATH... is due: files and folders to confirm, or --list-devices")
-        return _confirm(given, options(given))
-    except (Mistake, NotWritten, Unusable) as error:
-        print(f"msaa-lint: {visible(str(error))}", file=sys.stderr)
-        return 2
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return BROKEN_PIPE
-    except KeyboardInterrupt:
-        return 130
-    except Exception as error:
-        if given.get("traceback"):
-            raise
-        reason = visible(str(error)[:300])
-        print(f"msaa-lint: the program failed: {type(error).__name__}: {reason} (--traceback shows where)", file=sys.stderr)
-        return 2
-    finally:
-        if handler is not None:
-            signal.signal(signal.SIGTERM, handler)
-
-
-def _terminable() -> Any:
-    """Has SIGTERM end us in order, so that no child and no file is left; what it did before, None where that is not ours to change."""
-
-    def end(number: int, _: object) -> None:
-        raise SystemExit(128 + number)
-
-    try:
-        return signal.signal(signal.SIGTERM, end)
-    except ValueError:
-        return None
+    return ended(_confirm, given, (NotWritten, Unusable), terminable=True)
 
 
 def options(given: Mapping[str, Any]) -> Options:
@@ -91,7 +50,7 @@ def options(given: Mapping[str, Any]) -> Options:
     if samples is not None and samples not in COUNTS:
         raise Mistake(f"--samples {samples}: one of {', '.join(map(str, COUNTS))} is due")
     return Options(
-        outputs(given.get("output", ())),
+        outputs(given.get("output", ()), FORMATS, "json=confirm.json") or [Target("full", None)],
         list(dict.fromkeys(given.get("device", ()))) or [None],
         Limits(seconds=_seconds(given["timeout"])) if "timeout" in given else Limits(),
         not given.get("no_layer"),
@@ -99,31 +58,10 @@ def options(given: Mapping[str, Any]) -> Options:
         given.get("image"),
         True if given.get("time") else False if given.get("no_time") else None,
         given.get("repeats", 15),
-        size(given["size"]) if "size" in given else None,
+        size(given["size"], MOST_PIXELS) if "size" in given else None,
         samples,
         bool(given.get("resolves")),
     )
-
-
-def outputs(stated: Sequence[str]) -> list[Target]:
-    """The outputs that `FORMAT[=FILE]` name; `full` where none is."""
-    targets = []
-    for text in stated:
-        name, equals, path = text.partition("=")
-        if name not in FORMATS:
-            raise Mistake(f"no output {text[:40]!r}; there are {', '.join(FORMATS)}")
-        targets.append(Target(name, path if equals and path not in ("", "-") else None))
-    if sum(target.path is None for target in targets) > 1:
-        raise Mistake("two outputs go to standard output: give all but one a file, as in --output json=confirm.json")
-    return targets or [Target("full", None)]
-
-
-def size(text: str) -> tuple[int, int]:
-    """Width and height of `1920x1080`."""
-    sides = [int(side) for side in text.lower().split("x") if side.isascii() and side.isdigit() and len(side) < 6]
-    if len(sides) != 2 or text.lower().count("x") != 1 or not all(1 <= side <= MOST_PIXELS for side in sides):
-        raise Mistake(f"--size {text[:40]!r}: WIDTHxHEIGHT in pixels is due, at most {MOST_PIXELS} each, as in 1920x1080")
-    return sides[0], sides[1]
 
 
 def _seconds(text: object) -> float:
@@ -136,7 +74,12 @@ def _seconds(text: object) -> float:
     return value
 
 
-def _confirm(given: Mapping[str, Any], asked: Options) -> int:
+def _confirm(given: Mapping[str, Any]) -> int:
+    if given.get("list_devices"):
+        return list_devices(given)
+    if not given["paths"]:
+        raise Mistake("PATH... is due: files and folders to confirm, or --list-devices")
+    asked = options(given)
     from ..confirm.session import Session, environment
 
     with Session(asked.devices[0], validation=asked.layer, limits=asked.limits, environment=environment(asked.devices[0])) as first:
@@ -177,8 +120,7 @@ def _tried(given: Mapping[str, Any], asked: Options, first: Session) -> int:
             for line in text.splitlines():
                 print(f"msaa-lint: driver or layer: {visible(line)}", file=sys.stderr)
     for target in asked.targets:
-        if not _print(target, runs, read_inputs.wrong, given):
-            return 2
+        written(target.path, partial(_render, target.format, runs, read_inputs.wrong, given))
     return exit_code(runs, bool(read_inputs.wrong))
 
 
@@ -205,24 +147,8 @@ def _inputs(given: Mapping[str, Any]) -> Any:
     )
 
 
-def _print(target: Target, runs: Sequence[Any], wrong: Sequence[Any], given: Mapping[str, Any]) -> bool:
-    if target.path is None:
-        if hasattr(sys.stdout, "reconfigure"):
-            sys.stdout.reconfigure(encoding="utf-8", errors="backslashreplace")
-        _render(target, runs, wrong, given, sys.stdout)
-        sys.stdout.flush()
-        return True
-    try:
-        with open(target.path, "w", encoding="utf-8", newline="\n") as file:
-            _render(target, runs, wrong, given, file)
-    except OSError as error:
-        print(f"msaa-lint: {visible(target.path)} cannot be written: {error.strerror}", file=sys.stderr)
-        return False
-    return True
-
-
-def _render(target: Target, runs: Sequence[Any], wrong: Sequence[Any], given: Mapping[str, Any], out: IO[str]) -> None:
-    if target.format == "json":
+def _render(format: str, runs: Sequence[Any], wrong: Sequence[Any], given: Mapping[str, Any], out: IO[str]) -> None:
+    if format == "json":
         from ..report.confirm_json import render as as_json
 
         as_json(runs, wrong, out.write, __version__)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from . import options
-from .options import Given, Option
+from .options import SHARED, Given, Option
 
 CONFIRM = (
     Option("device", "text", "A device, by a part of its name.  [default: llvmpipe where it is there, else the first]", "NAME", many=True),
@@ -27,12 +27,7 @@ CONFIRM = (
     Option("profile", "text", "The device, device class or vendor that inputs without a device are judged for.", "NAME"),
     Option("output", "text", "full, json; =FILE writes there.  [default: full]", "FORMAT[=FILE]", many=True),
     Option("verbose", "flag", "Show what only we find, noise of the layer, and what driver and layer print."),
-    Option("stdin_filename", "text", "What to call the input from `-`.", "NAME"),
-    Option("input_format", "choice", "Read inputs as this, whatever they look like.", choices=("description", "vulkan-sc")),
-    Option("config", "text", "Use this configuration file.", "FILE"),
-    Option("isolated", "flag", "Use no configuration file."),
-    Option("color", "choice", "Colour in text output.  [default: auto]", choices=("auto", "always", "never")),
-    Option("traceback", "flag", "Show where the program itself failed."),
+    *SHARED,
 )
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import os
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from functools import partial
 from typing import IO, Any, NamedTuple
 
 from .. import __version__
@@ -19,33 +20,16 @@ from ..reckon import Reckoned, name_of, reckon, with_fixes
 from ..report import Options
 from ..report.escape import visible
 from ..run import Request
-from .common import BROKEN_PIPE, Target, colored
+from .common import Mistake, Target, colored, ended, outputs, size, utf_8, written
 
 FORMATS = ("full", "json", "markdown")
 MOST = 2**31 - 1
-
-
-class Unusable(Exception):
-    """An option that says nothing that can be used; its text is for the user."""
+"""Pixels a side."""
 
 
 def cost(given: Mapping[str, Any]) -> int:
     """Prints what inputs cost; 0, or 2 where an input, an option or the configuration could not be used."""
-    try:
-        return _cost(given)
-    except Unusable as error:
-        print(f"msaa-lint: {error}", file=sys.stderr)
-        return 2
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return BROKEN_PIPE
-    except KeyboardInterrupt:
-        return 130
-    except Exception as error:
-        if given.get("traceback"):
-            raise
-        print(f"msaa-lint: the program failed: {type(error).__name__}: {str(error)[:300]} (--traceback shows where)", file=sys.stderr)
-        return 2
+    return ended(_cost, given)
 
 
 class Shown(NamedTuple):
@@ -56,7 +40,7 @@ class Shown(NamedTuple):
 
 
 def _cost(given: Mapping[str, Any]) -> int:
-    targets = outputs(given.get("output", ()))
+    targets = outputs(given.get("output", ()), FORMATS, "markdown=cost.md") or [Target("full", None)]
     terms = terms_of(given)
     counts = sample_counts(given["samples"]) if "samples" in given else DEFAULT_COUNTS
     chart = given.get("chart")
@@ -76,7 +60,7 @@ def _cost(given: Mapping[str, Any]) -> int:
         print(f"msaa-lint: {visible(note)}", file=sys.stderr)
     _print_errors(reckoned.wrong, given)
     for target in targets:
-        _print(target, made, given)
+        written(target.path, partial(_render, target.format, made, given))
     if chart is not None:
         _draw(chart, made)
     return 2 if reckoned.wrong.findings else 0
@@ -91,22 +75,9 @@ def _compared(reckoned: Reckoned, request: Request, each: bool) -> Compared | No
     return compared(old, frames[0], new, frames[1]) if all(frames) else None
 
 
-def outputs(stated: Sequence[str]) -> list[Target]:
-    """The outputs that `FORMAT[=FILE]` name; `full` where none is."""
-    targets = []
-    for text in stated:
-        name, equals, path = text.partition("=")
-        if name not in FORMATS:
-            raise Unusable(f"no output '{visible(name)}'; there are {', '.join(FORMATS)}")
-        targets.append(Target(name, path if equals and path not in ("", "-") else None))
-    if sum(target.path is None for target in targets) > 1:
-        raise Unusable("two outputs go to standard output: give all but one a file, as in --output markdown=cost.md")
-    return targets or [Target("full", None)]
-
-
 def terms_of(given: Mapping[str, Any]) -> Terms:
     """How to reckon, by the options."""
-    width, height = size(given["size"]) if "size" in given else (None, None)
+    width, height = size(given["size"], MOST) if "size" in given else (None, None)
     return Terms(
         fps=_above_zero(given["fps"], "--fps") if "fps" in given else None,
         width=width,
@@ -116,27 +87,19 @@ def terms_of(given: Mapping[str, Any]) -> Terms:
     )
 
 
-def size(text: str) -> tuple[int, int]:
-    """Width and height of `1920x1080`."""
-    sides = [int(side) for side in text.lower().split("x") if side.isascii() and side.isdigit() and len(side) <= 10]
-    if len(sides) != 2 or text.lower().count("x") != 1 or not all(1 <= side <= MOST for side in sides):
-        raise Unusable(f"--size '{visible(text)}': WIDTHxHEIGHT in pixels is due, as in 1920x1080")
-    return sides[0], sides[1]
-
-
 def sample_counts(text: str) -> list[int]:
     """The counts of `1,2,4`."""
     words = [word.strip() for word in text.split(",")]
     known = {str(count): count for count in COUNTS}
     wrong = [word for word in words if word not in known]
     if wrong:
-        raise Unusable(f"--samples '{visible(text)}': numbers of {', '.join(known)} are due, with commas between")
+        raise Mistake(f"--samples '{visible(text)}': numbers of {', '.join(known)} are due, with commas between")
     return [known[word] for word in words]
 
 
 def _above_zero(value: float, option: str) -> float:
     if not (math.isfinite(value) and value > 0):
-        raise Unusable(f"{option}: a number above 0 is due")
+        raise Mistake(f"{option}: a number above 0 is due")
     return value
 
 
@@ -153,7 +116,7 @@ def _power(text: str) -> float:
     except ValueError:
         found = None
     if found is None or found.measures != "power":
-        raise Unusable(f"--budget '{visible(text)}': a power above 0 is due, as in 2500, 2500mW or 2.5W")
+        raise Mistake(f"--budget '{visible(text)}': a power above 0 is due, as in 2500, 2500mW or 2.5W")
     return found.most
 
 
@@ -171,25 +134,13 @@ def _print_errors(wrong: Result, given: Mapping[str, Any]) -> None:
         from ..report.concise import line
 
         lines = [line(found, wrong, options) for found in wrong.findings]
-    _utf8(sys.stderr)
+    utf_8(sys.stderr)
     for text in lines:
         print(text, file=sys.stderr)
 
 
-def _print(target: Target, made: Shown, given: Mapping[str, Any]) -> None:
-    if target.path is None:
-        _utf8(sys.stdout)
-        _render(target.format, made, sys.stdout, _options(given, sys.stdout, target.format == "full"))
-        sys.stdout.flush()
-        return
-    try:
-        with open(target.path, "w", encoding="utf-8", newline="\n") as file:
-            _render(target.format, made, file, _options(given, file, target.format == "full"))
-    except OSError as error:
-        raise Unusable(f"{visible(target.path)} cannot be written: {error.strerror}") from None
-
-
-def _render(format: str, made: Shown, out: IO[str], options: Options) -> None:
+def _render(format: str, made: Shown, given: Mapping[str, Any], out: IO[str]) -> None:
+    options = _options(given, out, format == "full")
     frames, wrong, both = made.reckoned.frames, made.reckoned.wrong, made.compared
     if format == "json":
         from ..report import cost_json
@@ -214,12 +165,6 @@ def _render(format: str, made: Shown, out: IO[str], options: Options) -> None:
             cost_full.render(frames, out.write, options)
 
 
-def _utf8(out: IO[str]) -> None:
-    reconfigure = getattr(out, "reconfigure", None)
-    if reconfigure is not None:
-        reconfigure(encoding="utf-8", errors="backslashreplace")
-
-
 def _options(given: Mapping[str, Any], out: IO[str], paints: bool) -> Options:
     terminal = out.isatty()
     width = 0
@@ -236,7 +181,7 @@ def chart_format(path: str) -> str:
 
     ending = os.path.splitext(path)[1].lower().removeprefix(".")
     if ending not in KNOWN:
-        raise Unusable(f"--chart '{visible(path)}': the name of an .svg or .png file is due")
+        raise Mistake(f"--chart '{visible(path)}': the name of an .svg or .png file is due")
     return ending
 
 
@@ -253,7 +198,7 @@ def _draw(path: str, made: Shown) -> None:
         found, costed = chart.bars(frames[0]), frames[0]
         title = shown_path(costed.file, "")
     elif frames:
-        raise Unusable(f"--chart: it is of one frame, or of two that are compared, not of {len(frames)}")
+        raise Mistake(f"--chart: it is of one frame, or of two that are compared, not of {len(frames)}")
     else:
         return
     try:
@@ -261,9 +206,9 @@ def _draw(path: str, made: Shown) -> None:
     except ModuleNotFoundError as error:
         if (error.name or "").partition(".")[0] != "matplotlib":
             raise
-        raise Unusable("--chart needs matplotlib, which is not installed: pip install 'msaa-lint[chart]'") from None
+        raise Mistake("--chart needs matplotlib, which is not installed: pip install 'msaa-lint[chart]'") from None
     try:
         with open(path, "wb") as file:
             file.write(data)
     except OSError as error:
-        raise Unusable(f"{visible(path)} cannot be written: {error.strerror}") from None
+        raise Mistake(f"{visible(path)} cannot be written: {error.strerror}") from None

@@ -13,6 +13,10 @@ FORMATS = ("full", "concise", "json", "sarif", "github", "gitlab", "junit", "mar
 LEVELS = ("note", "warning", "error")
 
 
+INPUT_FORMATS = ("description", "vulkan-sc")
+"""The names of `readers.FORMATS`, for help and errors that import no reader."""
+
+
 class Option(NamedTuple):
     """One option: `kind` is flag, text, number or choice; `many` for one that may be given again."""
 
@@ -27,6 +31,16 @@ class Option(NamedTuple):
     def flag(self) -> str:
         return "--" + self.name.replace("_", "-")
 
+
+SHARED = (
+    Option("stdin_filename", "text", "What to call the input from `-`.", "NAME"),
+    Option("input_format", "choice", "Read inputs as this, whatever they look like.", choices=INPUT_FORMATS),
+    Option("config", "text", "Use this configuration file.", "FILE"),
+    Option("isolated", "flag", "Use no configuration file."),
+    Option("color", "choice", "Colour in text output.  [default: auto]", choices=("auto", "always", "never")),
+    Option("traceback", "flag", "Show where the program itself failed."),
+)
+"""Options that `check`, `cost`, `confirm` and `study` have."""
 
 CHECK = (
     Option("select", "text", "Rules to use in place of the edition's: names, codes, prefixes (MSAA2), ALL.", "RULES", many=True),
@@ -48,15 +62,10 @@ CHECK = (
     Option("baseline", "text", "Silence what this baseline file counts.", "FILE"),
     Option("no_ignores", "flag", "Disregard suppression comments."),
     Option("show_suppressed", "flag", "Report silenced findings as such (sarif, json)."),
-    Option("stdin_filename", "text", "What to call the input from `-`.", "NAME"),
-    Option("input_format", "choice", "Read inputs as this, whatever they look like.", choices=("description", "vulkan-sc")),
-    Option("config", "text", "Use this configuration file.", "FILE"),
-    Option("isolated", "flag", "Use no configuration file."),
-    Option("color", "choice", "Colour in text output.  [default: auto]", choices=("auto", "always", "never")),
     Option("max_depth", "number", "Deepest nesting of an input.  [default: 100]", "N"),
     Option("max_nodes", "number", "Most nodes of an input, aliases expanded.  [default: 1000000]", "N"),
     Option("max_bytes", "number", "Largest input.  [default: 67108864]", "N"),
-    Option("traceback", "flag", "Show where the program itself failed."),
+    *SHARED,
 )
 
 Given = dict[str, Any]

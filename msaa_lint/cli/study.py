@@ -5,9 +5,9 @@ from __future__ import annotations
 import contextlib
 import gc
 import os
-import signal
 import sys
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from typing import IO, TYPE_CHECKING, Any, NamedTuple
 
 from .. import __version__
@@ -17,8 +17,7 @@ from ..report.escape import visible
 from ..study.outcome import Pictured, Study, Untimed
 from ..study.points import COUNTS, KINDS, MSAA, Point, Technique, techniques
 from ..study.tasks import Failed, Task, Unusable
-from .common import BROKEN_PIPE, Target, colored
-from .confirm import Mistake, _terminable, outputs, size
+from .common import MOST_PIXELS, Mistake, Target, colored, ended, outputs, size, written
 from .study_subjects import Subject, subjects
 
 if TYPE_CHECKING:
@@ -26,6 +25,7 @@ if TYPE_CHECKING:
     from ..study.kept import Kept
     from ..study.times import Cost, Model, Source
 
+FORMATS = ("full", "json")
 PLOTS = (".svg", ".png")
 
 
@@ -43,34 +43,21 @@ class Wanted(NamedTuple):
 
 def study(given: Mapping[str, Any]) -> int:
     """Measures what the arguments name and prints it; the exit code."""
-    handler = _terminable()
     # Pictures are large, and the command line turned the collector off.
     gc.enable()
+    return ended(_interruptible, given, (NotWritten, Unusable, NoDevice), terminable=True)
+
+
+def _interruptible(given: Mapping[str, Any]) -> int:
     try:
         if given.get("list_scenes"):
             return list_scenes()
         if not given["paths"]:
             raise Mistake("SCENE|PATH... is due: scenes by name (--list-scenes), meshes, descriptions")
         return _study(given, wanted(given))
-    except (Mistake, NotWritten, Unusable, NoDevice) as error:
-        print(f"msaa-lint: {visible(str(error))}", file=sys.stderr)
-        return 2
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return BROKEN_PIPE
     except KeyboardInterrupt:
-        kept = given.get("resume")
-        print(f"msaa-lint: interrupted; {_going_on(kept)}", file=sys.stderr)
-        return 130
-    except Exception as error:
-        if given.get("traceback"):
-            raise
-        reason = visible(str(error)[:300])
-        print(f"msaa-lint: the program failed: {type(error).__name__}: {reason} (--traceback shows where)", file=sys.stderr)
-        return 2
-    finally:
-        if handler is not None:
-            signal.signal(signal.SIGTERM, handler)
+        print(f"msaa-lint: interrupted; {_going_on(given.get('resume'))}", file=sys.stderr)
+        raise
 
 
 def _going_on(folder: str | None) -> str:
@@ -89,11 +76,11 @@ def wanted(given: Mapping[str, Any]) -> Wanted:
     if "plot" in given and os.path.splitext(given["plot"])[1].lower() not in PLOTS:
         raise Mistake(f"--plot {given['plot'][:80]!r}: the name of an .svg or .png file is due")
     if given.get("ssim"):
-        _needs("skimage", "--ssim needs scikit-image")
+        _needs_scikit_image()
     return Wanted(
-        outputs(given.get("output", ())),
+        outputs(given.get("output", ()), FORMATS, "json=study.json") or [Target("full", None)],
         chosen,
-        size(given["size"]) if "size" in given else None,
+        size(given["size"], MOST_PIXELS) if "size" in given else None,
         int(given.get("bits", 8)),
         bool(given.get("ssim")),
         given.get("jobs") or (-1 if given.get("backend") in ("dask", "ray") else _cores()),
@@ -101,12 +88,12 @@ def wanted(given: Mapping[str, Any]) -> Wanted:
     )
 
 
-def _needs(module: str, says: str) -> None:
-    """Mistake where a package is not installed."""
+def _needs_scikit_image() -> None:
+    """Mistake where it is not installed, before anything is measured."""
     from importlib.util import find_spec
 
-    if find_spec(module) is None:
-        raise Mistake(f"{says}, which is not installed: pip install 'msaa-lint[study]'")
+    if find_spec("skimage") is None:
+        raise Mistake("--ssim needs scikit-image, which is not installed: pip install 'msaa-lint[ssim]'")
 
 
 def _words(text: str, option: str, known: Mapping[str, Any]) -> list[Any]:
@@ -158,8 +145,7 @@ def _study(given: Mapping[str, Any], asked: Wanted) -> int:
             points.append(with_cost(result, priced[result.scene], device))
     found = _found(given, asked, pixels, studied, points, failed, priced, device, wrong)
     for target in asked.targets:
-        if not _print(target, found, given):
-            return 2
+        written(target.path, partial(_render, target.format, found, given))
     return 2 if wrong or failed else 0
 
 
@@ -318,24 +304,8 @@ def _records(studied: Sequence[Subject], found: Study) -> list[str]:
     return written
 
 
-def _print(target: Target, found: Study, given: Mapping[str, Any]) -> bool:
-    if target.path is None:
-        if hasattr(sys.stdout, "reconfigure"):
-            sys.stdout.reconfigure(encoding="utf-8", errors="backslashreplace")
-        _render(target, found, given, sys.stdout)
-        sys.stdout.flush()
-        return True
-    try:
-        with open(target.path, "w", encoding="utf-8", newline="\n") as file:
-            _render(target, found, given, file)
-    except OSError as error:
-        print(f"msaa-lint: {visible(target.path)} cannot be written: {error.strerror}", file=sys.stderr)
-        return False
-    return True
-
-
-def _render(target: Target, found: Study, given: Mapping[str, Any], out: IO[str]) -> None:
-    if target.format == "json":
+def _render(format: str, found: Study, given: Mapping[str, Any], out: IO[str]) -> None:
+    if format == "json":
         from ..report.study_json import render as as_json
 
         as_json(found, out.write, __version__)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from . import options
-from .options import Given, Option
+from .options import SHARED, Given, Option
 
 STUDY = (
     Option("list_scenes", "flag", "List the scenes, and end."),
@@ -16,7 +16,7 @@ STUDY = (
     Option("repeats", "number", "How often each technique is timed.  [default: 15]", "N"),
     Option("profile", "text", "The device whose traffic the cost model reckons, where an input states none.", "NAME"),
     Option("bits", "choice", "Bits of sub-pixel precision that vertices are snapped to.  [default: 8]", choices=("4", "8")),
-    Option("ssim", "flag", "Measure structural similarity too (extra `study`)."),
+    Option("ssim", "flag", "Measure structural similarity too (extra `ssim`)."),
     Option("output", "text", "full, json; =FILE writes there.  [default: full]", "FORMAT[=FILE]", many=True),
     Option("plot", "text", "Plot accuracy against time, .svg or .png (extra `chart`).", "FILE"),
     Option("crops", "text", "Write enlarged crops of each scene there, side by side (PNG).", "DIR"),
@@ -29,12 +29,7 @@ STUDY = (
         "How joblib spreads them.  [default: loky, processes of this machine]",
         choices=("loky", "threading", "dask", "ray"),
     ),
-    Option("stdin_filename", "text", "What to call the description from `-`.", "NAME"),
-    Option("input_format", "choice", "Read inputs as this, whatever they look like.", choices=("description", "vulkan-sc")),
-    Option("config", "text", "Use this configuration file.", "FILE"),
-    Option("isolated", "flag", "Use no configuration file."),
-    Option("color", "choice", "Colour in text output.  [default: auto]", choices=("auto", "always", "never")),
-    Option("traceback", "flag", "Show where the program itself failed."),
+    *SHARED,
 )
 
 

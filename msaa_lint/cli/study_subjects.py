@@ -8,15 +8,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..devices import DeviceProfile
 from ..study.tasks import Asked
-from .common import settings
-from .confirm import Mistake
+from .common import MOST_PIXELS, Mistake, settings
 
 if TYPE_CHECKING:
     from ..facts.frame import Frame
     from ..finding import Finding
 
 SIZE = (1920, 1080)
-MOST_PIXELS = 16384
 MESHES = (".obj", ".ply")
 
 

@@ -17,6 +17,7 @@ from .inputs import of_pass
 from .looking import Looking
 from .messages import Message, bare, classify, sentence
 from .noise import Noise
+from .verdict import Said
 
 BOTH = "both"
 OURS = "ours"
@@ -28,23 +29,6 @@ NO_CHECK = "no check of the layer has it"
 SILENT = "the layer should have said this"
 
 
-class Row(NamedTuple):
-    """One line of the agreement about a pass.
-
-    `verdict` is `both`, `ours` (the layer says nothing of it), `theirs` (we say nothing of it), `explained` (theirs, and `reason` why we
-    are right not to) or `noise`. Of `ours` there is no `id` and no `family`; of `theirs` no `rule`. `expected` is true of `ours` where the
-    layer looks at the very thing and should have said it.
-    """
-
-    verdict: str
-    id: str = ""
-    family: str = ""
-    rule: str = ""
-    text: str = ""
-    reason: str = ""
-    expected: bool = False
-
-
 def agreement(
     frame: Frame,
     passes: Mapping[int, str],
@@ -53,7 +37,7 @@ def agreement(
     looking: Looking,
     undecided: Sequence[Undecided] = (),
     device: DeviceProfile | None = None,
-) -> dict[int, list[Row]]:
+) -> dict[int, list[Said]]:
     """The rows of each pass.
 
     `passes` are those that ran: their numbers and names. `findings` are all of the frame's, silenced ones too, `undecided` what rules
@@ -63,7 +47,7 @@ def agreement(
     if not passes:
         return {}
     this = _Frame(frame, passes, _Scope(findings, undecided, list(subjects(frame.document, device))))
-    rows: dict[int, list[Row]] = {number: [] for number in passes}
+    rows: dict[int, list[Said]] = {number: [] for number in passes}
     answered: set[Finding] = set()
     for message in _once(messages):
         number, said = this.told(message)
@@ -84,10 +68,10 @@ class _Scope(NamedTuple):
     subjects: Sequence[Subject]
 
 
-class _Said(NamedTuple):
+class _Rows(NamedTuple):
     """The rows of a message, and the findings that answer to it."""
 
-    rows: list[Row]
+    rows: list[Said]
     answers: Sequence[Finding] = ()
 
 
@@ -109,7 +93,7 @@ class _Frame:
         for subject in everything.subjects:
             self._by_path.setdefault(subject.path, []).append(subject)
 
-    def told(self, message: Message) -> tuple[int, _Said]:
+    def told(self, message: Message) -> tuple[int, _Rows]:
         """The pass that a message is told with, and what is said of it there."""
         numbers = [message.number] if message.number in self.own else list(self.own)
         found = [(number, self.said(message, self.own[number])) for number in numbers]
@@ -119,22 +103,22 @@ class _Frame:
             found.append((numbers[0], self.said(message, self.everything)))
         return min(found, key=lambda each: _LIKELY.index(each[1].rows[0].verdict))
 
-    def said(self, message: Message, scope: _Scope) -> _Said:
+    def said(self, message: Message, scope: _Scope) -> _Rows:
         """What is to be said of a message within a scope."""
         family = classify(message.id, message.text)
-        row = Row(THEIRS, message.id, family.name if isinstance(family, Family) else "", text=sentence(message.text))
+        row = Said(THEIRS, message.id, family.name if isinstance(family, Family) else "", text=sentence(message.text))
         if isinstance(family, Noise):
-            return _Said([row._replace(verdict=NOISE, reason=family.reason)])
+            return _Rows([row._replace(verdict=NOISE, reason=family.reason)])
         if family is not None:
             both = [finding for finding in scope.findings if finding.rule in family.rules]
             if both:
-                return _Said([row._replace(verdict=BOTH, rule=rule) for rule in dict.fromkeys(finding.rule for finding in both)], both)
+                return _Rows([row._replace(verdict=BOTH, rule=rule) for rule in dict.fromkeys(finding.rule for finding in both)], both)
         reason = _follows(message, family, scope.findings) or (_explained(family, scope) if family is not None else "")
-        return _Said([row._replace(verdict=EXPLAINED, reason=reason) if reason else row])
+        return _Rows([row._replace(verdict=EXPLAINED, reason=reason) if reason else row])
 
-    def unsaid(self, finding: Finding, looking: Looking, number: int) -> Row:
+    def unsaid(self, finding: Finding, looking: Looking, number: int) -> Said:
         """Why the layer says nothing of a finding."""
-        row = Row(OURS, rule=finding.rule, text=finding.message)
+        row = Said(OURS, rule=finding.rule, text=finding.message)
         families = [family for family in FAMILIES if finding.rule in family.rules]
         if not families:
             return row._replace(reason=NO_CHECK)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from . import parts
-from .parts import CLEAR, COLOR, DEPTH, LOAD, NONE, STENCIL, STORE, Framebuffer, Pass, Plan, Step, Subpass
+from .parts import CLEAR, COLOR, DEPTH, LOAD, NONE, RESUMING, STENCIL, STORE, SUSPENDING, Framebuffer, Pass, Plan, Step, Subpass
 
 Key = tuple[int, int]
 """An image by its number, and one of its aspects."""
@@ -167,5 +167,3 @@ NEVER, ALWAYS = 0, 7
 """VkCompareOp."""
 
 _ROLES = {"color": COLOR, "depth": DEPTH, "stencil": STENCIL}
-SUSPENDING, RESUMING = 2, 4
-"""VkRenderingFlagBits."""

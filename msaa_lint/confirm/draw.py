@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
+import struct
 from typing import Any
 
 from . import parts
+from .binding import push_bytes
 from .build import Built
 from .defined import Contents
-from .layouts import DEPTH_READ_LAYOUT, READ_LAYOUT, SOURCE_LAYOUT, TARGET_LAYOUT, UNDEFINED, Layouts
-from .parts import CLEAR, COLOR, DEPTH, NONE, STENCIL, Inner, Pass, Step
-from .plan_dynamic import COVERAGE_DYNAMIC, MASK_DYNAMIC, SAMPLES_DYNAMIC
-from .scene import BACKDROP
+from .layouts import Layouts
+from .parts import CLEAR, COLOR, DEPTH, DEPTH_READ_LAYOUT, NONE, READ_LAYOUT, SOURCE_LAYOUT, STENCIL, TARGET_LAYOUT, Inner, Pass, Step
+from .scene import BACKDROP, CLEARED, CLEARED_INTEGERS, CLEARED_STENCIL
 
 PEAK, HDR_PEAK = 1.0, 8.0
-CLEARED = (0.125, 0.25, 0.5, 1.0)
-SUSPENDING, RESUMING = 2, 4
-"""VkRenderingFlagBits."""
+"""The brightest that the scene is drawn."""
 
 ALL_LEVELS = 1000.0
 """VK_LOD_CLAMP_NONE."""
@@ -89,7 +88,7 @@ class Recorder:
 
     def _rendering(self, buffer: Any, each: Pass, step: Step) -> None:
         vk = self.vk
-        resumes = each.flags & RESUMING
+        resumes = each.flags & parts.RESUMING
         reads = [] if resumes else self._read(step)
         layers = self.built.layers(each, each.framebuffers[0])
         wanted: list[tuple[int, int, int | None]] = []
@@ -152,18 +151,19 @@ class Recorder:
                 vk.vkCmdBindPipeline(buffer, 0, self.built.pipelines[step.number, inner.pipeline])
                 self._dynamic(buffer, pipeline, count)
                 peak = HDR_PEAK if self.plan.hdr else PEAK
-                vk.vkCmdPushConstants(buffer, self.built.opened.layout("scene")[0], 1, 0, 8, _scene(vk, peak, turn))
+                pushed = struct.pack("=fi", peak, turn)
+                vk.vkCmdPushConstants(buffer, self.built.opened.layout("scene")[0], 1, 0, len(pushed), push_bytes(pushed))
                 first = 0 if (inner.backdrop and not filled) or self.plan.vertices else BACKDROP
                 vk.vkCmdDraw(buffer, vertices - first, 1, first, 0)
                 turn += 1
 
     def _dynamic(self, buffer: Any, pipeline: parts.Pipeline, count: int) -> None:
-        if SAMPLES_DYNAMIC in pipeline.dynamic:
+        if parts.SAMPLES_DYNAMIC in pipeline.dynamic:
             self.call("vkCmdSetRasterizationSamplesEXT")(buffer, count or pipeline.samples)
-        if MASK_DYNAMIC in pipeline.dynamic:
+        if parts.MASK_DYNAMIC in pipeline.dynamic:
             words = [*pipeline.mask, 0xFFFFFFFF][:1]
             self.call("vkCmdSetSampleMaskEXT")(buffer, count or pipeline.samples, self.vk.ffi.new("uint32_t[]", words))
-        if COVERAGE_DYNAMIC in pipeline.dynamic:
+        if parts.COVERAGE_DYNAMIC in pipeline.dynamic:
             self.call("vkCmdSetAlphaToCoverageEnableEXT")(buffer, int(pipeline.alpha_to_coverage))
 
     def _fill(self, buffer: Any, step: Step, subpass: int, images: list[int]) -> bool:
@@ -183,9 +183,8 @@ class Recorder:
             vk.vkCmdBindPipeline(buffer, 0, pipeline)
             descriptor = self.descriptor(set_layout, number)
             vk.vkCmdBindDescriptorSets(buffer, 0, layout, 0, 1, [descriptor], 0, None)
-            scale = vk.ffi.new("float[4]", (image.width / framebuffer.width, image.height / framebuffer.height))
-            vk.ffi.cast("int32_t*", scale)[2] = image.samples
-            vk.vkCmdPushConstants(buffer, layout, 16, 0, 12, scale)
+            scale = struct.pack("=ffi", image.width / framebuffer.width, image.height / framebuffer.height, image.samples)
+            vk.vkCmdPushConstants(buffer, layout, 16, 0, len(scale), push_bytes(scale))
             vk.vkCmdDraw(buffer, 3, 1, 0, 0)
             done = True
         vk.vkCmdSetScissor(buffer, 0, 1, [self._rect(step.area)])
@@ -214,7 +213,7 @@ class Recorder:
         vk = self.vk
         images = self._drawn(each, step, inner.subpass)
         number = images[inner.value] if inner.aspects & COLOR and inner.value < len(images) else NONE
-        clear = self._clear(number) if number != NONE else vk.VkClearValue(depthStencil=vk.VkClearDepthStencilValue(self._far(), 0))
+        clear = self._clear(number) if number != NONE else vk.VkClearValue(depthStencil=self._clear_depth())
         attachment = vk.VkClearAttachment(aspectMask=inner.aspects, colorAttachment=inner.value, clearValue=clear)
         rect = vk.VkClearRect(rect=self._rect(step.area), baseArrayLayer=0, layerCount=1)
         vk.vkCmdClearAttachments(buffer, 1, [attachment], 1, [rect])
@@ -225,8 +224,8 @@ class Recorder:
         images = each.framebuffers[step.framebuffer].images
         return [images[r.attachment] if r.attachment != NONE else NONE for r in each.subpasses[subpass].colors]
 
-    def _far(self) -> float:
-        return 0.0 if self.plan.reversed else 1.0
+    def _clear_depth(self) -> Any:
+        return self.vk.VkClearDepthStencilValue(0.0 if self.plan.reversed else 1.0, CLEARED_STENCIL)
 
     def _clears(self, each: Pass, images: tuple[int, ...]) -> list[Any]:
         """The values of a pass's attachments, up to the last that is cleared."""
@@ -240,10 +239,10 @@ class Recorder:
     def _clear(self, number: int) -> Any:
         vk, image = self.vk, self.plan.images[number]
         if not image.aspects & COLOR:
-            return vk.VkClearValue(depthStencil=vk.VkClearDepthStencilValue(self._far(), 0))
+            return vk.VkClearValue(depthStencil=self._clear_depth())
         if image.numeric in ("UINT", "SINT"):
             member = "uint32" if image.numeric == "UINT" else "int32"
-            return vk.VkClearValue(color=vk.VkClearColorValue(**{member: [3, 5, 7, 11]}))
+            return vk.VkClearValue(color=vk.VkClearColorValue(**{member: list(CLEARED_INTEGERS)}))
         return vk.VkClearValue(color=vk.VkClearColorValue(float32=list(CLEARED)))
 
     def _rect(self, area: tuple[int, ...]) -> Any:
@@ -263,10 +262,10 @@ class Recorder:
             if number not in self.built.images:
                 continue
             now = self.layouts.now(number, COLOR if self.plan.images[number].aspects & COLOR else DEPTH)
-            before = UNDEFINED if old == UNDEFINED else now
-            after = now if new in (NONE, UNDEFINED) else new
+            before = parts.UNDEFINED if old == parts.UNDEFINED else now
+            after = now if new in (NONE, parts.UNDEFINED) else new
             whole = vk.VkImageSubresourceRange(aspectMask=self.plan.images[number].aspects, levelCount=0xFFFFFFFF, layerCount=0xFFFFFFFF)
-            if after != UNDEFINED:
+            if after != parts.UNDEFINED:
                 barriers.append(
                     vk.VkImageMemoryBarrier2(
                         **masks, oldLayout=before, newLayout=after, srcQueueFamilyIndex=0xFFFFFFFF, dstQueueFamilyIndex=0xFFFFFFFF,
@@ -325,18 +324,11 @@ class Recorder:
             color = vk.ffi.addressof(clear.color)
             vk.vkCmdClearColorImage(buffer, self.built.image(step.target), TARGET_LAYOUT, color, 1, [whole])
         else:
-            clear = vk.VkClearDepthStencilValue(self._far(), 0)
+            clear = self._clear_depth()
             vk.vkCmdClearDepthStencilImage(buffer, self.built.image(step.target), TARGET_LAYOUT, clear, 1, [whole])
 
     def _nothing(self, buffer: Any, step: Step) -> None:
         """Copies from and to buffers of the frame, which nothing else sees, and presenting, which has no screen here."""
-
-
-def _scene(vk: Any, peak: float, turn: int) -> Any:
-    """The push constants of scene.vert."""
-    pushed = vk.ffi.new("float[2]", (peak, 0.0))
-    vk.ffi.cast("int32_t*", pushed)[1] = turn
-    return pushed
 
 
 _TRANSFERS = {

@@ -8,9 +8,9 @@ from typing import NamedTuple
 from . import parts
 from .build import Built
 from .devices import devices
-from .draw import SUSPENDING, Recorder
+from .draw import Recorder
 from .opening import Session, Tell
-from .parts import SAMPLED, TRANSFER_SOURCE, TRANSIENT, Plan, Step, from_json
+from .parts import SAMPLED, SUSPENDING, TRANSFER_SOURCE, TRANSIENT, Plan, Step, from_json
 from .readback import bring_back, bring_samples
 from .resample import pictured
 from .results import VulkanError

@@ -12,7 +12,7 @@ from ..vulkan.enums import VALUES
 from . import parts
 from .opening import TAKEN_UP
 from .parts import COLOR, DEPTH, NONE, STENCIL, Image, Pass, Pipeline, Plan
-from .plan_dynamic import COVERAGE_DYNAMIC, MASK_DYNAMIC, SAMPLES_DYNAMIC
+from .texels import format_name
 
 SINGLE_SAMPLED = "VK_EXT_multisampled_render_to_single_sampled"
 MIXED = ("VK_AMD_mixed_attachment_samples", "VK_NV_framebuffer_mixed_samples")
@@ -22,9 +22,9 @@ BLEND_FEATURE = 0x100
 """VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT."""
 
 DYNAMIC = {
-    SAMPLES_DYNAMIC: "extendedDynamicState3RasterizationSamples",
-    MASK_DYNAMIC: "extendedDynamicState3SampleMask",
-    COVERAGE_DYNAMIC: "extendedDynamicState3AlphaToCoverageEnable",
+    parts.SAMPLES_DYNAMIC: "extendedDynamicState3RasterizationSamples",
+    parts.MASK_DYNAMIC: "extendedDynamicState3SampleMask",
+    parts.COVERAGE_DYNAMIC: "extendedDynamicState3AlphaToCoverageEnable",
 }
 
 OP_NONE = {1000400000: ("VK_EXT_load_store_op_none", "VK_KHR_load_store_op_none")}
@@ -298,11 +298,6 @@ def _aspects(number: int) -> int:
     if found is None:
         return DEPTH | STENCIL
     return sum({"depth": DEPTH, "stencil": STENCIL, "color": COLOR}[each] for each in found.aspects)
-
-
-def format_name(number: int) -> str:
-    """A VkFormat by its short name."""
-    return next((name for name, value in VALUES["VkFormat"].items() if value == number), f"VkFormat {number}")
 
 
 def mode_name(number: int) -> str:

@@ -6,10 +6,20 @@ from collections.abc import Sequence
 from typing import Any
 
 from .build import Built
-from .parts import COLOR, DEPTH, STENCIL
-
-UNDEFINED, GENERAL, COLOR_LAYOUT, DEPTH_LAYOUT, DEPTH_READ_LAYOUT, READ_LAYOUT, SOURCE_LAYOUT, TARGET_LAYOUT = range(8)
-"""VkImageLayout."""
+from .parts import (
+    COLOR,
+    COLOR_LAYOUT,
+    DEPTH,
+    DEPTH_LAYOUT,
+    DEPTH_READ_LAYOUT,
+    GENERAL,
+    PRESENT_LAYOUT,
+    READ_LAYOUT,
+    SOURCE_LAYOUT,
+    STENCIL,
+    TARGET_LAYOUT,
+    UNDEFINED,
+)
 
 TRANSFER, COLOR_OUTPUT, TESTS, SHADERS = 0x1000, 0x400, 0x300, 0x880
 EVERYTHING = TRANSFER | COLOR_OUTPUT | TESTS | SHADERS
@@ -24,13 +34,11 @@ USES = {
     SOURCE_LAYOUT: (TRANSFER, 0x800),
     TARGET_LAYOUT: (TRANSFER, 0x1000),
     UNDEFINED: (0x1, 0),
-    1000001002: (0x2000, 0),
+    PRESENT_LAYOUT: (0x2000, 0),
 }
 """By layout: the stages and accesses that use an image in it; in others, any."""
 
 READING = (DEPTH_READ_LAYOUT, READ_LAYOUT)
-PRESENT_LAYOUT = 1000001002
-
 
 Wanted = tuple[int, int, int | None]
 """An image, the layout it is to be in, and stencil's own where that is another."""

@@ -25,6 +25,19 @@ LOAD, CLEAR, LOAD_DONT_CARE = 0, 1, 2
 STORE, STORE_DONT_CARE = 0, 1
 """VkAttachmentLoadOp and VkAttachmentStoreOp."""
 
+UNDEFINED, GENERAL, COLOR_LAYOUT, DEPTH_LAYOUT, DEPTH_READ_LAYOUT, READ_LAYOUT, SOURCE_LAYOUT, TARGET_LAYOUT = range(8)
+PRESENT_LAYOUT, STENCIL_LAYOUT, DEPTH_ALONE_READ_LAYOUT, EITHER_READ_LAYOUT = 1000001002, 1000241002, 1000241001, 1000314000
+"""VkImageLayout; the last three are STENCIL_ATTACHMENT_OPTIMAL, DEPTH_READ_ONLY_OPTIMAL and READ_ONLY_OPTIMAL."""
+
+SUSPENDING, RESUMING = 2, 4
+"""VkRenderingFlagBits."""
+
+VIEWPORT, SCISSOR = 0, 1
+SAMPLES_DYNAMIC, MASK_DYNAMIC, COVERAGE_DYNAMIC = 1000455005, 1000455006, 1000455007
+KEPT_DYNAMIC = (SAMPLES_DYNAMIC, MASK_DYNAMIC, COVERAGE_DYNAMIC)
+"""VkDynamicState: of multisampling's own, RASTERIZATION_SAMPLES_EXT, SAMPLE_MASK_EXT and ALPHA_TO_COVERAGE_ENABLE_EXT are driven; what
+plans keep but these are the viewport and the scissor."""
+
 
 class Image(NamedTuple):
     """An image. `width` to `layers` are as described; `numeric` is the colour's type (`SFLOAT`, `UINT`, ..., empty without colour), `bytes`

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from . import parts
 from .binding import chain
-from .parts import Blend, Pass, Pipeline
-from .plan_dynamic import MASK_DYNAMIC
-from .scene import VERTEX_BYTES
+from .parts import MASK_DYNAMIC, Blend, Pass, Pipeline
+from .scene import DRAWN_STENCIL, VERTEX_BYTES
 
 if TYPE_CHECKING:
     from .build import Built
@@ -157,7 +156,7 @@ def _multisample(built: Built, pipeline: Pipeline) -> Any:
 def _depth_stencil(built: Built, pipeline: Pipeline) -> Any:
     vk = built.vk
     face = vk.VkStencilOpState(
-        failOp=0, passOp=REPLACE, depthFailOp=0, compareOp=ALWAYS, compareMask=0xFF, writeMask=0xFF, reference=1
+        failOp=0, passOp=REPLACE, depthFailOp=0, compareOp=ALWAYS, compareMask=0xFF, writeMask=0xFF, reference=DRAWN_STENCIL
     )  # fmt: skip
     return vk.VkPipelineDepthStencilStateCreateInfo(
         depthTestEnable=pipeline.depth_test,

@@ -14,7 +14,7 @@ from .parts import CLEAR, LOAD, NONE, Image, Inner, Pass, Pipeline, Plan, Step, 
 from .plan_images import Images
 from .plan_passes import Passes
 from .plan_pipelines import GREATER, LESS, built_in, described
-from .plan_words import DEPTH_READ_LAYOUT, layout, mask
+from .plan_words import layout, mask
 from .resample import resampled, resized
 
 MOST_STEPS = 4096
@@ -235,7 +235,7 @@ class _Plan:
             layouts = [reference.layout for reference in each.subpasses[subpass].depth_stencil]
         else:
             layouts = [rendered.layout for rendered in each.rendered if rendered.role != "color"]
-        return any(found in (DEPTH_READ_LAYOUT, 1000241001, 1000314000) for found in layouts)
+        return any(found in (parts.DEPTH_READ_LAYOUT, parts.DEPTH_ALONE_READ_LAYOUT, parts.EITHER_READ_LAYOUT) for found in layouts)
 
     def _image(self, target: object) -> Image:
         return self.images.made[self.images.of(target)]  # type: ignore[arg-type]

@@ -18,31 +18,16 @@ from ..facts.begin import targets_at
 from ..facts.frame import RENDERING, Attachment, Frame, PassSubpass
 from ..facts.frame import Pass as Joined
 from . import parts
-from .parts import LOAD, LOAD_DONT_CARE, NONE, STORE, STORE_DONT_CARE, TRANSIENT, Dependency, Framebuffer, Reference, Subpass
+from .parts import LOAD, LOAD_DONT_CARE, NONE, STORE, STORE_DONT_CARE, TRANSIENT, UNDEFINED, Dependency, Framebuffer, Reference, Subpass
 from .plan_images import Images
-from .plan_words import (
-    COLOR_LAYOUT,
-    DEPTH_LAYOUT,
-    DEPTH_READ_LAYOUT,
-    GENERAL,
-    PRESENT_LAYOUT,
-    READ_LAYOUT,
-    UNDEFINED,
-    layout,
-    mask,
-    number,
-)
+from .plan_words import layout, mask, number
 
 MOST = 256
 """Attachments, subpasses and dependencies of one pass, at most: more no device takes."""
 
 CUSTOM = ("CUSTOM_RESOLVE", "SHADER_RESOLVE")
-STENCIL_LAYOUT = 1000241002
 DEPTH_ALONE = {"DEPTH_ATTACHMENT_OPTIMAL", "DEPTH_READ_ONLY_OPTIMAL"}
-"""VkImageLayout STENCIL_ATTACHMENT_OPTIMAL; the layouts that say nothing of stencil."""
-
-SUSPENDING, RESUMING = 2, 4
-"""VkRenderingFlagBits."""
+"""The layouts that say nothing of stencil."""
 
 
 class Unplanned(Exception):
@@ -107,14 +92,14 @@ class Passes:
         image = self.images.made[self.images.of(each.targets[0])]
         presentable = any(t.image is not None and t.image.presentable for t in each.targets)
         color = bool(image.aspects & parts.COLOR)
-        own = COLOR_LAYOUT if color else DEPTH_LAYOUT
+        own = parts.COLOR_LAYOUT if color else parts.DEPTH_LAYOUT
         load, store, stencil_load, stencil_store = self._operations(each, record, image)
         loads = load == LOAD or (stencil_load == LOAD and image.aspects & parts.STENCIL)
         read = any(t.image is not None and t.name in self.read for t in each.targets) or (bool(each.input) and not each.drawn)
-        reading = READ_LAYOUT if color else DEPTH_READ_LAYOUT
+        reading = parts.READ_LAYOUT if color else parts.DEPTH_READ_LAYOUT
         used = each.drawn or each.input or each.resolve
         kept = layout(record.initialLayout, UNDEFINED) or own
-        final = PRESENT_LAYOUT if presentable else reading if read else own if used else kept
+        final = parts.PRESENT_LAYOUT if presentable else reading if read else own if used else kept
         return parts.Attachment(
             number("VkFormat", record.format) if record.format is not None else image.format,
             record.samples or image.samples,
@@ -135,8 +120,8 @@ class Passes:
         alone = initial != NONE or final != NONE or {record.initialLayout, record.finalLayout} & DEPTH_ALONE
         if not image.aspects & parts.STENCIL or not alone:
             return NONE, NONE
-        usual = STENCIL_LAYOUT if load == LOAD else UNDEFINED
-        return usual if initial == NONE else initial, STENCIL_LAYOUT if final == NONE else final
+        usual = parts.STENCIL_LAYOUT if load == LOAD else UNDEFINED
+        return usual if initial == NONE else initial, parts.STENCIL_LAYOUT if final == NONE else final
 
     def _operations(self, each: Attachment, record: AttachmentDescription, image: parts.Image) -> tuple[int, int, int, int]:
         stated = (record.loadOp, record.storeOp, record.stencilLoadOp, record.stencilStoreOp)
@@ -169,23 +154,23 @@ class Passes:
     def _subpass(self, each: Joined, at: int, record: DescribedSubpass, indices: dict[str, int]) -> Subpass:
         if record.pipelineBindPoint not in (None, "GRAPHICS"):
             raise Unplanned("a subpass of it is not for graphics")
-        colors = [self._reference(r, indices, COLOR_LAYOUT) for r in record.colorAttachments]
-        resolves = [self._reference(r, indices, COLOR_LAYOUT) for r in record.resolveAttachments]
+        colors = [self._reference(r, indices, parts.COLOR_LAYOUT) for r in record.colorAttachments]
+        resolves = [self._reference(r, indices, parts.COLOR_LAYOUT) for r in record.resolveAttachments]
         if resolves:
             # One resolve attachment for each colour attachment.
             width = max(len(colors), len(resolves))
             colors += [Reference(NONE)] * (width - len(colors))
             resolves += [Reference(NONE)] * (width - len(resolves))
-        inputs = [self._input(each, at, self._reference(r, indices, READ_LAYOUT), r.layout) for r in record.inputAttachments]
+        inputs = [self._input(each, at, self._reference(r, indices, parts.READ_LAYOUT), r.layout) for r in record.inputAttachments]
         drawn = {r.attachment for r in colors} & {r.attachment for r in inputs} - {NONE}
-        colors = [r._replace(layout=GENERAL) if r.attachment in drawn and r.layout == COLOR_LAYOUT else r for r in colors]
-        depth = self._reference(record.depthStencilAttachment, indices, DEPTH_LAYOUT) if record.depthStencilAttachment else None
+        colors = [r._replace(layout=parts.GENERAL) if r.attachment in drawn and r.layout == parts.COLOR_LAYOUT else r for r in colors]
+        depth = self._reference(record.depthStencilAttachment, indices, parts.DEPTH_LAYOUT) if record.depthStencilAttachment else None
         if depth is not None and depth.attachment in {r.attachment for r in inputs} and depth.attachment != NONE:
-            depth = depth._replace(layout=DEPTH_READ_LAYOUT)
+            depth = depth._replace(layout=parts.DEPTH_READ_LAYOUT)
         chained = record.depthStencilResolve
         source = each.attachments[depth.attachment] if depth is not None and depth.attachment != NONE else None
         stencil = source is None or bool(self.images.made[self.images.of(source.targets[0])].aspects & parts.STENCIL)
-        target = self._reference(chained.attachment, indices, DEPTH_LAYOUT) if chained is not None else None
+        target = self._reference(chained.attachment, indices, parts.DEPTH_LAYOUT) if chained is not None else None
         preserves = tuple(self._reference(r, indices, UNDEFINED).attachment for r in record.preserveAttachments)
         own = each.subpasses[at]
         single = self._single_sampled(own, record.path)
@@ -209,7 +194,7 @@ class Passes:
         attachment = each.attachments[made.attachment]
         image = self.images.made[self.images.of(attachment.targets[0])]
         both = at in attachment.color
-        usual = GENERAL if both else DEPTH_READ_LAYOUT if not image.aspects & parts.COLOR else READ_LAYOUT
+        usual = parts.GENERAL if both else parts.DEPTH_READ_LAYOUT if not image.aspects & parts.COLOR else parts.READ_LAYOUT
         return made._replace(layout=made.layout if stated is not None else usual, aspects=image.aspects)
 
     def _single_sampled(self, own: PassSubpass, path: str) -> int:
@@ -297,7 +282,7 @@ class Passes:
         width, height = self.size(numbers)
         own = each.subpasses[0]
         single = self._single_sampled(own, record.path)
-        flags = mask("VkRenderingFlagBits", record.flags) & (SUSPENDING | RESUMING)
+        flags = mask("VkRenderingFlagBits", record.flags) & (parts.SUSPENDING | parts.RESUMING)
         return made._replace(
             flags=flags,
             rendered=tuple(rendered),
@@ -311,7 +296,7 @@ class Passes:
         image = self.images.named(info.image) if info is not None else NONE
         if info is None or image == NONE:
             return parts.Rendered(role)
-        own = COLOR_LAYOUT if role == "color" else DEPTH_LAYOUT
+        own = parts.COLOR_LAYOUT if role == "color" else parts.DEPTH_LAYOUT
         transient = self.images.made[image].usage & TRANSIENT
         usual = (LOAD_DONT_CARE, STORE_DONT_CARE if transient else STORE)
         if info.loadOp is None:

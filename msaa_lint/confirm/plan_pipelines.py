@@ -9,8 +9,7 @@ from ..document.records import ColorBlendAttachment
 from ..document.records import Pipeline as Described
 from ..vulkan.enums import VALUES
 from ..vulkan.formats import format_of
-from .parts import DEPTH, STENCIL, Blend, Image, Pipeline, Stage
-from .plan_dynamic import KEPT_DYNAMIC, SCISSOR, VIEWPORT
+from .parts import DEPTH, KEPT_DYNAMIC, SCISSOR, STENCIL, VIEWPORT, Blend, Image, Pipeline, Stage
 from .plan_words import mask, number
 from .shaders.spirv import needs
 

@@ -23,8 +23,3 @@ def mask(enum: str, names: Iterable[str] | None) -> int:
 def layout(name: str | None, default: int) -> int:
     """A layout by its short name; `default` where it is not stated."""
     return VALUES["VkImageLayout"][name] if name is not None else default
-
-
-UNDEFINED, GENERAL, COLOR_LAYOUT, DEPTH_LAYOUT, DEPTH_READ_LAYOUT, READ_LAYOUT = 0, 1, 2, 3, 4, 5
-PRESENT_LAYOUT = 1000001002
-"""VkImageLayout."""

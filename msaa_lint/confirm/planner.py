@@ -41,8 +41,7 @@ class Plans:
         names = {number: planned.passes[number].name for number in told.numbers}
         messages = [Message(each["id"], each["text"], str(each.get("severity", "warning")), each.get("pass")) for each in told.messages]
         at = looking(told.layer, told.device, kinds, told.vendors)
-        found = agreement(input.frame, names, [*input.findings, *input.silenced], messages, at, input.undecided, input.device)
-        return {n: [Said(row.verdict, row.id, row.family, row.rule, row.text, row.reason) for row in rows] for n, rows in found.items()}
+        return agreement(input.frame, names, [*input.findings, *input.silenced], messages, at, input.undecided, input.device)
 
 
 PLANNER: Planner = Plans()

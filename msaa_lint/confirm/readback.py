@@ -7,9 +7,8 @@ from typing import Any
 
 from .build import CACHED, COHERENT, HOST_VISIBLE, Built
 from .draw import Recorder
-from .layouts import DEPTH_READ_LAYOUT, READ_LAYOUT, SOURCE_LAYOUT
 from .opening import Tell
-from .parts import COLOR, DEPTH, STENCIL, TRANSFER_SOURCE, Image
+from .parts import COLOR, DEPTH, DEPTH_READ_LAYOUT, READ_LAYOUT, SOURCE_LAYOUT, STENCIL, TRANSFER_SOURCE, Image
 from .submit import Submitter
 
 MOST_BYTES = 1 << 30

@@ -17,13 +17,13 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 from .collected import SAMPLES_OF, FrameRun
-from .draw import CLEARED
 from .gate import gate
 from .parts import COLOR, DEPTH, RENDER_PASS, STENCIL, Plan, to_json
 from .protocol import Event
 from .resolving_probe import COMMAND, SAMPLES, Probe, Resolve, probe, resolves
 from .resolving_truth import AVERAGE, ENCODED_AVERAGE, GREATEST, LEAST, ZERO, Component, Due, components, due, likeness, stored, value
 from .results import Unusable
+from .scene import CLEARED, CLEARED_INTEGERS, CLEARED_STENCIL, DRAWN_STENCIL
 from .session import Session
 from .texels import Texels, format_name, format_of, texel_bytes, texels
 
@@ -32,9 +32,6 @@ ASPECTS = {COLOR: "", DEPTH: "the depth of ", STENCIL: "the stencil of "}
 WAYS = {RENDER_PASS: "a render pass", "rendering": "dynamic rendering", COMMAND: "vkCmdResolveImage"}
 NAMES = {COLOR: "color", DEPTH: "depth", STENCIL: "stencil"}
 """What modes, aspects and ways are called, and what `texels` calls aspects."""
-
-CLEARED_INTEGERS = (3, 5, 7, 11)
-"""What attachments of integers are cleared to; stencil is cleared to 0, and drawn as 1."""
 
 CLOSE = 0.004
 """More than half a code of the witness, less than any colour of the scene is from another."""
@@ -173,7 +170,7 @@ def witnessed(read: Sequence[Sequence[tuple[float, ...]]], given: Texels, aspect
     What attachments are cleared to, and what is drawn into stencil, is known.
     """
     if aspect == STENCIL:
-        return [[(0.0 if _is_cleared(each) else 1.0,) for each in samples] for samples in read]
+        return [[(float(CLEARED_STENCIL if _is_cleared(each) else DRAWN_STENCIL),) for each in samples] for samples in read]
     known: dict[tuple[float, ...], tuple[float, ...]] = {}
     planes = [given.planes.get(name) for name in "RGBA"]
     wide = min(given.bits.values()) >= max(CLEARED_INTEGERS).bit_length()

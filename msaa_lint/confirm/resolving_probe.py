@@ -9,13 +9,17 @@ from ..vulkan.formats import Format
 from . import parts
 from .parts import (
     COLOR,
+    COLOR_LAYOUT,
     DEPTH,
+    DEPTH_LAYOUT,
     NONE,
     RENDER_PASS,
     RENDERING,
     SAMPLED,
+    SCISSOR,
     STENCIL,
     TRANSFER_SOURCE,
+    VIEWPORT,
     Attachment,
     Framebuffer,
     Image,
@@ -27,8 +31,6 @@ from .parts import (
     Step,
     Subpass,
 )
-from .plan_dynamic import SCISSOR, VIEWPORT
-from .plan_words import COLOR_LAYOUT, DEPTH_LAYOUT
 from .resolving_truth import AVERAGE, ZERO
 from .texels import format_name, format_of
 

@@ -41,6 +41,11 @@ BACKDROP = 3
 
 VERTEX_BYTES = 12
 
+CLEARED = (0.125, 0.25, 0.5, 1.0)
+CLEARED_INTEGERS = (3, 5, 7, 11)
+CLEARED_STENCIL, DRAWN_STENCIL = 0, 1
+"""What attachments are cleared to: of colours that are numbers, of integers, of stencil; and what stencil is where the scene is."""
+
 
 def vertices() -> bytes:
     """The vertices as shaders/scene.vert takes them: three 32-bit floats each, the position in clip coordinates."""

@@ -23,10 +23,11 @@ AGREEING = frozenset({"both", "ours", "explained", "noise"})
 
 
 class Said(NamedTuple):
-    """One line of the agreement between the layer and us.
+    """One line of the agreement between the layer and us about a pass.
 
-    `verdict` is `both`, `ours` (the layer says nothing of it), `theirs` (we do not), `explained` (theirs, and why that is right) or
-    `noise`. Of `ours` there is no `id`, of `theirs` no `rule`.
+    `verdict` is `both`, `ours` (the layer says nothing of it), `theirs` (we say nothing of it), `explained` (theirs, and `reason` why we
+    are right not to) or `noise`. Of `ours` there is no `id` and no `family`; of `theirs` no `rule`. `expected` is true of `ours` where the
+    layer looks at the very thing and should have said it.
     """
 
     verdict: str
@@ -35,6 +36,7 @@ class Said(NamedTuple):
     rule: str = ""
     text: str = ""
     reason: str = ""
+    expected: bool = False
 
 
 class Times(NamedTuple):

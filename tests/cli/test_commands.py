@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from msaa_lint import __version__
-from msaa_lint.cli.options import CHECK, FORMATS, read
+from msaa_lint import __version__, readers
+from msaa_lint.cli.options import CHECK, FORMATS, INPUT_FORMATS, SHARED, read
 from msaa_lint.report import FORMATS as REPORTED
 
 from .test_check import run
@@ -69,6 +69,34 @@ def test_init_makes_a_project_that_lints(tmp_path: Path) -> None:
 
 def test_the_formats_are_those_there_are() -> None:
     assert tuple(REPORTED) == FORMATS
+    assert sorted(INPUT_FORMATS) == sorted(readers.FORMATS)
+
+
+@pytest.mark.parametrize("command", ["check", "cost", "confirm", "study"])
+def test_commands_share_options(tmp_path: Path, command: str) -> None:
+    shown = run(tmp_path, command, "--help").stdout
+    assert [option.flag for option in SHARED if option.flag not in shown] == []
+
+
+def test_cost_reads_as_the_format_that_is_named(tmp_path: Path) -> None:
+    (tmp_path / "a.yaml").write_text("images: {}\n", encoding="utf-8")
+    assert run(tmp_path, "cost", "--input-format", "description", "a.yaml").returncode == 0
+    done = run(tmp_path, "cost", "--input-format", "vulkan-sc", "a.yaml")
+    assert done.returncode == 2
+    assert "MSAA903" in done.stderr
+
+
+@pytest.mark.parametrize("command", ["check", "cost", "confirm", "study"])
+def test_commands_end_alike_where_an_output_is_wrong(tmp_path: Path, command: str) -> None:
+    (tmp_path / "a.yaml").write_text("images: {}\n", encoding="utf-8")
+    done = run(tmp_path, command, "a.yaml", "--output", "jsn=\u202e")
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", "msaa-lint: no output 'jsn'; did you mean json?\n")
+    done = run(tmp_path, command, "a.yaml", "--output", "json", "--output", "full=-")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "msaa-lint: two outputs go to standard output: give all but one a file, as in --output " in done.stderr
+    done = run(tmp_path, command, "a.yaml", "--output", "\u202e")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("msaa-lint: no output '\\u202e'; ")
 
 
 words = st.sampled_from(
