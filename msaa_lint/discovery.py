@@ -16,7 +16,7 @@ STDIN = "-"
 ENDINGS = (".msaa.yaml", ".msaa.yml", ".msaa.json")
 """Of the files of a folder that are inputs by their name."""
 
-MAYBE = (".yaml", ".yml", ".json")
+MAYBE = (".yaml", ".yml", ".json", ".jsonl", ".xml", ".foz")
 """Of those that are inputs if they look like one."""
 
 HEAD_BYTES = 64 << 10

@@ -9,6 +9,7 @@ from .catalogue import Catalogue
 from .devices import DeviceProfile
 from .diagnostics import diagnostic
 from .document.document import Document
+from .document.records import ShaderStage
 from .finding import Finding, Price, RuleInfo, Suppressed, Undecided
 from .judge import Judge, Mends, Verdicts
 from .page import Rule
@@ -18,13 +19,20 @@ from .source.text import Source, Unreadable, decode
 from .source.tree import Limits, Node, parse
 
 if TYPE_CHECKING:
+    from .captured import Captured
     from .facts.frame import Frame
     from .facts.study import Studied
+    from .modules import Modules
+    from .spirv.reflect import Reflected
 
 Severity = Callable[[Rule, str, str | None], str | None]
 
 Together = Callable[[Sequence[Finding]], Price | None]
 """What some findings of an input cost together."""
+
+
+WITHOUT_LIMITS = Limits(depth=100, nodes=1 << 40, bytes=1 << 40)
+"""For a text that is our own."""
 
 
 class Judged(NamedTuple):
@@ -57,7 +65,7 @@ class Engine:
 
     def lint(
         self,
-        data: bytes,
+        data: bytes | Captured,
         file: str,
         severity: Severity,
         *,
@@ -67,15 +75,21 @@ class Engine:
         ignores: bool = True,
         prices: bool = False,
     ) -> Linted:
-        """The findings of one input, in the order of their places.
+        """The findings of one input, in the order of their places: the bytes of a file, or a capture that was read.
 
         `format` names a reader where content does not tell; `device` the profile for descriptions that state none; `ignores` says whether
         suppression comments count; `prices` whether findings are priced.
         """
-        try:
-            source = Source(file, decode(data))
-        except Unreadable as error:
-            return Linted(file, None, [diagnostic("MSAA901", str(error), file)], [], [])
+        capture = None if isinstance(data, bytes) else data
+        if capture is not None:
+            # The limits are for what people write; a capture's own text is as long as what it was made of is varied.
+            source, limits, format, ignores = capture.source, WITHOUT_LIMITS, None, False
+        else:
+            assert isinstance(data, bytes)
+            try:
+                source = Source(file, decode(data))
+            except Unreadable as error:
+                return Linted(file, None, [diagnostic("MSAA901", str(error), file)], [], [])
         parsed = parse(source, limits or Limits())
         findings = [diagnostic(p.code, p.message, file, p.span, "", tuple(p.labels)) for p in parsed.problems]
         undecided: list[Undecided] = []
@@ -84,6 +98,8 @@ class Engine:
             findings.append(diagnostic("MSAA901", "the input is empty", file))
         for number, root in enumerate(parsed.documents):
             document = _document(source, root, format)
+            if capture is not None:
+                document = _of_capture(document, capture, device)
             prefix = f"documents[{number}]." if len(parsed.documents) > 1 else ""
             (found, unknown, mends), own = self._judge(document, file, severity, device, bool(parsed.problems))
             findings.extend(_within(found, prefix))
@@ -97,6 +113,10 @@ class Engine:
         mended = [each for each in judged if each.mends]
         if mended:
             findings, together = _mended(source, mended, findings, prices, format)
+        if capture is not None:
+            from .captured import of_capture
+
+            findings = of_capture(capture, findings)
         return Linted(file, source, findings, undecided, suppressed, together, judged)
 
     def _judge(
@@ -122,7 +142,19 @@ class Engine:
 
             return studied(frame, file)
 
-        return self.judge.judge(subjects(document, own, study), file, severity), own
+        modules: list[Modules] = []
+
+        def shader(stage: ShaderStage, alpha: bool) -> Reflected | None:
+            # Where a rule may ask for a shader; nothing of it is loaded otherwise.
+            from .modules import Modules
+
+            if not modules:
+                modules.append(Modules(document, file))
+            return modules[0].reflected(stage, alpha)
+
+        verdicts = self.judge.judge(subjects(document, own, study, shader), file, severity)
+        verdicts.findings.extend(found for each in modules for found in each.findings)
+        return verdicts, own
 
     def _suppress(
         self, findings: Sequence[Finding], source: Source, documents: Sequence[Node], severity: Severity, undecided: set[str]
@@ -151,6 +183,13 @@ def _mended(
     for each in offers:
         findings = each.with_edits(findings)
     return findings, together
+
+
+def _of_capture(document: Document, capture: Captured, device: DeviceProfile | None) -> Document:
+    """The document with the shaders that the capture holds. A device that is asked for stands in for the one that was captured on."""
+    if device is not None:
+        document.description.device = None
+    return document._replace(modules=capture.modules)
 
 
 def _document(source: Source, root: Node, format: str | None) -> Document:

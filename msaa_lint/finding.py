@@ -59,6 +59,18 @@ class Price(NamedTuple):
     milliwatts: float
 
 
+class Seen(NamedTuple):
+    """Where in a capture a finding is from: the call by its name and index, and in how many frames of how many what it speaks of is in use.
+
+    `call` is None where the capture numbers nothing, `frames` where they are not counted.
+    """
+
+    by: str
+    call: int | None
+    frames: int | None
+    of: int
+
+
 class Finding(NamedTuple):
     """One mistake at one place.
 
@@ -79,6 +91,7 @@ class Finding(NamedTuple):
     help: str = ""
     fix: Fix | None = None
     price: Price | None = None
+    seen: Seen | None = None
 
     @property
     def fatal(self) -> bool:

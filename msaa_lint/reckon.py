@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
@@ -12,16 +11,16 @@ from .cost.costed import Costed
 from .cost.model import frame_cost
 from .cost.variants import variants
 from .devices import DeviceProfile
-from .diagnostics import diagnostic
 from .discovery import STDIN, discover
 from .engine import Judged, Linted
 from .facts.frame import Frame
-from .finding import Finding, Result
+from .finding import Result
+from .inputs import load, refused
 from .profiles import device_of
 from .readers import looks_like
 from .run import Request, Run
 from .source.text import Unreadable
-from .source.tree import Limits, read
+from .source.tree import Limits
 
 Fixed = Callable[[Linted, Judged, DeviceProfile | None, Terms], FrameCost | None]
 """What a document's frame would cost with the fixes of its findings made; None where it has none."""
@@ -75,25 +74,12 @@ def _linted(this: Run, path: str) -> Linted | None:
     limits = Limits(**{**Limits()._asdict(), **governed.settings.limits})
     device = device_of(governed.settings.profile)
     try:
-        data = _stdin(limits) if path == STDIN else read(path, limits)
+        data = load(path, limits, name, request.format, request.data)
     except (OSError, Unreadable) as error:
-        this.findings.append(_unreadable(error, name))
+        this.findings.append(refused(error, name))
         return None
     severity = governed.selection.for_file(name, device.vendor if device is not None else None)
     return governed.engine.lint(data, name, severity, limits=limits, format=request.format, device=device, ignores=request.ignores)
-
-
-def _unreadable(error: OSError | Unreadable, name: str) -> Finding:
-    code = "MSAA906" if isinstance(error, Unreadable) else "MSAA901"
-    reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
-    return diagnostic(code, f"the input cannot be read: {reason}", name)
-
-
-def _stdin(limits: Limits) -> bytes:
-    data = sys.stdin.buffer.read(limits.bytes + 1)
-    if len(data) > limits.bytes:
-        raise Unreadable(f"the input is larger than the limit of {limits.bytes} bytes")
-    return data
 
 
 def _readable(linted: Linted) -> list[Judged]:

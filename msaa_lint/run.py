@@ -6,11 +6,10 @@ The command line and `msaa_lint.lint` are both this.
 # No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 import gc
 import os
-import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from . import config
+from . import config, inputs
 from .catalogue import EDITIONS, Catalogue, load
 from .diagnostics import diagnostic
 from .discovery import STDIN, discover
@@ -22,9 +21,10 @@ from .selection import Selection
 from .selectors import unknown_selectors
 from .settings import Settings, override
 from .source.text import Source, Unreadable
-from .source.tree import Limits, read
+from .source.tree import Limits
 
 if TYPE_CHECKING:
+    from .captured import Captured
     from .fixes.inputs import Mended
 
 Progress = Callable[[int, int, str], None]
@@ -98,6 +98,7 @@ class Run:
         self._engines: dict[tuple[str, ...], Engine] = {}
         self.prices = False
         self.mended: list[Mended] = []
+        self.notes: list[str] = []
 
     def settings(self, path: str) -> Settings:
         """The settings that govern a file or folder; what is wrong with their configuration is a finding, once."""
@@ -137,22 +138,22 @@ class Run:
         governed = self.governed(self.request.stdin_filename or os.curdir if stdin else path)
         limits = Limits(**{**Limits()._asdict(), **governed.settings.limits})
         try:
-            data = self._stdin(limits) if stdin else read(path, limits)
+            data = inputs.load(path, limits, name, self.request.format, self.request.data)
         except (OSError, Unreadable) as error:
-            code = "MSAA906" if isinstance(error, Unreadable) else "MSAA901"
-            reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
-            self.findings.append(diagnostic(code, f"the input cannot be read: {reason}", name))
+            self.findings.append(inputs.refused(error, name))
             return
         device = device_of(governed.settings.profile)
         severity = governed.selection.for_file(name, device.vendor if device is not None else None)
 
-        def judge(data: bytes, prices: bool = False) -> Linted:
+        def judge(data: "bytes | Captured", prices: bool = False) -> Linted:
             return governed.engine.lint(
                 data, name, severity, limits=limits, format=self.request.format, device=device, ignores=self.request.ignores, prices=prices
             )
 
         linted = judge(data, self.prices)
-        if self.request.fix is not None and (stdin or any(found.fix is not None for found in linted.findings)):
+        if not isinstance(data, bytes):
+            self.notes.extend(data.notes)
+        elif self.request.fix is not None and (stdin or any(found.fix is not None for found in linted.findings)):
             from .fixes.inputs import mend
 
             write = self.request.fix == "write"
@@ -199,14 +200,6 @@ class Run:
         price = together([found for found in findings if rank(found.severity) >= least])
         return lambda _: price
 
-    def _stdin(self, limits: Limits) -> bytes:
-        if self.request.data is not None:
-            return self.request.data
-        data = sys.stdin.buffer.read(limits.bytes + 1)
-        if len(data) > limits.bytes:
-            raise Unreadable(f"the input is larger than the limit of {limits.bytes} bytes")
-        return data
-
 
 def run(request: Request, progress: Progress | None = None) -> Outcome:
     """Lints all that a request names. Nothing raises for what an input, a page or a configuration holds: that is a finding."""
@@ -223,7 +216,7 @@ def run(request: Request, progress: Progress | None = None) -> Outcome:
         if gc.get_count()[0] > GARBAGE:
             gc.collect()
     files = [request.stdin_filename or "<stdin>" if path == STDIN else path for path in found.files]
-    notes = list(found.notes)
+    notes = [*found.notes, *this.notes]
     if here.settings.baseline is not None and not request.without_baseline:
         _baseline(this, here, files, notes)
     # After the baseline, which counts what is not shown as well.

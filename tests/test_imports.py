@@ -25,7 +25,7 @@ HEAVY = frozenset({
     "pydantic_core", "rich", "shellingham", "socket", "sqlite3", "ssl", "subprocess", "tempfile", "tomllib", "typer", "unicodedata",
     "urllib", "vulkan", "xml",
     "msaa_lint.baseline", "msaa_lint.cli.app", "msaa_lint.config_keys", "msaa_lint.document.fields", "msaa_lint.document.generate",
-    "msaa_lint.document.models", "msaa_lint.toml_text", "msaa_lint.vulkan.generate",
+    "msaa_lint.document.models", "msaa_lint.modules", "msaa_lint.spirv", "msaa_lint.toml_text", "msaa_lint.vulkan.generate",
 })  # fmt: skip
 """Nothing of this, nor anything below it, on the way of a run without a configuration file, whatever it finds."""
 
@@ -113,13 +113,15 @@ MAY_IMPORT = {
     "finding": {"source"},
     "vulkan": {"vulkan"},
     "devices": {"devices", "vulkan"},
+    "spirv": {"spirv"},
     "document": {"document", "finding", "source", "vulkan"},
-    "readers": {"readers", "devices", "document", "finding", "source", "vulkan"},
-    "facts": {"facts", "devices", "document", "finding", "vulkan"},
+    "captures": {"captures", "devices", "document", "source", "vulkan"},
+    "readers": {"readers", "captures", "devices", "document", "finding", "source", "vulkan"},
+    "facts": {"facts", "devices", "document", "finding", "spirv", "vulkan"},
     "cost": {"cost", "devices", "document", "facts", "finding", "vulkan"},
     "confirm": {
         "confirm", "condition", "cost", "devices", "diagnostics", "discovery", "document", "engine", "facts", "finding", "fixes",
-        "profiles", "readers", "run", "source", "vulkan",
+        "inputs", "profiles", "readers", "run", "source", "spirv", "vulkan",
     },
     "study": {
         "__version__", "study", "confirm", "cost", "devices", "document", "facts", "finding", "readers", "source", "studied", "vulkan",
@@ -134,6 +136,7 @@ ONLY_IN = {
     "yaml": {"source.comments", "source.events", "source.pure", "source.tree"},
     "cel_expr_python": {"condition"},
     "vulkan_object": {"vulkan.generate"},
+    "orjson": {"captures.json_stream", "readers.fossilize_objects"},
     "vulkan": {"confirm.binding"},
 }
 """Packages of others, and the modules that may import them."""

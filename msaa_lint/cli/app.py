@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 import typer
 
 from .. import __version__
+from ..readers import CAPTURES
 from .confirm_options import CONFIRM
 from .options import CHECK, SHARED, Option
 from .study_options import STUDY
@@ -175,6 +176,22 @@ def facts(
     from .facts import of_input, reference
 
     raise typer.Exit(reference(output) if path is None else of_input(path, output, profile))
+
+
+@app.command()
+def convert(
+    capture: Annotated[str, typer.Argument(metavar="CAPTURE", help="A capture; - is standard input.")],
+    output: Annotated[str | None, typer.Option("--output", "-o", metavar="FILE", help="Write there, shaders beside it.")] = None,
+    input_format: Annotated[Literal[CAPTURES] | None, typer.Option(help="Read the capture as this.")] = None,  # type: ignore[valid-type]
+    force: Annotated[bool, typer.Option("--force", help="Write over a file that exists.")] = False,
+) -> None:
+    """Write a capture as a description that can be read, edited, fixed and confirmed.
+
+    Exits with 0, or with 2 where the capture cannot be read to its end; what can be read of it is written.
+    """
+    from .convert import convert as write
+
+    raise typer.Exit(write(capture, output, input_format, force))
 
 
 @app.command()

@@ -8,9 +8,10 @@ from functools import partial
 
 from ..facts.facts import Subject
 from ..facts.table import FACTS, GLOBAL, SUBJECTS, Fact
+from ..inputs import load
 from ..report.escape import visible
 from ..source.text import Source, Unreadable, decode
-from ..source.tree import Limits, parse, read
+from ..source.tree import Limits, parse
 
 TYPES = {"BOOL": "bool", "INT": "int", "DOUBLE": "double", "STRING": "string", "LIST": "list(string)", "INTS": "list(int)"}
 
@@ -67,8 +68,8 @@ def of_input(path: str, output: str, profile: str | None) -> int:
     from ..profiles import Problem, device_for, device_of
 
     try:
-        data = sys.stdin.buffer.read() if path == "-" else read(path, Limits())
-        source = Source(path, decode(data))
+        data = load(path, Limits())
+        source = Source(path, decode(data)) if isinstance(data, bytes) else data.source
     except (OSError, Unreadable) as error:
         print(f"msaa-lint: {visible(path)}: {visible(str(error))}", file=sys.stderr)
         return 2
@@ -80,9 +81,12 @@ def of_input(path: str, output: str, profile: str | None) -> int:
     for root in parsed.documents:
         from .. import readers
         from ..facts.subjects import subjects
+        from ..modules import Modules
         from ..studied import studied
 
         document = readers.read(source, root)
+        if not isinstance(data, bytes):
+            document = document._replace(modules=data.modules)
         for mistake in document.problems:
             where = source.position(mistake.span.start)
             print(f"msaa-lint: {visible(path)}:{where.line}:{where.column}: {visible(mistake.message)}", file=sys.stderr)
@@ -92,7 +96,8 @@ def of_input(path: str, output: str, profile: str | None) -> int:
         wrong = wrong or bool(document.problems) or isinstance(device, Problem)
         if not document.problems and not isinstance(device, Problem):
             study = partial(studied, file=path)
-            rows.extend(_row(subject, source) for subject in subjects(document, device, study))
+            shader = Modules(document, path).reflected
+            rows.extend(_row(subject, source) for subject in subjects(document, device, study, shader))
     if output == "json":
         import json
 

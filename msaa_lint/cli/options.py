@@ -13,8 +13,8 @@ FORMATS = ("full", "concise", "json", "sarif", "github", "gitlab", "junit", "mar
 LEVELS = ("note", "warning", "error")
 
 
-INPUT_FORMATS = ("description", "vulkan-sc")
-"""The names of `readers.FORMATS`, for help and errors that import no reader."""
+INPUT_FORMATS = ("description", "vulkan-sc", "gfxreconstruct", "api-dump", "renderdoc", "fossilize")
+"""The names of `readers.FORMATS` and `readers.CAPTURES`, for help and errors that import no reader."""
 
 
 class Option(NamedTuple):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
@@ -17,11 +16,12 @@ from ..facts.frame import Frame, Pass
 from ..facts.surroundings import profile
 from ..finding import Finding, Undecided
 from ..fixes.inputs import Mended, mend
+from ..inputs import load, refused
 from ..profiles import device_of
 from ..readers import looks_like
 from ..run import Governed, Request, Run
 from ..source.text import Unreadable
-from ..source.tree import Limits, read
+from ..source.tree import Limits
 
 
 class Input(NamedTuple):
@@ -76,17 +76,20 @@ def _of_file(this: Run, path: str) -> list[Input]:
     governed = this.governed(request.stdin_filename or os.curdir if stdin else path)
     limits = Limits(**{**Limits()._asdict(), **governed.settings.limits})
     try:
-        data = _stdin(limits) if stdin else read(path, limits)
+        loaded = load(path, limits, name, request.format, request.data)
     except (OSError, Unreadable) as error:
-        code = "MSAA906" if isinstance(error, Unreadable) else "MSAA901"
-        reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
-        this.findings.append(diagnostic(code, f"the input cannot be read: {reason}", name))
+        this.findings.append(refused(error, name))
         return []
+    # Of a capture the description that it becomes is confirmed.
+    data = loaded if isinstance(loaded, bytes) else loaded.source.text.encode()
+    format = request.format if isinstance(loaded, bytes) else None
+    if not isinstance(loaded, bytes) and loaded.broken:
+        this.findings.append(diagnostic("MSAA901", f"the capture ends in the middle: {loaded.broken}", name))
     device = device_of(governed.settings.profile)
     severity = governed.selection.for_file(name, device.vendor if device is not None else None)
 
     def judge(data: bytes) -> Linted:
-        return governed.engine.lint(data, name, severity, limits=limits, format=request.format, device=device, ignores=request.ignores)
+        return governed.engine.lint(data, name, severity, limits=limits, format=format, device=device, ignores=request.ignores)
 
     linted = judge(data)
     this.findings.extend(finding for finding in linted.findings if finding.fatal)
@@ -94,13 +97,6 @@ def _of_file(this: Run, path: str) -> list[Input]:
         return []
     mended = mend(data, linted, judge, lambda _: True, False, None) if any(f.fix is not None for f in linted.findings) else None
     return [_input(name, linted, judged, mended, governed, device) for judged in linted.judged]
-
-
-def _stdin(limits: Limits) -> bytes:
-    data = sys.stdin.buffer.read(limits.bytes + 1)
-    if len(data) > limits.bytes:
-        raise Unreadable(f"the input is larger than the limit of {limits.bytes} bytes")
-    return data
 
 
 def _input(name: str, linted: Linted, judged: Judged, mended: Mended | None, governed: Governed, device: DeviceProfile | None) -> Input:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from ..source.text import Source
@@ -22,3 +23,5 @@ class Document(NamedTuple):
     whole: bool = True
     path: str = ""
     """What stands before every structural path: `documents[1]` in a stream of several, else nothing."""
+    modules: Mapping[str, bytes] = {}
+    """The code of shaders that came with the input, by the names that `pipelines` have for them; those of a description lie beside it."""

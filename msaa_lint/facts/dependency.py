@@ -40,10 +40,11 @@ def recorded_barriers(frame: Frame) -> Barriers:
     return found
 
 
-def external_dependencies(each: Pass, barriers: Barriers) -> Iterator[tuple[Record, Facts]]:
+def external_dependencies(each: Pass, barriers: Barriers, recorded: bool = False) -> Iterator[tuple[Record, Facts]]:
     """For every subpass with stated dependencies from EXTERNAL: the first of them, and the facts of all together.
 
-    A subpass without any that is the first to use a multisampled attachment comes by itself: what orders it is not known.
+    A subpass without any that is the first to use a multisampled attachment comes by itself: what orders it is not known. Nor is it known
+    of a pass that no command begins, where commands are `recorded`.
     """
     if each.kind != RENDER_PASS or not isinstance(each.record, RenderPass):
         return
@@ -58,6 +59,9 @@ def external_dependencies(each: Pass, barriers: Barriers) -> Iterator[tuple[Reco
     for subpass, dependencies in into.items():
         names = dict.fromkeys(t.name for a in began.get(subpass, ()) if a.samples != 1 for t in a.targets if t.image is not None)
         waits = [barriers[name] for name in (*names, None) if name in barriers] if each.begun else []
+        if recorded and not each.begun:
+            yield dependencies[0], _use_facts(subpass, began.get(subpass, []))
+            continue
         yield dependencies[0], _facts(subpass, began.get(subpass, []), dependencies, waits)
     for subpass, attachments in began.items():
         if subpass not in into and _any_multisampled(attachments):

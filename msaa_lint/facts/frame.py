@@ -393,9 +393,16 @@ class Frame:
 
     def _renderings(self) -> None:
         number = 0
+        # One that is written as an alias of another is the same pass, begun again.
+        by_anchor: dict[int, Pass] = {}
         for position, command in enumerate(self.commands):
             if isinstance(command.body, BeginRendering):
-                made = Pass(RENDERING, f"rendering{number}", command.body)
+                node = command.body.node
+                own = id(node.anchor if node.anchor is not None else node)
+                if own in by_anchor:
+                    by_anchor[own].begun.append(position)
+                    continue
+                made = by_anchor[own] = Pass(RENDERING, f"rendering{number}", command.body)
                 made.begun.append(position)
                 number += 1
                 self._rendering(made, command.body)
@@ -443,7 +450,7 @@ class Frame:
 
     def _commands(self) -> None:
         rendering: dict[str, list[Attachment]] = {}
-        begins = {each.begun[0]: each for each in self.passes if each.kind == RENDERING}
+        begins = {position: each for each in self.passes if each.kind == RENDERING for position in each.begun}
         for position, command in enumerate(self.commands):
             body = command.body
             if command.kind in ("beginRendering", "endRendering"):

@@ -132,7 +132,7 @@ def _own_pipelines(subpass: PassSubpass, frame: Frame, drawn: Drawn) -> list[Pip
     within = subpass.within
     if isinstance(within.record, BeginRendering):
         elsewhere = any(flag.startswith(("SUSPENDING", "RESUMING", "CONTENTS_SECONDARY")) for flag in within.record.flags)
-        return [] if elsewhere else drawn.get(within.begun[0], [])
+        return [] if elsewhere else [pipeline for begun in within.begun for pipeline in drawn.get(begun, [])]
     if not frame.document.whole:
         return []
     unstated = 0 if len(within.subpasses) == 1 else None

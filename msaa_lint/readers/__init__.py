@@ -1,10 +1,12 @@
-"""What files are read as: one module per input format, each with `claims(root)` and `read(source, root)`.
+"""What files are read as: one module per input format, told by content, never by a file's name.
 
-A format is told by content, never by a file's name.
+The readers of texts have `claims(root)` and `read(source, root)`. Those of captures, which are streams, have `claims(head)`, `calls(stream,
+wanted, path)` and `RECORDS_COMMANDS`; they are imported when one is met.
 """
 
 from __future__ import annotations
 
+from importlib import import_module
 from types import ModuleType
 
 from ..document.document import Document
@@ -14,6 +16,9 @@ from . import description, vulkan_sc
 
 FORMATS: dict[str, ModuleType] = {"vulkan-sc": vulkan_sc, "description": description}
 """By the name that `--input-format` takes, in the order in which they are asked; the last reads what none claims."""
+
+CAPTURES = ("gfxreconstruct", "api-dump", "renderdoc", "fossilize")
+"""The readers of captures by the name that `--input-format` takes: a module each, with `_` for `-`."""
 
 HEADS = ("images:", "renderPasses:", "pipelines:", "commands:", "framebuffers:", '"renderPasses"', '"images"', "PipelineState")
 """What a file of ours has near its beginning: a folder's other files are passed over."""
@@ -26,6 +31,23 @@ def read(source: Source, root: Node, format: str | None = None) -> Document:
     return made
 
 
+CAPTURE_HEADS = ('"vkFunc"', '"gfxrecon-version"', '"apiCalls"', "<rdc>", "FOSSILIZEDB")
+"""The same of captures."""
+
+# What the beginning of a capture has, before its reader is asked.
+_MARKS = (b"gfxrecon", b"vkFunc", b'"function"', b"apiCalls", b"<rdc", b"FOSSILIZEDB", b'"meta"')
+
+
+def capture_format(head: bytes) -> str | None:
+    """The name of the capture format that the beginning of a file is of; None where it is of none."""
+    if head[:1] not in (b"{", b"[", b"<", b"\x81", b"\xef", b" ", b"\n", b"\r", b"\t") or not any(mark in head for mark in _MARKS):
+        return None
+    for name in CAPTURES:
+        if import_module(f".{name.replace('-', '_')}", __package__).claims(head):
+            return name
+    return None
+
+
 def looks_like(head: str) -> bool:
     """Whether the beginning of a file looks like one that a reader claims."""
-    return any(word in head for word in HEADS)
+    return any(word in head for word in HEADS) or any(word in head for word in CAPTURE_HEADS)

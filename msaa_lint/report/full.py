@@ -15,7 +15,7 @@ from .summary import cost
 if TYPE_CHECKING:
     from collections.abc import Set
 
-    from ..finding import Finding, Result
+    from ..finding import Finding, Result, Seen
     from . import Options, Write
 
 
@@ -37,9 +37,11 @@ def paragraph(finding: Finding, result: Result, options: Options, rules: Set[str
     digits, lines = 1, []
     if at:
         where += f":{at.line}:{at.column}"
+    source = result.sources.get(finding.file)
+    if finding.span is not None and source is not None and (at or source.origins is not None):
         view = excerpt(result.sources[finding.file], marks(finding), options.width, options.color)
         digits, lines = view.digits, view.lines
-    elif finding.subject:
+    if not at and finding.subject:
         where += f": {shown(finding.subject)}"
     indent = " " * digits
     bar = paint(f"{indent} |", SECONDARY, options.color)
@@ -64,9 +66,17 @@ def marks(finding: Finding) -> list[Mark]:
     return [primary, *(Mark(*span, text, SECONDARY, False) for span, text in said.items())]
 
 
+def seen(where: Seen) -> str:
+    """Where in a capture a finding is from, in words."""
+    call = where.by if where.call is None else f"{where.by}, call {where.call}"
+    return call if where.frames is None or where.of < 2 else f"{call}; in {where.frames} of {where.of} frames"
+
+
 def remarks(finding: Finding, rules: Set[str]) -> list[tuple[str, str]]:
     """What stands below the excerpt: word and text."""
     said = [("note", f"{shown(finding.code)}, confidence {finding.confidence}")]
+    if finding.seen is not None:
+        said.append(("from", shown(seen(finding.seen)) + " (the lines are those that `msaa-lint convert` writes)"))
     said += [("note", shown(note)) for note in finding.notes if note.strip()]
     places = len({label.span for label in finding.labels} | {finding.span})
     if places > MOST_MARKS:

@@ -9,6 +9,7 @@ from ..finding import rank
 from .escape import shown, visible
 from .markdown import literal, table
 from .paths import relative
+from .place import place
 from .summary import fixable, plural, sentence
 
 if TYPE_CHECKING:
@@ -50,7 +51,10 @@ def render(result: Result, out: Write, options: Options) -> None:
 def _command(finding: Finding, result: Result, options: Options) -> str:
     properties: dict[str, str | int] = {"file": visible(relative(finding.file, options.root))}
     source = result.sources.get(finding.file)
-    if finding.span is not None and source is not None:
+    if finding.span is not None and source is not None and source.origins is not None:
+        at = place(result, finding.file, finding.span)
+        properties |= {"line": at.line, "endLine": at.line} if at is not None else {}
+    elif finding.span is not None and source is not None:
         properties |= _region(source, finding.span.start, finding.span.end)
     properties["title"] = f"{shown(finding.rule)} ({shown(finding.code)})"
     lines = [shown(finding.message)]

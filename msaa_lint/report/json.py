@@ -67,6 +67,7 @@ def _finding(finding: Finding, result: Result, options: Options) -> dict[str, ob
         "labels": [{**_place(result, finding.file, label.span), "text": _text(label.text)} for label in finding.labels],
         "notes": [_text(note) for note in finding.notes],
         "help": _text(finding.help),
+        "seen": {**finding.seen._asdict(), "by": _text(finding.seen.by)} if finding.seen else None,
     }
 
 

@@ -20,6 +20,12 @@ def place(result: Result, file: str, span: Span | None) -> Place | None:
     source = result.sources.get(file)
     if span is None or source is None:
         return None
+    if source.origins is not None:
+        origin = source.origin(span.start)
+        if origin is None or origin.line is None:
+            return None
+        column = origin.column or 1
+        return Place(origin.line, column, origin.line, column)
     start = max(0, min(span.start, len(source.text)))
     end = max(start, min(span.end, len(source.text)))
     line, column = source.position(start)

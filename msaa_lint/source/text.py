@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
+from collections.abc import Sequence
 from typing import NamedTuple
 
 # Compiled where they are used, as most runs use none of them.
@@ -31,15 +32,38 @@ class Position(NamedTuple):
     column: int
 
 
+class Origin(NamedTuple):
+    """Where a line of a text is from that was made of a capture: the place of the call (1-based; None in a binary capture), its index, its
+    name, and in how many frames of how many what it states is in use; None where that is not counted."""
+
+    line: int | None
+    column: int | None
+    call: int | None
+    by: str
+    frames: int | None = None
+    of: int = 0
+
+
 class Source:
-    """A decoded text and the name that reports call it by. Lines end as in YAML: \\n, \\r\\n or a lone \\r."""
+    """A decoded text and the name that reports call it by. Lines end as in YAML: \\n, \\r\\n or a lone \\r.
 
-    __slots__ = ("_starts", "name", "text")
+    `origins`, where the text was made of a capture, has one entry a line: the call that it is from.
+    """
 
-    def __init__(self, name: str, text: str) -> None:
+    __slots__ = ("_starts", "name", "origins", "text")
+
+    def __init__(self, name: str, text: str, origins: Sequence[Origin | None] | None = None) -> None:
         self.name = name
         self.text = text
+        self.origins = origins
         self._starts: list[int] | None = None
+
+    def origin(self, offset: int) -> Origin | None:
+        """The call that the line at an offset is from; None where it is from none, and in a text that was not made of a capture."""
+        if self.origins is None:
+            return None
+        line = self.position(offset).line
+        return self.origins[line - 1] if line <= len(self.origins) else None
 
     @property
     def starts(self) -> list[int]:

@@ -69,7 +69,7 @@ def test_init_makes_a_project_that_lints(tmp_path: Path) -> None:
 
 def test_the_formats_are_those_there_are() -> None:
     assert tuple(REPORTED) == FORMATS
-    assert sorted(INPUT_FORMATS) == sorted(readers.FORMATS)
+    assert sorted(INPUT_FORMATS) == sorted([*readers.FORMATS, *readers.CAPTURES])
 
 
 @pytest.mark.parametrize("command", ["check", "cost", "confirm", "study"])

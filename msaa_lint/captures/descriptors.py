@@ -1,0 +1,93 @@
+"""Descriptor sets, as far as they hold images that passes draw to."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from . import values
+from .call import Call
+from .objects import DescriptorSet, Image
+
+if TYPE_CHECKING:
+    from .objects import View
+
+_STORAGE_IMAGE = 3
+_IMAGES = (1, 2, _STORAGE_IMAGE)
+"""VkDescriptorType by number: COMBINED_IMAGE_SAMPLER, SAMPLED_IMAGE. A subpass reads its input attachments on the tile."""
+_NAMES = {
+    "VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER": False,
+    "VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE": False,
+    "VK_DESCRIPTOR_TYPE_STORAGE_IMAGE": True,
+}
+
+
+class Descriptors:
+    """Follows the descriptor sets of a capture."""
+
+    views: dict[int, View]
+
+    def __init__(self) -> None:
+        self.sets: dict[int, DescriptorSet] = {}
+        self.set_pools: dict[int, set[int]] = {}
+
+    def on_AllocateDescriptorSets(self, call: Call) -> None:
+        info = values.record(call.args.get("pAllocateInfo"))
+        pool = self.set_pools.setdefault(values.handle(info.get("descriptorPool")), set())
+        for item in values.items(call.args.get("pDescriptorSets")):
+            handle = values.handle(item)
+            self.sets[handle] = DescriptorSet()
+            pool.add(handle)
+
+    def on_FreeDescriptorSets(self, call: Call) -> None:
+        for item in values.items(call.args.get("pDescriptorSets")):
+            self.sets.pop(values.handle(item), None)
+
+    def on_ResetDescriptorPool(self, call: Call) -> None:
+        for handle in self.set_pools.pop(values.handle(call.args.get("descriptorPool")), ()):
+            self.sets.pop(handle, None)
+
+    def on_DestroyDescriptorPool(self, call: Call) -> None:
+        self.on_ResetDescriptorPool(call)
+
+    def on_UpdateDescriptorSets(self, call: Call) -> None:
+        for item in values.items(call.args.get("pDescriptorWrites")):
+            write = values.record(item)
+            known = self.sets.get(values.handle(write.get("dstSet")))
+            if known is not None:
+                self.write(known, write)
+        for item in values.items(call.args.get("pDescriptorCopies")):
+            copy = values.record(item)
+            source, target = (self.sets.get(values.handle(copy.get(name))) for name in ("srcSet", "dstSet"))
+            if source is not None and target is not None:
+                # Which of them are copied matters less than that what they hold may be read.
+                target.images.update(source.images)
+                target.opaque = target.opaque or source.opaque
+
+    def on_UpdateDescriptorSetWithTemplate(self, call: Call) -> None:
+        known = self.sets.get(values.handle(call.args.get("descriptorSet")))
+        if known is not None:
+            known.opaque = True
+
+    def write(self, target: DescriptorSet, write: dict[str, Any]) -> None:
+        """A VkWriteDescriptorSet into a set."""
+        storage = _storage(write.get("descriptorType"))
+        if storage is None:
+            return
+        binding = values.integer(write.get("dstBinding")) or 0
+        first = values.integer(write.get("dstArrayElement")) or 0
+        for offset, item in enumerate(values.items(write.get("pImageInfo"))):
+            view = self.views.get(values.handle(values.record(item).get("imageView")))
+            slot = (binding, first + offset)
+            image: Image | None = view.image if view is not None else None
+            if image is not None and image.attachable:
+                target.images[slot] = (image, storage)
+            else:
+                target.images.pop(slot, None)
+
+
+def _storage(kind: object) -> bool | None:
+    """Whether a descriptor type is written to as well; None where it is no image, or an input attachment."""
+    number = values.integer(kind)
+    if number is not None:
+        return number == _STORAGE_IMAGE if number in _IMAGES else None
+    return _NAMES.get(kind) if isinstance(kind, str) else None

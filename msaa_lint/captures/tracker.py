@@ -1,0 +1,432 @@
+"""Follows the calls of a capture: what exists, what is recorded, and which frames are submitted.
+
+One method a call, found by the call's name without its vendor suffix; a call without a method is passed over. What a call states badly is
+unknown, and never stops the rest: captures come from strangers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable
+from typing import Any, NamedTuple
+
+from ..document.records import Framebuffer as FramebufferRecord
+from ..document.records import Image as ImageRecord
+from ..document.records import RenderPass as RenderPassRecord
+from ..vulkan.formats import format_of
+from . import values
+from .call import Call, Mark
+from .descriptors import Descriptors
+from .devices import Devices
+from .frames import Frames
+from .objects import Created, Framebuffer, Image, Pipeline, RenderPass, Swapchain, View, frozen
+from .pipelines import pipelines_of
+from .recording import CommandBuffer, Commands, Recorded
+from .structures import described
+from .transfers import Transfers
+
+SUFFIXES = ("KHR", "EXT", "NV", "AMD", "QCOM", "ARM", "LUNARG")
+BOUNDARY = frozenset(
+    f"vkCmd{name}"
+    for name in (
+        "BeginRenderPass", "BeginRenderPass2", "NextSubpass", "NextSubpass2", "EndRenderPass", "EndRenderPass2", "BeginRendering",
+        "EndRendering", "EndRendering2",
+    )
+)  # fmt: skip
+RECURRING = BOUNDARY | {name.replace("on_", "vk", 1) for name in vars(Transfers) if name.startswith("on_")}
+"""Commands that record the same whenever their arguments are the same, whatever was recorded before them."""
+
+MAX_KNOWN = 4096
+"""So many commands are remembered with their arguments."""
+
+MAX_DISTINCT = 20_000
+"""So many render passes or pipelines that differ are kept; more of them are drawn with, not judged by themselves."""
+
+
+def bare(name: str) -> str:
+    """A call's name without its vendor's suffix."""
+    for suffix in SUFFIXES:
+        if name.endswith(suffix):
+            return name[: -len(suffix)]
+    return name
+
+
+class Known(NamedTuple):
+    """What a command recorded: its arguments (the very object, which a reader gives again where the call is written alike), when that was,
+    and whether it is where a pass or a subpass begins or ends."""
+
+    args: dict[str, Any]
+    generation: int
+    boundary: bool
+    recorded: list[Recorded]
+
+
+class Tracker(Descriptors, Transfers, Devices):
+    """The state of one capture. Feed it the calls in their order, then `finish`."""
+
+    def __init__(self) -> None:
+        Devices.__init__(self)
+        Descriptors.__init__(self)
+        self.images: dict[int, Image] = {}
+        self.views: dict[int, View] = {}
+        self.swapchains: dict[int, Swapchain] = {}
+        self.render_passes: dict[int, RenderPass] = {}
+        self.framebuffers: dict[int, Framebuffer] = {}
+        self.pipelines: dict[int, Pipeline] = {}
+        self.modules: dict[int, bytes] = {}
+        self.buffers: dict[int, CommandBuffer] = {}
+        self.pools: dict[int, set[int]] = {}
+        self.memory: dict[int, int] = {}
+        self.frames = Frames()
+        self.commands = Commands()
+        self.generation = 0
+        """Counts the objects that were destroyed: from then on a handle may be another's."""
+        self._known: dict[int, Known] = {}
+        self.counts: dict[str, int] = {}
+        self.distinct: dict[Hashable, Any] = {}
+        """Render passes and pipelines by what they were created from."""
+        self.multisampled: dict[Hashable, Image] = {}
+        """Multisampled images, one for each of those that were created alike, until a frame uses it."""
+        self.early_names: dict[tuple[str, int], str] = {}
+        self.handlers: dict[str, Callable[[Call], None]] = {
+            "vk" + name[len("on_") :]: getattr(self, name) for name in dir(self) if name.startswith("on_")
+        }
+        self.handlers["SetDevicePropertiesCommand"] = self.device_properties_command
+        self.handlers["SetDeviceMemoryPropertiesCommand"] = self.memory_properties_command
+
+    @property
+    def wanted(self) -> frozenset[str]:
+        """The calls that are followed, without vendor suffixes."""
+        return frozenset(self.handlers)
+
+    def feed(self, call: Call | Mark) -> None:
+        """Follows one call."""
+        if isinstance(call, Mark):
+            self.frames.mark(call.kind)
+            return
+        known = self._known.get(id(call.args))
+        if known is not None and known.args is call.args and known.generation == self.generation:
+            self._again(known, call)
+            return
+        name = call.name
+        handler = self.handlers.get(name)
+        if handler is None:
+            name = bare(name)
+            handler = self.handlers.get(name)
+        if handler is None or (call.result is not None and call.result.startswith("VK_ERROR")):
+            return
+        if name in RECURRING:
+            self._first(handler, call, name in BOUNDARY)
+            return
+        if name.startswith("vkDestroy"):
+            self.generation += 1
+        handler(call)
+
+    def _first(self, handler: Callable[[Call], None], call: Call, boundary: bool) -> None:
+        """Follows a command that records the same whenever it comes with the same arguments, and remembers what."""
+        buffer = self.buffer(call)
+        before = len(buffer.recorded)
+        handler(call)
+        recorded = buffer.recorded[before:]
+        if recorded or boundary:
+            if len(self._known) >= MAX_KNOWN:
+                self._known.clear()
+            self._known[id(call.args)] = Known(call.args, self.generation, boundary, recorded)
+
+    def _again(self, known: Known, call: Call) -> None:
+        buffer = self.buffer(call)
+        if known.boundary:
+            buffer.boundary()
+            buffer.recorded.extend(known.recorded)
+            return
+        for each in known.recorded:
+            (buffer.once if each.kind == "clearAttachments" else buffer.record)(each)
+
+    def finish(self) -> None:
+        """What was submitted since the last present is the last frame."""
+        self.frames.end_of_capture()
+
+    def number(self, kind: str) -> int:
+        """The number of the next object of a kind."""
+        count = self.counts.get(kind, 0)
+        self.counts[kind] = count + 1
+        return count
+
+    # Images.
+
+    def on_CreateImage(self, call: Call) -> None:
+        info = values.record(call.args.get("pCreateInfo"))
+        handle = values.handle(call.args.get("pImage"))
+        made = self._image(call, described(ImageRecord, info))
+        self._name(made, "IMAGE", handle)
+        self.images[handle] = made
+
+    def _image(self, call: Call, tree: dict[str, Any]) -> Image:
+        format = format_of(tree["format"]) if "format" in tree else None
+        made = Image(call, self.number("image"), tree, format.aspects if format is not None else ())
+        if made.samples > 1 and len(self.multisampled) < MAX_DISTINCT:
+            self.multisampled.setdefault(frozen(tree), made)
+        return made
+
+    def on_DestroyImage(self, call: Call) -> None:
+        self.images.pop(values.handle(call.args.get("image")), None)
+
+    def on_CreateImageView(self, call: Call) -> None:
+        info = values.record(call.args.get("pCreateInfo"))
+        image = self.images.get(values.handle(info.get("image")))
+        if image is not None:
+            extent = values.record(info.get("subresourceRange"))
+            first = (values.integer(extent.get("baseMipLevel")) or 0, values.integer(extent.get("baseArrayLayer")) or 0)
+            self.views[values.handle(call.args.get("pView"))] = View(image, first == (0, 0))
+
+    def on_DestroyImageView(self, call: Call) -> None:
+        self.views.pop(values.handle(call.args.get("imageView")), None)
+
+    def view(self, value: object) -> Image | None:
+        """The image that a view shows."""
+        found = self.views.get(values.handle(value))
+        return found.image if found is not None else None
+
+    # Memory.
+
+    def on_AllocateMemory(self, call: Call) -> None:
+        info = values.record(call.args.get("pAllocateInfo"))
+        index = values.integer(info.get("memoryTypeIndex"))
+        if index is not None:
+            self.memory[values.handle(call.args.get("pMemory"))] = index
+
+    def on_FreeMemory(self, call: Call) -> None:
+        self.memory.pop(values.handle(call.args.get("memory")), None)
+
+    def on_BindImageMemory(self, call: Call) -> None:
+        self._bind(call.args)
+
+    def on_BindImageMemory2(self, call: Call) -> None:
+        for info in values.items(call.args.get("pBindInfos")):
+            self._bind(values.record(info))
+
+    def _bind(self, info: dict[str, Any]) -> None:
+        image = self.images.get(values.handle(info.get("image")))
+        index = self.memory.get(values.handle(info.get("memory")))
+        if image is not None and index is not None:
+            flags = self.memory_flags(index)
+            if flags is not None:
+                image.tree["memory"] = flags
+
+    # Swapchains.
+
+    def on_CreateSwapchain(self, call: Call) -> None:
+        info = values.record(call.args.get("pCreateInfo"))
+        extent = values.record(info.get("imageExtent"))
+        structure = {
+            "format": info.get("imageFormat"),
+            "samples": 1,
+            "usage": info.get("imageUsage"),
+            "extent": {**extent, "depth": 1} if extent else None,
+            "mipLevels": 1,
+            "arrayLayers": info.get("imageArrayLayers"),
+            "imageType": "2D",
+            "sharingMode": info.get("imageSharingMode"),
+        }
+        tree = described(ImageRecord, structure)
+        handle = values.handle(call.args.get("pSwapchain"))
+        made = Swapchain(call, self.number("swapchain"), {**tree, "presentable": True})
+        self.swapchains[handle] = made
+        self._name(made, "SWAPCHAIN_KHR", handle)
+        self.frames.presents = True
+
+    def on_DestroySwapchain(self, call: Call) -> None:
+        found = self.swapchains.pop(values.handle(call.args.get("swapchain")), None)
+        for image in found.images if found is not None else ():
+            for handle in [handle for handle, known in self.images.items() if known is image]:
+                del self.images[handle]
+
+    def on_GetSwapchainImages(self, call: Call) -> None:
+        swapchain = self.swapchains.get(values.handle(call.args.get("swapchain")))
+        if swapchain is None:
+            return
+        for item in values.items(call.args.get("pSwapchainImages"))[:64]:
+            handle = values.handle(item)
+            known = self.images.get(handle)
+            if known is not None and known.swapchain is swapchain:
+                continue
+            format = format_of(swapchain.tree["format"]) if "format" in swapchain.tree else None
+            made = Image(call, len(swapchain.images), dict(swapchain.tree), format.aspects if format is not None else ())
+            made.by, made.at = swapchain.by, swapchain.at
+            made.swapchain = swapchain
+            swapchain.images.append(made)
+            self._name(made, "IMAGE", handle)
+            self.images[handle] = made
+
+    def on_QueuePresent(self, call: Call) -> None:
+        info = values.record(call.args.get("pPresentInfo"))
+        indices = values.items(info.get("pImageIndices"))
+        for swapchain_handle, index in zip(values.items(info.get("pSwapchains")), indices, strict=False):
+            swapchain = self.swapchains.get(values.handle(swapchain_handle))
+            number = values.integer(index)
+            if swapchain is not None and number is not None and 0 <= number < len(swapchain.images):
+                self.frames.submit([self.commands.command("present", swapchain.images[number], call)])
+        self.frames.end()
+
+    def on_FrameBoundaryANDROID(self, call: Call) -> None:
+        if not self.frames.presents:
+            self.frames.end()
+
+    # Render passes and framebuffers.
+
+    def on_CreateRenderPass(self, call: Call) -> None:
+        self._render_pass(call)
+
+    def on_CreateRenderPass2(self, call: Call) -> None:
+        self._render_pass(call)
+
+    def _render_pass(self, call: Call) -> None:
+        tree = described(RenderPassRecord, call.args.get("pCreateInfo"))
+        for attachment in tree.get("attachments", ()):
+            _without_stencil(attachment)
+        coherent(tree)
+        handle = values.handle(call.args.get("pRenderPass"))
+        name = self.early_names.get(("RENDER_PASS", handle), "")
+        made = self._alike(("renderPass", name, frozen(tree)), lambda: RenderPass(call, self.number("render pass"), tree))
+        self._name(made, "RENDER_PASS", handle)
+        self.render_passes[handle] = made
+
+    def _alike(self, key: Hashable, make: Callable[[], Any]) -> Any:
+        """The object that was created from the same before; a new one else."""
+        found = self.distinct.get(key)
+        if found is None:
+            found = make()
+            if len(self.distinct) < MAX_DISTINCT:
+                self.distinct[key] = found
+        return found
+
+    def on_DestroyRenderPass(self, call: Call) -> None:
+        self.render_passes.pop(values.handle(call.args.get("renderPass")), None)
+
+    def on_CreateFramebuffer(self, call: Call) -> None:
+        info = values.record(call.args.get("pCreateInfo"))
+        tree = described(FramebufferRecord, {key: item for key, item in info.items() if key not in ("pAttachments", "attachments")})
+        imageless = "IMAGELESS" in tree.get("flags", ())
+        views = values.items(info.get("pAttachments"))
+        images = None if imageless else tuple(self.view(view) for view in views[:64])
+        render_pass = self.render_passes.get(values.handle(info.get("renderPass")))
+        handle = values.handle(call.args.get("pFramebuffer"))
+        made = Framebuffer(call, self.number("framebuffer"), render_pass, images)
+        made.width, made.height, made.layers = tree.get("width"), tree.get("height"), tree.get("layers")
+        made.flags = tree.get("flags", [])
+        self._name(made, "FRAMEBUFFER", handle)
+        self.framebuffers[handle] = made
+
+    def on_DestroyFramebuffer(self, call: Call) -> None:
+        self.framebuffers.pop(values.handle(call.args.get("framebuffer")), None)
+
+    # Shaders and pipelines.
+
+    def on_CreateShaderModule(self, call: Call) -> None:
+        code = values.record(call.args.get("pCreateInfo")).get("pCode")
+        if isinstance(code, bytes):
+            self.modules[values.handle(call.args.get("pShaderModule"))] = code
+
+    def on_DestroyShaderModule(self, call: Call) -> None:
+        self.modules.pop(values.handle(call.args.get("shaderModule")), None)
+
+    def on_CreateGraphicsPipelines(self, call: Call) -> None:
+        infos = values.items(call.args.get("pCreateInfos"))
+        for info, handle in zip(infos, values.items(call.args.get("pPipelines")), strict=False):
+            tree, modules = pipelines_of(values.record(info), self.modules)
+            render_pass = self.render_passes.get(values.handle(values.record(info).get("renderPass")))
+            number = values.handle(handle)
+            name = self.early_names.get(("PIPELINE", number), "")
+            if render_pass is not None and tree.get("subpass", 0) >= max(len(render_pass.tree.get("subpasses", ())), 1):
+                del tree["subpass"]
+
+            def make(tree: dict[str, Any] = tree, render_pass: RenderPass | None = render_pass) -> Pipeline:
+                return Pipeline(call, self.number("pipeline"), tree, render_pass)
+
+            made: Pipeline = self._alike(("pipeline", name, render_pass, frozen(tree)), make)
+            made.modules.update(modules)
+            self._name(made, "PIPELINE", number)
+            self.pipelines[number] = made
+
+    def on_DestroyPipeline(self, call: Call) -> None:
+        self.pipelines.pop(values.handle(call.args.get("pipeline")), None)
+
+    # Names.
+
+    def on_SetDebugUtilsObjectName(self, call: Call) -> None:
+        info = values.record(call.args.get("pNameInfo"))
+        kind = info.get("objectType")
+        self._named(kind, info.get("objectHandle"), values.text(info.get("pObjectName")), "VK_OBJECT_TYPE_")
+
+    def on_DebugMarkerSetObjectName(self, call: Call) -> None:
+        info = values.record(call.args.get("pNameInfo"))
+        self._named(info.get("objectType"), info.get("object"), values.text(info.get("pObjectName")), "VK_DEBUG_REPORT_OBJECT_TYPE_")
+
+    def _named(self, kind: object, handle: object, name: str | None, prefix: str) -> None:
+        number = values.handle(handle)
+        kinds: dict[str, dict[int, Any]] = {
+            "IMAGE": self.images,
+            "RENDER_PASS": self.render_passes,
+            "FRAMEBUFFER": self.framebuffers,
+            "PIPELINE": self.pipelines,
+            "SWAPCHAIN_KHR": self.swapchains,
+        }
+        word = _object_type(kind, prefix)
+        if name and word in kinds and number:
+            found: Created | None = kinds[word].get(number)
+            if found is not None and not found.label:
+                found.label = name[:MAX_NAME]
+
+    def _name(self, made: Created, kind: str, handle: int) -> None:
+        """Gives an object the name that was set for its handle before it was known."""
+        name = self.early_names.get((kind, handle))
+        if name and not made.label:
+            made.label = name
+
+
+def _without_stencil(attachment: dict[str, Any]) -> None:
+    """Takes the stencil operations, which C always states, from an attachment whose format has no stencil."""
+    format = format_of(attachment["format"]) if "format" in attachment else None
+    if format is not None and "stencil" not in format.aspects:
+        for member in ("stencilLoadOp", "stencilStoreOp", "stencilInitialLayout", "stencilFinalLayout"):
+            attachment.pop(member, None)
+
+
+def coherent(tree: dict[str, Any]) -> None:
+    """Takes the references from a render pass that lead nowhere, as no program that runs has them."""
+    count, subpasses = len(tree.get("attachments", ())), tree.get("subpasses", [])
+
+    def known(reference: Any) -> Any:
+        index = reference.get("attachment") if isinstance(reference, dict) else reference
+        return reference if isinstance(index, int) and index < count else None
+
+    for subpass in subpasses:
+        for member in ("inputAttachments", "colorAttachments", "resolveAttachments", "preserveAttachments"):
+            if member in subpass:
+                subpass[member] = [known(reference) for reference in subpass[member]]
+        if known(subpass.get("depthStencilAttachment")) is None:
+            subpass.pop("depthStencilAttachment", None)
+        resolve = subpass.get("depthStencilResolve")
+        if resolve is not None and known(resolve.get("attachment")) is None:
+            resolve.pop("attachment", None)
+    dependencies = tree.get("dependencies", [])
+    ends = ("srcSubpass", "dstSubpass")
+    tree["dependencies"] = [
+        each for each in dependencies if all(each.get(end) in (None, "EXTERNAL") or each[end] < len(subpasses) for end in ends)
+    ]
+    if not tree["dependencies"]:
+        del tree["dependencies"]
+
+
+MAX_NAME = 80
+_TYPES = {10: "IMAGE", 18: "RENDER_PASS", 19: "PIPELINE", 24: "FRAMEBUFFER", 1000001000: "SWAPCHAIN_KHR"}
+"""VkObjectType."""
+
+
+def _object_type(kind: object, prefix: str) -> str:
+    number = values.integer(kind)
+    if number is not None:
+        return _TYPES.get(number, "")
+    word = kind if isinstance(kind, str) else ""
+    if word.endswith(")"):
+        word = word[word.find("(") + 1 : -1].strip()
+    return word.removeprefix(prefix).removesuffix("_EXT")

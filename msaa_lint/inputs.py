@@ -1,0 +1,106 @@
+"""What an input is: bytes of a text, or a capture, which is read as a stream and may be of any length."""
+
+from __future__ import annotations
+
+import io
+import os
+import sys
+from typing import TYPE_CHECKING, BinaryIO
+
+from .diagnostics import diagnostic
+from .finding import Finding
+from .readers import CAPTURES, capture_format
+from .source.files import opened
+from .source.node import Limits
+from .source.text import Unreadable
+
+if TYPE_CHECKING:
+    from .captured import Captured
+
+HEAD = 64 << 10
+"""So many bytes tell what an input is."""
+
+STDIN = "-"
+
+
+class Unconverted(Unreadable):
+    """Something that a tool wrote for itself: what it is, and what to run to have it as something that is read."""
+
+
+def refused(error: OSError | Unreadable, name: str) -> Finding:
+    """The finding of an input that cannot be read."""
+    if isinstance(error, Unconverted):
+        return diagnostic("MSAA901", f"this is {error}", name)
+    code = "MSAA906" if isinstance(error, Unreadable) else "MSAA901"
+    reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
+    return diagnostic(code, f"the input cannot be read: {reason}", name)
+
+
+
+def load(path: str, limits: Limits, name: str | None = None, format: str | None = None, data: bytes | None = None) -> bytes | Captured:
+    """The bytes of a text, or a capture that was read as far as it goes.
+
+    `path` is `-` for standard input, for which `data` may stand; `name` is what findings call the input, `format` what it is to be read as,
+    whatever it looks like. OSError where it cannot be read or is no file; Unreadable where a text is larger than the limit, or it is
+    something that must be converted first.
+    """
+    if path == STDIN:
+        stream: BinaryIO = sys.stdin.buffer if data is None else io.BytesIO(data)
+        return _loaded(stream, None, limits, name or "<stdin>", format, None)
+    file, size = opened(path)
+    with file:
+        return _loaded(file, size, limits, name or path, format, os.path.abspath(path))
+
+
+def _loaded(stream: BinaryIO, size: int | None, limits: Limits, name: str, format: str | None, path: str | None) -> bytes | Captured:
+    # No more than there is: Python sets aside as much memory as it is asked to read.
+    head = stream.read(HEAD if size is None else min(size, HEAD) + 1)
+    found = format if format in CAPTURES else None if format is not None else capture_format(head)
+    if found is not None:
+        from .captured import captured
+
+        if path is not None and stream.seekable():
+            stream.seek(0)
+            return captured(stream, found, name, path)
+        return captured(io.BufferedReader(_Joined(head, stream), HEAD), found, name, path)
+    hint = _hint(head) if format is None else None
+    if hint is not None:
+        raise Unconverted(hint)
+    data = head if size is None else head + stream.read(max(min(size, limits.bytes) + 1 - len(head), 0))
+    if len(data) > (size or 0):
+        # A stream, a file of the kernel's, or one that grows.
+        data += stream.read(max(limits.bytes + 1 - len(data), 0))
+    if len(data) > limits.bytes:
+        raise Unreadable(f"the input is larger than the limit of {limits.bytes} bytes")
+    return data
+
+
+def _hint(head: bytes) -> str | None:
+    """What must be done first with a file that some tool wrote for itself."""
+    if not head or (head[:1].isascii() and b"\0" not in head[:512] and b"vk" not in head):
+        return None
+    from .captures.mistaken import hint
+
+    return hint(head)
+
+
+class _Joined(io.RawIOBase):
+    """What was read of a stream, and then the rest of it."""
+
+    def __init__(self, head: bytes, rest: BinaryIO) -> None:
+        self._head = memoryview(head)
+        self._rest = rest
+
+    def readable(self) -> bool:
+        return True
+
+    def readinto(self, buffer: object) -> int:
+        view = memoryview(buffer).cast("B")  # type: ignore[arg-type]
+        if self._head:
+            count = min(len(view), len(self._head))
+            view[:count] = self._head[:count]
+            self._head = self._head[count:]
+            return count
+        data = self._rest.read1(len(view)) if hasattr(self._rest, "read1") else self._rest.read(len(view))
+        view[: len(data)] = data
+        return len(data)
