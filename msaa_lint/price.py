@@ -22,6 +22,9 @@ from .judge import Key, key_of
 Reread = Callable[[Sequence[Change]], Document | None]
 """A document with changes made in its text and read again; None where they cannot be written."""
 
+MAX_TRIALS = 16
+"""How many fixes that add or take away are tried one by one, where they cannot be made all at once."""
+
 _DIGITS = 6
 """Decimals that are kept: differences of sums have noise below."""
 
@@ -44,6 +47,7 @@ class Prices:
         self._frame = Frame(document)
         self._owners = dict(_owners(self._frame))
         self._before: dict[Part | None, FrameCost] = {}
+        self._images: dict[Part, set[str]] = {}
 
     def of(self, changes: Sequence[Change]) -> Price | None:
         """What the frame costs for the lack of some changes; None where what they alter cannot be reckoned, for want of a size or format.
@@ -57,10 +61,28 @@ class Prices:
         return None if after is None else _difference(before, after)
 
     def together(self, several: Iterable[Sequence[Change]]) -> Price | None:
-        """What a frame costs for the lack of all of some changes; of two that give a member different values, the first."""
-        changes = merged(several)
+        """What a frame costs for the lack of all of some changes; of two that give a member different values, the first.
+
+        Where one takes away what another changes, as many as can be made together.
+        """
+        every = list(several)
+        changes = merged(every)
         after = self.changed(changes, None) if changes else None
+        if after is None and changes:
+            after = self._as_many(every)
         return None if after is None else _difference(self.as_written(None), after)
+
+    def _as_many(self, several: Sequence[Sequence[Change]]) -> FrameCost | None:
+        """The frame with those of some changes that can be made together: first those that take nothing away."""
+        taken = [changes for changes in several if all(change.action in PLAIN for change in changes)]
+        after = self.changed(merged(taken), None)
+        structural = [changes for changes in several if any(change.action not in PLAIN for change in changes)]
+        for changes in structural[:MAX_TRIALS]:
+            more = self.changed(merged([*taken, changes]), None)
+            if more is not None:
+                taken.append(changes)
+                after = more
+        return after
 
     def assumed(self, price: Price) -> tuple[str, ...]:
         """What a price takes for granted that the input does not state."""
@@ -86,7 +108,10 @@ class Prices:
 
     def _cost(self, document: Document, part: Part | None) -> FrameCost:
         if part is not None:
-            document = document._replace(description=_within(document.description, part))
+            description, images = _within(document.description, part, self._images.get(part, set()))
+            # An image that a change leaves to nobody takes its memory all the same.
+            self._images.setdefault(part, images)
+            document = document._replace(description=description)
         return frame_cost(Frame(document), self.device, self.terms)
 
     def _part(self, changes: Sequence[Change]) -> Part | None:
@@ -148,8 +173,9 @@ def _images(each: Pass) -> Iterator[str]:
                 yield resolve.target_image.name
 
 
-def _within(description: Description, part: Part) -> Description:
-    """A description with the passes of a part alone, and the commands that begin them or name its images."""
+def _within(description: Description, part: Part, images: set[str]) -> tuple[Description, set[str]]:
+    """A description with the passes of a part alone, and the commands that begin them or name its images; and the names of all its images,
+    some among them."""
     made = Description.__new__(Description)
     for name in (*Record.__slots__, *Description.__slots__):
         setattr(made, name, getattr(description, name))
@@ -160,8 +186,9 @@ def _within(description: Description, part: Part) -> Description:
     named = {name for record in made.renderPasses.values() for name in _named(record)}
     named.update(name for command in made.commands or () if command is not None for name in _mentioned(command.body))
     named.update(name for buffer in description.framebuffers.values() for name in buffer.attachments if name is not None)
-    made.images = {name: image for name, image in description.images.items() if name in part.images or name in named}
-    return made
+    named |= images | part.images
+    made.images = {name: image for name, image in description.images.items() if name in named}
+    return made, named
 
 
 def _concerns(command: Command, part: Part, passes: dict[str, RenderPass]) -> bool:

@@ -20,7 +20,7 @@ EXPECTED: dict[str, list[tuple[int, str]]] = {
         (14, "multisampled-depth-stored"),
     ],
     "khronos-msaa/color-separate.msaa.yaml": [(30, "resolve-outside-pass")],
-    "khronos-msaa/depth-unresolved.msaa.yaml": [(29, "resolve-outside-pass")],
+    "khronos-msaa/depth-unresolved.msaa.yaml": [(16, "depth-read-without-resolve"), (29, "resolve-outside-pass")],
     "tutorial/final.msaa.yaml": [
         (7, "sample-count-above-four"),
         (7, "sample-count-not-portable"),
@@ -40,7 +40,11 @@ EXPECTED: dict[str, list[tuple[int, str]]] = {
         (51, "reused-attachment-unsynchronised"),
     ],
     "impeller/best-practice.msaa.yaml": [],
-    "shader-resolve/note.msaa.yaml": [(25, "sample-shading-ineffective"), (35, "half-float-resolve-overflow")],
+    "shader-resolve/note.msaa.yaml": [
+        (25, "sample-shading-ineffective"),
+        (35, "half-float-resolve-overflow"),
+        (35, "shader-resolve-off-tile"),
+    ],
     "frame/deferred-forward.msaa.yaml": [
         (16, "multisampled-attachment-loaded"),
         (19, "multisampled-attachment-loaded"),

@@ -40,11 +40,11 @@ def recorded_barriers(frame: Frame) -> Barriers:
     return found
 
 
-def external_dependencies(each: Pass, barriers: Barriers, recorded: bool = False) -> Iterator[tuple[Record, Facts]]:
+def external_dependencies(each: Pass, barriers: Barriers, apart: bool = False) -> Iterator[tuple[Record, Facts]]:
     """For every subpass with stated dependencies from EXTERNAL: the first of them, and the facts of all together.
 
     A subpass without any that is the first to use a multisampled attachment comes by itself: what orders it is not known. Nor is it known
-    of a pass that no command begins, where commands are `recorded`.
+    of passes that stand `apart` from any frame: where commands are stated, and are none.
     """
     if each.kind != RENDER_PASS or not isinstance(each.record, RenderPass):
         return
@@ -59,7 +59,7 @@ def external_dependencies(each: Pass, barriers: Barriers, recorded: bool = False
     for subpass, dependencies in into.items():
         names = dict.fromkeys(t.name for a in began.get(subpass, ()) if a.samples != 1 for t in a.targets if t.image is not None)
         waits = [barriers[name] for name in (*names, None) if name in barriers] if each.begun else []
-        if recorded and not each.begun:
+        if apart:
             yield dependencies[0], _use_facts(subpass, began.get(subpass, []))
             continue
         yield dependencies[0], _facts(subpass, began.get(subpass, []), dependencies, waits)

@@ -15,8 +15,11 @@ from ..facts.facts import Subject
 from ..facts.frame import Attachment, Frame, Pass
 from ..facts.image import Bindings
 from ..facts.resolve import Writers, writers_of
+from ..facts.resolved import Results
 from ..facts.timeline import Timeline
+from ..finding import Span
 from ..page import Mend, Setting
+from .mentions import Mentions
 from .usages import Usages
 
 PLAIN = ("set", "unset", "add", "remove")
@@ -28,8 +31,8 @@ class Change(NamedTuple):
 
     `action` is `set` (value: a canonical name, a number or a boolean), `unset` (as if it were not stated), `add` or `remove` (of flags;
     value: one canonical name); or, of a member that holds entries, `entry` (value: a name and its plain data, put at the end of a mapping
-    or a list), `append` (plain data, at the end of a list), `item` (an index and a scalar, in place of what stands there), `drop` (an
-    index).
+    or a list), `append` (plain data, at the end of a list), `behind` (an index and plain data, put after what stands there), `item` (an
+    index and a scalar, in place of what stands there), `drop` (an index).
     """
 
     record: Record
@@ -73,6 +76,21 @@ class Mending:
     @cached_property
     def writers(self) -> Writers:
         return writers_of(self.frame)
+
+    @cached_property
+    def results(self) -> Results:
+        return Results(self.frame, self.timeline)
+
+    @cached_property
+    def mentions(self) -> Mentions:
+        return Mentions(self.frame)
+
+    @cached_property
+    def recorded_at(self) -> dict[Span, list[tuple[int, int | None]]]:
+        """The commands by the places that facts name; of a vkCmdClearAttachments its entries too."""
+        from .clears import recorded_at
+
+        return recorded_at(self)
 
     @cached_property
     def framebuffers(self) -> dict[str, list[Framebuffer]]:

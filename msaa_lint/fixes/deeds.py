@@ -8,8 +8,12 @@ from ..document.records import Image
 from ..facts.facts import Subject
 from ..facts.frame import Resolve, Target
 from .changes import Change, Mending, Refused
+from .clears import clear_on_load, draw_the_copy
+from .handed_over import hand_over_depth
 from .inline_resolve import resolve_in_pass
 from .members import mode_place
+from .read_resolve import resolve_before_read
+from .resolves import drop_resolve, resolve_to_copy, share_image, wait_for_resolve
 from .transient import make_transient
 
 Deed = Callable[[Subject, Mending], list[Change] | Refused]
@@ -43,6 +47,14 @@ def allow_multisampling(subject: Subject, _: Mending) -> list[Change] | Refused:
 DEEDS: dict[str, Deed] = {
     "make-transient": make_transient,
     "resolve-in-pass": resolve_in_pass,
+    "resolve-before-read": resolve_before_read,
     "resolve-by-sample-zero": resolve_by_sample_zero,
     "allow-multisampling": allow_multisampling,
+    "clear-on-load": clear_on_load,
+    "draw-the-copy": draw_the_copy,
+    "drop-resolve": drop_resolve,
+    "resolve-to-copy": resolve_to_copy,
+    "wait-for-resolve": wait_for_resolve,
+    "share-image": share_image,
+    "hand-over-depth": hand_over_depth,
 }

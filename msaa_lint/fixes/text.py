@@ -21,6 +21,7 @@ from .rendering import Rendering
 from .sharing import NOBODY, Member, Sharing, Wishes, records_of, wish, wishes
 from .spelling import Spelling, quoted
 
+_MERGE = re.compile(r"<<[\"']?[ \t]*:")
 _NUMBER = re.compile(r"0[xX][0-9a-fA-F]{1,16}|[0-9]{1,20}")
 
 
@@ -93,15 +94,19 @@ class Writing:
         own = record.node.anchor is None and record.node.start <= key.start < record.node.end
         if self._sharing is not None:
             if not asked.by_all(self._sharing.of_key(record, member), group):
-                return Refused(f"others take over this `{member}` by an anchor") if own else self._whole(group)
+                shared = own or group[-1].action == "unset"
+                return Refused(f"others take over this `{member}` by an anchor") if shared else self._whole(group)
             if not asked.by_all(self._sharing.of_value(record, member), group):
                 if value.anchor is None:
                     return Refused(f"others take over the value of this `{member}` by an anchor")
-                return [Edit(value.span, self._whole(group))]
+                if group[-1].action != "unset":
+                    return [Edit(value.span, self._whole(group))]
         value = value.anchor or value
         if group[-1].action == "unset" and self.dumped:
             return [Edit(value.span, '"NULL"')]
         if group[-1].action == "unset":
+            if self._sharing is not None and _MERGE.search(self.text.text, record.node.start, record.node.end):
+                return Refused(f"a merge key may stand in for `{member}`")
             collection = Collection(self.text, record.node)
             at = collection.index(key.start)
             return collection.remove([at]) if at is not None and own else Refused(f"`{member}` is stated elsewhere")
@@ -248,6 +253,12 @@ class Writing:
                 if value.kind == "mapping":
                     entry = f"{quoted(name, self._rendering.key_quote(value))}{self._rendering.colon(value)}{entry}"
                 new.append(entry)
+            elif change.action == "behind":
+                number, data = change.value
+                put_behind = collection.insert([self._rendering.data(shape[1], data, record)], number)
+                if isinstance(put_behind, Refused):
+                    return put_behind
+                edits += put_behind
             elif change.action == "item":
                 number, data = change.value
                 edits.append(Edit(value.value[number].span, self._rendering.data(shape[1], data, record)))
