@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from . import values
 from .call import Call
 from .objects import DescriptorSet, Image
-
-if TYPE_CHECKING:
-    from .objects import View
 
 _STORAGE_IMAGE = 3
 _IMAGES = (1, 2, _STORAGE_IMAGE)
@@ -24,7 +21,7 @@ _NAMES = {
 class Descriptors:
     """Follows the descriptor sets of a capture."""
 
-    views: dict[int, View]
+    views: dict[int, Image]
 
     def __init__(self) -> None:
         self.sets: dict[int, DescriptorSet] = {}
@@ -76,9 +73,8 @@ class Descriptors:
         binding = values.integer(write.get("dstBinding")) or 0
         first = values.integer(write.get("dstArrayElement")) or 0
         for offset, item in enumerate(values.items(write.get("pImageInfo"))):
-            view = self.views.get(values.handle(values.record(item).get("imageView")))
+            image = self.views.get(values.handle(values.record(item).get("imageView")))
             slot = (binding, first + offset)
-            image: Image | None = view.image if view is not None else None
             if image is not None and image.attachable:
                 target.images[slot] = (image, storage)
             else:

@@ -235,8 +235,6 @@ class Cursor:
                         break
                 elif token in b"{[":
                     depth += 1
-                    if depth > MAX_DEPTH:
-                        raise Broken(TOO_DEEP, self.place())
                 else:
                     depth -= 1
                     if depth == 0:

@@ -59,16 +59,6 @@ class Swapchain(Created):
         self.images: list[Image] = []
 
 
-class View:
-    """An image view: its image, and whether it shows all of it."""
-
-    __slots__ = ("image", "whole")
-
-    def __init__(self, image: Image, whole: bool) -> None:
-        self.image = image
-        self.whole = whole
-
-
 class RenderPass(Created):
     """A render pass; those that were created alike are one."""
 

@@ -10,15 +10,14 @@ from collections.abc import Callable, Hashable
 from typing import Any, NamedTuple
 
 from ..document.records import Framebuffer as FramebufferRecord
-from ..document.records import Image as ImageRecord
 from ..document.records import RenderPass as RenderPassRecord
 from ..vulkan.formats import format_of
 from . import values
 from .call import Call, Mark
 from .descriptors import Descriptors
-from .devices import Devices
 from .frames import Frames
-from .objects import Created, Framebuffer, Image, Pipeline, RenderPass, Swapchain, View, frozen
+from .images import MAX_DISTINCT, Images
+from .objects import Created, Framebuffer, Pipeline, RenderPass, frozen
 from .pipelines import pipelines_of
 from .recording import CommandBuffer, Commands, Recorded
 from .structures import described
@@ -37,9 +36,6 @@ RECURRING = BOUNDARY | {name.replace("on_", "vk", 1) for name in vars(Transfers)
 
 MAX_KNOWN = 4096
 """So many commands are remembered with their arguments."""
-
-MAX_DISTINCT = 20_000
-"""So many render passes or pipelines that differ are kept; more of them are drawn with, not judged by themselves."""
 
 
 def bare(name: str) -> str:
@@ -60,33 +56,25 @@ class Known(NamedTuple):
     recorded: list[Recorded]
 
 
-class Tracker(Descriptors, Transfers, Devices):
+class Tracker(Images, Descriptors, Transfers):
     """The state of one capture. Feed it the calls in their order, then `finish`."""
 
     def __init__(self) -> None:
-        Devices.__init__(self)
+        Images.__init__(self)
         Descriptors.__init__(self)
-        self.images: dict[int, Image] = {}
-        self.views: dict[int, View] = {}
-        self.swapchains: dict[int, Swapchain] = {}
         self.render_passes: dict[int, RenderPass] = {}
         self.framebuffers: dict[int, Framebuffer] = {}
         self.pipelines: dict[int, Pipeline] = {}
         self.modules: dict[int, bytes] = {}
         self.buffers: dict[int, CommandBuffer] = {}
         self.pools: dict[int, set[int]] = {}
-        self.memory: dict[int, int] = {}
         self.frames = Frames()
         self.commands = Commands()
         self.generation = 0
         """Counts the objects that were destroyed: from then on a handle may be another's."""
         self._known: dict[int, Known] = {}
-        self.counts: dict[str, int] = {}
         self.distinct: dict[Hashable, Any] = {}
         """Render passes and pipelines by what they were created from."""
-        self.multisampled: dict[Hashable, Image] = {}
-        """Multisampled images, one for each of those that were created alike, until a frame uses it."""
-        self.early_names: dict[tuple[str, int], str] = {}
         self.handlers: dict[str, Callable[[Call], None]] = {
             "vk" + name[len("on_") :]: getattr(self, name) for name in dir(self) if name.startswith("on_")
         }
@@ -145,132 +133,6 @@ class Tracker(Descriptors, Transfers, Devices):
         """What was submitted since the last present is the last frame."""
         self.frames.end_of_capture()
 
-    def number(self, kind: str) -> int:
-        """The number of the next object of a kind."""
-        count = self.counts.get(kind, 0)
-        self.counts[kind] = count + 1
-        return count
-
-    # Images.
-
-    def on_CreateImage(self, call: Call) -> None:
-        info = values.record(call.args.get("pCreateInfo"))
-        handle = values.handle(call.args.get("pImage"))
-        made = self._image(call, described(ImageRecord, info))
-        self._name(made, "IMAGE", handle)
-        self.images[handle] = made
-
-    def _image(self, call: Call, tree: dict[str, Any]) -> Image:
-        format = format_of(tree["format"]) if "format" in tree else None
-        made = Image(call, self.number("image"), tree, format.aspects if format is not None else ())
-        if made.samples > 1 and len(self.multisampled) < MAX_DISTINCT:
-            self.multisampled.setdefault(frozen(tree), made)
-        return made
-
-    def on_DestroyImage(self, call: Call) -> None:
-        self.images.pop(values.handle(call.args.get("image")), None)
-
-    def on_CreateImageView(self, call: Call) -> None:
-        info = values.record(call.args.get("pCreateInfo"))
-        image = self.images.get(values.handle(info.get("image")))
-        if image is not None:
-            extent = values.record(info.get("subresourceRange"))
-            first = (values.integer(extent.get("baseMipLevel")) or 0, values.integer(extent.get("baseArrayLayer")) or 0)
-            self.views[values.handle(call.args.get("pView"))] = View(image, first == (0, 0))
-
-    def on_DestroyImageView(self, call: Call) -> None:
-        self.views.pop(values.handle(call.args.get("imageView")), None)
-
-    def view(self, value: object) -> Image | None:
-        """The image that a view shows."""
-        found = self.views.get(values.handle(value))
-        return found.image if found is not None else None
-
-    # Memory.
-
-    def on_AllocateMemory(self, call: Call) -> None:
-        info = values.record(call.args.get("pAllocateInfo"))
-        index = values.integer(info.get("memoryTypeIndex"))
-        if index is not None:
-            self.memory[values.handle(call.args.get("pMemory"))] = index
-
-    def on_FreeMemory(self, call: Call) -> None:
-        self.memory.pop(values.handle(call.args.get("memory")), None)
-
-    def on_BindImageMemory(self, call: Call) -> None:
-        self._bind(call.args)
-
-    def on_BindImageMemory2(self, call: Call) -> None:
-        for info in values.items(call.args.get("pBindInfos")):
-            self._bind(values.record(info))
-
-    def _bind(self, info: dict[str, Any]) -> None:
-        image = self.images.get(values.handle(info.get("image")))
-        index = self.memory.get(values.handle(info.get("memory")))
-        if image is not None and index is not None:
-            flags = self.memory_flags(index)
-            if flags is not None:
-                image.tree["memory"] = flags
-
-    # Swapchains.
-
-    def on_CreateSwapchain(self, call: Call) -> None:
-        info = values.record(call.args.get("pCreateInfo"))
-        extent = values.record(info.get("imageExtent"))
-        structure = {
-            "format": info.get("imageFormat"),
-            "samples": 1,
-            "usage": info.get("imageUsage"),
-            "extent": {**extent, "depth": 1} if extent else None,
-            "mipLevels": 1,
-            "arrayLayers": info.get("imageArrayLayers"),
-            "imageType": "2D",
-            "sharingMode": info.get("imageSharingMode"),
-        }
-        tree = described(ImageRecord, structure)
-        handle = values.handle(call.args.get("pSwapchain"))
-        made = Swapchain(call, self.number("swapchain"), {**tree, "presentable": True})
-        self.swapchains[handle] = made
-        self._name(made, "SWAPCHAIN_KHR", handle)
-        self.frames.presents = True
-
-    def on_DestroySwapchain(self, call: Call) -> None:
-        found = self.swapchains.pop(values.handle(call.args.get("swapchain")), None)
-        for image in found.images if found is not None else ():
-            for handle in [handle for handle, known in self.images.items() if known is image]:
-                del self.images[handle]
-
-    def on_GetSwapchainImages(self, call: Call) -> None:
-        swapchain = self.swapchains.get(values.handle(call.args.get("swapchain")))
-        if swapchain is None:
-            return
-        for item in values.items(call.args.get("pSwapchainImages"))[:64]:
-            handle = values.handle(item)
-            known = self.images.get(handle)
-            if known is not None and known.swapchain is swapchain:
-                continue
-            format = format_of(swapchain.tree["format"]) if "format" in swapchain.tree else None
-            made = Image(call, len(swapchain.images), dict(swapchain.tree), format.aspects if format is not None else ())
-            made.by, made.at = swapchain.by, swapchain.at
-            made.swapchain = swapchain
-            swapchain.images.append(made)
-            self._name(made, "IMAGE", handle)
-            self.images[handle] = made
-
-    def on_QueuePresent(self, call: Call) -> None:
-        info = values.record(call.args.get("pPresentInfo"))
-        indices = values.items(info.get("pImageIndices"))
-        for swapchain_handle, index in zip(values.items(info.get("pSwapchains")), indices, strict=False):
-            swapchain = self.swapchains.get(values.handle(swapchain_handle))
-            number = values.integer(index)
-            if swapchain is not None and number is not None and 0 <= number < len(swapchain.images):
-                self.frames.submit([self.commands.command("present", swapchain.images[number], call)])
-        self.frames.end()
-
-    def on_FrameBoundaryANDROID(self, call: Call) -> None:
-        if not self.frames.presents:
-            self.frames.end()
-
     # Render passes and framebuffers.
 
     def on_CreateRenderPass(self, call: Call) -> None:
@@ -285,10 +147,7 @@ class Tracker(Descriptors, Transfers, Devices):
             _without_stencil(attachment)
         coherent(tree)
         handle = values.handle(call.args.get("pRenderPass"))
-        name = self.early_names.get(("RENDER_PASS", handle), "")
-        made = self._alike(("renderPass", name, frozen(tree)), lambda: RenderPass(call, self.number("render pass"), tree))
-        self._name(made, "RENDER_PASS", handle)
-        self.render_passes[handle] = made
+        self.render_passes[handle] = self._alike(("renderPass", frozen(tree)), lambda: RenderPass(call, self.number("render pass"), tree))
 
     def _alike(self, key: Hashable, make: Callable[[], Any]) -> Any:
         """The object that was created from the same before; a new one else."""
@@ -313,7 +172,6 @@ class Tracker(Descriptors, Transfers, Devices):
         made = Framebuffer(call, self.number("framebuffer"), render_pass, images)
         made.width, made.height, made.layers = tree.get("width"), tree.get("height"), tree.get("layers")
         made.flags = tree.get("flags", [])
-        self._name(made, "FRAMEBUFFER", handle)
         self.framebuffers[handle] = made
 
     def on_DestroyFramebuffer(self, call: Call) -> None:
@@ -335,16 +193,14 @@ class Tracker(Descriptors, Transfers, Devices):
             tree, modules = pipelines_of(values.record(info), self.modules)
             render_pass = self.render_passes.get(values.handle(values.record(info).get("renderPass")))
             number = values.handle(handle)
-            name = self.early_names.get(("PIPELINE", number), "")
             if render_pass is not None and tree.get("subpass", 0) >= max(len(render_pass.tree.get("subpasses", ())), 1):
                 del tree["subpass"]
 
             def make(tree: dict[str, Any] = tree, render_pass: RenderPass | None = render_pass) -> Pipeline:
                 return Pipeline(call, self.number("pipeline"), tree, render_pass)
 
-            made: Pipeline = self._alike(("pipeline", name, render_pass, frozen(tree)), make)
+            made: Pipeline = self._alike(("pipeline", render_pass, frozen(tree)), make)
             made.modules.update(modules)
-            self._name(made, "PIPELINE", number)
             self.pipelines[number] = made
 
     def on_DestroyPipeline(self, call: Call) -> None:
@@ -375,12 +231,6 @@ class Tracker(Descriptors, Transfers, Devices):
             found: Created | None = kinds[word].get(number)
             if found is not None and not found.label:
                 found.label = name[:MAX_NAME]
-
-    def _name(self, made: Created, kind: str, handle: int) -> None:
-        """Gives an object the name that was set for its handle before it was known."""
-        name = self.early_names.get((kind, handle))
-        if name and not made.label:
-            made.label = name
 
 
 def _without_stencil(attachment: dict[str, Any]) -> None:

@@ -5,17 +5,17 @@ What is checked is this text, and it is what `msaa-lint convert` prints: the two
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator, Mapping
+from collections.abc import Hashable, Iterator
 from typing import Any, NamedTuple
 
 from ..source.text import Origin
-from .ends import ends_of
-from .frames import Kind, Role, role_of
+from .frames import Kind
 from .names import Names
 from .objects import Created, Framebuffer, Image, Pipeline, RenderPass
-from .recording import Begin, Recorded
+from .recorded import Recording, commands_of
+from .recording import Begin
 from .tracker import Tracker
-from .yaml_text import Alias, Lines, scalar
+from .yaml_text import Lines
 
 FRAMES_A_SECOND = 60
 """What costs are reckoned by where a description states no rate: a kind of frame that is one of many comes that much more seldom."""
@@ -80,7 +80,7 @@ class _Writer:
         """One kind of frame; the first also has what no frame uses."""
         begins = [each.key for each in kind.passes if isinstance(each.key, Begin)]
         passes = list(dict.fromkeys(begin.render_pass for begin in begins))
-        drawn = [each.key[0] for each, _ in _commands_of(kind) if each.kind == "draw" and isinstance(each.key, tuple)]
+        drawn = [each.key[0] for each, _ in commands_of(kind) if each.kind == "draw" and isinstance(each.key, tuple)]
         pipelines = [each for each in dict.fromkeys(drawn) if isinstance(each, Pipeline)]
         images = _images(kind)
         if first:
@@ -93,7 +93,7 @@ class _Writer:
         self._passes(passes)
         framebuffers = self._framebuffers(kind)
         self._pipelines(pipelines)
-        self._commands(kind, framebuffers)
+        Recording(self.lines, self.names, kind, self.here, framebuffers, self.total).write()
 
     def _head(self, kind: Kind | None) -> None:
         lines = self.lines
@@ -174,115 +174,6 @@ class _Writer:
             self.modules.update(each.modules)
             self.lines.member(2, self.names.of("pipeline", each), tree, self.origin(each), remark(each))
 
-    # Commands.
-
-    def _commands(self, kind: Kind, framebuffers: Mapping[Hashable, str]) -> None:
-        self.lines.line("commands:")
-        before = len(self.lines.text)
-        order = list(_commands_of(kind))
-        for text in _handed_on(kind, order, self.here, self.names):
-            self.lines.line(text)
-        renderings: dict[Hashable, str] = {}
-        samples: int | None = None
-        for each, number in order:
-            origin = Origin(*each.at, each.by, kind.count, self.total)
-            if each.kind == "draw":
-                key: Any = each.key
-                if key[3] is not None and key[3] != samples:
-                    samples = key[3]
-                    self.lines.item(2, {"setRasterizationSamples": samples}, origin)
-            body = self._command(each, kind, number, framebuffers, renderings)
-            if body is not None:
-                comment = f"call {each.at.call}" if each.at.call is not None and each.kind in ("beginRenderPass", "beginRendering") else ""
-                self.lines.item(2, body, origin, comment)
-        for text in _read_later(kind, order, self.here, self.names):
-            self.lines.line(text)
-        if len(self.lines.text) == before:
-            self.lines.text[-1] += " []"
-
-    def _command(
-        self, each: Recorded, kind: Kind, number: int, framebuffers: Mapping[Hashable, str], renderings: dict[Hashable, str]
-    ) -> Any:
-        """A command as a description writes it; None where it is about nothing that is described."""
-        key: Any = each.key
-        if each.kind in ("nextSubpass", "endRenderPass", "endRendering"):
-            return each.kind
-        if each.kind == "beginRenderPass":
-            return {"beginRenderPass": self._begin(key, list(kind.alternates[number].values()), framebuffers)}
-        if each.kind == "beginRendering":
-            name = renderings.setdefault(key, f"rendering_{len(renderings)}")
-            return {"beginRendering": Alias(name, self._rendering(key))}
-        if each.kind == "draw":
-            return {"draw": _draw(each, self.names)}
-        if each.kind == "clearAttachments":
-            return {each.kind: thawed(key)}
-        if each.kind == "pipelineBarrier":
-            return self._barrier(key, kind)
-        images = [self._name(part, kind) for part in (key if isinstance(key, tuple) else (key,)) if not isinstance(part, str)]
-        if None in images and len(images) == 2:
-            # An image that no pass draws to is at the other end.
-            member = "readImage" if images[0] is not None else "writeImage"
-            known = images[0] or images[1]
-            return {member: {"image": known}} if known is not None else None
-        if None in images:
-            return None
-        if each.kind in ("resolveImage", "copyImage", "blitImage"):
-            return {each.kind: dict(zip(("srcImage", "dstImage"), images, strict=True))}
-        if each.kind in ("copyImageToBuffer", "copyBufferToImage"):
-            return {each.kind: {"srcImage" if each.kind == "copyImageToBuffer" else "dstImage": images[0]}}
-        made: dict[str, Any] = {"image": images[0]}
-        if each.kind in ("readImage", "writeImage"):
-            stage = key[1]
-            made["stage"] = stage
-            if stage == "RESOLVE":
-                made["access"] = "TRANSFER_READ" if each.kind == "readImage" else "TRANSFER_WRITE"
-            else:
-                made["access"] = "SHADER_READ" if each.kind == "readImage" else "SHADER_WRITE"
-        return {each.kind: made}
-
-    def _name(self, part: Any, kind: Kind) -> str | None:
-        image = kind.images[part.number] if isinstance(part, Role) else part
-        return self.names.image(image) if isinstance(image, Image) and image in self.here else None
-
-    def _begin(self, begin: Begin, alternates: list[Begin], framebuffers: Mapping[Hashable, str]) -> dict[str, Any]:
-        tree: dict[str, Any] = {"renderPass": self.names.of("render_pass", begin.render_pass)}
-        names = [framebuffers.get((each.framebuffer, each.images, each.render_pass)) for each in alternates]
-        stated = list(dict.fromkeys(name for name in names if name is not None))
-        if stated:
-            tree["framebuffer"] = stated[0] if len(stated) == 1 else stated
-        if begin.area is not None:
-            tree["renderArea"] = dict(zip(("x", "y", "width", "height"), begin.area, strict=True))
-        if begin.clear_values is not None:
-            tree["clearValueCount"] = begin.clear_values
-        return tree
-
-    def _rendering(self, key: Hashable) -> dict[str, Any]:
-        tree: dict[str, Any] = thawed(key)
-        made = {member: value for member, value in tree.items() if value not in ([], None)}
-        if "colorAttachments" in made:
-            made["colorAttachments"] = [self._attachment(each) for each in made["colorAttachments"]]
-        for member in ("depthAttachment", "stencilAttachment"):
-            if member in made:
-                made[member] = self._attachment(made[member])
-        return made
-
-    def _attachment(self, tree: dict[str, Any] | None) -> dict[str, Any] | None:
-        if tree is None:
-            return None
-        return {key: self.names.image(value) if isinstance(value, Image) else value for key, value in tree.items()}
-
-    def _barrier(self, key: Any, kind: Kind) -> Any:
-        masks, part, layouts = key
-        made: dict[str, Any] = thawed(masks)
-        if part is not None:
-            name = self._name(part, kind)
-            if name is None:
-                return None
-            barrier: dict[str, Any] = {"image": name}
-            barrier.update({member: value for member, value in zip(("oldLayout", "newLayout"), layouts, strict=True) if value is not None})
-            made["images"] = [barrier]
-        return {"pipelineBarrier": made}
-
 
 def remark(made: Created) -> str:
     """What a comment says of where an object is from."""
@@ -296,14 +187,6 @@ def image_key(image: Image) -> Hashable:
     return frozen({key: value for key, value in image.tree.items() if key != "memory"})
 
 
-def thawed(value: Any) -> Any:
-    """What was frozen, as plain data again: pairs are members, other tuples arrays."""
-    if isinstance(value, tuple):
-        pairs = value and all(isinstance(each, tuple) and len(each) == 2 and isinstance(each[0], str) for each in value)
-        return {key: thawed(item) for key, item in value} if pairs else [thawed(each) for each in value]
-    return value
-
-
 def _behind(pipelines: list[Pipeline]) -> list[RenderPass]:
     """The render passes of pipelines."""
     return [each.render_pass for each in pipelines if each.render_pass is not None]
@@ -315,7 +198,7 @@ def _images(kind: Kind) -> list[Image]:
     for alternates in kind.alternates:
         for begin in alternates.values():
             found.update(dict.fromkeys(image for image in begin.images if image is not None))
-    for each, _ in _commands_of(kind):
+    for each, _ in commands_of(kind):
         if each.kind not in ("beginRenderPass", "pipelineBarrier"):
             found.update(dict.fromkeys(_images_in(each.key)))
     return list(found)
@@ -327,67 +210,3 @@ def _images_in(key: Any) -> Iterator[Image]:
     elif isinstance(key, tuple):
         for each in key:
             yield from _images_in(each)
-
-
-def _commands_of(kind: Kind) -> Iterator[tuple[Recorded, int]]:
-    """The commands of a kind of frame in order, each with the number of the pass that it is in or before."""
-    for number in range(len(kind.passes) + 1):
-        ways = kind.between[number]
-        for each in max(ways, key=lambda way: way.count).items if ways else ():
-            yield each, number
-        if number == len(kind.passes):
-            return
-        begin = kind.passes[number]
-        yield begin, number
-        within = sorted(kind.within[number].items(), key=lambda item: item[0][0])  # type: ignore[index]
-        for _, each in within:
-            yield each, number
-        end = "endRenderPass" if begin.kind == "beginRenderPass" else "endRendering"
-        yield Recorded(end, None, begin.at, begin.by), number
-
-
-def _plain(kind: Kind, order: Iterable[tuple[Recorded, int]]) -> list[Recorded]:
-    """Commands with images in place of their places."""
-
-    def of(part: Any) -> Any:
-        return kind.images[part.number] if isinstance(part, Role) else part
-
-    made = []
-    for each, _ in order:
-        key: Any = each.key
-        if isinstance(key, tuple) and not isinstance(key, Begin):
-            key = tuple(map(of, key))
-        made.append(Recorded(each.kind, of(key), each.at, each.by))
-    return made
-
-
-def _handed_on(kind: Kind, order: list[tuple[Recorded, int]], here: set[Image], names: Names) -> Iterator[str]:
-    """What an earlier frame of another kind wrote, where this one, coming again, would read what it discarded itself."""
-    for image, own in ends_of(_plain(kind, order)).items():
-        role = next((role_of(number) for number, each in enumerate(kind.images) if each is image), image)
-        for aspect, end in own.items():
-            lost = end.first == "read" and end.last == "discarded"
-            if lost and image in here and (role, aspect) in kind.defined and (role, aspect) not in kind.undefined:
-                yield f"  - writeImage: {{image: {scalar(names.image(image))}}}  # by an earlier frame"
-                break
-
-
-def _read_later(kind: Kind, order: list[tuple[Recorded, int]], here: set[Image], names: Names) -> Iterator[str]:
-    """What a later frame of another kind reads, where this one, coming again, would not."""
-    for image, own in ends_of(_plain(kind, order)).items():
-        role = next((role_of(number) for number, each in enumerate(kind.images) if each is image), image)
-        for aspect, end in own.items():
-            if end.last == "unread" and end.first != "read" and image in here and (role, aspect) in kind.later:
-                yield f"  - readImage: {{image: {scalar(names.image(image))}}}  # by a later frame"
-                break
-
-
-def _draw(each: Recorded, names: Names) -> dict[str, Any]:
-    key: Any = each.key
-    pipeline, counted, _, _ = key
-    count, instances = each.detail or (None, None)
-    made: dict[str, Any] = {}
-    if pipeline is not None:
-        made["pipeline"] = names.of("pipeline", pipeline)
-    made.update({name: value for name, value in ((counted, count), ("instanceCount", instances)) if value is not None and value >= 0})
-    return made

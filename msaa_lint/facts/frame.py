@@ -100,8 +100,12 @@ class Attachment:
 
     @property
     def title(self) -> str:
-        """What messages call it: its name, or `attachment 2` where attachments are a list."""
-        return f"attachment {self.name}" if self.name.isdecimal() else self.name
+        """What messages call it: its name; where attachments are a list its image's with its index, or `attachment 2` without one."""
+        if not self.name.isdecimal():
+            return self.name
+        target = self.target
+        named = target is not None and target.image is not None
+        return f"{target.name} (attachment {self.name})" if named and target is not None else f"attachment {self.name}"
 
     @property
     def used(self) -> bool:

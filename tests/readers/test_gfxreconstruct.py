@@ -271,16 +271,20 @@ def test_an_array_in_any_layout(
     apart = "[" + ",\n".join(" " * shift + each for each in dumped_apart) + "]"
     close = "[\n" + ", ".join(dumped_apart) + "\n]"
     for text in (whole, apart, close):
+        text = text.replace("\n", "\r\n") if windows else text
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(json_stream, "BLOCK", block)
-            found = calls((text.replace("\n", "\r\n") if windows else text).encode())
+            found = calls(text.encode())
         assert [common(call) for call in found] == wanted
-        starts = [call.at.line for call in found]
-        assert starts == sorted(starts, key=lambda each: each or 0)
+        for call in found:
+            assert call.at.line is not None and call.at.column is not None
+            start = sum(len(row) + 1 for row in text.split("\n")[: call.at.line - 1]) + call.at.column - 1
+            assert json.JSONDecoder().raw_decode(text, start)[0]["index"] == call.at.call
 
 
 @pytest.mark.parametrize("text", [
-    '[{\n  "a": 1 }, {\n  "index": 1, "function": {"name": "vkCmdDraw", "args": {}}\n}]',
+    '[\n{\n  "a": 1 }, {\n  "index": 1, "function": {"name": "vkCmdDraw", "args": {}}\n}\n]',
+        '[{\n  "a": 1 }, {\n  "index": 1, "function": {"name": "vkCmdDraw", "args": {}}\n}]',
     '[\n{\n  "a": 1\n  },\n{\n  "index": 1, "function": {"name": "vkCmdDraw", "args": {}}\n}\n]',
     '[\n{\n"a": "}"\n},\n{\n"index": 1, "function": {\n"name": "vkCmdDraw", "args": {\n}\n}\n}\n]',
     '[\n{\n  "a": "\\" } {"\n},\n{\n  "index": 1,\n  "function": {\n    "name": "vkCmdDraw",\n    "args": {}\n  }\n}\n]',

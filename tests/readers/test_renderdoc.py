@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from msaa_lint.captures.call import Broken, Call, Mark, Place
 from msaa_lint.readers import renderdoc, renderdoc_blobs
+from msaa_lint.readers.renderdoc_calls import NEEDED, OF_CALLS
 
 from .dialects_binary import RenderDoc, numbers
 from .dialects_binary import renderdoc as written
@@ -560,6 +561,47 @@ def test_flipped_bits_break_nothing_else(flips: list[tuple[int, int]], block: in
     found, _ = read(bytes(text))
     whole = text[:first].count(b"</chunk>")
     assert found[: sum((call.at.call or 0) < whole for call in found)] == [call for call in before if (call.at.call or 0) < whole]
+
+
+NAMES = [
+    *("InitParams", "physProps", "memProps", "memoryTypes", "memoryTypeCount", "PhysicalDevice", "Swapchain", "SwapchainImage"),
+    *("SwapchainImageIndex", "Image", "memoryRequirements", "SetLayout", "CreateInfo", "pBindings", "binding", "descriptorCount"),
+    *("DescriptorSet", "AllocateInfo", "pSetLayouts", "id", "Bindings", "type", "resource", "Decoded Writes", "descriptorSet", "Object"),
+    *("pNext", "sType", "pNextType", "pSampleMask", "pCode", "pData", "CommandBuffer", "count"),
+]
+CHUNKS = sorted(
+    {*NEEDED, *OF_CALLS, "vkCreateInstance", "vkCreateShaderModule", "vkSetDebugUtilsObjectNameEXT", "vkCmdDraw", "Internal::X"}
+)
+LEAVES = [*("uint", "int", "enum", "ResourceId", "buffer", "float", "bool", "string", "null", "what")]
+
+
+def element(tag: str, name: str | None, content: str) -> str:
+    return f"<{tag}{'' if name is None else f' name={chr(34)}{name}{chr(34)}'}>{content}</{tag}>"
+
+
+leaves = st.builds(
+    element, st.sampled_from(LEAVES), st.none() | st.sampled_from(NAMES), st.sampled_from(["0", "1", "2", "3", "1000138000"])
+)
+elements = st.recursive(
+    leaves,
+    lambda inner: st.builds(
+        element,
+        st.sampled_from(["struct", "array"]),
+        st.none() | st.sampled_from(NAMES),
+        st.lists(inner, max_size=4).map("".join),
+    ),
+    max_leaves=8,
+)
+
+
+@given(st.lists(st.builds(element, st.just("chunk"), st.sampled_from(CHUNKS), st.lists(elements, max_size=5).map("".join)), max_size=8))
+@settings(max_examples=150, deadline=None)
+def test_chunks_of_any_shape(chunks: list[str]) -> None:
+    found, broken = read(xml("".join(chunks)))
+    assert broken is None or (broken.message.endswith(" is no value of `bool`") and broken.place.call is not None)
+    numbers_of = [call.at.call or 0 for call in found]
+    assert numbers_of == sorted(numbers_of)
+    assert all(isinstance(call.args, dict) for call in found)
 
 
 @given(block=st.integers(1, 5000))
