@@ -97,6 +97,22 @@ def test_standard_input_is_told_by_its_content(tmp_path: Path) -> None:
     assert stored["fixable"] is False
 
 
+def test_a_person_sees_the_call_and_the_structure(tmp_path: Path) -> None:
+    program = PROGRAMS["forward"]
+    (tmp_path / "game.jsonl").write_bytes(program.text())
+    command = [*MSAA_LINT, "check", "--isolated", "--fix", "--output", "full", "--select", "MSAA201", "game.jsonl"]
+    made = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    index = next(number for number, (name, _) in enumerate(program.calls, 1) if name == "vkCreateRenderPass")
+    lines = made.stdout.splitlines()
+    assert lines[0] == "warning[multisampled-attachment-stored]: `image_0 (attachment 0)` stores 4 samples a pixel that nothing reads"
+    assert lines[1].strip() == f"--> game.jsonl:{index + 1}:1"
+    assert "        storeOp: STORE" in made.stdout
+    assert f"= from: vkCreateRenderPass, call {index}; in 5 of 5 frames" in made.stdout
+    assert "= fix: storeOp: DONT_CARE (yours to decide)" in made.stdout
+    assert "game.jsonl is a capture, and stays as it is" in made.stderr
+    assert (tmp_path / "game.jsonl").read_bytes() == program.text()
+
+
 @pytest.mark.parametrize(
     ("head", "said"),
     [
