@@ -10,6 +10,7 @@ from ..vulkan.formats import Format
 from .begin import MAX_USES, covers, targets_at, uses_at_most
 from .facts import Facts
 from .frame import RENDERING, Frame, Pass, Resolve, Target
+from .timeline import Timeline
 
 Writers = dict[str, list[tuple[int, Pass | None]]]
 """By image: the positions of the commands that write to it, and the pass that draws there; None where something else writes."""
@@ -78,6 +79,26 @@ def command_facts(facts: Facts, resolve: Resolve, position: int, frame: Frame, w
     modes = [r.mode for s in within.subpasses for r in s.resolves if r.source in drawn and r.mode != "NONE"]
     could = None if modes == [None] or not covers(frame, within, at, source) or _sizes_differ(source, target) else not modes
     facts.put("resolve.pass_could_resolve", could)
+
+
+def read_in_vain(frame: Frame, writers: Writers, timeline: Timeline) -> set[str]:
+    """The images that nothing but resolve commands reads, each after a pass that resolved it itself, or threw it away."""
+    in_vain: dict[str, int] = {}
+    for position, resolve in frame.resolve_commands:
+        source = resolve.source_image
+        written = writers.get(source.name, []) if source is not None else []
+        if source is None or not written:
+            continue
+        at, within = written[bisect_left(written, position, key=lambda writer: writer[0]) - 1]
+        drawn = [a for a in within.attachments if source in targets_at(frame, a, at)] if within is not None else []
+        resolved = within is not None and any(r.source in drawn and r.mode not in (None, "NONE") for s in within.subpasses for r in s.resolves)
+        lost = bool(drawn) and all(aspect.store in ("DONT_CARE", "NONE") for a in drawn for aspect in a.aspects)
+        if resolved or lost:
+            in_vain[source.name] = in_vain.get(source.name, 0) + 1
+    if not timeline.followed:
+        return set()
+    reads = {name: [use for use in timeline.uses.get(name, []) if use.kind == "read"] for name in in_vain}
+    return {name for name, count in in_vain.items() if len(reads[name]) == count}
 
 
 def _sizes_differ(source: Target, target: Target | None) -> bool:

@@ -17,7 +17,7 @@ from .lifetimes import lifetime_facts
 from .moments import Moments
 from .pipeline import draws_of, pipeline_facts, subpass_of, unshaded
 from .recorded import recorded, screen_facts, touch_facts
-from .resolve import command_facts, resolve_facts, writers_of
+from .resolve import command_facts, read_in_vain, resolve_facts, writers_of
 from .resolved import Results
 from .shaders import Finder as ShaderFinder
 from .shaders import Shaders
@@ -49,8 +49,11 @@ def subjects(
     assert isinstance(efficient, int)
     above = {id(target) for target in targets if target.samples is not None and target.samples > efficient}
     studied = study(frame) if above and study is not None else UNSTUDIED
+    writers = writers_of(frame) if frame.resolve_commands else {}
+    in_vain = read_in_vain(frame, writers, timeline) if writers else set()
     for target in targets:
         facts = image_facts(target, bindings, frame, timeline, device)
+        facts.put("image.read_in_vain", target.name in in_vain)
         turns.put(facts, target)
         shaders.averaged(facts, target)
         put_study(facts, target.samples, studied if id(target) in above else UNSTUDIED)
@@ -86,7 +89,6 @@ def subjects(
                 yield Subject("resolve", resolve.path, resolve.record.head, facts, resolve)
         for record, facts in external_dependencies(each, barriers, frame.has_commands and not frame.commands):
             yield Subject("dependency", record.path, record.head, Facts(shared, facts), record)
-    writers = writers_of(frame) if frame.resolve_commands else {}
     for position, resolve in frame.resolve_commands:
         facts = Facts(around, resolve_facts(resolve, device))
         command_facts(facts, resolve, position, frame, writers)
