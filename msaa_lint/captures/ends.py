@@ -130,12 +130,18 @@ def _resolve_targets(tree: dict[str, Any]) -> set[int]:
 
 def _plain(image: Image) -> bool:
     """Whether an image has one mip level and one layer, so that a pass can write all of it."""
-    return bool(image.tree.get("mipLevels", 1) == 1 and image.tree.get("arrayLayers", 1) == 1)
+    return all(count == 1 for count in (image.tree.get("mipLevels", 1), image.tree.get("arrayLayers", 1), _depth(image)))
+
+
+def _depth(image: Image) -> int:
+    """How many slices an image of three dimensions has."""
+    count: int = image.tree.get("extent", {}).get("depth", 1)
+    return count
 
 
 def _covers(image: Image, begin: Begin) -> bool:
     framebuffer = begin.framebuffer
-    if framebuffer is None or image.tree.get("mipLevels", 1) > 1:
+    if framebuffer is None or image.tree.get("mipLevels", 1) > 1 or _depth(image) > 1:
         return False
     if image.tree.get("arrayLayers", 1) > (framebuffer.layers or 1):
         return False

@@ -19,6 +19,10 @@ MAX_DISTINCT = 20_000
 """So many objects that differ are kept; more of them are used, not judged by themselves."""
 
 
+SHARING = ("EXTERNAL_MEMORY_IMAGE_CREATE_INFO", "EXTERNAL_MEMORY_IMAGE_CREATE_INFO_NV", "NATIVE_BUFFER_ANDROID")
+"""Structures chained to a VkImageCreateInfo whose memory others may have."""
+
+
 class Images(Devices):
     """The images of a capture by their handles, and by those of their views."""
 
@@ -45,7 +49,8 @@ class Images(Devices):
     def on_CreateImage(self, call: Call) -> None:
         info = values.record(call.args.get("pCreateInfo"))
         handle = values.handle(call.args.get("pImage"))
-        self.images[handle] = self._image(call, described(ImageRecord, info))
+        made = self.images[handle] = self._image(call, described(ImageRecord, info))
+        made.shared = any(values.chained(info, kind) is not None for kind in SHARING)
 
     def _image(self, call: Call, tree: dict[str, Any]) -> Image:
         format = format_of(tree["format"]) if "format" in tree else None

@@ -30,13 +30,15 @@ class Created:
 class Image(Created):
     """An image, or one of a swapchain's. `tree` is a description's; `left` what the last use of each aspect left behind."""
 
-    __slots__ = ("aspects", "attachable", "left", "swapchain", "tree")
+    __slots__ = ("aspects", "attachable", "left", "shared", "swapchain", "tree")
 
     def __init__(self, call: Call, number: int, tree: Tree, aspects: tuple[str, ...]) -> None:
         super().__init__(call, number)
         self.tree = tree
         self.aspects = aspects
         self.swapchain: Swapchain | None = None
+        self.shared = False
+        """Whether its memory may be shared with another process or another API, which may read it."""
         usage = tree.get("usage")
         self.attachable = usage is None or self.samples > 1 or not ATTACHMENT_USAGES.isdisjoint(usage)
         """Whether a pass may draw to it: textures, which are most of a program's images, need no following."""

@@ -13,6 +13,9 @@ from .objects import Image
 from .recording import Begin, Recorded
 from .yaml_text import Alias, Lines, scalar
 
+SOMETIMES = "SOMETIMES"
+"""In place of the stage of what reads an image in some of the frames."""
+
 
 class Recording:
     """Writes the commands of one kind of frame. `here` are the images that its document describes, `framebuffers` the names of framebuffers
@@ -49,6 +52,9 @@ class Recording:
                 self.lines.item(2, body, origin, comment)
         for text in self._read_later(ends):
             self.lines.line(text)
+        for image, own in ends.items():
+            if image.shared and image in self.here and any(end.last == "unread" for end in own.values()):
+                self.lines.line(f"  - readImage: {{image: {scalar(self.names.image(image))}}}  # its memory is shared with others")
         if len(self.lines.text) == before:
             self.lines.text[-1] += " []"
 
@@ -81,7 +87,7 @@ class Recording:
         if each.kind in ("copyImageToBuffer", "copyBufferToImage"):
             return {each.kind: {"srcImage" if each.kind == "copyImageToBuffer" else "dstImage": images[0]}}
         made: dict[str, Any] = {"image": images[0]}
-        if each.kind in ("readImage", "writeImage"):
+        if each.kind in ("readImage", "writeImage") and key[1] != SOMETIMES:
             stage = key[1]
             made["stage"] = stage
             if stage == "RESOLVE":
@@ -164,9 +170,16 @@ def thawed(value: Any) -> Any:
 def commands_of(kind: Kind) -> Iterator[tuple[Recorded, int]]:
     """The commands of a kind of frame in order, each with the number of the pass that it is in or before."""
     for number in range(len(kind.passes) + 1):
-        ways = kind.between[number]
-        for each in max(ways, key=lambda way: way.count).items if ways else ():
+        ways = sorted(kind.between[number], key=lambda way: -way.count)
+        for each in ways[0].items if ways else ():
             yield each, number
+        # What only some of the frames read here has a reader all the same.
+        read = {source for each in (ways[0].items if ways else ()) if (source := _read(each)) is not None}
+        for each in (each for way in ways[1:] for each in way.items):
+            source = _read(each)
+            if source is not None and source not in read:
+                read.add(source)
+                yield Recorded("readImage", (source, SOMETIMES), each.at, each.by), number
         if number == len(kind.passes):
             return
         begin = kind.passes[number]
@@ -176,6 +189,15 @@ def commands_of(kind: Kind) -> Iterator[tuple[Recorded, int]]:
             yield each, number
         end = "endRenderPass" if begin.kind == "beginRenderPass" else "endRendering"
         yield Recorded(end, None, begin.at, begin.by), number
+
+
+def _read(each: Recorded) -> Hashable | None:
+    """The image that a command between passes reads."""
+    key: Any = each.key
+    if each.kind in ("readImage", "resolveImage", "copyImage", "blitImage", "copyImageToBuffer"):
+        source: Hashable = key[0]
+        return source
+    return None
 
 
 def _plain(kind: Kind, order: Iterable[tuple[Recorded, int]]) -> list[Recorded]:

@@ -20,7 +20,7 @@ from .images import MAX_DISTINCT, Images
 from .objects import Created, Framebuffer, Pipeline, RenderPass, frozen
 from .pipelines import pipelines_of
 from .recording import CommandBuffer, Commands, Recorded
-from .structures import described
+from .structures import described, slot
 from .transfers import Transfers
 
 SUFFIXES = ("KHR", "EXT", "NV", "AMD", "QCOM", "ARM", "LUNARG")
@@ -145,6 +145,7 @@ class Tracker(Images, Descriptors, Transfers):
         tree = described(RenderPassRecord, call.args.get("pCreateInfo"))
         for attachment in tree.get("attachments", ()):
             _without_stencil(attachment)
+        _maps(tree, values.record(call.args.get("pCreateInfo")))
         coherent(tree)
         handle = values.handle(call.args.get("pRenderPass"))
         self.render_passes[handle] = self._alike(("renderPass", frozen(tree)), lambda: RenderPass(call, self.number("render pass"), tree))
@@ -239,6 +240,18 @@ def _without_stencil(attachment: dict[str, Any]) -> None:
     if format is not None and "stencil" not in format.aspects:
         for member in ("stencilLoadOp", "stencilStoreOp", "stencilInitialLayout", "stencilFinalLayout"):
             attachment.pop(member, None)
+
+
+def _maps(tree: dict[str, Any], info: dict[str, Any]) -> None:
+    """Makes input attachments of those that say how densely a pass is shaded: it reads them, which a description has no other word for."""
+    density = values.chained(info, "RENDER_PASS_FRAGMENT_DENSITY_MAP_CREATE_INFO")
+    of_all = slot(density.get("fragmentDensityMapAttachment")) if density is not None else None
+    for subpass, given in zip(tree.get("subpasses", ()), values.items(info.get("pSubpasses")), strict=False):
+        rate = values.chained(values.record(given), "FRAGMENT_SHADING_RATE_ATTACHMENT_INFO")
+        of_one = slot(rate.get("pFragmentShadingRateAttachment")) if rate is not None else None
+        read = [reference for reference in (of_all, of_one) if reference is not None]
+        if read:
+            subpass["inputAttachments"] = [*subpass.get("inputAttachments", ()), *read]
 
 
 def coherent(tree: dict[str, Any]) -> None:

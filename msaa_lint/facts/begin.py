@@ -34,7 +34,7 @@ def targets_at(frame: Frame, attachment: Attachment, position: int | None) -> li
 def covers(frame: Frame, each: Pass, position: int | None, target: Target) -> bool:
     """Whether it writes to all of an image, unless attachments are left out: no size, layer or mip level that is stated denies it."""
     image = target.image
-    if image is None or (image.mipLevels or 1) > 1:
+    if image is None or (image.mipLevels or 1) > 1 or (image.extent is not None and (image.extent.depth or 1) > 1):
         return False
     record = _body(frame, position) or each.record
     framebuffers = _named(frame, record) or (frame.framebuffers.get(each.name, []) if each.kind == RENDER_PASS else [])

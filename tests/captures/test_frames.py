@@ -158,6 +158,62 @@ def test_a_frame_of_another_kind_reads_what_this_one_left() -> None:
     assert "MSAA201" not in codes(lint(program.text()))
 
 
+def test_what_some_frames_read_has_a_reader() -> None:
+    program = Program()
+    program.swap(1)
+    image = program.image(usage=COLOR | SOURCE)
+    view, target = program.view(image), program.image(samples=1, usage=0x2)
+    for number in range(9):
+        buffer = program.buffer()
+        program.rendering(buffer, [info(view, store="STORE")])
+        program.end(buffer, rendering=True)
+        if number % 3 == 0:
+            program.call("vkCmdCopyImage", commandBuffer=buffer, srcImage=image, dstImage=target, regionCount=0, pRegions=[])
+        program.submit(buffer)
+        program.present()
+    assert "MSAA201" not in codes(lint(program.text()))
+
+
+@pytest.mark.parametrize("shared", [False, True])
+def test_what_is_shared_with_others_may_be_read_by_them(shared: bool) -> None:
+    program = forward(2)
+    program.calls.clear()
+    program.swap(1)
+    image = program.image()
+    chained = {"sType": "VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_IMAGE_CREATE_INFO", "handleTypes": 1, "pNext": None}
+    name, args = program.calls[-1]
+    assert name == "vkCreateImage"
+    args["pCreateInfo"]["pNext"] = chained if shared else None
+    view = program.view(image)
+    for _ in range(3):
+        buffer = program.buffer()
+        program.rendering(buffer, [info(view, store="STORE")])
+        program.end(buffer, rendering=True)
+        program.submit(buffer)
+        program.present()
+    assert ("MSAA201" in codes(lint(program.text()))) is not shared
+
+
+def test_a_map_of_shading_density_is_read() -> None:
+    program = Program()
+    views = [program.view(program.image(samples=1)), program.view(program.image("VK_FORMAT_R8G8_UNORM", 1, 0x200))]
+    attachments = [attachment(samples=1, store="STORE"), attachment("VK_FORMAT_R8G8_UNORM", 1, "LOAD")]
+    for mapped in (False, True):
+        render_pass = program.render_pass(attachments)
+        created = program.calls[-1][1]["pCreateInfo"]
+        if mapped:
+            reference = {"attachment": 1, "layout": "VK_IMAGE_LAYOUT_FRAGMENT_DENSITY_MAP_OPTIMAL_EXT"}
+            kind = "VK_STRUCTURE_TYPE_RENDER_PASS_FRAGMENT_DENSITY_MAP_CREATE_INFO_EXT"
+            created["pNext"] = {"sType": kind, "fragmentDensityMapAttachment": reference}
+        buffer = program.buffer()
+        program.begin(buffer, render_pass, program.framebuffer(render_pass, views))
+        program.draw(buffer, program.pipeline(render_pass, samples=1))
+        program.end(buffer)
+        program.submit(buffer)
+    untouched = [found.subject for found in lint(program.text()) if found.code == "MSAA212"]
+    assert untouched == ["renderPasses.render_pass_0.attachments[1]"]
+
+
 def test_without_presents_a_frame_begins_where_its_passes_begin_anew() -> None:
     program = Program()
     view = program.view(program.image())
