@@ -90,10 +90,9 @@ class Recording:
         if each.kind in ("readImage", "writeImage") and key[1] != SOMETIMES:
             stage = key[1]
             made["stage"] = stage
+            # What a descriptor set holds a shader may read, or not: only a transfer is certain, and has an access.
             if stage == "RESOLVE":
                 made["access"] = "TRANSFER_READ" if each.kind == "readImage" else "TRANSFER_WRITE"
-            else:
-                made["access"] = "SHADER_READ" if each.kind == "readImage" else "SHADER_WRITE"
         return {each.kind: made}
 
     def _name(self, part: Any) -> str | None:
