@@ -368,11 +368,10 @@ def test_a_load_shows_no_store_that_something_overwrote() -> None:
     linted = check("""
     images:
       ms: {format: R8G8B8A8_UNORM, samples: 4}
-      other: {format: R8G8B8A8_UNORM, samples: 4}
     commands:
       - beginRendering: {colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: STORE}]}
       - endRendering
-      - copyImage: {srcImage: other, dstImage: ms}
+      - writeImage: {image: ms, stage: COMPUTE}
       - beginRendering: {colorAttachments: [{image: ms, loadOp: LOAD, storeOp: DONT_CARE}]}
     #                                                           ^^^^ MSAA202
     #                                                                          ^^^^^^^^^ MSAA207

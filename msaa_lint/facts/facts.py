@@ -30,10 +30,11 @@ class Facts:
 
 
 class Subject(NamedTuple):
-    """What a rule judges: an image, an attachment, one aspect of it, a subpass, a resolve, a pipeline, a dependency.
+    """What a rule judges: an image, an attachment, one aspect of it, a pass, a subpass, a resolve, a pipeline, a dependency, a read.
 
-    `of` is what it is made from: a Target, an Attachment, (Attachment, Aspect), a PassSubpass, a Resolve, (Pipeline, the PassSubpass that
-    it draws in or None), the record of a dependency.
+    `of` is what it is made from: a Target, an Attachment, (Attachment, Aspect), a Pass, a PassSubpass, a Resolve, (Pipeline, the
+    PassSubpass that it draws in or None), the record of a dependency, (the position of a read's command, the Target) or the Pipeline that
+    reads an input attachment.
     """
 
     kind: str

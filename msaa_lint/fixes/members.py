@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ..document.record import Record
-from ..document.records import Pipeline, SubpassDependency
+from ..document.records import BeginRenderPass, Pipeline, SubpassDependency
 from ..facts.facts import Subject
-from ..facts.frame import RENDERING, Aspect, Attachment, Resolve, Target
+from ..facts.frame import RENDERING, Aspect, Attachment, Pass, Resolve, Target
 from .changes import Mending, Refused
 
 Place = tuple[Record, str, str]
@@ -117,6 +117,14 @@ def _dependency(member: str) -> Callable[[Subject, Mending], Places]:
     return find
 
 
+def _clear_values(subject: Subject, mending: Mending) -> Places:
+    """The begins of a render pass that state how many clear values they give."""
+    own = mending.frame.render_pass(subject.of.name) if isinstance(subject.of, Pass) else None
+    bodies = [mending.frame.commands[position].body for position in own.begun] if own is not None else []
+    found: list[Place] = [(b, "clearValueCount", "") for b in bodies if isinstance(b, BeginRenderPass) and b.clearValueCount is not None]
+    return found or Refused("no begin states its clear values")
+
+
 CHANGEABLE: dict[str, Callable[[Subject, Mending], Places]] = {
     "image.samples": _samples,
     "image.usage": _image("usage"),
@@ -126,6 +134,7 @@ CHANGEABLE: dict[str, Callable[[Subject, Mending], Places]] = {
     "image.type": _image("imageType"),
     "image.sharing_mode": _image("sharingMode"),
     "image.mip_levels": _image("mipLevels"),
+    "pass.clear_values": _clear_values,
     "aspect.load": _aspect(True),
     "aspect.store": _aspect(False),
     "attachment.initial_layout": _attachment("initialLayout"),
