@@ -75,8 +75,12 @@ class _Rounds:
         fixed: list[Finding] = []
         for _ in range(MAX_ROUNDS):
             self.reasons = []
-            chosen = _apart(self.candidates(linted))
-            taken, text, linted = self.take(chosen, [], text, linted, text, linted) if chosen else ([], text, linted)
+            waiting, taken = self.candidates(linted), list[_Fix]()
+            # Where none of those can be made, what they stood in the way of may be.
+            while waiting and not taken:
+                chosen = _apart(waiting)
+                taken, text, linted = self.take(chosen, [], text, linted, text, linted)
+                waiting = [each for each in waiting if each not in chosen]
             if not taken:
                 break
             fixed += (found for each in taken for found in each.findings)

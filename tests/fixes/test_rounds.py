@@ -178,3 +178,27 @@ def test_fixes_with_an_edit_in_common_are_one() -> None:
 def test_overlaps(taken: tuple[int, int, str], other: tuple[int, int, str], apart: bool) -> None:
     for one, two in ((taken, other), (other, taken)):
         assert len(_apart([made(one), made(two)])) == (2 if apart else 1)
+
+
+def test_what_a_refused_fix_stood_in_the_way_of_is_made() -> None:
+    from msaa_lint.engine import Linted
+    from msaa_lint.fixes import rounds
+    from msaa_lint.source.text import Source
+
+    def finding(code: str, severity: str, fix: Fix | None = None) -> Finding:
+        return Finding(code, code.lower(), severity, "high", "", "f", Span(0, 1), code, fix=fix)
+
+    def judged(text: str) -> Linted:
+        found = []
+        if text[0] == "a":
+            found.append(finding("MSAA1", "error", Fix("both", True, (Edit(Span(0, 2), "cd"),))))
+        if text[1] == "b":
+            found.append(finding("MSAA2", "warning", Fix("one", True, (Edit(Span(1, 2), "B"),))))
+        if text == "cd":
+            found.append(finding("MSAA3", "warning"))
+        return Linted("f", Source("f", text), found, [], [])
+
+    done = rounds.fix(judged("ab"), judged, False, lambda _: True)
+    assert done.text == "aB"
+    assert rules(done.fixed) == ["msaa2"]
+    assert [(each.finding.code, each.reason) for each in done.unfixed] == [("MSAA1", "it would bring msaa3: ")]
