@@ -31,6 +31,9 @@ MAX_ALIKE = 8
 MAX_SEEN = 1024
 """So many different frames are remembered, to be known again."""
 
+MAX_HELD = 1_000_000
+"""So many commands these may have together."""
+
 MAX_FRAME = 1_000_000
 """So many commands of one frame are followed."""
 
@@ -139,6 +142,8 @@ class Frames:
         """The passes of the submissions of the frame, and how often each was submitted."""
         self._alike: dict[Hashable, Hashable] = {}
         self._seen: dict[Hashable, Seen] = {}
+        self._held = 0
+        """Commands of the frames that are remembered."""
         self._last: Seen | None = None
         self._repeated = 0
         """How often the last frame came in a row."""
@@ -196,10 +201,12 @@ class Frames:
             seen = self._new(recorded)
             if seen is None:
                 return
-            if len(self._seen) >= MAX_SEEN:
+            self._held += len(recorded)
+            if len(self._seen) >= MAX_SEEN or self._held > MAX_HELD:
                 for each in self._seen.values():
                     _counted(each)
                 self._seen.clear()
+                self._held = len(recorded)
             self._seen[key] = seen
         elif seen.kind is not None and self._repeated < 2:
             self._lifetimes(seen.kind, recorded, {image: role_of(number) for number, image in enumerate(seen.images)})

@@ -51,6 +51,19 @@ def loads(text: bytes, line: int, column: int = 1, call: int | None = None) -> A
     return value
 
 
+def shallow(text: bytes, kind: str) -> tuple[Any, str | None] | None:
+    """The arguments and the result of a call that a text is, where it is JSON and has few brackets; None else: `loads` has the answer."""
+    try:
+        body = orjson.loads(text)[kind]
+        args = body["args"]
+        result = body.get("return")
+    except (orjson.JSONDecodeError, LookupError, TypeError):
+        return None
+    if type(args) is not dict or (len(text) > MAX_DEPTH and text.count(b"{") + text.count(b"[") > MAX_DEPTH):
+        return None
+    return args, result if type(result) is str else None
+
+
 def _repaired(text: bytes) -> str:
     """A text as JSON, where the tools write what is none: gfxrecon-convert 0.9 `-nan` and `inf` for floats, all of them names as they are,
     whatever their encoding and with control characters in them."""
