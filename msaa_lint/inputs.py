@@ -36,7 +36,6 @@ def refused(error: OSError | Unreadable, name: str) -> Finding:
     return diagnostic(code, f"the input cannot be read: {reason}", name)
 
 
-
 def load(path: str, limits: Limits, name: str | None = None, format: str | None = None, data: bytes | None = None) -> bytes | Captured:
     """The bytes of a text, or a capture that was read as far as it goes.
 

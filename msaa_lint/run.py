@@ -154,7 +154,9 @@ class Run:
         if not isinstance(data, bytes):
             self.notes.extend(data.notes)
             if self.request.fix is not None:
-                self.notes.append(f"{name} is a capture, and stays as it is: `msaa-lint convert` writes a description of it that can be fixed")
+                self.notes.append(
+                    f"{name} is a capture, and stays as it is: `msaa-lint convert` writes a description of it that can be fixed"
+                )
         elif self.request.fix is not None and (stdin or any(found.fix is not None for found in linted.findings)):
             from .fixes.inputs import mend
 

@@ -16,6 +16,7 @@ from msaa_lint.engine import Engine
 from msaa_lint.facts.facts import Subject
 from msaa_lint.facts.subjects import subjects
 from msaa_lint.facts.table import FACTS, GLOBAL, SUBJECTS, WORDS, Fact
+from msaa_lint.modules import Modules
 from msaa_lint.source.text import Source
 from msaa_lint.source.tree import Limits, parse
 from msaa_lint.vulkan.enums import VALUES
@@ -33,7 +34,7 @@ def found(text: str) -> Iterator[Subject]:
     for root in parse(source, Limits()).documents:
         document = readers.read(source, root)
         assert document.problems == ()
-        yield from subjects(document)
+        yield from subjects(document, shader=Modules(document, str(ROOT / "rules" / "example.yaml")).reflected)
 
 
 CASES = (

@@ -147,7 +147,11 @@ CONDITION = "when: image.samples > 2"
         ),
         (CONDITION, f"{CONDITION}\nsupersedes: [too-many-samples]", "it supersedes itself"),
         ("severity: warning", "severity: ⟦fatal⟧", "one of note, warning, error is due here"),
-        ("subject: image", "subject: ⟦images⟧", "one of image, attachment, aspect, subpass, resolve, pipeline, dependency is due here"),
+        (
+            "subject: image",
+            "subject: ⟦images⟧",
+            "one of image, attachment, aspect, pass, subpass, resolve, pipeline, dependency, read is due here",
+        ),
         ("code: ACME001", "code: MSAA999", "its code is a few capital letters of yours, not MSAA, and a number"),
         ("code: ACME001", "code: acme", "its code is a few capital letters of yours, not MSAA, and a number"),
         ("code: ACME001", "code: ⟦[ACME001]⟧", "a text is due here"),

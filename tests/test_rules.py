@@ -26,7 +26,7 @@ def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
 
 
 def lint(text: str, severity: Callable[[Rule, str, str | None], str | None] = as_written) -> Linted:
-    return ENGINE.lint(text.encode(), "example.yaml", severity)
+    return ENGINE.lint(text.encode(), str(RULES / "example.yaml"), severity)
 
 
 def places(linted: Linted, rule: str) -> list[tuple[int, int, int]]:

@@ -10,8 +10,6 @@ from ..document.records import Pipeline
 from . import values
 from .structures import Tree, described
 
-LAYOUT_OF_STATE = ("pInputAssemblyState", "pViewportState", "pTessellationState")
-
 
 def pipelines_of(info: dict[str, Any], modules: Mapping[int, bytes]) -> tuple[Tree, dict[str, bytes]]:
     """A pipeline's tree, and the code of the modules that its stages name, by the names they have there."""
@@ -41,7 +39,9 @@ def _stages(stages: list[Any], modules: Mapping[int, bytes]) -> tuple[list[Tree]
         given = values.record(stage)
         kind = values.enum("VkShaderStageFlagBits", given.get("stage"))
         code = modules.get(values.handle(given.get("module")))
-        if kind != "FRAGMENT" or code is None:
+        # With constants whose values the capture does not tell, it is not known what the code does.
+        specialized = given.get("pSpecializationInfo") or given.get("specializationInfo")
+        if kind != "FRAGMENT" or code is None or specialized:
             continue
         name = f"shaders/{hashlib.sha256(code).hexdigest()[:16]}.spv"
         found[name] = code

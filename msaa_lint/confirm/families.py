@@ -225,6 +225,15 @@ FAMILIES = (
         r"minSampleShading",
     ),
     Family(
+        "alpha-to-coverage-output",
+        ("alpha-to-coverage-without-alpha",),
+        ("08891",),
+        "alpha to coverage is on, and the shader writes no alpha to location 0",
+        Looks(at="the shader that is drawn with, which is confirm's own"),
+        r"VkGraphicsPipelineCreateInfo",
+        r"alphaToCoverageEnable.*(alpha|component)",
+    ),
+    Family(
         "non-transient-ms-image",
         ("multisampled-image-not-transient",),
         ("non-transient-ms-image",),
@@ -268,7 +277,14 @@ FAMILIES = (
     ),
     Family(
         "attachment-needs-readback",
-        ("multisampled-attachment-loaded", "framebuffer-readback", "resolve-target-loaded", "multisampled-stencil-stored"),
+        (
+            "multisampled-attachment-loaded",
+            "framebuffer-readback",
+            "resolve-target-loaded",
+            "multisampled-stencil-stored",
+            "copied-then-loaded",
+            "clear-command-instead-of-load-op",
+        ),
         ("attachment-needs-readback",),
         "an attachment is loaded",
         Looks(passes=LEGACY, vendors=MOBILE, when=(("aspect", 'aspect.load == "LOAD"', "it looks at loads, not at clears and stores"),)),
@@ -276,7 +292,10 @@ FAMILIES = (
     Family(
         "discarded-then-loaded",
         (
-            "discarded-then-loaded", "multisampled-result-lost", "resolve-target-not-stored", "multisampled-attachment-loaded",
+            "discarded-then-loaded",
+            "multisampled-result-lost",
+            "resolve-target-not-stored",
+            "multisampled-attachment-loaded",
             "multisampled-stencil-stored",
         ),
         ("StoreOpDontCareThenLoadOpLoad",),
@@ -302,7 +321,7 @@ FAMILIES = (
         ("clear-value-without-clear",),
         ("ClearValueWithoutLoadOpClear",),
         "a pass is begun with clear values, and clears no attachment",
-        Looks(passes=LEGACY),
+        Looks(passes=LEGACY, at="the clear values that confirm gives, one an attachment"),
     ),
     Family(
         "clear-before-draw",

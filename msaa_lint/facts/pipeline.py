@@ -38,7 +38,7 @@ def unshaded(frame: Frame) -> frozenset[tuple[str | None, int]]:
     found = set()
     for pipeline, _ in frame.pipelines:
         state = pipeline.multisampleState
-        if state is not None and state.sampleShadingEnable is False and state.rasterizationSamples != 1 and not _discards(pipeline):
+        if state is not None and state.sampleShadingEnable is False and state.rasterizationSamples != 1 and not discards(pipeline):
             found.add(_subpass_key(pipeline))
     return frozenset(found)
 
@@ -54,8 +54,8 @@ def pipeline_facts(
     facts = Facts()
     facts.put("pipeline.name", pipeline.key, pipeline.head)
     # Vulkan ignores both where rasterization is disabled.
-    state = pipeline.multisampleState if not _discards(pipeline) else None
-    blend = pipeline.colorBlendState if not _discards(pipeline) else None
+    state = pipeline.multisampleState if not discards(pipeline) else None
+    blend = pipeline.colorBlendState if not discards(pipeline) else None
     dynamic = set(pipeline.dynamicState)
     samples, at = _rasterization_samples(pipeline, draws)
     facts.put("pipeline.rasterization_samples", samples, at)
@@ -97,7 +97,7 @@ def _rasterization_samples(pipeline: Pipeline, draws: Sequence[Draw]) -> tuple[i
     """
     state, dynamic = pipeline.multisampleState, pipeline.dynamicState
     at = state.place("rasterizationSamples") if state is not None else pipeline.head
-    if _discards(pipeline):
+    if discards(pipeline):
         return None, at
     if SAMPLES_DYNAMIC not in dynamic:
         return state.rasterizationSamples if state is not None else None, at
@@ -135,7 +135,7 @@ def _resolves_itself(subpass: PassSubpass) -> bool:
     return any(flag.startswith(("CUSTOM_RESOLVE", "SHADER_RESOLVE", "FRAGMENT_REGION")) for flag in subpass.record.flags)
 
 
-def _discards(pipeline: Pipeline) -> bool:
+def discards(pipeline: Pipeline) -> bool:
     """Whether rasterization is stated to be disabled, for all draws."""
     raster = pipeline.rasterizationState
     return raster is not None and raster.rasterizerDiscardEnable is True and "RASTERIZER_DISCARD_ENABLE" not in pipeline.dynamicState

@@ -91,7 +91,9 @@ def read_in_vain(frame: Frame, writers: Writers, timeline: Timeline) -> set[str]
             continue
         at, within = written[bisect_left(written, position, key=lambda writer: writer[0]) - 1]
         drawn = [a for a in within.attachments if source in targets_at(frame, a, at)] if within is not None else []
-        resolved = within is not None and any(r.source in drawn and r.mode not in (None, "NONE") for s in within.subpasses for r in s.resolves)
+        resolved = within is not None and any(
+            r.source in drawn and r.mode not in (None, "NONE") for s in within.subpasses for r in s.resolves
+        )
         lost = bool(drawn) and all(aspect.store in ("DONT_CARE", "NONE") for a in drawn for aspect in a.aspects)
         if resolved or lost:
             in_vain[source.name] = in_vain.get(source.name, 0) + 1

@@ -26,6 +26,10 @@ WORDS: dict[str, tuple[str, ...]] = {
     "tone mapping": ("AFTER_RESOLVE", "IN_PASS", "NONE"),
     "depth direction": ("STANDARD", "REVERSED"),
     "wants": ("ANY", "NEAREST", "FARTHEST"),
+    "fetched": ("ONE", "ALL", "NOT_STATED", "OTHER"),
+    "samples read": ("ONE", "ALL", "OTHER"),
+    "resolves": ("AVERAGE", "MIN", "MAX", "OTHER"),
+    "fits": ("SAME", "DIFFERENT", "NOT_STATED"),
     "study": ("NONE", "JUSTIFIES", "DECLINES", "STALE", "UNUSABLE"),
     "numeric": ("UNORM", "SNORM", "USCALED", "SSCALED", "UINT", "SINT", "UFLOAT", "SFLOAT", "SRGB", "SFIXED5", "BOOL"),
     "vendor": (
@@ -102,10 +106,21 @@ _IMAGE = (
     Fact("image.encoding", "STRING", "what its values mean", "encoding"),
     Fact("image.is_render_target", "BOOL", "a pass draws or resolves to it, or its usage allows that"),
     Fact("image.read", "BOOL", "something other than a resolve inside a pass reads it"),
+    Fact(
+        "image.read_in_vain",
+        "BOOL",
+        "nothing but resolve commands reads it, each after a pass that resolved it itself, or threw it away; never unknown",
+    ),
     Fact("image.loaded", "BOOL", "a pass loads an aspect of it"),
     Fact("image.supported", "BOOL", "the device offers its sample count for its aspects; unknown where no pass can draw to it"),
     Fact("image.supported_samples", "INTS", "the counts that the device offers for its aspects"),
-    Fact("image.averaged_by_reader", "BOOL", "a shader that reads it is stated to average its samples"),
+    Fact("image.averaged_by_reader", "BOOL", "a shader that reads it averages its samples: it is stated, or the shader's module says so"),
+    Fact(
+        "image.taking_turns",
+        "LIST",
+        "multisampled images alike, this first, that take turns with as many presentable ones, one a frame; empty elsewhere",
+    ),
+    Fact("image.turns_stated", "BOOL", "alternating framebuffers state those turns"),
     Fact("image.share_of_devices", "INT", "per cent of 2,035 devices in reports that offer its sample count"),
     Fact("image.share_of_tilers", "INT", "per cent of the tile-based ones among them that do"),
     Fact(
@@ -123,6 +138,9 @@ _PASS = (
     Fact("pass.partial_area", "BOOL", "it is begun with a stated render area smaller than its images; unknown where no size is stated"),
     Fact("pass.custom_resolve", "BOOL", "a subpass of it resolves by its own shader"),
     Fact("pass.suspends", "BOOL", "a rendering that is suspended: what is left of it comes later"),
+    Fact("pass.attachments", "INT", "how many attachments it has"),
+    Fact("pass.clears", "BOOL", "a render pass: an attachment that a subpass uses begins with CLEAR, depth and stencil apart"),
+    Fact("pass.clear_values", "INT", "the most clear values that it is begun with; 0 for a rendering, and where nothing begins it"),
 )
 _ATTACHMENT = (
     Fact("attachment.name", "STRING", "its name, or its index"),
@@ -155,8 +173,44 @@ _ASPECT = (
     ),
     Fact("aspect.read_later", "BOOL", "something after the pass, or the pass itself in the next frame, reads what it stores"),
     Fact("aspect.readers_known", "BOOL", "the description says whether anything reads it later; never unknown"),
+    Fact(
+        "aspect.fetched",
+        "STRING",
+        "stored multisampled depth: shaders alone read it, of which one fetches ALL samples, or all fetch ONE, or one does not say "
+        "(NOT_STATED); OTHER where something else reads it, or nothing",
+        "fetched",
+    ),
     Fact("aspect.stored_by", "STRING", "the pass whose store it loads"),
     Fact("aspect.costly_operations", "LIST", "LOAD, and STORE where nothing reads it later; never unknown"),
+    Fact(
+        "aspect.store_wasted",
+        "BOOL",
+        "every time that the pass is begun, what it stores is overwritten, or the frame comes round, before anything reads it",
+    ),
+    Fact("aspect.waste_certain", "BOOL", "the usage, or the commands in between, allow no reader; else only the frame's commands tell"),
+    Fact("aspect.overwritten_by", "STRING", "the pass or command that overwrites what it stores and nothing reads"),
+    Fact("aspect.reads_undefined", "BOOL", "what it loads was thrown away by the last to write it, or a command reads what it throws away"),
+    Fact("aspect.loads_discarded", "BOOL", "what it loads was thrown away by the last to write it"),
+    Fact("aspect.discarded_by", "STRING", "the pass or barrier that threw away what it loads"),
+    Fact("aspect.discard_reader", "STRING", "the command that reads what it throws away"),
+    Fact("aspect.undefined_within_frame", "BOOL", "what was thrown away is read in the same frame"),
+    Fact("aspect.copied_before", "BOOL", "it loads what a copy, blit or resolve command wrote just before; never unknown"),
+    Fact("aspect.copy_command", "STRING", "that command"),
+    Fact("aspect.copy_source", "STRING", "the image that it copies from; unknown where that is a buffer"),
+    Fact(
+        "aspect.cleared_by_command",
+        "BOOL",
+        "a command clears all of it just before the pass begins, or in the pass before anything is drawn, each time that it is begun; "
+        "never unknown",
+    ),
+    Fact("aspect.clear_command", "STRING", "that command"),
+    Fact("aspect.clears_in_pass", "BOOL", "that command is recorded in the pass; never unknown"),
+    Fact(
+        "aspect.untouched",
+        "BOOL",
+        "no subpass refers to the attachment, or no draw and no clear that is recorded touches the aspect; false where that is not known; "
+        "never unknown",
+    ),
 )
 _SUBPASS = (
     Fact("subpass.index", "INT", "its index; 0 in dynamic rendering"),
@@ -186,6 +240,12 @@ _SUBPASS = (
     Fact("subpass.tile_spills", "BOOL", "not even the device's smallest tile holds its attachments"),
     Fact("subpass.has_pipelines", "BOOL", "the description is whole and lists pipelines for it; a rendering: draws are recorded in it"),
     Fact("subpass.partial_coverage", "BOOL", "some pipeline of it can cover a pixel in part"),
+    Fact(
+        "subpass.full_screen",
+        "BOOL",
+        "all that is recorded in it are triangles over the whole picture, on nothing that was drawn before; false where that is not known; "
+        "never unknown",
+    ),
 )
 _RESOLVE = (
     Fact("resolve.kind", "STRING", "in a subpass, at the end of a rendering, or vkCmdResolveImage", "resolve kind"),
@@ -215,6 +275,42 @@ _RESOLVE = (
     ),
     Fact("resolve.pass_could_resolve", "BOOL", "a command: the source was last written by a pass that does not resolve it, and could"),
     Fact("resolve.writer", "STRING", "a command: the pass that last wrote the source"),
+    Fact("resolve.target_stored", "BOOL", "what it writes outlives the pass"),
+    Fact("resolve.target_read", "BOOL", "something reads what it writes, later in the pass or the frame, or in the next frame"),
+    Fact(
+        "resolve.may_be_none",
+        "BOOL",
+        "its mode may be NONE: the other aspect is not resolved or not read either, or the device offers independentResolveNone",
+    ),
+    Fact("resolve.target_readable", "BOOL", "the image that it writes may be read: SAMPLED, STORAGE, INPUT_ATTACHMENT or TRANSFER_SRC"),
+    Fact(
+        "resolve.only_copied",
+        "BOOL",
+        "colour: what it writes is copied or blitted to all of a presentable image, and nothing else uses it",
+    ),
+    Fact("resolve.copied_by", "STRING", "the command that does, copyImage or blitImage"),
+    Fact("resolve.copied_to", "STRING", "that presentable image"),
+    Fact("resolve.copied_from", "STRING", "the image that it is copied from"),
+    Fact("resolve.copy_fits", "STRING", "whether the two have the same format, width and height", "fits"),
+    Fact("resolve.copy_barred", "BOOL", "barriers name one of the two"),
+    Fact("resolve.repeats", "BOOL", "an earlier resolve of the frame took the same samples by the same mode, and nothing was drawn since"),
+    Fact(
+        "resolve.resolved_anew",
+        "BOOL",
+        "a later resolve of the frame takes the same samples with more drawn on them, and nothing reads what this one wrote",
+    ),
+    Fact("resolve.again_by_command", "BOOL", "one of those two resolves is a command"),
+    Fact("resolve.again_on_tile", "BOOL", "those two belong to one pass, and to the same image, so that memory is written once"),
+    Fact("resolve.again_to_same_target", "BOOL", "those two resolves write to the same image"),
+    Fact("resolve.stage", "STRING", "the stage that it runs in", "VkPipelineStageFlagBits2"),
+    Fact(
+        "resolve.waited_for",
+        "BOOL",
+        "the dependencies and barriers stated for the first reader of what it writes wait for its stage; unknown where none is stated",
+    ),
+    Fact("resolve.waiting_stages", "LIST", "the source stages of those", "VkPipelineStageFlagBits2"),
+    Fact("resolve.read_in_pass", "BOOL", "that reader is a later subpass of the pass"),
+    Fact("resolve.read_next_frame", "BOOL", "that reader is in the next frame"),
     Fact("resolve.share_of_tilers", "INT", "depth and stencil: per cent of tile-based devices in reports that offer the mode"),
 )
 _PIPELINE = (
@@ -247,6 +343,41 @@ _PIPELINE = (
     Fact("pipeline.dropped_samples", "INT", "samples below the count that sampleMask clears; 0 without a mask"),
     Fact("pipeline.blended_float_formats", "LIST", "formats of float colour attachments that it blends into and writes", "VkFormat"),
     Fact("pipeline.rasterizer_discard", "BOOL", "rasterizerDiscardEnable"),
+    Fact("pipeline.module", "STRING", "the module of its fragment shader, where that is stated and can be read"),
+    Fact(
+        "pipeline.per_sample_reads",
+        "LIST",
+        "what its fragment shader reads that has it run for every sample, or may: SampleId, SamplePosition, `sample` inputs; never unknown",
+    ),
+    Fact("pipeline.shaded_per_sample", "BOOL", "its fragment shader reads SampleId or SamplePosition; never unknown"),
+    Fact(
+        "pipeline.sample_shading_implied",
+        "BOOL",
+        "what its fragment shader reads has it run for each of several samples, or may, and its state does not ask for that; never unknown",
+    ),
+    Fact("pipeline.alpha_output", "BOOL", "its fragment shader has an alpha output at location 0, index 0"),
+    Fact("pipeline.alpha_written", "BOOL", "its fragment shader stores something to that"),
+    Fact("pipeline.alpha_constant", "DOUBLE", "the constant that it always stores to that; unknown where it is none"),
+)
+_READ = (
+    Fact("read.image", "STRING", "the image or input attachment that a shader reads"),
+    Fact("read.image_samples", "INT", "samples a texel of it"),
+    Fact("read.is_color", "BOOL", "its format has a colour aspect"),
+    Fact("read.numeric", "STRING", "the numeric type of its colour", "numeric"),
+    Fact("read.samples", "STRING", "which samples are fetched: ONE, ALL, OTHER; as stated, else as its shaders say", "samples read"),
+    Fact("read.resolves", "STRING", "what becomes of them; as stated, else as every shader that may read it says", "resolves"),
+    Fact("read.pipeline", "STRING", "the pipeline whose fragment shader reads it"),
+    Fact("read.module", "STRING", "that shader's module"),
+    Fact("read.fetched_samples", "INT", "the count N of samples that it fetches, where they are 0 to N - 1 and constants say so"),
+    Fact("read.highest_sample", "INT", "the highest sample that it fetches under no condition that constants do not decide"),
+    Fact(
+        "read.as_all",
+        "BOOL",
+        "it loops over those N, averages them, or takes their least or greatest, under no such condition: as if the image had no others",
+    ),
+    Fact("read.on_tile", "BOOL", "the image is attached to the pass around the read"),
+    Fact("read.writer", "STRING", "the pass that last wrote the image before"),
+    Fact("read.pass_could_resolve", "BOOL", "that pass does not resolve it, and could; false where the pass around has the image attached"),
 )
 _DEPENDENCY = (
     Fact(
@@ -270,10 +401,12 @@ SUBJECTS: dict[str, tuple[Fact, ...]] = {
     "image": (*_IMAGE, *GLOBAL),
     "attachment": (*_ATTACHMENT, *_IMAGE, *_PASS, *GLOBAL),
     "aspect": (*_ASPECT, *_ATTACHMENT, *_IMAGE, *_PASS, *GLOBAL),
+    "pass": (*_PASS, *GLOBAL),
     "subpass": (*_SUBPASS, *_PASS, *GLOBAL),
     "resolve": (*_RESOLVE, *_PASS, *GLOBAL),
     "pipeline": (*_PIPELINE, *_SUBPASS, *_PASS, *GLOBAL),
     "dependency": (*_DEPENDENCY, *_PASS, *GLOBAL),
+    "read": (*_READ, *GLOBAL),
 }
 """The facts that a rule about each kind of subject may ask."""
 

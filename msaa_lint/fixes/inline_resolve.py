@@ -20,7 +20,7 @@ MAX_ATTACHMENTS = 64
 """Of a pass: more than any device takes."""
 
 
-class _Site(NamedTuple):
+class Site(NamedTuple):
     """What is resolved where: the command, the pass before it, the attachment in it."""
 
     command: Command
@@ -38,7 +38,7 @@ def resolve_in_pass(subject: Subject, mending: Mending) -> list[Change] | Refuse
     site = _site(subject, mending)
     if isinstance(site, Refused):
         return site
-    made = _rendering(site) if site.within.kind == RENDERING else _render_pass(site, mending)
+    made = into_rendering(site) if site.within.kind == RENDERING else into_render_pass(site, mending)
     if isinstance(made, Refused):
         return made
     source = _source(site, mending, subject.facts.values.get("device.lazy_memory"))
@@ -48,7 +48,7 @@ def resolve_in_pass(subject: Subject, mending: Mending) -> list[Change] | Refuse
     return [*made, *source, *_target(site, mending), Change(mending.document.description, "commands", "drop", site.position)]
 
 
-def _site(subject: Subject, mending: Mending) -> _Site | Refused:
+def _site(subject: Subject, mending: Mending) -> Site | Refused:
     resolve, frame, usages = subject.of, mending.frame, mending.usages
     position = usages.positions.get(id(resolve.record)) if isinstance(resolve, Resolve) else None
     if not isinstance(resolve, Resolve) or position is None or resolve.aspect != "color":
@@ -63,7 +63,7 @@ def _site(subject: Subject, mending: Mending) -> _Site | Refused:
     begin, within = drew[last] if last >= 0 else (0, None)
     if within is not None and len(within.attachments) > MAX_ATTACHMENTS:
         return Refused("the pass has more attachments than are looked through")
-    if within is None or len(within.begun) != 1 or within.custom_resolve or _suspended(within):
+    if within is None or len(within.begun) != 1 or within.custom_resolve or suspended(within):
         return Refused("the pass that draws it does not come once, just before it")
     drawn = [each for each in within.attachments if any(own.record is source.record for own in targets_at(frame, each, begin))]
     if len(drawn) != 1 or drawn[0].target is None or not drawn[0].color or drawn[0].input:
@@ -71,18 +71,18 @@ def _site(subject: Subject, mending: Mending) -> _Site | Refused:
     if usages.named_between(target.name, begin, position) or not usages.barred.isdisjoint((source.name, target.name)):
         return Refused("the images have other uses, or barriers, in between")
     integer = source.format.numeric in ("UINT", "SINT")
-    return _Site(frame.commands[position], position, within, begin, drawn[0], source.image, target.image, integer)
+    return Site(frame.commands[position], position, within, begin, drawn[0], source.image, target.image, integer)
 
 
 def _name(target: Target | None) -> str | None:
     return target.name if target is not None else None
 
 
-def _suspended(within: Pass) -> bool:
+def suspended(within: Pass) -> bool:
     return within.kind == RENDERING and not {"SUSPENDING", "RESUMING"}.isdisjoint(getattr(within.record, "flags", ()))
 
 
-def _rendering(site: _Site) -> list[Change] | Refused:
+def into_rendering(site: Site) -> list[Change] | Refused:
     record = site.attachment.record
     if not isinstance(record, RenderingAttachment) or record.resolveImage is not None:
         return Refused("the pass resolves it to something else")
@@ -93,7 +93,7 @@ def _rendering(site: _Site) -> list[Change] | Refused:
     return made
 
 
-def _render_pass(site: _Site, mending: Mending) -> list[Change] | Refused:
+def into_render_pass(site: Site, mending: Mending) -> list[Change] | Refused:
     """A new attachment, a reference to it at the colour attachment's index, and its image in the framebuffer."""
     record = site.within.record
     last = site.within.subpasses[max(site.attachment.color)]
@@ -120,7 +120,7 @@ def _render_pass(site: _Site, mending: Mending) -> list[Change] | Refused:
     return [*made, *(Change(last.record, "resolveAttachments", "append", each) for each in new)]
 
 
-def _description(site: _Site, mending: Mending) -> dict[str, Any]:
+def _description(site: Site, mending: Mending) -> dict[str, Any]:
     """The new attachment: by its image, or by format and samples where a framebuffer binds it."""
     own = site.attachment.record
     assert isinstance(own, AttachmentDescription) and site.attachment.format is not None
@@ -135,14 +135,14 @@ def _description(site: _Site, mending: Mending) -> dict[str, Any]:
     return data
 
 
-def _final_layout(site: _Site, mending: Mending) -> str | None:
+def _final_layout(site: Site, mending: Mending) -> str | None:
     """The layout of what comes next; None where that is another pass, or nothing."""
     following = mending.usages.next_named(site.target.key, site.position)
     kind = mending.frame.commands[following].kind if following is not None else "present" if site.target.presentable else ""
     return {"present": "PRESENT_SRC_KHR", "readImage": "SHADER_READ_ONLY_OPTIMAL"}.get(kind)
 
 
-def _source(site: _Site, mending: Mending, lazy_memory: object) -> list[Change] | Refused:
+def _source(site: Site, mending: Mending, lazy_memory: object) -> list[Change] | Refused:
     """Without the command, what nothing else reads is not stored, and takes no memory."""
     uses = mending.timeline.uses.get(site.source.key, [])
     read = any(use.kind == READ and use.position != site.position for use in uses)
@@ -160,7 +160,7 @@ def _source(site: _Site, mending: Mending, lazy_memory: object) -> list[Change] 
     return changed if isinstance(changed, Refused) else [*made, *changed, *memory_changes(site.source, lazy_memory)]
 
 
-def _target(site: _Site, mending: Mending) -> list[Change]:
+def _target(site: Site, mending: Mending) -> list[Change]:
     if site.target.usage is None:
         return []
     spare = "TRANSFER_DST" not in mending.usages.needed(site.target.key, site.command)

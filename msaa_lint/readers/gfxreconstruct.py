@@ -12,7 +12,7 @@ from typing import Any, BinaryIO, NamedTuple
 
 from ..captures.beside import Folder
 from ..captures.call import Broken, Call, Mark, Place
-from ..captures.json_stream import BYTE_ORDER_MARK, CUT, Blocks, Cursor, Joined, loads
+from ..captures.json_stream import BYTE_ORDER_MARK, CUT, Blocks, Cursor, Joined, loads, shallow
 from ..captures.wanted import wants
 
 NAME = "gfxreconstruct"
@@ -28,6 +28,7 @@ HEAD = re.compile(
 # The layer names a trimmed capture by its frames.
 TRIMMED = re.compile(r"_frames?_\d+(?:_through_\d+)?\b|_trim_trigger")
 START = re.compile(rb'\{\s*"index"\s*:\s*(\d{1,18})\s*,\s*"(vkFunc|function|meta|method)"\s*:\s*\{\s*"name"\s*:\s*"(\w{1,100})"')
+PREFIX = b'{"index":'
 LINE_START = re.compile(rb'\{"index":\d{1,18}(,"(vkFunc|function|meta|method)":\{"name":"(\w{1,100})")')
 
 MAX_KEPT = 12 << 20
@@ -35,6 +36,9 @@ MAX_KEPT = 12 << 20
 MAX_KEPT_CALL = 1 << 16
 MAX_PAST = 1 << 19
 """So many lines back a repetition is looked for."""
+MIN_LIKE = 1.25
+PAUSE = 16
+"""Where fewer than a fifth of the lines are like earlier ones, nothing is kept for sixteen times as many lines."""
 
 
 def claims(head: bytes) -> bool:
@@ -53,18 +57,22 @@ def calls(stream: BinaryIO, wanted: frozenset[str], name: str | None) -> Iterato
     return _elements(Cursor(joined), reader) if array else _lines(Blocks(joined), reader)
 
 
-class Known(NamedTuple):
-    """A line as it was met: what follows its index, up to and with its end; or up to its name, where the call is not wanted (no `name`)."""
+Known = tuple[bytes, int, str, Any, str | None]
+"""A line as it was met: what follows its index, up to and with its end, and how long that is; the call's name, arguments and result. Of a
+call that nobody wants only what is up to its name, which is empty then."""
 
-    text: bytes
-    size: int
-    name: str
-    args: Any
-    result: str | None
-
-
-NEVER = Known(b"\0", 1, "", None, None)
+NEVER: Known = (b"\0", 1, "", None, None)
 """No line is like this one."""
+
+
+class Start(NamedTuple):
+    """What the beginning of a line tells, up to the call's name: how to know such lines where they are not wanted; whether the arguments
+    are to be taken as they are, and may come again."""
+
+    unwanted: Known | None
+    kind: str
+    name: str
+    plain: bool
 
 
 class Reader:
@@ -76,15 +84,17 @@ class Reader:
         self.vulkan = False
         self.direct3d = False
         self.trimmed = False
-        self.starts: dict[bytes, Known | None] = {}
-        """By what lines begin with after their index: how to know such lines that are not wanted; None for those that are."""
+        self.starts: dict[bytes, Start] = {}
+        """By what lines begin with after their index."""
 
-    def start(self, text: bytes, kind: bytes, name: bytes) -> Known | None:
-        """How to know the lines that begin so, where they are not wanted."""
-        known = None if self.wants(kind.decode("ascii"), name.decode("ascii")) else Known(text, len(text), "", None, None)
+    def start(self, found: re.Match[bytes]) -> Start:
+        """What a match of LINE_START tells."""
+        text, kind, name = found[1], found[2].decode("ascii"), found[3].decode("ascii")
+        wanted = self.wants(kind, name)
+        made = Start(None if wanted else (text, len(text), "", None, None), kind, name, kind != "meta" and _recurs(name))
         if len(self.starts) < 10_000:
-            self.starts[text] = known
-        return known
+            self.starts[text] = made
+        return made
 
     def wants(self, kind: str, name: str) -> bool:
         """Whether anybody follows a call, or a `meta` command."""
@@ -166,83 +176,97 @@ def _forget_sample_masks(args: dict[str, Any]) -> None:
             del state["pSampleMask"]
 
 
-def _recurs(call: Call) -> bool:
+def _recurs(name: str) -> bool:
     """Whether a call may come again with the same arguments: one that makes an object names another each time."""
-    return not call.name.startswith(("vkCreate", "vkAllocate", "vkGet"))
+    return not name.startswith(("vkCreate", "vkAllocate", "vkGet"))
 
 
 def _lines(blocks: Blocks, reader: Reader) -> Iterator[Call | Mark]:
     """The calls of JSON Lines.
 
     A frame is recorded much like the one before it. So the next line mostly is, but for its index, the one that came at this point the last
-    time, and to compare the two is many times faster than to parse.
+    time, and to compare the two is many times faster than to parse. Where that is seldom so, nothing is kept for a while.
     """
     new = tuple.__new__
     kept: dict[bytes, tuple[int, Known]] = {}
     """The lines that may recur, with where in the past each stands."""
     size = 0
-    past: list[Known] = []
+    past: list[Known] = [NEVER]
     gone = 0
     guess = 0
     offset = 10
     """From the beginning of a line to the end of its index."""
     number = 0
+    slow = since = resumes = 0
     for block in blocks:
         at = 0
         length = len(block)
         while at < length:
             number += 1
             after = at + offset
-            try:
-                text, text_size, name, args, result = known = past[guess]
-                if block.startswith(text, after):
-                    if name:
+            text, text_size, name, args, result = known = past[guess]
+            if block.startswith(text, after):
+                if name:
+                    try:
                         call = new(Call, (name, args, new(Place, (number, 1, int(block[at + 9 : after]))), result))
+                    except ValueError:
+                        pass  # It is no index.
+                    else:
                         at = after + text_size
                         guess += 1
                         past.append(known)
                         yield call
-                    else:
-                        at = block.find(b"\n", after) + 1
-                        guess += 1
-                        past.append(known)
+                        continue
+                elif block.startswith(PREFIX, at):
+                    at = block.find(b"\n", after) + 1
+                    guess += 1
+                    past.append(known)
                     continue
-            except (IndexError, ValueError):
-                pass  # Nothing is foreseen, or the index is none.
-            guess += 1
             start, line = at, number
             at = block.find(b"\n", at) + 1
-            found = LINE_START.match(block, start, at)
+            slow += 1
+            guess += 1
             known = NEVER
             made: Call | Mark | None = None
+            found = LINE_START.match(block, start, at)
             if found is None:
                 if not block[start:at].isspace():
                     made = reader.read(block[start:at], line, 1)
             else:
-                after, named = found.span(1)
+                after = found.start(1)
                 offset = after - start
-                begins = block[after:named]
-                unwanted = reader.starts[begins] if begins in reader.starts else reader.start(*found.groups())
+                unwanted, kind, name, plain = reader.starts.get(found[1]) or reader.start(found)
                 text = block[after:at]
-                before = kept.get(text) if unwanted is None else None
+                before = kept.get(text) if plain and line >= resumes else None
                 if unwanted is not None:
                     known = unwanted
                 elif before is not None:
                     position, known = before
                     kept[text] = (len(past) + gone, known)
                     guess = max(0, position + 1 - gone)
-                    made = Call(known.name, known.args, Place(line, 1, int(block[start + 9 : after])), known.result)
+                    made = new(Call, (name, known[3], new(Place, (line, 1, int(block[start + 9 : after]))), known[4]))
                 else:
-                    made = reader.read(block[start:at], line, 1)
-                    if isinstance(made, Call) and len(text) <= MAX_KEPT_CALL and _recurs(made):
-                        if size > MAX_KEPT:
-                            kept.clear()
-                            past.clear()
-                            size = gone = guess = 0
-                        known = Known(text, len(text), made.name, made.args, made.result)
-                        kept[text] = (len(past) + gone, known)
-                        size += len(text)
+                    # What is as expected is taken here; what is not, there.
+                    values = shallow(block[start:at], kind) if plain else None
+                    if values is None:
+                        made = reader.read(block[start:at], line, 1)
+                    else:
+                        args, result = values
+                        made = new(Call, (name, args, new(Place, (line, 1, int(block[start + 9 : after]))), result))
+                        if line >= resumes and at - after <= MAX_KEPT_CALL:
+                            if size > MAX_KEPT:
+                                if line - since < slow * MIN_LIKE:
+                                    resumes = line + PAUSE * slow
+                                kept.clear()
+                                past.clear()
+                                size = gone = slow = 0
+                                since = line
+                            known = (text, at - after, name, args, result)
+                            kept[text] = (len(past) + gone, known)
+                            size += at - after
             past.append(known)
+            if guess >= len(past):
+                guess = 0
             if made is not None:
                 yield made
         blocks.lines = number
@@ -280,7 +304,7 @@ def _elements(cursor: Cursor, reader: Reader) -> Iterator[Call | Mark]:
             else:
                 assert place.line is not None and place.column is not None
                 made = reader.read(text, place.line, place.column)
-                if isinstance(made, Call) and start is not None and len(body) <= MAX_KEPT_CALL and _recurs(made):
+                if isinstance(made, Call) and start is not None and len(body) <= MAX_KEPT_CALL and _recurs(made.name):
                     if size > MAX_KEPT:
                         kept.clear()
                         size = 0

@@ -42,6 +42,11 @@ def references(rule: str) -> list[str]:
 
 
 ASIDE = {
+    ("attachment-untouched", "BestPractices-vkCmdEndRenderPass-redundant-attachment-on-tile"),  # confirm draws a scene of its own
+    ("clear-command-instead-of-load-op", "BestPractices-AMD-ClearAttachment-ClearImage-color,"),  # AMD's, for reasons of its own
+    ("clear-value-without-clear", "BestPractices-ClearValueCountHigherThanAttachmentCount"),  # confirm gives values of its own
+    ("clear-value-without-clear", "VUID-VkRenderPassBeginInfo-clearValueCount-00902"),  # what must hold besides
+    ("depth-resolve-unread", "VUID-VkSubpassDescriptionDepthStencilResolve-pDepthStencilResolveAttachment-03178"),  # likewise
     ("multisampled-image-not-transient", "VUID-VkImageCreateInfo-usage-00963"),  # why some images are excused
     ("multisampling-unused", "VUID-VkGraphicsPipelineCreateInfo-multisampledRenderToSingleSampled-06853"),  # what must hold besides
 }
@@ -53,8 +58,8 @@ REFERENCES = sorted((rule, id) for rule in RULES for id in references(rule))
 @pytest.mark.parametrize(("rule", "id"), REFERENCES, ids=lambda value: value)
 def test_what_a_page_refers_to_is_in_a_family_that_names_its_rule(rule: str, id: str) -> None:
     family = classify(id)
-    assert isinstance(family, Family)
-    assert (rule in family.rules) != ((rule, id) in ASIDE)
+    named = isinstance(family, Family) and rule in family.rules
+    assert named != ((rule, id) in ASIDE)
 
 
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)

@@ -118,7 +118,7 @@ UNHEARD = {
     "depth-resolve-structure": "confirm enables depth-stencil resolve wherever it is there",
     "integer-resolve-mode": "the layer 1.3.239 does not look at it",
     "resolve-mode-none": "the layer says it since 1.3.278",
-    "transfer-then-loaded": "no example transfers to an image and loads it then",
+    "alpha-to-coverage-output": "the shader that confirm draws with writes alpha",
 }
 """Families that nothing of ours can make lavapipe and this version of the layer say, and why."""
 

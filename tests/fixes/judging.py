@@ -17,6 +17,8 @@ from msaa_lint.source.comments import comments
 from msaa_lint.source.text import Source
 from msaa_lint.source.tree import Limits, parse
 
+from ..pages import RULES
+
 ENGINE = Engine(load())
 
 
@@ -26,7 +28,7 @@ def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
 
 
 def lint(text: str) -> Linted:
-    return ENGINE.lint(text.encode(), "frame.yaml", as_written)
+    return ENGINE.lint(text.encode(), str(RULES / "frame.yaml"), as_written)
 
 
 def fixed(text: str, unsafe: bool = False) -> Fixed:

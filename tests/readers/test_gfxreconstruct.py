@@ -205,20 +205,30 @@ class Counting:
         return self.pattern.match(*arguments)
 
 
-@pytest.mark.parametrize(("past", "most"), [(1 << 19, 5), (30, 20)])
+@pytest.mark.parametrize(("past", "most"), [(1 << 19, 5), (30, 25)])
 def test_frames_alike_are_neither_parsed_nor_looked_into(past: int, most: int, monkeypatch: pytest.MonkeyPatch) -> None:
     # Draws recur within a frame, and a call that nobody follows differs in each.
     frame = [draw(1), draw(2), draw(1), draw(3), draw(1), draw(1), '{"name":"vkWaitForFences","args":{"a":%d}}', draw(4), draw(2), draw(5)]
     text = lined([line(8 + at, frame[at % 10].replace("%d", str(at))) for at in range(2000)])
     slow, parsed = Counting(gfxreconstruct.LINE_START), []
     monkeypatch.setattr(gfxreconstruct, "LINE_START", slow)
-    monkeypatch.setattr(gfxreconstruct, "loads", lambda *arguments: parsed.append(1) or json_stream.loads(*arguments))
+    monkeypatch.setattr(gfxreconstruct, "shallow", lambda *arguments: parsed.append(1) or json_stream.shallow(*arguments))
     monkeypatch.setattr(gfxreconstruct, "MAX_PAST", past)
     monkeypatch.setattr(json_stream, "BLOCK", 1000)
     assert len(calls(text)) == 1800
     assert len(parsed) == 5, "the calls that differ"
     # The lines of the first frame, the beginning of the second, and those where the index has another digit.
     assert slow.count <= len(frame) + most
+
+
+def test_an_empty_line_before_one_that_is_foreseen() -> None:
+    # The beginning of a call that nobody follows stands where it is expected, but a line further.
+    unwanted = '{"name":"vkDeviceWaitIdle","args":{}}'
+    text = lined(
+        [line(10, draw(1)), line(11, unwanted), line(12, draw(1)), "", line(9, unwanted), line(13, draw(1)), "{}", line(9, unwanted)]
+    )
+    text += lined([line(14, draw(2))])
+    assert [call.at for call in calls(text)] == [(1, 1, 10), (3, 1, 12), (6, 1, 13), (9, 1, 14)]
 
 
 def test_what_is_shared_and_what_is_not() -> None:
@@ -253,7 +263,7 @@ def test_memory_does_not_grow_with_the_lines() -> None:
             finally:
                 tracemalloc.stop()
 
-    assert peak(12_000) < 1.2 * peak(4_000)
+    assert peak(16_000) < 1.4 * peak(4_000)
 
 
 # Layouts of an array.

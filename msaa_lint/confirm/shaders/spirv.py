@@ -7,21 +7,17 @@ import os
 import sys
 from collections.abc import Iterator, Sequence
 
+from ...spirv.words import HEADER, OP_DECORATE, OP_ENTRY_POINT, OP_NAME, OP_STORE, OP_VARIABLE, instructions, words_of
+
 FOLDER = os.path.dirname(os.path.abspath(__file__))
-MAGIC = 0x07230203
-HEADER = 5
 OUTPUTS = {"float": 0, "sint": 8, "uint": 16}
 """The kinds of outputs, and the location of the first of the eight that shaders have of each."""
 
 SLOTS = 8
 
-OP_NAME, OP_ENTRY_POINT, OP_VARIABLE, OP_STORE, OP_DECORATE = 5, 15, 59, 62, 71
-LEAST = {OP_NAME: 2, OP_ENTRY_POINT: 4, OP_VARIABLE: 4, OP_STORE: 3, OP_DECORATE: 3}
-"""Words that these have at least."""
-
 DECORATION_LOCATION, DECORATION_BINDING, DECORATION_SET = 30, 33, 34
 OUTPUT, INPUT = 3, 1
-"""Instructions, decorations and storage classes of SPIR-V."""
+"""Decorations and storage classes of SPIR-V."""
 
 
 def read(shader: str, outputs: Sequence[str] | None = None) -> bytes:
@@ -30,31 +26,6 @@ def read(shader: str, outputs: Sequence[str] | None = None) -> bytes:
     with open(os.path.join(FOLDER, f"{shader}.spv"), "rb") as file:
         code = file.read()
     return code if outputs is None else with_outputs(code, outputs)
-
-
-def words_of(code: bytes) -> array.array[int]:
-    """The words of SPIR-V in this machine's order. ValueError where it is none."""
-    if len(code) < 4 * HEADER or len(code) % 4:
-        raise ValueError("not SPIR-V: its length is none of whole words")
-    words = array.array("I", code)
-    if words[0] != MAGIC:
-        words.byteswap()
-    if words[0] != MAGIC:
-        raise ValueError("not SPIR-V: it does not begin with its number")
-    return words
-
-
-def instructions(words: array.array[int]) -> Iterator[tuple[int, array.array[int]]]:
-    """Every instruction: its number, and its words. ValueError where one goes beyond the end."""
-    at = HEADER
-    while at < len(words):
-        length = words[at] >> 16
-        if not length or at + length > len(words):
-            raise ValueError("not SPIR-V: an instruction goes beyond its end")
-        if length < LEAST.get(words[at] & 0xFFFF, 1):
-            raise ValueError("not SPIR-V: an instruction is too short")
-        yield words[at] & 0xFFFF, words[at : at + length]
-        at += length
 
 
 def with_outputs(code: bytes, outputs: Sequence[str]) -> bytes:

@@ -1,0 +1,185 @@
+"""The functions that an entry point reaches: their blocks, what they refer to, where they write. Nothing is followed yet."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from . import numbers as op
+from .module import Function, Module
+from .words import SpirvError
+
+ANYWHERE = 0
+"""For a variable: it is not known which is written."""
+
+GLOBALS = -1
+"""For a variable: all that are declared outside of functions, by a call."""
+
+
+class Block(NamedTuple):
+    """A block: its first instruction, and what its merge instruction names (None where it has none)."""
+
+    start: int
+    merge: int | None
+    continues: int | None
+
+
+class Body:
+    """A function that is reached. `writes` are pairs of places and the variables written there, in the order of places."""
+
+    __slots__ = ("blocks", "calls", "discards", "fetches", "first", "function", "locals", "uses", "vectors", "writes")
+
+    def __init__(self, function: Function) -> None:
+        self.function = function
+        self.first = 0
+        """The label of its first block."""
+        self.blocks: dict[int, Block] = {}
+        self.calls: list[tuple[int, int]] = []
+        self.fetches: list[int] = []
+        """Where samples are fetched, or a function is called that does."""
+        self.writes: list[tuple[int, int]] = []
+        self.uses: dict[int, set[int | None]] = {}
+        """By pointer: the members that are referred to, by the ids of their indices; None for all."""
+        self.locals: set[int] = set()
+        self.vectors: dict[int, int] = {}
+        """The lengths of vectors that its instructions make."""
+        self.discards = False
+
+    def written(self, start: int, end: int) -> set[int]:
+        """The variables that are written from one place to another."""
+        first = bisect_left(self.writes, (start, -2))
+        found = set()
+        for at, root in self.writes[first:]:
+            if at >= end:
+                break
+            found.add(root)
+        return found
+
+    def fetching(self, start: int, end: int) -> bool:
+        """Whether something is fetched, or called, from one place to another."""
+        first = bisect_left(self.fetches, start)
+        return first < len(self.fetches) and self.fetches[first] < end
+
+
+_LEAST = {
+    op.EXT_INST: 5, op.FUNCTION_CALL: 4, op.VARIABLE: 4, op.IMAGE_TEXEL_POINTER: 6, op.LOAD: 4, op.STORE: 3, op.COPY_MEMORY: 3,
+    op.ACCESS_CHAIN: 4, op.IN_BOUNDS_ACCESS_CHAIN: 4, op.PTR_ACCESS_CHAIN: 5, op.VECTOR_SHUFFLE: 5, op.COMPOSITE_CONSTRUCT: 3,
+    op.COMPOSITE_EXTRACT: 4, op.COMPOSITE_INSERT: 5, op.COPY_OBJECT: 4, op.COPY_LOGICAL: 4, op.SAMPLED_IMAGE: 5, op.IMAGE_FETCH: 5,
+    op.IMAGE_READ: 5, op.SPARSE_FETCH: 5, op.SPARSE_READ: 5, op.IMAGE: 4, op.IMAGE_QUERY_SAMPLES: 4, op.PHI: 3, op.LOOP_MERGE: 4,
+    op.SELECTION_MERGE: 3, op.LABEL: 2, op.BRANCH: 2, op.BRANCH_CONDITIONAL: 4, op.SWITCH: 3, op.RETURN_VALUE: 2,
+}  # fmt: skip
+"""The words that instructions of functions have at least."""
+
+_NOTED = frozenset({
+    op.LABEL, op.LOAD, op.STORE, op.ACCESS_CHAIN, op.IN_BOUNDS_ACCESS_CHAIN, op.PTR_ACCESS_CHAIN, op.SELECTION_MERGE, op.LOOP_MERGE,
+    op.FUNCTION_CALL, op.VARIABLE, op.EXT_INST, op.COPY_OBJECT, op.COPY_MEMORY, op.IMAGE_TEXEL_POINTER,
+    *op.FETCHES, *op.DISCARDS,
+})  # fmt: skip
+"""The instructions of which something is kept."""
+
+_CHAINS = (op.ACCESS_CHAIN, op.IN_BOUNDS_ACCESS_CHAIN, op.PTR_ACCESS_CHAIN)
+
+
+def reached(module: Module, start: int) -> dict[int, Body]:
+    """The functions that a function calls, over others too, and itself. SpirvError where one is not there, or is cut short."""
+    found: dict[int, Body] = {}
+    waiting = [start]
+    lengths = {each: kind[2] for each, kind in module.types.items() if kind[0] == op.TYPE_VECTOR and len(kind) > 2 and kind[2] <= 16}
+    while waiting:
+        identity = waiting.pop()
+        if identity in found:
+            continue
+        function = module.functions.get(identity)
+        if function is None:
+            raise SpirvError("not SPIR-V: a function that is called is not there")
+        found[identity] = _body(module, function, lengths)
+        waiting.extend(target for _, target in found[identity].calls)
+    fetching = {identity for identity, body in found.items() if body.fetches}
+    callers: dict[int, set[int]] = {}
+    for identity, body in found.items():
+        for _, target in body.calls:
+            callers.setdefault(target, set()).add(identity)
+    waiting = list(fetching)
+    while waiting:
+        new = callers.get(waiting.pop(), set()) - fetching
+        fetching |= new
+        waiting.extend(new)
+    for body in found.values():
+        body.fetches = sorted([*body.fetches, *(at for at, target in body.calls if target in fetching)])
+    return found
+
+
+def _body(module: Module, function: Function, lengths: dict[int, int]) -> Body:
+    words, at, end = module.words, function.start, function.end
+    body = Body(function)
+    roots: dict[int, int] = {}
+    label = start = 0
+    merge: int | None = None
+    continues: int | None = None
+    while at < end:
+        first = words[at]
+        length, number = first >> 16, first & 0xFFFF
+        if length < _LEAST.get(number, 1):
+            raise SpirvError("not SPIR-V: an instruction is too short")
+        after = at + length
+        if length > 2 and words[at + 1] in lengths:
+            body.vectors[words[at + 2]] = lengths[words[at + 1]]
+        if number not in _NOTED:
+            at = after
+            continue
+        if number == op.LABEL:
+            if label:
+                body.blocks[label] = Block(start, merge, continues)
+            label, start, merge, continues = words[at + 1], after, None, None
+            body.first = body.first or label
+        elif number == op.LOAD:
+            body.uses.setdefault(words[at + 3], set()).add(None)
+        elif number == op.STORE:
+            root = words[at + 1]
+            body.writes.append((at, roots.get(root, root)))
+            _use(body, words[at + 1 : at + 3])
+        elif number in _CHAINS:
+            base = words[at + 3]
+            roots[words[at + 2]] = roots.get(base, base)
+            body.uses.setdefault(base, set()).add(words[at + 4] if after > at + 4 and number != op.PTR_ACCESS_CHAIN else None)
+        elif number == op.SELECTION_MERGE:
+            merge, continues = words[at + 1], None
+        elif number == op.LOOP_MERGE:
+            merge, continues = words[at + 1], words[at + 2]
+        elif number == op.FUNCTION_CALL:
+            body.calls.append((at, words[at + 3]))
+            passed = words[at + 4 : after]
+            _use(body, passed)
+            body.writes.append((at, GLOBALS))
+            body.writes.extend((at, roots.get(each, each)) for each in passed)
+        elif number == op.VARIABLE:
+            body.locals.add(words[at + 2])
+        elif number in op.FETCHES:
+            if length > 6 and words[at + 5] & op.SAMPLE_OPERAND:
+                body.fetches.append(at)
+        elif number in op.DISCARDS:
+            body.discards = True
+        elif number == op.EXT_INST:
+            _use(body, words[at + 5 : after])
+            # Modf and Frexp write to their last operand.
+            if words[at + 4] in (35, 51) and after > at + 5:
+                root = words[after - 1]
+                body.writes.append((at, roots.get(root, root)))
+        elif number == op.COPY_OBJECT:
+            roots[words[at + 2]] = roots.get(words[at + 3], words[at + 3])
+            _use(body, words[at + 3 : at + 4])
+        elif number == op.COPY_MEMORY:
+            body.writes.append((at, roots.get(words[at + 1], words[at + 1])))
+            _use(body, words[at + 1 : at + 3])
+        elif number == op.IMAGE_TEXEL_POINTER:
+            _use(body, words[at + 3 : at + 4])
+        at = after
+    if label:
+        body.blocks[label] = Block(start, merge, continues)
+    return body
+
+
+def _use(body: Body, operands: Iterable[int]) -> None:
+    for each in operands:
+        body.uses.setdefault(each, set()).add(None)

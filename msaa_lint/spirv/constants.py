@@ -1,0 +1,107 @@
+"""The values of a module's constants, with specialisation."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from . import numbers as op
+from .module import Module
+from .values import MAX_PARTS, Opaque, Value, computed, given, literal, small
+
+MAX_DEPTH = 16
+"""Of types within types."""
+
+
+class Constants:
+    """Values by id. What is not known is opaque."""
+
+    def __init__(self, module: Module, specialization: Mapping[int, float | bool]) -> None:
+        self.module = module
+        self.values: dict[int, Value] = {}
+        for identity, made in module.constants.items():
+            value = self._value(identity, made, specialization)
+            self.values[identity] = Opaque() if value is None or not small(value) else value
+
+    def _value(self, identity: int, made: tuple[int, ...], specialization: Mapping[int, float | bool]) -> Value:
+        number, type_id, *operands = made
+        kind = self.module.types.get(type_id, ())
+        if number in (op.SPEC_CONSTANT_TRUE, op.SPEC_CONSTANT_FALSE, op.SPEC_CONSTANT):
+            spec = self.module.decoration(identity, op.SPEC_ID)
+            if spec is not None and spec in specialization:
+                return given(kind, specialization[spec])
+        if number in (op.CONSTANT_TRUE, op.SPEC_CONSTANT_TRUE):
+            return True
+        if number in (op.CONSTANT_FALSE, op.SPEC_CONSTANT_FALSE):
+            return False
+        if number in (op.CONSTANT, op.SPEC_CONSTANT):
+            return literal(kind, tuple(operands))
+        if number in (op.CONSTANT_COMPOSITE, op.SPEC_CONSTANT_COMPOSITE):
+            parts = tuple(self.values.get(part) for part in operands[: MAX_PARTS + 1])
+            return None if None in parts else parts
+        if number == op.CONSTANT_NULL:
+            return self.null(type_id)
+        if number == op.SPEC_CONSTANT_OP and operands:
+            return self._made(operands[0], kind, tuple(operands[1:]))
+        return None
+
+    def _made(self, number: int, kind: tuple[int, ...], operands: tuple[int, ...]) -> Value:
+        """What OpSpecConstantOp makes."""
+        if number == op.COMPOSITE_EXTRACT and len(operands) > 1:
+            value = self.values.get(operands[0])
+            for index in operands[1:]:
+                value = value[index] if type(value) is tuple and index < len(value) else None
+            return value
+        values = tuple(self.values.get(each) for each in operands[:3])
+        width = self.width(operands[-1]) if operands else 32
+        if not kind or kind[0] not in (op.TYPE_VECTOR,):
+            return computed(number, kind, values, width)
+        inner, count = self.module.types.get(kind[1], ()), kind[2]
+        if not all(type(each) is tuple and len(each) == count for each in values):
+            return None
+        parts = tuple(computed(number, inner, own, width) for own in zip(*values, strict=True))
+        return None if None in parts else parts
+
+    def width(self, identity: int) -> int:
+        """The bits of a constant of integers; 32 where that is not known."""
+        made = self.module.constants.get(identity)
+        return self.scalar_width(made[1]) if made is not None else 32
+
+    def scalar_width(self, type_id: int) -> int:
+        """The bits of a scalar or of a vector's components; 32 where that is not known."""
+        kind = self.module.types.get(type_id, ())
+        if kind and kind[0] == op.TYPE_VECTOR and len(kind) > 1:
+            kind = self.module.types.get(kind[1], ())
+        return kind[1] if len(kind) > 1 and kind[0] in (op.TYPE_INT, op.TYPE_FLOAT) and kind[1] in (8, 16, 32, 64) else 32
+
+    def null(self, type_id: int, depth: int = 0) -> Value:
+        """A type's zero; None where it has none, or a large one."""
+        kind = self.module.types.get(type_id, ())
+        if not kind or depth > MAX_DEPTH:
+            return None
+        if kind[0] == op.TYPE_BOOL:
+            return False
+        if kind[0] == op.TYPE_INT:
+            return 0
+        if kind[0] == op.TYPE_FLOAT:
+            return 0.0
+        parts = self.parts(kind)
+        if parts is None:
+            return None
+        made: tuple[Value, ...] = ()
+        for part in parts:
+            value = self.null(part, depth + 1)
+            made = (*made, value)
+            if value is None or not small(made):
+                return None
+        return made
+
+    def parts(self, kind: tuple[int, ...]) -> list[int] | None:
+        """The types of what a composite type consists of; None where it is none, or a large one."""
+        count: Value = None
+        if len(kind) > 2 and kind[0] in (op.TYPE_VECTOR, op.TYPE_MATRIX):
+            count = kind[2]
+        elif len(kind) > 2 and kind[0] == op.TYPE_ARRAY:
+            count = self.values.get(kind[2])
+        elif kind and kind[0] == op.TYPE_STRUCT and len(kind) - 1 <= MAX_PARTS:
+            return list(kind[1:])
+        return [kind[1]] * count if type(count) is int and 0 < count <= MAX_PARTS else None

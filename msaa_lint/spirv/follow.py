@@ -1,0 +1,340 @@
+"""Follows an entry point from block to block: which samples of multisampled images it fetches, what becomes of them, what it puts out.
+
+Conditions and loops that constants decide are followed as a GPU would; of others every way is followed, and what they disagree on is
+unknown. It takes a bounded number of steps; a shader that takes more is given up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple
+
+from . import numbers as op
+from .bodies import ANYWHERE, GLOBALS, Block, Body
+from .constants import Constants
+from .instructions import Instructions
+from .module import Module
+from .state import UNWRITTEN, GivenUp, met
+from .values import Opaque, Pointer, Value, plain
+
+MAX_NESTED = 100
+"""Constructs and calls within others."""
+
+MAX_ROUNDS, MAX_IDLE_ROUNDS = 128, 16
+"""Of a loop that constants bound, one that fetches samples and one that does not, before what it changes is taken to be unknown."""
+
+MAX_ROUNDS, MAX_IDLE_ROUNDS = 128, 16
+"""Of a loop that constants bound, one that fetches samples and one that does not, before what it changes is taken to be unknown."""
+
+MAX_DOUBTFUL = 16
+"""Rounds of a loop that fetches and may end at each: more samples no image has in practice."""
+
+RETURNED = 0
+"""In place of a label: the function returns."""
+
+_ENDS = frozenset(
+    {op.BRANCH, op.BRANCH_CONDITIONAL, op.SWITCH, op.RETURN, op.RETURN_VALUE, *op.DEAD_ENDS, op.FUNCTION_END, op.COPY_MEMORY_SIZED}
+)
+"""What ends a block, and what is not followed beyond."""
+
+_SILENT = frozenset({0, 8, op.LABEL, op.PHI, op.SELECTION_MERGE, op.LOOP_MERGE, 317, op.DEMOTE})
+"""Instructions that do nothing here: no operation, lines, merges, phis, which have their values already."""
+
+
+class _Ended(Exception):
+    """Nothing follows: a call does not return."""
+
+
+class Exit(NamedTuple):
+    """How a construct is left: to which label, with which memory and values for the label's phis, and which value is returned."""
+
+    label: int
+    memory: dict[int, Value]
+    phis: tuple[tuple[int, Value], ...]
+    value: Value = None
+
+
+class Follower(Instructions):
+    """One entry point, followed once."""
+
+    def __init__(self, module: Module, constants: Constants, bodies: dict[int, Body]) -> None:
+        super().__init__(module, constants, bodies)
+        self._calling: list[int] = []
+        self._nested = 0
+        self._instructions: dict[int, Callable[[int, int], None]] = {
+            op.LOAD: self._load, op.STORE: self._store, op.VARIABLE: self._variable, op.FUNCTION_CALL: self._call,
+            op.ACCESS_CHAIN: self._chain, op.IN_BOUNDS_ACCESS_CHAIN: self._chain, op.COPY_MEMORY: self._copy_memory,
+            op.COPY_OBJECT: self._same, op.COPY_LOGICAL: self._same, op.IMAGE: self._same, op.SAMPLED_IMAGE: self._same,
+            op.COMPOSITE_CONSTRUCT: self._construct, op.COMPOSITE_EXTRACT: self._extract, op.COMPOSITE_INSERT: self._insert,
+            op.VECTOR_SHUFFLE: self._shuffle, op.IMAGE_FETCH: self._fetch, op.IMAGE_READ: self._fetch, op.SPARSE_FETCH: self._fetch,
+            op.SPARSE_READ: self._fetch, op.IMAGE_QUERY_SAMPLES: self._query, op.EXT_INST: self._extended, 115: self._same,
+            127: self._negate, 129: self._arithmetic, 131: self._arithmetic, 133: self._arithmetic, 136: self._arithmetic,
+            142: self._arithmetic, 169: self._select,
+        }  # fmt: skip
+
+    def follow(self, function: int) -> dict[int, Value] | None:
+        """What variables hold where the entry point returns; None where it never does. GivenUp where that cannot be told."""
+        for identity, variable in self.module.variables.items():
+            if variable.storage in op.LOCAL:
+                self.holds[identity] = variable.holds
+                initial = self.constants.values.get(variable.initial) if variable.initial is not None else None
+                self.memory[identity] = UNWRITTEN if initial is None else initial
+        exits = self._function(function, ())
+        if not exits:
+            return None
+        self._resume(exits)
+        for identity, variable in self.module.variables.items():
+            if variable.storage == op.OUTPUT:
+                self._escape(self.memory[identity])
+        return self.memory
+
+    def _function(self, identity: int, passed: Sequence[Value]) -> list[Exit]:
+        if identity in self._calling or len(self._calling) > MAX_NESTED:
+            raise GivenUp
+        body = self.bodies[identity]
+        for parameter, value in zip(body.function.parameters, passed, strict=False):
+            self._assign(parameter, value)
+        self._calling.append(identity)
+        exits = self._run(body, body.first, frozenset())
+        self._calling.pop()
+        return [exit for exit in exits if exit.label == RETURNED]
+
+    def _call(self, at: int, end: int) -> None:
+        words = self.words
+        identity = words[at + 3]
+        if identity not in self.bodies:
+            raise GivenUp
+        exits = self._function(identity, [self._value(each) for each in words[at + 4 : end]])
+        if not exits:
+            raise _Ended
+        self._resume(exits)
+        value = exits[0].value
+        for exit in exits[1:]:
+            value = met(value, exit.value)
+        for root in self.bodies[identity].locals:
+            self.memory.pop(root, None)
+        self._assign(words[at + 2], Opaque() if value is None else value)
+
+    def _run(self, body: Body, label: int, stops: frozenset[int], header: int = 0) -> list[Exit]:
+        """Follows from a label (whose phis have their values) to those that stop it. `header` is the loop's that it is a round of."""
+        self._nested += 1
+        if self._nested > MAX_NESTED:
+            raise GivenUp
+        guarded = self.guarded
+        exits = self._path(body, label, stops, header)
+        self.guarded = guarded
+        self._nested -= 1
+        return exits
+
+    def _path(self, body: Body, label: int, stops: frozenset[int], header: int) -> list[Exit]:
+        exits: list[Exit] = []
+        while True:
+            block = body.blocks.get(label)
+            if block is None:
+                raise GivenUp
+            if block.continues is not None and label != header:
+                assert block.merge is not None
+                left = self._loop(body, label, block, stops)
+                arrived = [exit for exit in left if exit.label == block.merge]
+                exits += [exit for exit in left if exit.label != block.merge]
+                if not self._arrive(arrived, stops, exits):
+                    return exits
+                label = block.merge
+                continue
+            try:
+                at = self._execute(block.start, body.function.end)
+            except _Ended:
+                return exits
+            targets = self._targets(at, exits)
+            if not targets:
+                return exits
+            if len(targets) == 1:
+                if not self._go(body, label, targets[0], stops, exits):
+                    return exits
+                label, header = targets[0], 0
+                continue
+            merge = block.merge if block.continues is None else None
+            left = self._ways(body, label, targets, stops if merge is None else stops | {merge})
+            if merge is None or merge in stops:
+                return exits + left
+            arrived = [exit for exit in left if exit.label == merge]
+            exits += [exit for exit in left if exit.label != merge]
+            if not self._arrive(arrived, stops, exits):
+                return exits
+            # Where one way goes elsewhere, the rest is not always reached.
+            self.guarded += len(arrived) < len(left)
+            label, header = merge, 0
+
+    def _ways(self, body: Body, label: int, targets: Sequence[int], stops: frozenset[int]) -> list[Exit]:
+        """Every way from a branch that is not decided."""
+        before = self.memory
+        exits: list[Exit] = []
+        self.guarded += 1
+        for target in targets:
+            self._take(len(before) >> 4)
+            self.memory = dict(before)
+            if self._go(body, label, target, stops, exits):
+                exits += self._run(body, target, stops)
+        self.guarded -= 1
+        return exits
+
+    def _loop(self, body: Body, label: int, block: Block, stops: frozenset[int]) -> list[Exit]:
+        """The rounds of a loop, to how it is left."""
+        merge, continues = block.merge, block.continues
+        assert merge is not None and continues is not None
+        begin, end = block.start, body.blocks[merge].start if merge in body.blocks else 0
+        begun, before = len(self.assigned), dict(self.memory)
+        fetching = body.fetching(begin, end)
+        left: list[Exit] = []
+        rounds = doubtful = 0
+        widened = False
+        while True:
+            exits = self._run(body, label, stops | {merge, continues, label}, label)
+            again = [exit for exit in exits if exit.label == continues]
+            if again and continues != label:
+                exits = [exit for exit in exits if exit.label != continues]
+                self._resume(again)
+                exits += self._run(body, continues, stops | {merge, label})
+            back = [exit for exit in exits if exit.label == label]
+            out = [exit for exit in exits if exit.label != label]
+            left += out
+            if not back:
+                break
+            self._resume(back)
+            rounds += 1
+            doubtful += bool(out)
+            self.guarded += bool(out)
+            if widened:
+                self._forget(body, label, begin, end, before, True)
+                break
+            if doubtful > (MAX_DOUBTFUL if fetching else 0) or rounds >= (MAX_ROUNDS if fetching else MAX_IDLE_ROUNDS):
+                widened = True
+                self._forget(body, label, begin, end, before, False)
+        self.guarded -= doubtful
+        if doubtful or len(left) > 1:
+            # What was made in a round is not that of the last one.
+            for identity in set(self.assigned[begun:]):
+                self.values[identity] = Opaque((self.values[identity],))
+        return left
+
+    def _forget(self, body: Body, label: int, begin: int, end: int, before: dict[int, Value], used: bool) -> None:
+        """What a loop may change is not known before a round; `used` says that what it has now was."""
+        roots = {root for root, value in self.memory.items() if before.get(root) is not value}
+        for root in body.written(begin, end) if end > begin else {ANYWHERE}:
+            pointer = self.values.get(root)
+            roots.add(pointer.root if isinstance(pointer, Pointer) else root)
+        if GLOBALS in roots:
+            roots.update(self.module.variables)
+        unknown = ANYWHERE in roots or any(root > 0 and root not in self.memory and root not in self.module.variables for root in roots)
+        phis = self._phis(body, label, 0)
+        for root in list(self.memory) if unknown else [root for root in roots if root in self.memory]:
+            if used:
+                self._escape(self.memory[root])
+            self.memory[root] = Opaque((self.memory[root],))
+        for identity, _ in phis:
+            value = self.values.get(identity)
+            if used:
+                self._escape(value)
+            self._assign(identity, Opaque((value,)))
+
+    def _targets(self, at: int, exits: list[Exit]) -> list[int]:
+        """The labels that the end of a block leads to; none where the function ends there."""
+        words = self.words
+        number, end = words[at] & 0xFFFF, at + (words[at] >> 16)
+        if number == op.BRANCH:
+            return [words[at + 1]]
+        if number == op.BRANCH_CONDITIONAL:
+            condition = self._value(words[at + 1])
+            if plain(condition):
+                return [words[at + 2] if condition else words[at + 3]]
+            self._escape(condition)
+            return list(dict.fromkeys(words[at + 2 : at + 4]))
+        if number == op.SWITCH:
+            if op.INT64 in self.module.capabilities:
+                # Literals may have two words.
+                raise GivenUp
+            selector = self._value(words[at + 1])
+            pairs = list(zip(words[at + 3 : end : 2], words[at + 4 : end : 2], strict=False))
+            if plain(selector):
+                wanted = int(selector) & 0xFFFFFFFF
+                return [next((label for literal, label in pairs if literal == wanted), words[at + 2])]
+            self._escape(selector)
+            return list(dict.fromkeys([words[at + 2], *(label for _, label in pairs)]))
+        if number == op.RETURN:
+            exits.append(Exit(RETURNED, self.memory, ()))
+        elif number == op.RETURN_VALUE:
+            exits.append(Exit(RETURNED, self.memory, (), self._value(words[at + 1])))
+        elif number not in op.DEAD_ENDS:
+            raise GivenUp
+        return []
+
+    def _go(self, body: Body, source: int, target: int, stops: frozenset[int], exits: list[Exit]) -> bool:
+        """Goes to a label; notes an exit instead where that stops."""
+        phis = tuple(self._phis(body, target, source))
+        if target in stops:
+            exits.append(Exit(target, self.memory, phis))
+            return False
+        for identity, value in phis:
+            self._assign(identity, value)
+        return True
+
+    def _arrive(self, arrived: list[Exit], stops: frozenset[int], exits: list[Exit]) -> bool:
+        """Goes on where several ways meet; notes them as exits where that stops."""
+        if arrived and arrived[0].label in stops:
+            exits += arrived
+            return False
+        if not arrived:
+            return False
+        self._resume(arrived)
+        return True
+
+    def _phis(self, body: Body, label: int, source: int) -> Iterable[tuple[int, Value]]:
+        """The phis of a label with their values on the way from another."""
+        block = body.blocks.get(label)
+        if block is None:
+            raise GivenUp
+        words, at = self.words, block.start
+        found = []
+        while words[at] & 0xFFFF in (op.PHI, 8, 317):
+            end = at + (words[at] >> 16)
+            if words[at] & 0xFFFF == op.PHI:
+                pairs = zip(words[at + 3 : end : 2], words[at + 4 : end : 2], strict=False)
+                value = next((self._value(value) for value, parent in pairs if parent == source), None)
+                found.append((words[at + 2], Opaque() if value is None else value))
+            at = end
+        return found
+
+    def _resume(self, exits: Sequence[Exit]) -> None:
+        """Goes on from where several ways meet, with what they agree on."""
+        memory = exits[0].memory
+        if len(exits) > 1:
+            self._take(sum(len(exit.memory) for exit in exits) >> 3)
+            memory = dict(memory)
+            for exit in exits[1:]:
+                for root, value in exit.memory.items():
+                    own = memory.get(root, UNWRITTEN)
+                    if own is not value:
+                        memory[root] = met(own, value)
+        self.memory = memory
+        for n, (identity, value) in enumerate(exits[0].phis):
+            for exit in exits[1:]:
+                value = met(value, exit.phis[n][1])
+            self._assign(identity, value)
+
+    def _execute(self, at: int, end: int) -> int:
+        """The instructions of a block from a place on, to the one that ends it."""
+        words, known = self.words, self._instructions
+        while at < end:
+            first = words[at]
+            number, after = first & 0xFFFF, at + (first >> 16)
+            self.steps -= 1
+            if self.steps < 0:
+                raise GivenUp
+            if number in known:
+                known[number](at, after)
+            elif number in _ENDS:
+                return at
+            elif number not in _SILENT:
+                self._other(number, at, after)
+            at = after
+        raise GivenUp

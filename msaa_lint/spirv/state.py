@@ -1,0 +1,264 @@
+"""What is known while an entry point is followed: values by id, memory, and what was seen of multisampled images."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from . import numbers as op
+from .bodies import Body
+from .constants import Constants
+from .module import Module
+from .values import Extreme, Opaque, Pointer, Sum, Value, plain, small
+
+MAX_STEPS = 300_000
+"""Instructions that are followed, of the largest modules; small ones get fewer."""
+
+UNWRITTEN = Opaque()
+"""What a variable holds before something is stored to it."""
+
+
+class GivenUp(Exception):
+    """The shader takes more steps than are followed, or does what is not understood."""
+
+
+ImageKey = tuple[int, tuple[Value, ...]]
+"""An image: its variable, and the indices into an array of images."""
+
+
+class Seen:
+    """What was seen of a multisampled image: the samples fetched, whether others may have been, what became of the values."""
+
+    __slots__ = ("always", "queried", "samples", "unknown", "uses")
+
+    def __init__(self) -> None:
+        self.samples: set[int] = set()
+        self.always: set[int] = set()
+        """Those that no undecided condition keeps from being fetched."""
+        self.unknown = False
+        self.queried = False
+        self.uses: set[tuple[str, frozenset[int]]] = set()
+
+
+class Site:
+    """What was seen of one instruction that fetches: the image (None where unknown) and the sample operands."""
+
+    __slots__ = ("current", "images", "samples", "unknown")
+
+    def __init__(self) -> None:
+        self.images: set[ImageKey | None] = set()
+        self.samples: list[int] = []
+        self.unknown = False
+        self.current = False
+        """The sample that the invocation shades."""
+
+
+class State:
+    """What is known at a place of an entry point."""
+
+    def __init__(self, module: Module, constants: Constants, bodies: dict[int, Body]) -> None:
+        self.module = module
+        self.words = module.words
+        self.constants = constants
+        self.bodies = bodies
+        self.steps = min(50_000 + len(module.words) // 2, MAX_STEPS)
+        self.values: dict[int, Value] = {}
+        self.assigned: list[int] = []
+        """The ids that were given values, in that order."""
+        self.memory: dict[int, Value] = {}
+        """What variables hold that only this invocation can write."""
+        self.holds: dict[int, int] = {}
+        """The types of variables."""
+        self.guarded = 0
+        """Undecided conditions that what is followed hangs on."""
+        self.images: dict[ImageKey, Seen] = {}
+        self.sites: dict[int, Site] = {}
+        self._fetched: list[ImageKey] = []
+        self._places: dict[tuple[object, ...], int] = {}
+        """What was fetched, by image and place: its number."""
+        self._known: dict[tuple[object, ...], Opaque] = {}
+        self._lengths: dict[int, int] = {}
+        for body in bodies.values():
+            self._lengths.update(body.vectors)
+
+    def _take(self, steps: int) -> None:
+        self.steps -= steps
+        if self.steps < 0:
+            raise GivenUp
+
+    def _assign(self, identity: int, value: Value) -> None:
+        self.values[identity] = value if small(value) else Opaque((value,))
+        self.assigned.append(identity)
+
+    def _value(self, identity: int) -> Value:
+        value = self.values.get(identity)
+        if value is None:
+            value = self.constants.values.get(identity)
+        if value is None:
+            value = Pointer(identity, ()) if identity in self.module.variables else self._same_as("id", identity)
+        return value
+
+    def _same_as(self, *made: object) -> Opaque:
+        """What is not known, and the same whenever it is made so."""
+        found = self._known.get(made)
+        if found is None:
+            found = self._known[made] = Opaque()
+            found.origin = made
+        return found
+
+    def _kind(self, type_id: int) -> tuple[int, ...]:
+        return self.module.types.get(type_id, ())
+
+    def _width(self, type_id: int) -> int:
+        """Components of a vector; 1 of a scalar, 0 of anything else."""
+        kind = self._kind(type_id)
+        if kind and kind[0] in (op.TYPE_BOOL, op.TYPE_INT, op.TYPE_FLOAT):
+            return 1
+        return kind[2] if len(kind) > 2 and kind[0] == op.TYPE_VECTOR and 0 < kind[2] <= 16 else 0
+
+    def _length(self, identity: int, value: Value) -> int:
+        """How many components a vector has; 0 for a scalar."""
+        return len(value) if type(value) is tuple else self._lengths.get(identity, 0)
+
+    def _components(self, value: Value, count: int) -> tuple[Value, ...] | None:
+        """The parts of a value that has so many; None where that makes no sense."""
+        if type(value) is tuple:
+            return value if len(value) == count else None
+        if value is UNWRITTEN:
+            return (UNWRITTEN,) * count
+        if type(value) is not Opaque:
+            return None
+        if value.held:
+            return tuple(Opaque((value,)) for _ in range(count))
+        return tuple(self._same_as("part", value, n) for n in range(count))
+
+    def _escape(self, value: Value) -> None:
+        """A value is used for something that is not followed."""
+        waiting = [value]
+        roots: set[int] = set()
+        while waiting:
+            each = waiting.pop()
+            if type(each) is tuple:
+                waiting.extend(each)
+            elif type(each) is Opaque:
+                if each.held:
+                    self._take(len(each.held))
+                    waiting.extend(each.held)
+                    each.held = ()
+            elif type(each) is Sum:
+                for fetched in {term[0] for term in each.terms}:
+                    self._used(fetched, "OTHER", ())
+            elif type(each) is Extreme:
+                self._extreme_used(each)
+            elif type(each) is Pointer:
+                waiting.extend(each.path)
+                if each.root in self.memory and each.root not in roots:
+                    # A variable may hold a pointer to itself.
+                    roots.add(each.root)
+                    self._take(1)
+                    waiting.append(self.memory[each.root])
+
+    def _extreme_used(self, value: Extreme) -> None:
+        sources = {(term[0], term[1]) for term in value.terms}
+        for fetched, _ in sources:
+            kind = value.kind if len(sources) == 1 else "OTHER"
+            self._used(fetched, kind, (term[2] for term in value.terms))
+
+    def _used(self, fetched: int, kind: str, samples: Iterable[int]) -> None:
+        self.images[self._fetched[fetched]].uses.add((kind, frozenset(samples)))
+
+    def _settled(self, value: Sum) -> Value:
+        """A sum that is an average of all samples is no longer of interest; what becomes of the average is not asked."""
+        average = value.average()
+        if average is None:
+            return value
+        fetched, count = average
+        self._used(fetched, "AVERAGE", range(count))
+        return self._same_as("average", fetched, next(iter(value.terms))[1], count)
+
+    def _loaded(self, pointer: Value) -> Value:
+        if not isinstance(pointer, Pointer):
+            self._escape(pointer)
+            return Opaque()
+        if pointer.root not in self.memory:
+            variable = self.module.variables.get(pointer.root)
+            for index in pointer.path:
+                self._escape(index)
+            if variable is None or not self._read_only(variable.storage, variable.holds):
+                return Opaque()
+            return self._same_as("load", pointer.root, tuple(map(keyed, pointer.path)))
+        value = self.memory[pointer.root]
+        for index in pointer.path:
+            if type(index) is not int:
+                self._escape(value)
+                self._escape(index)
+                return Opaque()
+            if type(value) is tuple:
+                value = value[index] if 0 <= index < len(value) else Opaque()
+            elif value is not UNWRITTEN:
+                if type(value) is not Opaque or value.held:
+                    self._escape(value)
+                    return Opaque()
+                value = self._same_as("part", value, index)
+        return value
+
+    def _read_only(self, storage: int, holds: int) -> bool:
+        """Whether what a variable holds is the same whenever it is read."""
+        if storage != op.UNIFORM:
+            return storage in op.READ_ONLY
+        kind = self._kind(holds)
+        inner = kind[1] if len(kind) > 1 and kind[0] == op.TYPE_ARRAY else holds
+        return self.module.decoration(inner, op.BUFFER_BLOCK) is None
+
+    def _stored(self, pointer: Value, value: Value) -> None:
+        if not isinstance(pointer, Pointer) and self.module.capabilities.isdisjoint(op.ANY_POINTERS):
+            raise GivenUp
+        if not isinstance(pointer, Pointer) or pointer.root not in self.memory:
+            self._escape(pointer)
+            self._escape(value)
+            return
+        whole = self._put(self.memory[pointer.root], pointer.path, value, self.holds.get(pointer.root, 0))
+        self.memory[pointer.root] = whole if small(whole) else Opaque((whole,))
+
+    def _put(self, before: Value, path: tuple[Value, ...], value: Value, type_id: int) -> Value:
+        """A value with a part of it replaced."""
+        if not path:
+            return value
+        kind, index = self._kind(type_id), path[0]
+        parts = self.constants.parts(kind) if kind else None
+        own = self._components(before, len(parts)) if parts is not None else None
+        if parts is None or own is None or type(index) is not int or not 0 <= index < len(parts):
+            self._escape(index)
+            return Opaque((before, value))
+        return (*own[:index], self._put(own[index], path[1:], value, parts[index]), *own[index + 1 :])
+
+    def _image(self, value: Value) -> ImageKey | None:
+        """The image that a value stands for; None where it is not known."""
+        origin = value.origin if type(value) is Opaque else ()
+        return (origin[1], origin[2]) if origin and origin[0] == "load" else None
+
+
+def met(one: Value, other: Value) -> Value:
+    """What two ways agree on. What one of them never wrote is the other's."""
+    if one is other or other is UNWRITTEN:
+        return one
+    if one is UNWRITTEN:
+        return other
+    if type(one) is type(other):
+        if type(one) is tuple and len(one) == len(other):
+            return tuple(met(a, b) for a, b in zip(one, other, strict=True))
+        if (
+            (type(one) is Sum or type(one) is Extreme)
+            and one.terms == other.terms
+            and getattr(one, "kind", "") == getattr(other, "kind", "")
+        ):
+            return one
+        if (plain(one) or type(one) is Pointer) and one == other:
+            return one
+    return Opaque((one, other))
+
+
+def keyed(value: Value) -> object:
+    """A value as part of a key: 1, 1.0 and true are three."""
+    if type(value) is tuple:
+        return tuple(map(keyed, value))
+    return (type(value), value) if plain(value) else value

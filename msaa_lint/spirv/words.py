@@ -1,0 +1,56 @@
+"""SPIR-V as words and instructions, in either byte order."""
+
+from __future__ import annotations
+
+import array
+from collections.abc import Iterator
+
+MAGIC = 0x07230203
+HEADER = 5
+"""Words of the header."""
+
+OP_NAME, OP_ENTRY_POINT, OP_VARIABLE, OP_STORE, OP_DECORATE = 5, 15, 59, 62, 71
+LEAST = {OP_NAME: 2, OP_ENTRY_POINT: 4, OP_VARIABLE: 4, OP_STORE: 3, OP_DECORATE: 3}
+"""Words that these have at least."""
+
+
+class SpirvError(ValueError):
+    """What is wrong with bytes that were to be SPIR-V, in words."""
+
+
+def words_of(code: bytes) -> array.array[int]:
+    """The words of SPIR-V in this machine's order. SpirvError where it is none."""
+    if len(code) < 4 * HEADER or len(code) % 4:
+        raise SpirvError("not SPIR-V: its length is none of whole words")
+    words = array.array("I", code)
+    if words[0] != MAGIC:
+        words.byteswap()
+    if words[0] != MAGIC:
+        raise SpirvError("not SPIR-V: it does not begin with its number")
+    return words
+
+
+def instructions(words: array.array[int]) -> Iterator[tuple[int, array.array[int]]]:
+    """Every instruction: its number, and its words. SpirvError where one goes beyond the end."""
+    at = HEADER
+    while at < len(words):
+        length = words[at] >> 16
+        if not length or at + length > len(words):
+            raise SpirvError("not SPIR-V: an instruction goes beyond its end")
+        if length < LEAST.get(words[at] & 0xFFFF, 1):
+            raise SpirvError("not SPIR-V: an instruction is too short")
+        yield words[at] & 0xFFFF, words[at : at + length]
+        at += length
+
+
+def text_at(words: array.array[int], start: int, end: int) -> tuple[str, int]:
+    """A text that begins at a word, and the word after it. SpirvError where it does not end before `end`."""
+    made = bytearray()
+    for at in range(start, end):
+        part = words[at].to_bytes(4, "little")
+        zero = part.find(0)
+        if zero >= 0:
+            made += part[:zero]
+            return made.decode("utf-8", "replace"), at + 1
+        made += part
+    raise SpirvError("not SPIR-V: a text does not end")
