@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 _TEXT = re.compile(rb"\s*(?:Thread \d+, Frame \d+|vk[A-Z]\w{1,80}\([\w, ]{0,500}\) returns )")
+_WORDS = (b'"vkFunc"', b'"apiCalls"', b'"gfxrecon-version"', b"<rdc>")
 _COMPRESSED = ((b"\x1f\x8b", "gzip -d"), (b"\x28\xb5\x2f\xfd", "zstd -d"), (b"\xfd7zXZ\0", "xz -d"), (b"\x04\x22\x4d\x18", "lz4 -d"))
 
 
@@ -25,7 +26,7 @@ def hint(head: bytes) -> str | None:
     for magic, command in _COMPRESSED:
         if head.startswith(magic):
             return f"a compressed file: decompress it with `{command} FILE`"
-    if head.startswith((b"\xff\xfe", b"\xfe\xff")):
+    if head.startswith((b"\xff\xfe", b"\xfe\xff")) and any(word in head.replace(b"\0", b"") for word in _WORDS):
         return "text in UTF-16, as PowerShell's `>` writes it: let the tool write the file itself (`--output FILE`), or convert it to UTF-8"
     return None
 

@@ -168,10 +168,13 @@ def test_what_is_not_shown_is_not_fixed(folder: Path) -> None:
 
 
 def test_what_cannot_be_fixed_says_why(folder: Path) -> None:
-    shared = STORED.replace("{image: ms, loadOp: CLEAR, storeOp: STORE}", "&c {image: ms, loadOp: CLEAR, storeOp: STORE}\n      spare: *c")
+    color = "{image: ms, loadOp: CLEAR, storeOp: STORE}"
+    shared = STORED.replace(color, f"&c {color}\n      normals: {{<<: *c, image: kept}}")
+    shared = shared.replace("images:\n", "images:\n  kept: {format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT, SAMPLED]}\n")
+    shared = shared.replace("[color]", "[color, normals]").replace("[output]", "[output, null]")
     (folder / "frame.msaa.yaml").write_text(shared, encoding="utf-8")
     done = run(folder, "check", ".", "--fix")
-    reason = "frame.msaa.yaml:7: multisampled-attachment-stored is not fixed: others take over this `storeOp` by an anchor"
+    reason = "frame.msaa.yaml:8: multisampled-attachment-stored is not fixed: others take over this `storeOp` by an anchor"
     assert reason in done.stderr
 
 

@@ -301,7 +301,7 @@ class TestSamples:
     (b"vkCreateInstance(pCreateInfo, pAllocator, pInstance) returns VkResult VK_SUCCESS (0):\n", "VK_APIDUMP_OUTPUT_FORMAT=json"),
     (b"\x1f\x8b\x08\0", "gzip -d"),
     (b"\x28\xb5\x2f\xfd", "zstd -d"),
-    (b"\xff\xfe[\0", "UTF-16"),
+    ('[{"frameNumber": "0", "apiCalls": []}]'.encode("utf-16"), "UTF-16"),
 ])  # fmt: skip
 def test_hints(head: bytes, says: str) -> None:
     found = hint(head)

@@ -26,7 +26,8 @@ JUDGE = Judge(CATALOGUE.rules)
 ELSEWHERE = (
     *("image.", "scene.", "device.", "frame.", "enabled.depth_stencil_resolve", "subpass.has_pipelines"),
     *("subpass.partial_coverage", "subpass.tile_known"),
-    *("aspect.read_later", "aspect.costly_operations", "resolve.source_encoding"),
+    *("aspect.read_later", "aspect.costly_operations", "aspect.store_wasted", "resolve.source_encoding"),
+    *("resolve.target_read", "resolve.waited_for", "resolve.resolved_anew"),
 )
 """Facts that a dump of one pipeline cannot have."""
 
