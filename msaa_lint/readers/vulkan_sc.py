@@ -60,6 +60,10 @@ def _graphics(binder: Binder, description: Description, state: Node) -> None:
     made_pipeline: Pipeline = binder.record(Pipeline, _plain(pipeline), path, "GraphicsPipeline", state.keys["GraphicsPipeline"].span)
     # `renderPass` is the number that the tool gave the render pass above.
     made_pipeline.renderPass = name or None
+    for stage in made_pipeline.stages:
+        # A module is a number of the tool's as well, no path.
+        stage.module = None
+        stage.spelled.pop("module", None)
     description.pipelines = {"GraphicsPipeline": made_pipeline}
 
 

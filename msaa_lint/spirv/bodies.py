@@ -68,6 +68,7 @@ _LEAST = {
     op.COMPOSITE_EXTRACT: 4, op.COMPOSITE_INSERT: 5, op.COPY_OBJECT: 4, op.COPY_LOGICAL: 4, op.SAMPLED_IMAGE: 5, op.IMAGE_FETCH: 5,
     op.IMAGE_READ: 5, op.SPARSE_FETCH: 5, op.SPARSE_READ: 5, op.IMAGE: 4, op.IMAGE_QUERY_SAMPLES: 4, op.PHI: 3, op.LOOP_MERGE: 4,
     op.SELECTION_MERGE: 3, op.LABEL: 2, op.BRANCH: 2, op.BRANCH_CONDITIONAL: 4, op.SWITCH: 3, op.RETURN_VALUE: 2,
+    115: 4, 127: 4, 129: 5, 131: 5, 133: 5, 136: 5, 142: 5, 169: 6,
 }  # fmt: skip
 """The words that instructions of functions have at least."""
 
