@@ -5,61 +5,23 @@ A line of carets under a line of input marks what must be found there, and nothi
 
 from __future__ import annotations
 
-import re
-import textwrap
-from string import Template
-
 import pytest
 
-from msaa_lint.catalogue import load
-from msaa_lint.engine import Engine, Linted
-from msaa_lint.page import Rule
+from msaa_lint.engine import Linted
+
+from . import watched as given_frames
 
 WATCHED = {f"MSAA{number}" for number in (201, 202, 203, 204, 205, 206, 207, 210, 215, 602)}
-
-CATALOGUE = load()
-ENGINE = Engine(CATALOGUE)
-
-_MARK = re.compile(
-    r"^#\s*(?P<carets>\^+)\s*(?P<code>MSAA\d{3})(?: (?P<severity>error|warning|note))?(?: (?P<confidence>high|medium|low))?$"
-)
-
-
-def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
-    return suggested
 
 
 def lint(text: str, **values: str) -> Linted:
     """Lints a text, in which `$name` stands for a value."""
-    linted = ENGINE.lint(textwrap.dedent(Template(text).substitute(values)).encode(), "frame.yaml", as_written)
-    assert not [found.message for found in linted.findings if found.fatal]
-    return linted
+    return given_frames.lint(given_frames.given_text(text, **values))
 
 
 def check(text: str, **values: str) -> Linted:
-    """Lints a text: the watched rules fire at its marks and nowhere else, weighing what the marks say. Gives what was found."""
-    text = textwrap.dedent(Template(text).substitute(values)).strip("\n") + "\n"
-    linted = lint(text)
-    assert linted.source is not None
-    found = {}
-    for finding in linted.findings:
-        if finding.code in WATCHED:
-            assert finding.span is not None
-            start, end = linted.source.position(finding.span.start), linted.source.position(finding.span.end)
-            found[finding.code, start.line, start.column, end.line, end.column] = finding
-    above = 0
-    expected = {}
-    for number, line in enumerate(text.splitlines(), 1):
-        mark = _MARK.match(line)
-        if mark is None:
-            above = number
-        else:
-            expected[mark["code"], above, mark.start("carets") + 1, above, mark.end("carets") + 1] = mark
-    assert sorted(found) == sorted(expected)
-    for key, mark in expected.items():
-        assert mark["severity"] in (None, found[key].severity)
-        assert mark["confidence"] in (None, found[key].confidence)
-    return linted
+    """As `watched.check`, of the watched rules; `$name` stands for a value."""
+    return given_frames.check(given_frames.given_text(text, **values), WATCHED)
 
 
 def undecided(linted: Linted) -> set[tuple[str, str]]:
