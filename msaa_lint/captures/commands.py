@@ -8,8 +8,10 @@ from ..document.records import BeginRendering, RenderingAttachment
 from . import values
 from .call import Call
 from .objects import DescriptorSet, Image, frozen
-from .recording import Begin, CommandBuffer, Commands, Reads, Recorded, draw_key, drawn
+from .recording import FEW, Begin, CommandBuffer, Commands, Reads, Recorded, draw_key, drawn
 from .structures import Tree, described
+
+GRAPHICS = ("VK_PIPELINE_BIND_POINT_GRAPHICS", 0, "0")
 
 BOUNDARIES = ("beginRenderPass", "beginRendering", "nextSubpass", "endRenderPass", "endRendering")
 """Commands at which a pass or a subpass begins or ends."""
@@ -163,7 +165,7 @@ class Recorder:
     # State, draws and dispatches.
 
     def on_CmdBindPipeline(self, call: Call) -> None:
-        if call.args.get("pipelineBindPoint") in ("VK_PIPELINE_BIND_POINT_GRAPHICS", 0, "0"):
+        if call.args.get("pipelineBindPoint") in GRAPHICS:
             self.buffer(call).pipeline = self.pipelines.get(values.handle(call.args.get("pipeline")))
 
     def on_CmdBindShaders(self, call: Call) -> None:
@@ -172,25 +174,31 @@ class Recorder:
     def on_CmdSetRasterizationSamples(self, call: Call) -> None:
         count = values.samples(call.args.get("rasterizationSamples"))
         if count is not None:
-            self.buffer(call).samples = count
+            buffer = self.buffer(call)
+            buffer.samples = count
+            # A draw after it is not the one before it.
+            buffer.many.clear()
 
     def on_CmdBindDescriptorSets(self, call: Call) -> None:
         buffer = self.buffer(call)
         point = call.args.get("pipelineBindPoint")
-        bound = buffer.bound if point in ("VK_PIPELINE_BIND_POINT_GRAPHICS", 0, "0") else buffer.compute_bound
-        first = values.integer(call.args.get("firstSet")) or 0
-        for offset, item in enumerate(values.items(call.args.get("pDescriptorSets"))[:64]):
+        bound = buffer.bound if point in GRAPHICS else buffer.compute_bound
+        slot = values.integer(call.args.get("firstSet")) or 0
+        for item in values.items(call.args.get("pDescriptorSets"))[:64]:
             found = self.sets.get(values.handle(item))
-            if found is not None:
-                bound[first + offset] = found
-            else:
-                bound.pop(first + offset, None)
-        buffer.fresh = True
+            if found is not bound.get(slot):
+                # The same set again, with other offsets, shows the same images.
+                buffer.fresh = True
+                if found is not None:
+                    bound[slot] = found
+                else:
+                    del bound[slot]
+            slot += 1
 
     def on_CmdPushDescriptorSet(self, call: Call) -> None:
         buffer = self.buffer(call)
         point = call.args.get("pipelineBindPoint")
-        bound = buffer.bound if point in ("VK_PIPELINE_BIND_POINT_GRAPHICS", 0, "0") else buffer.compute_bound
+        bound = buffer.bound if point in GRAPHICS else buffer.compute_bound
         pushed = DescriptorSet()
         index = values.integer(call.args.get("set")) or 0
         before = bound.get(index)
@@ -231,13 +239,22 @@ class Recorder:
 
     def _draw(self, call: Call, counted: str) -> None:
         """A draw of so many vertices or indices, or (without a word for it) of as many as a buffer says."""
-        buffer = self.buffer(call)
+        args = call.args
+        handle = args.get("commandBuffer")
+        buffer = (self.buffers.get(handle) if type(handle) is int else None) or self.buffer(call)
+        if not buffer.fresh and buffer.pipeline in buffer.many:
+            # One of many like it, as most draws are.
+            count = args.get(counted)
+            if type(count) is int and count > FEW:
+                return
         detail = drawn(counted, call.args)
         key = draw_key(buffer.pipeline, counted, *detail)
-        if buffer.fresh and buffer.bound:
+        if buffer.fresh:
             self._reads(buffer, buffer.bound, "FRAGMENT", call)
             buffer.fresh = False
         buffer.once(self.commands.command("draw", (*key, buffer.dynamic_samples), call, detail))
+        if counted and key[2] is None:
+            buffer.many.add(buffer.pipeline)
 
     def on_CmdDispatch(self, call: Call) -> None:
         buffer = self.buffer(call)
@@ -249,7 +266,10 @@ class Recorder:
         # What a set holds is looked up later: it may be filled after it is bound, where it says so.
         if bound:
             buffer.reads = True
-            buffer.record(self.commands.command("reads", Reads(tuple(each for _, each in sorted(bound.items())), stage), call))
+            sets = tuple(each for _, each in sorted(bound.items())) if len(bound) > 1 else tuple(bound.values())
+            reads = self.commands.command("reads", Reads(sets, stage), call)
+            # Between dispatches an image may be written anew, which within a pass it is not.
+            (buffer.once if stage == "FRAGMENT" else buffer.record)(reads)
 
     # Submission.
 

@@ -71,7 +71,7 @@ class Commands:
 class CommandBuffer:
     """A command buffer while it is recorded, and what it holds then. `seen` are the draws and clears of the subpass that is recorded."""
 
-    __slots__ = ("bound", "compute_bound", "fresh", "pipeline", "reads", "recorded", "samples", "seen")
+    __slots__ = ("bound", "compute_bound", "fresh", "many", "pipeline", "reads", "recorded", "samples", "seen")
 
     def __init__(self) -> None:
         self.recorded: list[Recorded] = []
@@ -81,6 +81,8 @@ class CommandBuffer:
         self.bound: dict[int, DescriptorSet] = {}
         self.compute_bound: dict[int, DescriptorSet] = {}
         self.seen: set[Recorded] = set()
+        self.many: set[Pipeline | None] = set()
+        """The pipelines with which many vertices were drawn in the subpass."""
         self.fresh = True
         """Whether descriptor sets were bound since the last draw of the subpass."""
         self.samples: int | None = None
@@ -104,6 +106,7 @@ class CommandBuffer:
     def boundary(self) -> None:
         """A pass or a subpass begins or ends: what is drawn from here on is noted anew."""
         self.seen.clear()
+        self.many.clear()
         self.fresh = True
 
 
