@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from hypothesis import strategies as st
 
-from msaa_lint.finding import CONFIDENCES, SEVERITIES, Edit, Finding, Fix, Label, Price, Result, Span, Suppressed, Undecided
+from msaa_lint.finding import CONFIDENCES, SEVERITIES, Edit, Finding, Fix, Label, Price, Result, Seen, Span, Suppressed, Undecided
 
 from .sample import RULES, Source
 
@@ -66,6 +66,7 @@ TOKENS = (
 texts = st.lists(st.one_of(st.sampled_from(TOKENS), st.text(st.characters(exclude_categories=()), max_size=5)), max_size=5).map("".join)
 names = texts.map(lambda text: text or "x")
 figures = st.one_of(st.floats(), st.just(0.0))
+counts = st.one_of(st.none(), st.integers(0, 2**63))
 
 
 @st.composite
@@ -88,6 +89,7 @@ def findings(draw: st.DrawFn, text: str, file: str) -> Finding:
         help=texts,
         fix=st.one_of(st.none(), st.builds(Fix, texts, st.booleans(), edits)),
         price=st.one_of(st.none(), st.builds(Price, figures, figures, figures, figures)),
+        seen=st.one_of(st.none(), st.builds(Seen, texts, counts, st.one_of(st.none(), st.integers(1, 240)), st.just(240))),
     )
     return draw(made)
 
