@@ -95,3 +95,7 @@ def test_fingerprints_count_what_agrees() -> None:
 
 def test_fingerprint_of_a_lone_surrogate() -> None:
     assert len(fingerprint(finding(file="\udc80", subject="\ud800"), 0)) == 32
+
+
+def test_a_name_that_ends_in_a_colon_begins_no_order_with_the_colon_after_it() -> None:
+    assert shown_path(":", "") == "./:"
