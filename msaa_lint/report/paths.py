@@ -27,8 +27,8 @@ def relative(file: str, root: str, resolve: bool = False) -> str:
 
 
 def shown_path(file: str, root: str) -> str:
-    """`relative` for a text output. A CI runner takes a line that begins with `::` as an order, so a name that, with the colon after it, could
-    begin one gets `./` before it."""
+    """`relative` for a text output. A CI runner takes a line that begins with `::` as an order, so a name that could begin one, with the
+    colon that comes after it, gets `./` before it."""
     path = visible(relative(file, root))
     return "./" + path if path.lstrip().startswith((":", "##")) else path
 
