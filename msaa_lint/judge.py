@@ -31,6 +31,11 @@ class Verdicts(NamedTuple):
     mends: Mends
 
 
+Rules = list[tuple[Rule, Condition]]
+
+Told = tuple[Rule, "bool | ArithmeticError | None", tuple[str, ...]]
+"""A rule, what it says of some facts, and the facts that it lacks where that is None."""
+
 MOST_REMEMBERED = 4096
 """Sets of facts whose answers are remembered: some 6 MB."""
 
@@ -47,7 +52,10 @@ class Judge:
             self._by_subject.setdefault(rule.subject, []).append(rule)
         self._conditions: dict[str, Condition] = {}
         self._asked: dict[str, tuple[str, ...]] = {}
-        self._remembered: dict[tuple[object, ...], dict[str, bool | None]] = {}
+        self._remembered: dict[tuple[object, ...], _Known] = {}
+        self._severity: object = None
+        self._on: dict[str, Rules] = {}
+        """By kind of subject the rules that are on, by the last `severity` that was asked."""
 
     def judge(self, subjects: Iterable[Subject], file: str, severity: Callable[[Rule, str, str | None], str | None]) -> Verdicts:
         """The findings and undecided rules of a document's subjects.
@@ -57,7 +65,9 @@ class Judge:
         findings: list[Finding] = []
         undecided: list[Undecided] = []
         mends: Mends = {}
-        on: dict[str, list[tuple[Rule, Condition]]] = {}
+        if self._severity is not severity:
+            self._severity, self._on = severity, {}
+        on = self._on
         for subject in subjects:
             rules = on.get(subject.kind)
             if rules is None:
@@ -70,9 +80,10 @@ class Judge:
             answers = self._answers(subject)
             fired: list[tuple[Rule, Finding]] = []
             fixes: dict[str, Mend] = {}
-            for rule, condition in rules:
+            for rule, answer, missing in answers.telling(rules):
                 try:
-                    answer = answers.of(condition)
+                    if isinstance(answer, ArithmeticError):
+                        raise answer
                     case = self._case(rule, answers) if answer else None
                 except ArithmeticError as error:
                     findings.append(_failed(rule, error, file))
@@ -86,8 +97,7 @@ class Judge:
                         mend = rule.fix if case is None else case.fix
                         if mend is not None:
                             fixes[rule.code] = mend
-                elif answer is None:
-                    missing = tuple(name for name in condition.facts if name not in values)
+                else:
                     undecided.append(Undecided(rule.code, rule.name, file, subject.path, missing))
             kept = _one_cause(fired)
             findings.extend(kept)
@@ -110,7 +120,7 @@ class Judge:
         if known is None:
             if len(self._remembered) >= MOST_REMEMBERED:
                 self._remembered.clear()
-            known = self._remembered[facts] = {}
+            known = self._remembered[facts] = _Known()
         return _Answers(asked, values, known)
 
     def _facts_asked(self, kind: str) -> tuple[str, ...]:
@@ -123,12 +133,22 @@ class Judge:
         return next((case for case in rule.cases if answers.of(self._condition(case.when))), None)
 
 
+class _Known:
+    """What conditions said of some facts, and of which rules that tells something: they fire, fail or are undecided."""
+
+    __slots__ = ("answers", "telling")
+
+    def __init__(self) -> None:
+        self.answers: dict[str, bool | None] = {}
+        self.telling: tuple[Rules, list[Told]] | None = None
+
+
 class _Answers:
     """What conditions say of one subject; `known` is what they said of another with the same facts."""
 
     __slots__ = ("_asked", "_known", "_ready", "_values")
 
-    def __init__(self, asked: Sequence[str], values: Mapping[str, Value], known: dict[str, bool | None]) -> None:
+    def __init__(self, asked: Sequence[str], values: Mapping[str, Value], known: _Known) -> None:
         self._asked = asked
         self._values = values
         self._known = known
@@ -136,11 +156,29 @@ class _Answers:
 
     def of(self, condition: Condition) -> bool | None:
         """As `Condition.holds`."""
-        if condition.text not in self._known:
+        answers = self._known.answers
+        if condition.text not in answers:
             if self._ready is None:
                 self._ready = activation(None, {name: self._values[name] for name in self._asked if name in self._values})
-            self._known[condition.text] = condition.holds(self._ready)
-        return self._known[condition.text]
+            answers[condition.text] = condition.holds(self._ready)
+        return answers[condition.text]
+
+    def telling(self, rules: Rules) -> list[Told]:
+        """The rules that fire, that could not be asked, and that are undecided, these with the facts that they lack; in their order."""
+        told = self._known.telling
+        if told is None or told[0] is not rules:
+            made: list[Told] = []
+            for rule, condition in rules:
+                answer: bool | ArithmeticError | None
+                try:
+                    answer = self.of(condition)
+                except ArithmeticError as error:
+                    answer = error
+                if answer is not False:
+                    missing = tuple(name for name in condition.facts if name not in self._values) if answer is None else ()
+                    made.append((rule, answer, missing))
+            told = self._known.telling = (rules, made)
+        return told[1]
 
 
 def key_of(found: Finding) -> Key:

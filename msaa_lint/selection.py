@@ -38,6 +38,7 @@ class Selection:
         self._rules: list[Named] = []
         self._on: dict[str, _Weight] = {}
         self._ignored: dict[str, frozenset[str]] = {}
+        self._for_all: dict[str | None, Callable[[Weighed, str, str | None], str | None]] = {}
         pinned = None if settings.edition is None else _edition(settings.edition)
         for rule in rules:
             later = pinned is not None and bool(rule.edition) and _edition(rule.edition) > pinned
@@ -74,6 +75,9 @@ class Selection:
         A vendor's rule weighs a note where the device is not known to be that vendor's, by what the engine says or by `vendor` (the
         profile's), unless the configuration gives it a severity.
         """
+        alike = not self._settings.per_file_ignores
+        if alike and vendor in self._for_all:
+            return self._for_all[vendor]
 
         def severity(rule: Weighed, suggested: str, of_device: str | None) -> str | None:
             vendors = getattr(rule, "vendors", ())
@@ -81,6 +85,9 @@ class Selection:
                 suggested = SEVERITIES[0]
             return self.severity(rule, file, suggested)
 
+        if alike:
+            # One for all files: who asks may remember what it said.
+            self._for_all[vendor] = severity
         return severity
 
     def settle(self, found: Finding) -> Finding | None:
