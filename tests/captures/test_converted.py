@@ -11,6 +11,7 @@ import pytest
 import yaml
 
 from msaa_lint.finding import Finding
+from tests.readers import dialects_binary
 
 from .program import COLOR, D32, DEPTH, Program, attachment, codes, info, lint
 from .test_frames import forward, history
@@ -157,3 +158,22 @@ def test_a_profile_stands_in_for_the_device_that_was_captured_on(tmp_path: Path)
         found = lint(program.text(), **({"profile": profile} if profile else {}))
         severities[profile] = next(each.severity for each in found if each.code == "MSAA401")
     assert severities == {None: "note", "mali-g76": "warning"}
+
+
+def test_shaders_of_a_capture_are_written_beside_the_description(tmp_path: Path) -> None:
+    code = (Path(__file__).parents[2] / "rules" / "shaders" / "glints.frag.spv").read_bytes()
+    program = Program()
+    render_pass = program.render_pass([attachment()])
+    shader = {"sType": "VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO", "codeSize": len(code), "pCode": code}
+    program.call("vkCreateShaderModule", device=2, pCreateInfo=shader, pShaderModule=900)
+    program.pipeline(render_pass)
+    stage = {"stage": "VK_SHADER_STAGE_FRAGMENT_BIT", "module": 900, "pName": "main", "pSpecializationInfo": None}
+    program.calls[-1][1]["pCreateInfos"][0]["pStages"] = [stage]
+    (tmp_path / "game.foz").write_bytes(dialects_binary.fossilize(program.calls))
+    subprocess.run([*MSAA_LINT, "convert", "game.foz", "-o", "frame.yaml"], cwd=tmp_path, check=True)
+    (written,) = (tmp_path / "shaders").iterdir()
+    assert written.read_bytes() == code
+    # The shader runs for every sample, and the pipeline does not say so.
+    for name in ("game.foz", "frame.yaml"):
+        made = subprocess.run([*MSAA_LINT, "check", "--isolated", "--output", "json", name], cwd=tmp_path, capture_output=True)
+        assert "MSAA504" in [found["code"] for found in json.loads(made.stdout)["findings"]], name
