@@ -136,7 +136,6 @@ class Frames:
         """Frames of kinds that are not kept."""
         self.presents = False
         self.frameless = False
-        self.trimmed = False
         self.truncated = False
         self._submits: dict[Hashable, int] = {}
         """The passes of the submissions of the frame, and how often each was submitted."""
@@ -152,8 +151,6 @@ class Frames:
         """What the capture says of itself."""
         if kind == "frameless":
             self.frameless = True
-        elif kind == "trimmed":
-            self.trimmed = True
         elif kind == "truncated":
             self.truncated = True
         elif kind == "frame" and not self.presents:

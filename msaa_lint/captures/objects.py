@@ -74,7 +74,7 @@ class RenderPass(Created):
 class Framebuffer(Created):
     """A framebuffer with its images, None where one is not known; `images` is None where the begin names them (imageless)."""
 
-    __slots__ = ("flags", "height", "images", "layers", "render_pass", "width")
+    __slots__ = ("height", "images", "layers", "render_pass", "width")
 
     def __init__(self, call: Call, number: int, render_pass: RenderPass | None, images: tuple[Image | None, ...] | None) -> None:
         super().__init__(call, number)
@@ -83,7 +83,6 @@ class Framebuffer(Created):
         self.width: int | None = None
         self.height: int | None = None
         self.layers: int | None = None
-        self.flags: list[str] = []
 
 
 class Pipeline(Created):

@@ -11,7 +11,7 @@ from .frames import BEGINS, Kind, Role, role_of
 from .names import Names
 from .objects import Image
 from .recording import Begin, Recorded
-from .yaml_text import Alias, Lines, scalar
+from .yaml_text import Alias, Lines
 
 SOMETIMES = "SOMETIMES"
 """In place of the stage of what reads an image in some of the frames."""
@@ -36,8 +36,8 @@ class Recording:
         before = len(self.lines.text)
         order = list(commands_of(self.kind))
         ends = ends_of(_plain(self.kind, order))
-        for text in self._handed_on(ends):
-            self.lines.line(text)
+        for image in self._handed_on(ends):
+            self._note("writeImage", image, "by an earlier frame")
         samples: int | None = None
         for each, number in order:
             origin = Origin(*each.at, each.by, self.kind.count, self.total)
@@ -50,13 +50,17 @@ class Recording:
             if body is not None:
                 comment = f"call {each.at.call}" if each.at.call is not None and each.kind in BEGINS else ""
                 self.lines.item(2, body, origin, comment)
-        for text in self._read_later(ends):
-            self.lines.line(text)
+        for image in self._read_later(ends):
+            self._note("readImage", image, "by a later frame")
         for image, own in ends.items():
             if image.shared and image in self.here and any(end.last == "unread" for end in own.values()):
-                self.lines.line(f"  - readImage: {{image: {scalar(self.names.image(image))}}}  # its memory is shared with others")
+                self._note("readImage", image, "its memory is shared with others")
         if len(self.lines.text) == before:
             self.lines.text[-1] += " []"
+
+    def _note(self, kind: str, image: Image, why: str) -> None:
+        """A use of an image that no command of this frame is."""
+        self.lines.item(2, {kind: {"image": self.names.image(image)}}, None, why)
 
     def _command(self, each: Recorded, number: int) -> Any:
         """A command as a description writes it; None where it is about nothing that is described."""
@@ -138,20 +142,20 @@ class Recording:
             made["images"] = [barrier]
         return {"pipelineBarrier": made}
 
-    def _handed_on(self, ends: dict[Image, dict[str, Ends]]) -> Iterator[str]:
+    def _handed_on(self, ends: dict[Image, dict[str, Ends]]) -> Iterator[Image]:
         """What an earlier frame of another kind wrote, where this one, coming again, would read what it discarded itself."""
         for image, own in ends.items():
             lost = [aspect for aspect, end in own.items() if end.first == "read" and end.last == "discarded"]
             known = {(self._role(image), aspect) for aspect in lost}
             if image in self.here and known & self.kind.defined - self.kind.undefined:
-                yield f"  - writeImage: {{image: {scalar(self.names.image(image))}}}  # by an earlier frame"
+                yield image
 
-    def _read_later(self, ends: dict[Image, dict[str, Ends]]) -> Iterator[str]:
+    def _read_later(self, ends: dict[Image, dict[str, Ends]]) -> Iterator[Image]:
         """What a later frame of another kind reads, where this one, coming again, would not."""
         for image, own in ends.items():
             left = [aspect for aspect, end in own.items() if end.last == "unread" and end.first != "read"]
             if image in self.here and any((self._role(image), aspect) in self.kind.later for aspect in left):
-                yield f"  - readImage: {{image: {scalar(self.names.image(image))}}}  # by a later frame"
+                yield image
 
     def _role(self, image: Image) -> Hashable:
         """An image by its place in the frame's passes, where it has one."""

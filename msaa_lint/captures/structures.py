@@ -27,8 +27,6 @@ def described(kind: type[Record], structure: object, depth: int = 0) -> Tree:
         stated = _stated(given, member)
         if stated is not None:
             value = _value(shape, stated, depth)
-            if value == "UNDEFINED" and shape[1] == "VkFormat":
-                value = None
             if value is not None and not (value in ([], ()) and member in kind.ABSENT):
                 made[member] = value
     following = given.get("pNext")
@@ -66,7 +64,9 @@ def _value(shape: Shape, stated: object, depth: int) -> Any:
     """A value by its shape; None where it is unknown."""
     kind = shape[0]
     if kind == "enum":
-        return values.enum(shape[1], stated)
+        name = values.enum(shape[1], stated)
+        # A format that is none.
+        return None if name == "UNDEFINED" and shape[1] == "VkFormat" else name
     if kind == "flags":
         return _flags(shape[1], stated)
     if kind == "record":
@@ -89,8 +89,7 @@ def _value(shape: Shape, stated: object, depth: int) -> Any:
         found = values.integer(stated)
         return "EXTERNAL" if found == ATTACHMENT_UNUSED else found
     if kind == "null":
-        found = _value(shape[1], stated, depth)
-        return None if found == "UNDEFINED" else found
+        return _value(shape[1], stated, depth)
     return values.text(stated) if kind == "text" else None
 
 

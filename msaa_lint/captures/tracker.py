@@ -10,8 +10,6 @@ from collections.abc import Callable, Hashable
 from typing import Any, NamedTuple
 
 from ..document.records import Framebuffer as FramebufferRecord
-from ..document.records import RenderPass as RenderPassRecord
-from ..vulkan.formats import format_of
 from . import values
 from .call import Call, Mark
 from .descriptors import Descriptors
@@ -20,10 +18,11 @@ from .images import MAX_DISTINCT, Images
 from .objects import Created, Framebuffer, Pipeline, RenderPass, frozen
 from .pipelines import pipelines_of
 from .recording import CommandBuffer, Commands, Recorded
-from .structures import described, slot
+from .render_passes import render_pass_of
+from .structures import described
 from .transfers import Transfers
+from .wanted import bare
 
-SUFFIXES = ("KHR", "EXT", "NV", "AMD", "QCOM", "ARM", "LUNARG")
 BOUNDARY = frozenset(
     f"vkCmd{name}"
     for name in (
@@ -36,14 +35,6 @@ RECURRING = BOUNDARY | {name.replace("on_", "vk", 1) for name in vars(Transfers)
 
 MAX_KNOWN = 4096
 """So many commands are remembered with their arguments."""
-
-
-def bare(name: str) -> str:
-    """A call's name without its vendor's suffix."""
-    for suffix in SUFFIXES:
-        if name.endswith(suffix):
-            return name[: -len(suffix)]
-    return name
 
 
 class Known(NamedTuple):
@@ -142,11 +133,7 @@ class Tracker(Images, Descriptors, Transfers):
         self._render_pass(call)
 
     def _render_pass(self, call: Call) -> None:
-        tree = described(RenderPassRecord, call.args.get("pCreateInfo"))
-        for attachment in tree.get("attachments", ()):
-            _without_stencil(attachment)
-        _maps(tree, values.record(call.args.get("pCreateInfo")))
-        coherent(tree)
+        tree = render_pass_of(values.record(call.args.get("pCreateInfo")))
         handle = values.handle(call.args.get("pRenderPass"))
         self.render_passes[handle] = self._alike(("renderPass", frozen(tree)), lambda: RenderPass(call, self.number("render pass"), tree))
 
@@ -172,7 +159,6 @@ class Tracker(Images, Descriptors, Transfers):
         handle = values.handle(call.args.get("pFramebuffer"))
         made = Framebuffer(call, self.number("framebuffer"), render_pass, images)
         made.width, made.height, made.layers = tree.get("width"), tree.get("height"), tree.get("layers")
-        made.flags = tree.get("flags", [])
         self.framebuffers[handle] = made
 
     def on_DestroyFramebuffer(self, call: Call) -> None:
@@ -234,52 +220,6 @@ class Tracker(Images, Descriptors, Transfers):
                 found.label = name[:MAX_NAME]
 
 
-def _without_stencil(attachment: dict[str, Any]) -> None:
-    """Takes the stencil operations, which C always states, from an attachment whose format has no stencil."""
-    format = format_of(attachment["format"]) if "format" in attachment else None
-    if format is not None and "stencil" not in format.aspects:
-        for member in ("stencilLoadOp", "stencilStoreOp", "stencilInitialLayout", "stencilFinalLayout"):
-            attachment.pop(member, None)
-
-
-def _maps(tree: dict[str, Any], info: dict[str, Any]) -> None:
-    """Makes input attachments of those that say how densely a pass is shaded: it reads them, which a description has no other word for."""
-    density = values.chained(info, "RENDER_PASS_FRAGMENT_DENSITY_MAP_CREATE_INFO")
-    of_all = slot(density.get("fragmentDensityMapAttachment")) if density is not None else None
-    for subpass, given in zip(tree.get("subpasses", ()), values.items(info.get("pSubpasses")), strict=False):
-        rate = values.chained(values.record(given), "FRAGMENT_SHADING_RATE_ATTACHMENT_INFO")
-        of_one = slot(rate.get("pFragmentShadingRateAttachment")) if rate is not None else None
-        read = [reference for reference in (of_all, of_one) if reference is not None]
-        if read:
-            subpass["inputAttachments"] = [*subpass.get("inputAttachments", ()), *read]
-
-
-def coherent(tree: dict[str, Any]) -> None:
-    """Takes the references from a render pass that lead nowhere, as no program that runs has them."""
-    count, subpasses = len(tree.get("attachments", ())), tree.get("subpasses", [])
-
-    def known(reference: Any) -> Any:
-        index = reference.get("attachment") if isinstance(reference, dict) else reference
-        return reference if isinstance(index, int) and index < count else None
-
-    for subpass in subpasses:
-        for member in ("inputAttachments", "colorAttachments", "resolveAttachments", "preserveAttachments"):
-            if member in subpass:
-                subpass[member] = [known(reference) for reference in subpass[member]]
-        if known(subpass.get("depthStencilAttachment")) is None:
-            subpass.pop("depthStencilAttachment", None)
-        resolve = subpass.get("depthStencilResolve")
-        if resolve is not None and known(resolve.get("attachment")) is None:
-            resolve.pop("attachment", None)
-    dependencies = tree.get("dependencies", [])
-    ends = ("srcSubpass", "dstSubpass")
-    tree["dependencies"] = [
-        each for each in dependencies if all(each.get(end) in (None, "EXTERNAL") or each[end] < len(subpasses) for end in ends)
-    ]
-    if not tree["dependencies"]:
-        del tree["dependencies"]
-
-
 MAX_NAME = 80
 _TYPES = {10: "IMAGE", 18: "RENDER_PASS", 19: "PIPELINE", 24: "FRAMEBUFFER", 1000001000: "SWAPCHAIN_KHR"}
 """VkObjectType."""
@@ -289,7 +229,4 @@ def _object_type(kind: object, prefix: str) -> str:
     number = values.integer(kind)
     if number is not None:
         return _TYPES.get(number, "")
-    word = kind if isinstance(kind, str) else ""
-    if word.endswith(")"):
-        word = word[word.find("(") + 1 : -1].strip()
-    return word.removeprefix(prefix).removesuffix("_EXT")
+    return values.named(kind).removeprefix(prefix).removesuffix("_EXT")

@@ -81,13 +81,18 @@ def enum(enums: str, value: object) -> str | None:
         found = enumerant(enums, value)
         if found is not None:
             return found
-        if value.endswith(")"):
-            inner = value[value.find("(") + 1 : -1].strip()
-            found = enumerant(enums, inner) if "(" in value else None
-            if found is not None:
-                return found
+        found = enumerant(enums, named(value))
+        if found is not None:
+            return found
     known = integer(value)
     return from_value(enums.partition("|")[0], known) if known is not None else None
+
+
+def named(value: object) -> str:
+    """The name of an enumerant as it is written: of `4 (VK_SAMPLE_COUNT_4_BIT)` what is in parentheses. Empty where it is no text."""
+    if not isinstance(value, str):
+        return ""
+    return value[value.find("(") + 1 : -1].strip() if value.endswith(")") and "(" in value else value
 
 
 def flags(enums: str, value: object) -> tuple[list[str], bool] | None:
@@ -155,12 +160,7 @@ def chained(structure: dict[str, Any], kind: str) -> dict[str, Any] | None:
 
 def structure_type(structure: dict[str, Any]) -> str:
     """The sType of a structure without its prefix and vendor."""
-    stated = structure.get("sType")
-    if not isinstance(stated, str):
-        return ""
-    if stated.endswith(")"):
-        stated = stated[stated.find("(") + 1 : -1].strip()
-    return stated.removeprefix("VK_STRUCTURE_TYPE_").removesuffix("_KHR").removesuffix("_EXT")
+    return named(structure.get("sType")).removeprefix("VK_STRUCTURE_TYPE_").removesuffix("_KHR").removesuffix("_EXT")
 
 
 def _number_in(value: str) -> int | None:

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from ..source.text import Origin
 from .frames import Kind
 from .names import Names
-from .objects import Created, Framebuffer, Image, Pipeline, RenderPass
+from .objects import Created, Framebuffer, Image, Pipeline, RenderPass, frozen
 from .recorded import Recording, commands_of
 from .recording import Begin
 from .tracker import Tracker
@@ -182,8 +182,6 @@ def remark(made: Created) -> str:
 
 def image_key(image: Image) -> Hashable:
     """What two images that were created alike share."""
-    from .objects import frozen
-
     return frozen({key: value for key, value in image.tree.items() if key != "memory"})
 
 

@@ -182,7 +182,7 @@ def facts(
 def convert(
     capture: Annotated[str, typer.Argument(metavar="CAPTURE", help="A capture; - is standard input.")],
     output: Annotated[str | None, typer.Option("--output", "-o", metavar="FILE", help="Write there, shaders beside it.")] = None,
-    input_format: Annotated[Literal[CAPTURES] | None, typer.Option(help="Read the capture as this.")] = None,  # type: ignore[valid-type]
+    input_format: Annotated[Literal[tuple(CAPTURES)] | None, typer.Option(help="Read the capture as this.")] = None,  # type: ignore[valid-type]
     force: Annotated[bool, typer.Option("--force", help="Write over a file that exists.")] = False,
 ) -> None:
     """Write a capture as a description that can be read, edited, fixed and confirmed.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..document.record import Record
-from ..document.records import BeginRenderPass, Framebuffer
+from ..document.records import BeginRenderPass, Framebuffer, Image
 from .frame import RENDER_PASS, RENDERING, Attachment, Frame, Pass, Target
 
 MAX_USES = 500_000
@@ -29,6 +29,11 @@ def targets_at(frame: Frame, attachment: Attachment, position: int | None) -> li
     names = [f.attachments[attachment.index] if attachment.index < len(f.attachments) else None for f in _named(frame, body)]
     targets = [frame.targets[name] for name in dict.fromkeys(names) if name in frame.targets]
     return targets if targets and None not in names else attachment.targets
+
+
+def one_surface(image: Image | None) -> bool:
+    """Whether an image is stated, and has one mip level and one layer: a command that names no part of it means all of it."""
+    return image is not None and (image.mipLevels or 1) == 1 and (image.arrayLayers or 1) == 1
 
 
 def covers(frame: Frame, each: Pass, position: int | None, target: Target) -> bool:

@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from ..document.records import BeginRendering, Command, ImageBarrier
-from .begin import MAX_USES, covers, targets_at, uses_at_most
-from .frame import Attachment, Frame, Pass, Resolve, Target
+from .begin import MAX_USES, covers, one_surface, targets_at, uses_at_most
+from .frame import Attachment, Frame, Pass, Resolve
 
 LOAD = "load"
 DRAW = "draw"
@@ -174,7 +174,7 @@ class Events:
             if resolve is not None:
                 for end, image in ((TAKE, resolve.source_image), (RESOLVE, resolve.target_image)):
                     if image is not None:
-                        yield image.name, Event(time, None, end, _plain(image), resolve)
+                        yield image.name, Event(time, None, end, one_surface(image.image), resolve)
             return
         if kind in _READ_FROM:
             how, member = _READ_FROM[kind]
@@ -191,12 +191,12 @@ class Events:
             if cleared is not None:
                 # Depth and stencil may be cleared apart.
                 one = cleared.format is not None and len(cleared.format.aspects) == 1
-                yield cleared.name, Event(time, None, CLEAR, _plain(cleared) and (one or kind == "clearColorImage"), command)
+                yield cleared.name, Event(time, None, CLEAR, one_surface(cleared.image) and (one or kind == "clearColorImage"), command)
         for barrier in getattr(body, "images", ()) if kind == "pipelineBarrier" else ():
             if isinstance(barrier, ImageBarrier) and barrier.oldLayout == "UNDEFINED":
                 dropped = self.frame.target(barrier.image)
                 if dropped is not None:
-                    yield dropped.name, Event(time, None, CLEAR, _plain(dropped), command)
+                    yield dropped.name, Event(time, None, CLEAR, one_surface(dropped.image), command)
 
 
 def _decides(event: Event) -> bool:
@@ -213,12 +213,6 @@ def _loaded(load: str | None) -> str | None:
     if load is None:
         return UNKNOWN
     return {"LOAD": LOAD, "CLEAR": CLEAR, "DONT_CARE": CLEAR}.get(load)
-
-
-def _plain(target: Target) -> bool:
-    """Whether a command that names an image and no part of it is taken to mean all of it."""
-    image = target.image
-    return image is not None and (image.mipLevels or 1) == 1 and (image.arrayLayers or 1) == 1
 
 
 def _runs(frame: Frame) -> Iterator[Begun]:

@@ -6,9 +6,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from ..document.records import BeginRendering, BeginRenderPass, Command, ImageBarrier
-from .begin import MAX_USES, covers, targets_at, uses_at_most
+from .begin import MAX_USES, covers, one_surface, targets_at, uses_at_most
 from .frame import RENDERING, Aspect, Attachment, Frame, Pass, Target
 from .moment import (
     BEGUN,
@@ -39,6 +40,15 @@ _WRITES = {
 }  # fmt: skip
 _WHOLE = ("clearColorImage", "clearDepthStencilImage", "resolveImage")
 ENDS = ("endRenderPass", "endRendering")
+
+
+class Bound(NamedTuple):
+    """An image of an attachment, its turns, whether those are known, and whether the pass writes to all of it."""
+
+    target: Target
+    turns: Turns | None
+    sure: bool
+    whole: bool
 
 
 class Moments:
@@ -121,34 +131,34 @@ class Moments:
         self._covered = {}
         if "RESUMING" in flags_of(each):
             return
-        for attachment in each.attachments:
-            if not attachment.used:
-                continue
-            for target, turns, sure in self._bound(attachment, begin):
-                whole = sure and self._covers(each, begin, target)
-                for aspect in attachment.aspects:
-                    kind = _begins_with(aspect) if sure else UNKNOWN
-                    if kind is not None:
-                        yield target.name, Moment(kind, aspect.name, whole, attachment, each, aspect.load_member, turns)
+        for attachment, aspect, bound in self._used(each, begin):
+            kind = _begins_with(aspect) if bound.sure else UNKNOWN
+            if kind is not None:
+                yield bound.target.name, Moment(kind, aspect.name, bound.whole, attachment, each, aspect.load_member, bound.turns)
 
     def _ends(self, each: Pass, begin: int | None) -> Iterator[tuple[str, Moment]]:
         if "SUSPENDING" in flags_of(each):
             return
-        for attachment in each.attachments:
-            if not attachment.used:
-                continue
-            for target, turns, sure in self._bound(attachment, begin):
-                whole = sure and self._covers(each, begin, target)
-                for aspect in attachment.aspects:
-                    kind = _ends_with(attachment, aspect) if sure else UNKNOWN
-                    if kind is not None:
-                        yield target.name, Moment(kind, aspect.name, whole, attachment, each, aspect.store_member, turns)
+        for attachment, aspect, bound in self._used(each, begin):
+            kind = _ends_with(attachment, aspect) if bound.sure else UNKNOWN
+            if kind is not None:
+                yield bound.target.name, Moment(kind, aspect.name, bound.whole, attachment, each, aspect.store_member, bound.turns)
         for resolve in each.subpasses[0].resolves if each.kind == RENDERING else ():
             resolved = resolve.target_image
             if resolved is not None and resolve.mode != "NONE":
                 kind = RESOLVED if resolve.mode is not None else UNKNOWN
                 whole = self._covers(each, begin, resolved)
                 yield resolved.name, Moment(kind, resolve.aspect, whole, resolve, each)
+
+    def _used(self, each: Pass, begin: int | None) -> Iterator[tuple[Attachment, Aspect, Bound]]:
+        """The aspects of the attachments that a pass uses, with each of their images."""
+        for attachment in each.attachments:
+            if not attachment.used:
+                continue
+            for target, turns, sure in self._bound(attachment, begin):
+                bound = Bound(target, turns, sure, sure and self._covers(each, begin, target))
+                for aspect in attachment.aspects:
+                    yield attachment, aspect, bound
 
     def _covers(self, each: Pass, begin: int | None, target: Target) -> bool:
         """Whether the pass that was begun last writes to all of an image."""
@@ -201,8 +211,7 @@ class Moments:
     def plain(self, name: str) -> bool:
         """Whether a command that names an image and no part of it means all of it: one level, layer and aspect."""
         target = self.frame.target(name)
-        image = target.image if target is not None else None
-        if target is None or image is None or (image.mipLevels or 1) > 1 or (image.arrayLayers or 1) > 1:
+        if target is None or not one_surface(target.image):
             return False
         return target.format is not None and len(target.format.aspects) == 1
 

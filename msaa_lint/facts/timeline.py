@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from ..document.records import BeginRendering
 from ..finding import Span
-from .begin import MAX_USES, covers, targets_at, uses_at_most
+from .begin import MAX_USES, covers, one_surface, targets_at, uses_at_most
 from .frame import RENDERING, Aspect, Attachment, Frame, Pass, Resolve, Target
 
 READ = "read"
@@ -98,12 +98,10 @@ class Timeline:
     def _whole(self, name: str, command: str) -> bool:
         """Whether a command that names an image and no part of it is taken to write all of it."""
         target = self.frame.target(name)
-        image = target.image if target is not None else None
-        if image is None or (image.mipLevels or 1) > 1 or (image.arrayLayers or 1) > 1:
+        if target is None or not one_surface(target.image):
             return False
         # Depth and stencil may be cleared apart.
-        format = target.format if target is not None else None
-        return command != "clearDepthStencilImage" or (format is not None and len(format.aspects) == 1)
+        return command != "clearDepthStencilImage" or (target.format is not None and len(target.format.aspects) == 1)
 
     def _note(self, name: str, store: Store) -> None:
         self._stores.setdefault(name, []).append(store)

@@ -25,16 +25,12 @@ def recorded_at(mending: Mending) -> Recorded:
 
 def clear_on_load(subject: Subject, mending: Mending) -> list[Change] | Refused:
     """CLEAR in place of the command that clears, which goes."""
-    at = _only(subject, "aspect.clear_command", mending)
-    passed = _aspect(subject, mending)
-    if isinstance(at, Refused):
-        return at
-    if isinstance(passed, Refused):
-        return passed
-    each, attachment, aspect = passed
+    found = _ends(subject, "aspect.clear_command", mending)
+    if isinstance(found, Refused):
+        return found
+    (position, entry), (each, attachment, aspect) = found
     if len(each.begun) != 1:
         return Refused("the pass is begun several times")
-    position, entry = at
     made = [_dropped(position, entry, mending)]
     if aspect.load == "LOAD" or entry is not None:
         made.append(Change(attachment.record, aspect.load_member, "set", "CLEAR"))
@@ -47,22 +43,30 @@ def clear_on_load(subject: Subject, mending: Mending) -> list[Change] | Refused:
 
 def draw_the_copy(subject: Subject, mending: Mending) -> list[Change] | Refused:
     """A shader in the pass reads what was copied: no copy, no load."""
-    at = _only(subject, "aspect.copy_command", mending)
-    passed = _aspect(subject, mending)
-    if isinstance(at, Refused):
-        return at
-    if isinstance(passed, Refused):
-        return passed
-    each, attachment, aspect = passed
+    found = _ends(subject, "aspect.copy_command", mending)
+    if isinstance(found, Refused):
+        return found
+    (position, _), (each, attachment, aspect) = found
     source = subject.facts.values.get("aspect.copy_source")
     if len(each.begun) != 1 or not isinstance(source, str):
         return Refused("the pass is begun several times, or what is copied is no image")
     read = {"readImage": {"image": source, "stage": "FRAGMENT", "access": "SHADER_READ"}}
     return [
-        Change(mending.document.description, "commands", "drop", at[0]),
+        Change(mending.document.description, "commands", "drop", position),
         Change(mending.document.description, "commands", "behind", (each.begun[0], read)),
         Change(attachment.record, aspect.load_member, "set", "DONT_CARE"),
     ]
+
+
+Site = tuple[Pass, Attachment, Aspect]
+
+
+def _ends(subject: Subject, fact: str, mending: Mending) -> tuple[tuple[int, int | None], Site] | Refused:
+    """The one command that stands where a fact says, and the aspect of the pass that it is for."""
+    at, passed = _only(subject, fact, mending), _aspect(subject, mending)
+    if isinstance(at, Refused):
+        return at
+    return passed if isinstance(passed, Refused) else (at, passed)
 
 
 def _only(subject: Subject, fact: str, mending: Mending) -> tuple[int, int | None] | Refused:
@@ -72,7 +76,7 @@ def _only(subject: Subject, fact: str, mending: Mending) -> tuple[int, int | Non
     return at[0] if len(at) == 1 else Refused("the command is written once for several")
 
 
-def _aspect(subject: Subject, mending: Mending) -> tuple[Pass, Attachment, Aspect] | Refused:
+def _aspect(subject: Subject, mending: Mending) -> Site | Refused:
     """The pass of an aspect, as the frame of the fixes has it."""
     of = subject.of
     if not (isinstance(of, tuple) and isinstance(of[0], Attachment) and isinstance(of[1], Aspect)):

@@ -38,7 +38,7 @@ def resolve_in_pass(subject: Subject, mending: Mending) -> list[Change] | Refuse
     site = _site(subject, mending)
     if isinstance(site, Refused):
         return site
-    made = into_rendering(site) if site.within.kind == RENDERING else into_render_pass(site, mending)
+    made = into_pass(site, mending)
     if isinstance(made, Refused):
         return made
     source = _source(site, mending, subject.facts.values.get("device.lazy_memory"))
@@ -80,6 +80,11 @@ def _name(target: Target | None) -> str | None:
 
 def suspended(within: Pass) -> bool:
     return within.kind == RENDERING and not {"SUSPENDING", "RESUMING"}.isdisjoint(getattr(within.record, "flags", ()))
+
+
+def into_pass(site: Site, mending: Mending) -> list[Change] | Refused:
+    """The resolve, in the pass that draws its source."""
+    return into_rendering(site) if site.within.kind == RENDERING else into_render_pass(site, mending)
 
 
 def into_rendering(site: Site) -> list[Change] | Refused:

@@ -13,10 +13,10 @@ from typing import Any
 from ..document.records import ReadImage
 from ..facts.begin import targets_at
 from ..facts.facts import Subject
-from ..facts.frame import RENDERING, Target
+from ..facts.frame import Target
 from ..facts.timeline import READ
 from .changes import Change, Mending, Refused
-from .inline_resolve import MAX_ATTACHMENTS, Site, into_render_pass, into_rendering, suspended
+from .inline_resolve import MAX_ATTACHMENTS, Site, into_pass, suspended
 from .transient import memory_changes, usage_changes
 
 _ENDINGS = ("_multisampled", "_msaa", "_ms", "MSAA", "Ms", "MS")
@@ -28,7 +28,7 @@ def resolve_before_read(subject: Subject, mending: Mending) -> list[Change] | Re
     site = _site(subject, mending)
     if isinstance(site, Refused):
         return site
-    made = into_rendering(site) if site.within.kind == RENDERING else into_render_pass(site, mending)
+    made = into_pass(site, mending)
     if isinstance(made, Refused):
         return made
     source = _source(site, mending, subject.facts.values.get("device.lazy_memory"))

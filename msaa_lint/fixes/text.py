@@ -22,6 +22,7 @@ from .sharing import NOBODY, Member, Sharing, Wishes, records_of, wish, wishes
 from .spelling import Spelling, quoted
 
 _MERGE = re.compile(r"<<[\"']?[ \t]*:")
+_ANCHOR, _ALIAS = (re.compile(rf"{sign}([^\s\[\]{{}},]+)") for sign in ("&", r"\*"))
 _NUMBER = re.compile(r"0[xX][0-9a-fA-F]{1,16}|[0-9]{1,20}")
 
 
@@ -107,12 +108,21 @@ class Writing:
         if group[-1].action == "unset":
             if self._sharing is not None and _MERGE.search(self.text.text, record.node.start, record.node.end):
                 return Refused(f"a merge key may stand in for `{member}`")
+            if self._lends(value):
+                return Refused(f"others take over the value of this `{member}` by an anchor")
             collection = Collection(self.text, record.node)
             at = collection.index(key.start)
             return collection.remove([at]) if at is not None and own else Refused(f"`{member}` is stated elsewhere")
         if group[-1].action == "set":
             return self._scalar(value, record.SHAPE[member], group[-1].value, record)
         return self._flags(group, key, value)
+
+    def _lends(self, node: Node) -> bool:
+        """Whether something outside of a node may be an alias of something in it: by the names, wherever they stand."""
+        text = self.text.text
+        names = set(_ANCHOR.findall(text, node.start, node.end)) if self._sharing is not None else set()
+        taken = {match[1] for match in _ALIAS.finditer(text) if not node.start <= match.start() < node.end} if names else set()
+        return not names.isdisjoint(taken)
 
     def _scalar(self, node: Node, shape: Shape, value: Any, record: Record) -> Edits:
         """Puts a scalar in another one's place, in its quotes and its spelling."""

@@ -1,7 +1,7 @@
 """What files are read as: one module per input format, told by content, never by a file's name.
 
 The readers of texts have `claims(root)` and `read(source, root)`. Those of captures, which are streams, have `claims(head)`, `calls(stream,
-wanted, path)` and `RECORDS_COMMANDS`; they are imported when one is met.
+wanted, path)`; they are imported when one is met.
 """
 
 from __future__ import annotations
@@ -17,8 +17,14 @@ from . import description, vulkan_sc
 FORMATS: dict[str, ModuleType] = {"vulkan-sc": vulkan_sc, "description": description}
 """By the name that `--input-format` takes, in the order in which they are asked; the last reads what none claims."""
 
-CAPTURES = ("gfxreconstruct", "api-dump", "renderdoc", "fossilize")
-"""The readers of captures by the name that `--input-format` takes: a module each, with `_` for `-`."""
+CAPTURES: dict[str, tuple[str, ...]] = {
+    "gfxreconstruct": ('"vkFunc"', '"gfxrecon-version"'),
+    "api-dump": ('"apiCalls"',),
+    "renderdoc": ("<rdc>",),
+    "fossilize": ("FOSSILIZEDB",),
+}
+"""The readers of captures by the name that `--input-format` takes (a module each, with `_` for `-`), and what a capture has near its
+beginning."""
 
 HEADS = ("images:", "renderPasses:", "pipelines:", "commands:", "framebuffers:", '"renderPasses"', '"images"', "PipelineState")
 """What a file of ours has near its beginning: a folder's other files are passed over."""
@@ -31,11 +37,10 @@ def read(source: Source, root: Node, format: str | None = None) -> Document:
     return made
 
 
-CAPTURE_HEADS = ('"vkFunc"', '"gfxrecon-version"', '"apiCalls"', "<rdc>", "FOSSILIZEDB")
-"""The same of captures."""
+CAPTURE_HEADS = tuple(word for words in CAPTURES.values() for word in words)
 
-# What the beginning of a capture has, before its reader is asked.
-_MARKS = (b"gfxrecon", b"vkFunc", b'"function"', b"apiCalls", b"<rdc", b"FOSSILIZEDB", b'"meta"')
+# What one of them has before its reader is asked: also what stands in other files, and in parts of a capture that have no header.
+_MARKS = (*(word.encode() for word in CAPTURE_HEADS), b"gfxrecon", b"vkFunc", b'"function"', b"apiCalls", b"<rdc", b'"meta"')
 
 
 def capture_format(head: bytes) -> str | None:

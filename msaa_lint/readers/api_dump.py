@@ -15,7 +15,6 @@ from ..captures.json_stream import BYTE_ORDER_MARK, CUT, Cursor, loads
 from ..captures.wanted import wants
 
 NAME = "api-dump"
-RECORDS_COMMANDS = True
 
 HEAD = re.compile(rb'\s*\[\s*\{\s*"frameNumber"\s*:')
 START = re.compile(rb'\{\s*"name"\s*:\s*"(\w{1,100})"')

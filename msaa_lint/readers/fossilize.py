@@ -15,7 +15,6 @@ from ..captures.call import Broken, Call, Mark, Place
 from .fossilize_objects import APPLICATION, GRAPHICS_PIPELINE, RENDER_PASS, SHADER_MODULE, calls_of, fragment_modules
 
 NAME = "fossilize"
-RECORDS_COMMANDS = False
 
 MAGIC = b"\x81FOSSILIZEDB\x00\x00\x00"
 VERSIONS = (5, 6)

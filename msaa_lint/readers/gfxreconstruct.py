@@ -16,7 +16,6 @@ from ..captures.json_stream import BYTE_ORDER_MARK, CUT, Blocks, Cursor, Joined,
 from ..captures.wanted import wants
 
 NAME = "gfxreconstruct"
-RECORDS_COMMANDS = True
 
 DEVICE_COMMANDS = frozenset({"SetDevicePropertiesCommand", "SetDeviceMemoryPropertiesCommand"})
 """The `meta` commands that say what the device offers, where a trimmed capture lacks the calls."""

@@ -16,7 +16,6 @@ from .renderdoc_sets import unknown
 from .renderdoc_text import Text
 
 NAME = "renderdoc"
-RECORDS_COMMANDS = True
 
 BLOCK = 1 << 16
 MAX_CHUNK = 32 << 20
