@@ -53,7 +53,8 @@ def families() -> str:
 
 def alone() -> str:
     known = {rule for family in FAMILIES for rule in family.rules}
-    return "\n".join(f"- [{rule.name}](../rules/{rule.name}.md): {rule.summary}" for rule in load([]).rules if rule.name not in known)
+    rules = [rule for rule in load([]).rules if rule.name not in known and "vulkan" in rule.apis]
+    return "\n".join(f"- [{rule.name}](../rules/{rule.name}.md): {rule.summary}" for rule in rules)
 
 
 def noise() -> str:

@@ -113,6 +113,7 @@ def check_rule(rule: Rule) -> list[Finding]:
             found.append(diagnostic("MSAA921", f"rule page `{rule.name}`: {error}", rule.source.name, span, rule.name))
     known = {fact.name for fact in SUBJECTS[rule.subject]}
     named = [*rule.at, *(fact for fact, _ in rule.labels), *placeholders(rule.message), *placeholders(rule.help)]
+    named.extend(name for case in rule.cases for text in (case.message, case.help) for name in placeholders(text or ""))
     named.extend(name for mend in rule.mends for name in placeholders(mend.title))
     for text in (text for _, text in rule.labels):
         named.extend(placeholders(text))

@@ -47,18 +47,26 @@ class Judge:
     """
 
     def __init__(self, rules: Iterable[Rule]) -> None:
-        self._by_subject: dict[str, list[Rule]] = {}
+        self._by_subject: dict[str, dict[str, list[Rule]]] = {}
+        """By API, then by kind of subject."""
         for rule in rules:
-            self._by_subject.setdefault(rule.subject, []).append(rule)
+            for api in rule.apis:
+                self._by_subject.setdefault(api.upper(), {}).setdefault(rule.subject, []).append(rule)
         self._conditions: dict[str, Condition] = {}
-        self._asked: dict[str, tuple[str, ...]] = {}
+        self._asked: dict[tuple[str, str], tuple[str, ...]] = {}
         self._remembered: dict[tuple[object, ...], _Known] = {}
         self._severity: object = None
-        self._on: dict[str, Rules] = {}
-        """By kind of subject the rules that are on, by the last `severity` that was asked."""
+        self._on: dict[str, dict[str, Rules]] = {}
+        """By API and kind of subject the rules that are on, by the last `severity` that was asked."""
 
-    def judge(self, subjects: Iterable[Subject], file: str, severity: Callable[[Rule, str, str | None], str | None]) -> Verdicts:
-        """The findings and undecided rules of a document's subjects.
+    def judge(
+        self,
+        subjects: Iterable[Subject],
+        file: str,
+        severity: Callable[[Rule, str, str | None], str | None],
+        api: str = "VULKAN",
+    ) -> Verdicts:
+        """The findings and undecided rules of a document's subjects, by the rules about frames of its API.
 
         `severity(rule, suggested, vendor)` gives what a finding weighs, None where the rule is off for the file.
         """
@@ -67,17 +75,17 @@ class Judge:
         mends: Mends = {}
         if self._severity is not severity:
             self._severity, self._on = severity, {}
-        on = self._on
+        on, about = self._on.setdefault(api, {}), self._by_subject.get(api, {})
         for subject in subjects:
             rules = on.get(subject.kind)
             if rules is None:
-                every = self._by_subject.get(subject.kind, ())
+                every = about.get(subject.kind, ())
                 enabled = [rule for rule in every if severity(rule, rule.severity, None) is not None]
                 rules = on[subject.kind] = [(rule, self._condition(rule.when)) for rule in enabled]
             if not rules:
                 continue
             values = subject.facts.values
-            answers = self._answers(subject)
+            answers = self._answers(subject, api)
             fired: list[tuple[Rule, Finding]] = []
             fixes: dict[str, Mend] = {}
             for rule, answer, missing in answers.telling(rules):
@@ -111,11 +119,11 @@ class Judge:
             self._conditions[text] = Condition(text)
         return self._conditions[text]
 
-    def _answers(self, subject: Subject) -> _Answers:
-        asked = self._facts_asked(subject.kind)
+    def _answers(self, subject: Subject, api: str) -> _Answers:
+        asked = self._facts_asked(api, subject.kind)
         values = subject.facts.values
         # A fact is of one type, and never None: what is equal here is equal to a condition.
-        facts = (subject.kind, *[tuple(value) if type(value) is list else value for value in map(values.get, asked)])
+        facts = (api, subject.kind, *[tuple(value) if type(value) is list else value for value in map(values.get, asked)])
         known = self._remembered.get(facts)
         if known is None:
             if len(self._remembered) >= MOST_REMEMBERED:
@@ -123,11 +131,13 @@ class Judge:
             known = self._remembered[facts] = _Known()
         return _Answers(asked, values, known)
 
-    def _facts_asked(self, kind: str) -> tuple[str, ...]:
-        if kind not in self._asked:
-            texts = [text for rule in self._by_subject[kind] for text in (rule.when, *(case.when for case in rule.cases))]
-            self._asked[kind] = tuple(dict.fromkeys(name for text in texts for name in named(text)))
-        return self._asked[kind]
+    def _facts_asked(self, api: str, kind: str) -> tuple[str, ...]:
+        asked = self._asked.get((api, kind))
+        if asked is None:
+            rules = self._by_subject.get(api, {}).get(kind, ())
+            texts = [text for rule in rules for text in (rule.when, *(case.when for case in rule.cases))]
+            asked = self._asked[api, kind] = tuple(dict.fromkeys(name for text in texts for name in named(text)))
+        return asked
 
     def _case(self, rule: Rule, answers: _Answers) -> Case | None:
         return next((case for case in rule.cases if answers.of(self._condition(case.when))), None)
@@ -200,7 +210,7 @@ def finding(rule: Rule, case: Case | None, subject: Subject, file: str, severity
             labels.append(Label(place, filled(text, facts)))
     mend = rule.fix if case is None else case.fix
     fix = Fix(filled(mend.title, facts), mend.safe, (), mend.safety == "shown") if mend is not None else None
-    help = filled(rule.help, facts)
+    help = filled(case.help if case is not None and case.help is not None else rule.help, facts)
     return Finding(
         rule.code, rule.name, severity, confidence, filled(message, facts), file, span, subject.path, tuple(labels), (), help, fix
     )

@@ -47,6 +47,10 @@ class Mend(NamedTuple):
         return self.safety == "safe"
 
 
+APIS = ("vulkan", "metal")
+"""Whose frames a rule may be about, as pages name them."""
+
+
 class Case(NamedTuple):
     """What changes where a rule fires and `when` holds as well; the first case that holds is taken. `fix` is the one that then counts."""
 
@@ -56,12 +60,13 @@ class Case(NamedTuple):
     message: str | None
     condition_at: Span = Span(0, 0)
     fix: Mend | None = None
+    help: str | None = None
 
 
 class Rule(NamedTuple):
     """A rule, as its page's front matter states it.
 
-    `when` and the cases are CEL; `at` and the labels name facts, whose places they point to.
+    `when` and the cases are CEL; `at` and the labels name facts, whose places they point to. `apis` are those whose frames it is asked of.
     """
 
     code: str
@@ -84,6 +89,7 @@ class Rule(NamedTuple):
     path: str
     condition_at: Span
     source: Source
+    apis: tuple[str, ...] = APIS[:1]
 
     @property
     def mends(self) -> "tuple[Mend, ...]":
@@ -101,7 +107,7 @@ class Page(NamedTuple):
 
 KEYS = (
     "code", "severity", "confidence", "subject", "when", "message", "at", "labels", "cases", "help", "fix", "vendors", "edition",
-    "references", "supersedes",
+    "references", "supersedes", "apis",
 )  # fmt: skip
 REQUIRED = ("code", "severity", "subject", "when", "message")
 
@@ -192,6 +198,9 @@ class _Reading:
             self.one_of(members["confidence"], CONFIDENCES)
         for vendor in self.items(members.get("vendors")):
             self.one_of(vendor, WORDS["vendor"])
+        apis = self.items(members.get("apis"))
+        for api in apis:
+            self.one_of(api, APIS)
         when = members["when"]
         self.bounded(when)
         at = members.get("at")
@@ -217,6 +226,7 @@ class _Reading:
             path=path,
             condition_at=when.span,
             source=self.source,
+            apis=tuple(dict.fromkeys(api.text for api in apis)) or APIS[:1],
         )
 
     def unknown(self, key: Node, known: tuple[str, ...]) -> None:
@@ -260,7 +270,7 @@ class _Reading:
 
     def case(self, node: Node, fix: Mend | None) -> Case:
         """A case; without `fix`, or where that states its safety alone, the rule's own is its fix."""
-        known = ("when", "severity", "confidence", "message", "fix")
+        known = ("when", "severity", "confidence", "message", "help", "fix")
         if node.kind != "mapping" or "when" not in node.value:
             self.wrong(node.span, "a case is a mapping with `when` and what it changes")
             return Case("true", None, None, None)
@@ -277,7 +287,8 @@ class _Reading:
         own = node.value.get("fix")
         if own is not None:
             fix = None if own.kind == "scalar" and own.value is None else self.mend(own, fix)
-        return Case(given["when"], given.get("severity"), given.get("confidence"), given.get("message"), when.span, fix)
+        texts = (given.get("severity"), given.get("confidence"), given.get("message"))
+        return Case(given["when"], *texts, when.span, fix, given.get("help"))
 
     def mend(self, node: Node, of_rule: Mend | None) -> Mend | None:
         """A fix. One that states its safety alone, in a case, is the rule's with that safety."""

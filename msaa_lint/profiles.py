@@ -59,18 +59,18 @@ def known_profiles() -> tuple[str, ...]:
 
 
 def device_for(description: "Description", file: str, default: DeviceProfile | None) -> DeviceProfile | Problem | None:
-    """The device that a description names or describes, else the given one.
+    """The device that a description names or describes, or the family of Metal's GPUs that it states, else the given one.
 
     A path counts from the folder of the description's `file` (a name that is no path, such as `<stdin>`: from the current folder) and must
     stay in its project with all symbolic links followed: a description may come from a stranger's branch. A Problem is one of the
     description, at its `device`.
     """
     from .document.records import Device
-    from .facts.surroundings import described
+    from .facts.surroundings import described, of_family
 
     stated = description.device
     if stated is None:
-        return default
+        return of_family(description) or default
     if isinstance(stated, Device):
         return described(stated)
     found = builtin(stated)

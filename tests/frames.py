@@ -18,6 +18,8 @@ SECTIONS = {
 
 def joined(description: Json) -> Json:
     """A description with every name, index and list of images made to fit the sections there are."""
+    # Frames in other words are none of Vulkan's; what they state is fitted to itself.
+    description = {key: value for key, value in description.items() if key not in ("metal", "renderTargets")}
     names = {section: list(description.get(section, {})) for section in SECTIONS}
     own = {member: section for section, members in SECTIONS.items() for member in members}
     fitted = _fitted(description, names, own)
@@ -89,6 +91,45 @@ def _slot(value: Json, count: int) -> Json:
     if value is None or count == 0:
         return None
     return (len(value) if isinstance(value, str) else value) % count
+
+
+METAL_NAMES = {
+    "texture": "textures",
+    "resolveTexture": "textures",
+    "source": "textures",
+    "destination": "textures",
+    "present": "textures",
+    "renderPass": "renderPasses",
+}
+
+
+def _metal(value: Json, names: dict[str, list[str]]) -> Json:
+    """A part of a frame in Metal's words with every name made to fit; a command that would name nothing is left out."""
+    if isinstance(value, list):
+        return [each for each in (_metal(inner, names) for inner in value) if each != {}]
+    if not isinstance(value, dict):
+        return value
+    fitted = {}
+    for key, inner in value.items():
+        if key in METAL_NAMES and isinstance(inner, (str, int)):
+            inner = _one_of(inner, names[METAL_NAMES[key]])
+        else:
+            inner = _metal(inner, names)
+        if inner is not ...:
+            fitted[key] = inner
+    return fitted
+
+
+def _in_metals_words(whole: tuple[Json, Json]) -> Json:
+    description, metal = whole
+    names = {section: list(metal.get(section, {})) for section in ("textures", "renderPasses")}
+    beside = {key: value for key, value in joined(description).items() if key in ("frame", "device", "scene")}
+    return {**beside, "metal": _metal(metal, names)}
+
+
+def metal_frames() -> st.SearchStrategy[Json]:
+    """Whole random frames in Metal's words."""
+    return st.tuples(structure("Description"), structure("Metal")).map(_in_metals_words)
 
 
 def frames() -> st.SearchStrategy[Json]:

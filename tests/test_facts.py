@@ -50,6 +50,13 @@ CASES = (
     commands:
       - beginRendering: {depthAttachment: {image: d}, stencilAttachment: {image: s}}
     """,
+    """
+    metal:
+      family: apple1
+      textures: {c: {pixelFormat: rgba8Unorm, textureType: type2D, sampleCount: 4, usage: [renderTarget]}}
+      renderPasses: {p: {colorAttachments: [{texture: c, loadAction: clear, storeAction: multisampleResolve}]}}
+    sampleCountChoices: {chosen: {chosen: MAXIMUM}}
+    """,
 )
 """What no example and no page has."""
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from msaa_lint.catalogue import Catalogue, load, markdown
 from msaa_lint.engine import Engine, Linted
 from msaa_lint.finding import Finding
-from msaa_lint.page import KEYS, MAX_CONDITION, first_sentence, read_page, split
+from msaa_lint.page import KEYS, MAX_CONDITION, Rule, first_sentence, read_page, split
 
 from .marked import unmarked
 
@@ -100,6 +100,68 @@ message:""",
     assert "sample-count-above-four" not in {f.rule for f in linted.findings}
 
 
+VULKAN = "images: {a: {samples: 4}}"
+METAL = "metal: {textures: {a: {sampleCount: 4}}}"
+
+
+@pytest.mark.parametrize(
+    ("apis", "vulkan", "metal"),
+    [("", True, False), ("[vulkan]", True, False), ("[metal]", False, True), ("[metal, vulkan, metal]", True, True)],
+)
+def test_a_rule_is_asked_of_its_apis_alone(tmp_path: Path, apis: str, vulkan: bool, metal: bool) -> None:
+    catalogue = loaded(tmp_path, PAGE.replace("subject:", f"apis: {apis}\nsubject:") if apis else PAGE)
+    assert catalogue.problems == ()
+    # One engine for both: what it remembers of one API's frames it does not tell of the other's.
+    engine = Engine(catalogue)
+    for text, asked in ((VULKAN, vulkan), (METAL, metal), (VULKAN, vulkan), ("metal: {textures: {a: {}}}", metal)):
+        linted = engine.lint(text.encode(), "frame.yaml", as_suggested)
+        told = [(found.severity, found.message) for found in linted.findings if found.code == "ACME001"]
+        undecided = [unknown.missing for unknown in linted.undecided if unknown.code == "ACME001"]
+        stated = "4" in text
+        assert told == ([("warning", "`a` has 4 samples")] if asked and stated else [])
+        assert undecided == ([("image.samples",)] if asked and not stated else []), "not asked, and so not undecided"
+
+
+def as_suggested(rule: Rule, suggested: str, vendor: str | None) -> str:
+    return suggested
+
+
+def test_a_case_words_a_finding_for_its_api(tmp_path: Path) -> None:
+    text = PAGE.replace(
+        "message:",
+        """apis: [vulkan, metal]
+help: "samples: 2 in {frame.api}"
+fix: {title: two samples, safety: unsafe, set: {image.samples: 2}}
+cases:
+  - {when: image.samples > 4, message: far too many}
+  - when: frame.api == "METAL"
+    message: "`{image.name}` has a sampleCount of {image.samples}"
+    help: "sampleCount: 2 in {frame.api}"
+    fix: {title: "sampleCount: 2", safety: unsafe, set: {image.samples: 2}}
+message:""",
+    )
+    catalogue = loaded(tmp_path, text)
+    assert catalogue.problems == ()
+    found = [
+        (each.message, each.help, each.fix.title if each.fix is not None else "")
+        for frame in (VULKAN, METAL, METAL.replace("4", "8"))
+        for each in lint(catalogue, frame).findings
+        if each.code == "ACME001"
+    ]
+    assert found == [
+        ("`a` has 4 samples", "samples: 2 in VULKAN", "two samples"),
+        ("`a` has a sampleCount of 4", "sampleCount: 2 in METAL", "sampleCount: 2"),
+        # A case without a help has the rule's.
+        ("far too many", "samples: 2 in METAL", "two samples"),
+    ]
+
+
+@pytest.mark.parametrize("member", ["message", "help"])
+def test_the_texts_of_a_case_name_facts(tmp_path: Path, member: str) -> None:
+    catalogue = loaded(tmp_path, PAGE.replace("message:", f"cases: [{{when: image.samples > 4, {member}: '{{image.nmae}}'}}]\nmessage:"))
+    assert [found.message for found in catalogue.problems] == ["rule page `too-many-samples`: there is no fact image.nmae of image"]
+
+
 def problem(folder: Path, marked: str, name: str = "too-many-samples.md") -> tuple[Finding, str, list[str]]:
     """The one problem of a page, the text that it points at, and the marked texts."""
     # `unmarked` takes the line ends around a text away.
@@ -136,6 +198,9 @@ CONDITION = "when: image.samples > 2"
         (CONDITION, f"{CONDITION}\ncases: [{{when: 'true', ⟦level⟧: error}}]", "unknown key `level`"),
         (CONDITION, f"{CONDITION}\ncases: [{{when: 'true', severity: ⟦fatal⟧}}]", "one of note, warning, error is due here"),
         (CONDITION, f"{CONDITION}\nat: ⟦{{a: 1}}⟧", "a text is due here"),
+        (CONDITION, f"{CONDITION}\napis: ⟦metal⟧", "a list is due here"),
+        (CONDITION, f"{CONDITION}\napis: [vulkan, ⟦directx⟧]", "one of vulkan, metal is due here"),
+        (CONDITION, f"{CONDITION}\ncases: [{{when: 'true', help: ⟦[a]⟧}}]", "a text is due here"),
         (CONDITION, f"{CONDITION}\nlabels: ⟦[a]⟧", "a mapping is due here"),
         (CONDITION, f"{CONDITION}\n⟦whn⟧: 1", "unknown key `whn`"),
         (CONDITION, f"{CONDITION}\nfix: ⟦[]⟧", "a fix is a mapping with `title`, `safety` (safe, unsafe, shown) and what it changes"),
@@ -150,7 +215,7 @@ CONDITION = "when: image.samples > 2"
         (
             "subject: image",
             "subject: ⟦images⟧",
-            "one of image, attachment, aspect, pass, subpass, resolve, pipeline, dependency, read is due here",
+            "one of image, attachment, aspect, pass, subpass, resolve, pipeline, dependency, read, choice is due here",
         ),
         ("code: ACME001", "code: MSAA999", "its code is a few capital letters of yours, not MSAA, and a number"),
         ("code: ACME001", "code: acme", "its code is a few capital letters of yours, not MSAA, and a number"),

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from ..catalogue import load, markdown
 from ..diagnostics import DIAGNOSTICS
 from ..finding import RuleInfo
-from ..page import Rule
+from ..page import APIS, Rule
 from ..report.escape import visible
 from ..vulkan.names import nearest
 
@@ -100,6 +100,8 @@ def _record(info: RuleInfo) -> dict[str, object]:
 
 def _head(rule: Rule) -> str:
     lines = [f"**{rule.code}** {rule.name}, {rule.severity}, confidence {rule.confidence}, since edition {rule.edition or '(yours)'}."]
+    if rule.apis != APIS[:1]:
+        lines.append(f"About frames in the words of {' and '.join(api.capitalize() for api in rule.apis)}.")
     if rule.vendors:
         lines.append(f"A rule of {', '.join(rule.vendors)}: a note on other devices.")
     lines += [f"Fix ({mend.safety}): {mend.title}." for mend in rule.mends]

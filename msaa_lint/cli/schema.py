@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 
 from ..vulkan.enums import BITLESS, ENUMS, PREFIXES, VALUES
 from ..vulkan.names import VENDORS
@@ -52,17 +53,27 @@ def _spelled(node: object, enums: dict[str, object]) -> object:
     if ENUMERANT in node:
         enum = node[ENUMERANT]
         # An editor completes the short names and takes the others.
-        enums[enum] = {"anyOf": [{"enum": list(VALUES[enum])}, {"type": "string", "pattern": f"^{spellings(enum)}$"}]}
+        short = VALUES[enum] if enum in VALUES else of_metal(enum)
+        enums[enum] = {"anyOf": [{"enum": list(short)}, {"type": "string", "pattern": f"^{spellings(enum)}$"}]}
         return {"$ref": f"#/$defs/{enum}"}
     return {name: _spelled(value, enums) for name, value in node.items()}
 
 
 def spellings(enum: str) -> str:
-    """A regular expression for the names of an enum as `names.parse_enum` takes them."""
+    """A regular expression for the names of an enum as `names.parse_enum` takes them; of one of Metal's, as `metal.names.parse`."""
+    if enum not in VALUES:
+        return "(?:" + "|".join(re.escape(each) for each in of_metal(enum, every=True)) + ")"
     flags, bitless = "FlagBits" in enum, BITLESS.get(enum, ())
     prefix = PREFIXES[enum].removeprefix("VK_") + ("(?:2_)?" if enum.endswith("2") else "")
     words = "|".join(_with_bit(name) if flags and name not in bitless else name for name in ENUMS[enum])
     return f"(?:(?:VK_)?{prefix})?(?:{words})"
+
+
+def of_metal(enum: str, every: bool = False) -> list[str]:
+    """Swift's names of an enum of Metal's; `every` spelling of them."""
+    from ..metal import names
+
+    return names.spellings(enum) if every else list(names.ENUMS[enum])
 
 
 def _with_bit(name: str) -> str:

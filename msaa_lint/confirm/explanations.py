@@ -148,7 +148,12 @@ CONSEQUENCES = (
         "attachments that differ in their counts leave pipelines none to agree with",
     ),
     Consequence(("sample-count-unsupported", "04972"), ("multisampled-image-invalid",), "such an image can have one sample alone"),
-    Consequence(("attachment-needs-readback", "image-requires-memory"), ("load-from-undefined",), "the load is what is wrong there"),
+    Consequence(
+        ("attachment-needs-readback", "image-requires-memory"),
+        ("load-from-undefined", "discarded-then-loaded"),
+        "the load is what is wrong there",
+    ),
+    Consequence(("image-requires-memory",), ("resolve-target-multisampled",), "what is resolved to is stored, and should have one sample"),
     Consequence(
         ("attachment-needs-readback", "image-requires-memory", "discarded-then-loaded", "redundant-store"),
         ("transient-needs-memory",),

@@ -11,13 +11,14 @@ from ..devices import DeviceProfile
 from ..diagnostics import diagnostic
 from ..discovery import STDIN, discover
 from ..document.document import Document
-from ..engine import Judged, Linted
+from ..engine import Judged, Linted, Severity
 from ..facts.frame import Frame, Pass
 from ..facts.surroundings import profile
 from ..finding import Finding, Undecided
 from ..fixes.inputs import Mended, mend
 from ..inputs import load, refused
 from ..profiles import device_of
+from ..programmed import Programmed
 from ..readers import looks_like
 from ..run import Governed, Request, Run
 from ..source.text import Unreadable
@@ -29,7 +30,8 @@ class Input(NamedTuple):
 
     `findings` are those of the document, `silenced` those that a comment suppresses, `undecided` rules that could say nothing of it;
     `mended` are those that the fixes took away. `device` is the profile that it is judged for. `number` of `many` says which document of a
-    stream it is.
+    stream it is. `by_vulkan` is, of a frame in Metal's words, what the rules for Vulkan say of the frame of the same meaning that is drawn:
+    its findings, and what is undecided.
     """
 
     file: str
@@ -42,6 +44,7 @@ class Input(NamedTuple):
     device: DeviceProfile | None = None
     number: int = 0
     many: int = 1
+    by_vulkan: tuple[Sequence[Finding], Sequence[Undecided]] | None = None
 
     @property
     def prefix(self) -> str:
@@ -80,6 +83,10 @@ def _of_file(this: Run, path: str) -> list[Input]:
     except (OSError, Unreadable) as error:
         this.findings.append(refused(error, name))
         return []
+    if isinstance(loaded, Programmed):
+        what = "source code states too little to be drawn: `msaa-lint convert` writes what is read of it, to complete"
+        this.findings.append(diagnostic("MSAA921", what, name))
+        return []
     # Of a capture the description that it becomes is confirmed.
     data = loaded if isinstance(loaded, bytes) else loaded.source.text.encode()
     format = request.format if isinstance(loaded, bytes) else None
@@ -96,7 +103,17 @@ def _of_file(this: Run, path: str) -> list[Input]:
     if any(finding.fatal for finding in linted.findings) or linted.source is None:
         return []
     mended = mend(data, linted, judge, lambda _: True, False, None) if any(f.fix is not None for f in linted.findings) else None
-    return [_input(name, linted, judged, mended, governed, device) for judged in linted.judged]
+    found = [_input(name, linted, judged, mended, governed, device) for judged in linted.judged]
+    return [each if each.frame.document.metal is None else _as_vulkan(each, governed, severity) for each in found]
+
+
+def _as_vulkan(input: Input, governed: Governed, severity: Severity) -> Input:
+    """The same with what Vulkan's rules say: it is Vulkan's layer that it is compared with."""
+    document, metal = input.frame.document, input.frame.document.metal
+    assert metal is not None
+    of_vulkan = document._replace(metal=metal._replace(api="VULKAN"))
+    verdicts, _ = governed.engine.of_document(of_vulkan, input.file, severity, input.device)
+    return input._replace(by_vulkan=(verdicts.findings, verdicts.undecided))
 
 
 def _input(name: str, linted: Linted, judged: Judged, mended: Mended | None, governed: Governed, device: DeviceProfile | None) -> Input:

@@ -26,7 +26,7 @@ class Plans:
     def plan(self, frame: Frame, file: str, size: tuple[int, int] | None, samples: int | None) -> Planned:
         made = plan.plan(frame, file=file, size=size, samples=samples, api=self.api)
         passes = [PlannedPass(each.name, each.path, each.refused, kind(each.api, each.kind != "renderPass")) for each in made.passes]
-        return Planned(plan.to_json(made), made, passes, made.defaults)
+        return Planned(plan.to_json(made), made, passes, (*_of_metal(frame), *made.defaults))
 
     def gate(self, planned: Planned, device: Mapping[str, Any]) -> dict[int, str]:
         return gate.gate(planned.own, device)
@@ -41,7 +41,19 @@ class Plans:
         names = {number: planned.passes[number].name for number in told.numbers}
         messages = [Message(each["id"], each["text"], str(each.get("severity", "warning")), each.get("pass")) for each in told.messages]
         at = looking(told.layer, told.device, kinds, told.vendors)
-        return agreement(input.frame, names, [*input.findings, *input.silenced], messages, at, input.undecided, input.device)
+        found, undecided = input.by_vulkan or ([*input.findings, *input.silenced], input.undecided)
+        return agreement(input.frame, names, found, messages, at, undecided, input.device)
+
+
+def _of_metal(frame: Frame) -> list[str]:
+    """What is to be said of what is drawn of a frame in Metal's words."""
+    metal = frame.document.metal
+    if metal is None:
+        return []
+    told = ["the frame is in Metal's words: what is drawn is the Vulkan pass of the same meaning"]
+    if metal.stencils:
+        told.append("stencil with a texture that is not depth's is left out: an attachment of a Vulkan render pass has both")
+    return told
 
 
 PLANNER: Planner = Plans()

@@ -11,10 +11,10 @@ from typing import Any, NamedTuple
 
 from ..finding import Label, Span
 from ..source.tree import Node
-from ..vulkan.names import from_value, nearest, parse_flags
+from ..vulkan.names import from_value, nearest
 from .record import Record, Shape
 from .records import RECORDS, AttachmentDescription, AttachmentReference, Command, SubpassDependency
-from .scalars import ATTACHMENT_UNUSED, EXTERNAL, UNUSED, enumerant, finite, sample_count
+from .scalars import ATTACHMENT_UNUSED, EXTERNAL, UNUSED, enumerant, finite, flags, nearest_enumerant, sample_count
 
 MAX_PROBLEMS = 50
 """Problems of one document that are told; the rest would only bury them."""
@@ -153,7 +153,7 @@ class Binder:
         if kind == "record":
             return self.record(RECORDS[shape[1]], node, path, key, head)
         if kind == "list":
-            return self.items(shape[1], node, path)
+            return self.items(shape[1], node, path, shape[2] if len(shape) > 2 else None)
         if kind == "slot":
             return self.slot(node, path, key, head)
         if kind == "bool":
@@ -177,7 +177,7 @@ class Binder:
         if kind == "word":
             return self.word(shape[1], node, path)
         if kind in ("map", "numbered"):
-            return self.mapping(shape[1], node, path, kind == "numbered")
+            return self.mapping(shape[1], node, path, kind == "numbered", shape[2] if len(shape) > 2 else None)
         if kind == "subpass":
             return self.subpass(node, path)
         if kind == "counted":
@@ -188,21 +188,25 @@ class Binder:
             return None if node.kind == "scalar" and node.value is None else self.value(shape[1], node, path, key, head)
         if kind == "either":
             return self.either(shape[1:], node, path, key, head)
-        return self.command(node, path, key)
+        return self.command(node, path, key, RECORDS[shape[1]] if len(shape) > 1 else Command)
 
-    def items(self, shape: Shape, node: Node, path: str) -> tuple[Any, ...]:
+    def items(self, shape: Shape, node: Node, path: str, most: int | None = None) -> tuple[Any, ...]:
         if node.kind != "sequence":
             self.wrong(node, path, "a list")
             return ()
+        if most is not None and len(node.value) > most:
+            self.report("MSAA903", f"there are at most {most} here", head_of(node.value[most]), f"{path}[{most}]")
         return tuple(self.value(shape, item, f"{path}[{n}]", str(n)) for n, item in enumerate(node.value))
 
-    def mapping(self, shape: Shape, node: Node, path: str, numbered: bool = False) -> dict[str, Any]:
+    def mapping(self, shape: Shape, node: Node, path: str, numbered: bool = False, last: int | None = None) -> dict[str, Any]:
         if node.kind != "mapping":
             self.wrong(node, path, "a mapping of numbers" if numbered else "a mapping of names")
             return {}
         for key in node.keys.values() if numbered else ():
             if not _is_number(key.text):
                 self.wrong(key, path, "a number as key")
+            elif last is not None and (int(key.text) > last or len(key.text) > len(str(last))):
+                self.wrong(key, path, f"a number from 0 to {last} as key")
         return {
             name: self.value(shape, value, f"{path}.{shortened(name)}", name, node.keys[name].span) for name, value in node.value.items()
         }
@@ -227,9 +231,7 @@ class Binder:
         return name
 
     def no_enumerant(self, enum: str, text: str, node: Node, path: str) -> None:
-        from ..vulkan.enums import ENUMS
-
-        close = nearest(text, [name for each in enum.split("|") for name in dict.fromkeys(ENUMS[each].values())])
+        close = nearest_enumerant(enum, text)
         help = f"did you mean `{close}`?" if close else ""
         self.report("MSAA903", f"`{shortened(text)}` is no {enum.replace('|', ' or ')}", node.span, path, help)
 
@@ -243,7 +245,7 @@ class Binder:
             self.wrong(node, path, f"a list of {enum}")
             return None
         try:
-            return tuple(parse_flags(enum, node.text))
+            return tuple(flags(enum, node.text))
         except ValueError as error:
             if not self.dumped:
                 self.no_enumerant(enum, str(error), node, path)
@@ -332,7 +334,7 @@ class Binder:
         index = self.integer(0, ATTACHMENT_UNUSED, node, path)
         return "EXTERNAL" if index == ATTACHMENT_UNUSED else index
 
-    def command(self, node: Node, path: str, key: str) -> Command | None:
+    def command(self, node: Node, path: str, key: str, of: type[Record] = Command) -> Command | None:
         """A recorded command: a mapping with one key, or a bare word for one without parameters."""
         kind, parameters, span = "", None, head_of(node)
         if node.kind == "mapping" and len(node.value) == 1:
@@ -343,13 +345,14 @@ class Binder:
         else:
             self.wrong(node, path, "one command")
             return None
-        shape = Command.SHAPE.get(kind)
+        shape = of.SHAPE.get(kind)
         if shape is None:
-            close = nearest(kind, Command.SHAPE)
-            help = f"did you mean `{close}`?" if close else f"it is one of {', '.join(Command.SHAPE)}"
+            close = nearest(kind, of.SHAPE)
+            help = f"did you mean `{close}`?" if close else f"it is one of {', '.join(of.SHAPE)}"
             self.report("MSAA902", f"unknown command `{shortened(kind)}`", span, path, help)
             return None
-        made = Command(node, f"{path}.{kind}", key, span)
+        made = of(node, f"{path}.{kind}", key, span)
+        assert isinstance(made, Command)
         made.kind = kind
         made.body = None
         if parameters is None or (parameters.kind == "scalar" and parameters.value is None):

@@ -25,8 +25,7 @@ from pydantic import (
 )
 from pydantic_core import CoreSchema, core_schema
 
-from ..vulkan.names import parse_flags
-from .scalars import EXTERNAL, SAMPLE_COUNTS, enumerant, finite, sample_count
+from .scalars import EXTERNAL, SAMPLE_COUNTS, enumerant, finite, flags, sample_count
 
 JsonSchema = dict[str, Any]
 
@@ -36,7 +35,7 @@ def _validated(check: Callable[[Any], Any]) -> CoreSchema:
 
 
 class Enumerant(NamedTuple):
-    """One enumerant of a Vulkan enum, by its full name or without the type's prefix and the `_BIT` suffix.
+    """One enumerant of a Vulkan enum, by its full name or without the type's prefix and the `_BIT` suffix; or of one of Metal's.
 
     Several enums, joined by `|`, are asked in turn.
     """
@@ -65,7 +64,7 @@ class FlagBits(NamedTuple):
     def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
         def check(value: object) -> tuple[str, ...]:
             if isinstance(value, str):
-                return tuple(parse_flags(self.enum, value))
+                return tuple(flags(self.enum, value))
             if value == 0 and type(value) is int and "FlagBits" in self.enum:
                 return ()
             if not isinstance(value, (list, tuple)):
@@ -182,5 +181,11 @@ ImageName = Annotated[str, NameOf("images")]
 RenderPassName = Annotated[str, NameOf("renderPasses")]
 FramebufferName = Annotated[str, NameOf("framebuffers")]
 PipelineName = Annotated[str, NameOf("pipelines")]
+TextureName = Annotated[str, NameOf("metal.textures")]
+MetalPassName = Annotated[str, NameOf("metal.renderPasses")]
 SubpassNumber = Annotated[int | str, SubpassIndex()]
+MAX_COLOR_ATTACHMENTS = 8
+"""Of a render pass and a pipeline of Metal's."""
+
+ColorIndex = Annotated[str, StringConstraints(strict=True, pattern=r"^[0-7]$")]
 ConstantId = Annotated[str, StringConstraints(strict=True, pattern=r"^(0|[1-9][0-9]{0,9})$")]

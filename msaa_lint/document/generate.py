@@ -12,12 +12,13 @@ import sys
 import types
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
-from annotated_types import Ge, Gt, Le
+from annotated_types import Ge, Gt, Le, MaxLen
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from . import models
-from .fields import Count, Counted, Enumerant, FlagBits, NameOf, Null, Slot, SubpassIndex
+from . import metal_models, models
+from .fields import MAX_COLOR_ATTACHMENTS, ColorIndex, Count, Counted, Enumerant, FlagBits, NameOf, Null, Slot, SubpassIndex
+from .struct import Struct
 
 MARKERS = (Enumerant, FlagBits, NameOf, Count, Counted, Slot, SubpassIndex)
 
@@ -63,15 +64,21 @@ def shape(annotation: Any, metadata: list[Any]) -> tuple[tuple[Any, ...], str]:
         return ("word", words), " | ".join(sorted({type(word).__name__ for word in words}))
     if origin is tuple:
         inner, python = shape(get_args(annotation)[0], [])
-        return ("list", inner), f"tuple[{python}, ...]"
+        most = next((m.max_length for m in metadata if isinstance(m, MaxLen)), None)
+        return ("list", inner, most) if most is not None else ("list", inner), f"tuple[{python}, ...]"
     if origin is dict:
-        inner, python = shape(get_args(annotation)[1], [])
-        return ("map" if get_args(annotation)[0] is str else "numbered", inner), f"dict[str, {python}]"
+        key, value = get_args(annotation)
+        inner, python = shape(value, [])
+        if key is ColorIndex:
+            return ("numbered", inner, MAX_COLOR_ATTACHMENTS - 1), f"dict[str, {python}]"
+        return ("map" if key is str else "numbered", inner), f"dict[str, {python}]"
     if origin in (Union, types.UnionType):
         return _union(list(get_args(annotation)), metadata)
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         if annotation is models.Command:
             return ("command",), "Command"
+        if annotation is metal_models.MetalCommand:
+            return ("command", "MetalCommand"), "MetalCommand"
         return ("record", annotation.__name__), annotation.__name__
     if annotation is bool:
         return ("bool",), "bool"
@@ -117,9 +124,12 @@ def member(field: FieldInfo) -> tuple[tuple[Any, ...], str, str]:
 def source() -> str:
     """The text of records.py."""
     out = [HEADER]
-    classes = [m for m in vars(models).values() if isinstance(m, type) and issubclass(m, models.Struct) and m is not models.Struct]
+    members = {id(member): member for module in (models, metal_models) for member in vars(module).values()}.values()
+    classes = [m for m in members if isinstance(m, type) and issubclass(m, Struct) and m is not Struct]
+    # What stands first is inherited from.
+    classes.sort(key=lambda model: model.__module__ == metal_models.__name__)
     for model in classes:
-        if model is models.Command:
+        if model in (models.Command, metal_models.MetalCommand):
             out.append(_command(model))
             continue
         fields = {name: member(field) for name, field in model.model_fields.items()}
@@ -142,6 +152,9 @@ def source() -> str:
 def _command(model: type[BaseModel]) -> str:
     shapes = {name: member(field)[0] for name, field in model.model_fields.items()}
     lines = "".join(f"        {name!r}: {found!r},\n" for name, found in shapes.items())
+    if model is metal_models.MetalCommand:
+        head = f'\n\nclass MetalCommand(Command):\n    """{model.__doc__}"""\n\n    __slots__ = ()\n'
+        return f"{head}    SHAPE: ClassVar[dict[str, Shape]] = {{\n{lines}    }}\n"
     return (
         '\n\nclass Command(Record):\n    """One recorded command: its name, and its parameters."""\n\n'
         '    __slots__ = ("body", "kind")\n    SHAPE: ClassVar[dict[str, Shape]] = {\n'

@@ -12,8 +12,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, model_validator
-from pydantic_core import CoreSchema
+from pydantic import ConfigDict, Field, model_validator
 
 from .fields import (
     Bool,
@@ -25,7 +24,6 @@ from .fields import (
     FramebufferName,
     ImageName,
     Index,
-    JsonSchema,
     Null,
     Number,
     Offset,
@@ -39,6 +37,8 @@ from .fields import (
     Text,
     Word,
 )
+from .metal_models import Metal
+from .struct import Struct
 
 Format = Annotated[str, Enumerant("VkFormat")]
 Layout = Annotated[str, Enumerant("VkImageLayout")]
@@ -51,39 +51,6 @@ Stage = Annotated[str, Enumerant("VkShaderStageFlagBits|VkPipelineStageFlagBits2
 Access = Annotated[str, Enumerant("VkAccessFlagBits2")]
 MemoryProperties = Annotated[tuple[str, ...], FlagBits("VkMemoryPropertyFlagBits")]
 CompareOp = Annotated[str, Enumerant("VkCompareOp")]
-
-
-class Struct(BaseModel):
-    """A structure: unknown members are errors, and so is null where a value is due."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-    @model_validator(mode="before")
-    @classmethod
-    def _states_values(cls, given: Any) -> Any:
-        nulls = [name for name, value in given.items() if value is None] if isinstance(given, dict) else []
-        for name in nulls:
-            if name in cls.model_fields and not cls._nullable(name):
-                raise ValueError(f"{name} is null: what is unknown is left out")
-        return given
-
-    @classmethod
-    def _nullable(cls, name: str) -> bool:
-        return any(isinstance(marker, (Null, Slot)) for marker in cls.model_fields[name].metadata)
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchema:
-        made = handler(schema)
-        members: dict[str, JsonSchema] = handler.resolve_ref_schema(made).get("properties", {})
-        for name, member in members.items():
-            if member.get("default", ...) is None:
-                del member["default"]
-            arms = member.get("anyOf", [])
-            if {"type": "null"} in arms and not cls._nullable(name):
-                rest = [arm for arm in arms if arm != {"type": "null"}]
-                del member["anyOf"]
-                member.update(rest[0] if len(rest) == 1 else {"anyOf": rest})
-        return made
 
 
 class Extent(Struct):
@@ -539,6 +506,102 @@ class Scene(Struct):
     textureDetail: Bool | None = None
 
 
+class SampleCountTest(Struct):
+    """A test of the bit of one count in a mask, and the count that the branch behind it gives."""
+
+    tests: Samples | None = None
+    gives: Samples | None = None
+
+
+class SampleCountChoice(Struct):
+    """How a program finds its sample count in the masks of VkPhysicalDeviceLimits: of which, how combined, and which bit it takes."""
+
+    limits: (
+        tuple[
+            Literal[
+                "framebufferColorSampleCounts",
+                "framebufferDepthSampleCounts",
+                "framebufferStencilSampleCounts",
+                "framebufferNoAttachmentsSampleCounts",
+                "framebufferIntegerColorSampleCounts",
+                "sampledImageColorSampleCounts",
+                "sampledImageIntegerSampleCounts",
+                "sampledImageDepthSampleCounts",
+                "sampledImageStencilSampleCounts",
+                "storageImageSampleCounts",
+            ],
+            ...,
+        ]
+        | None
+    ) = None
+    combined: Literal["AND", "OR", "MIN", "MAX", "LOGICAL_AND", "LOGICAL_OR", "NONE"] | None = None
+    chosen: Literal["MAXIMUM", "ATMOST"] | None = None
+    atMost: Samples | None = None
+    tests: tuple[SampleCountTest, ...] = ()
+    formats: tuple[Format, ...] | None = None
+
+
+ImpellerStorage = Literal["kHostVisible", "kDevicePrivate", "kDeviceTransient"]
+ImpellerLoad = Literal["kDontCare", "kLoad", "kClear"]
+ImpellerStore = Literal["kDontCare", "kStore", "kMultisampleResolve", "kStoreAndMultisampleResolve"]
+
+
+class AttachmentConfig(Struct):
+    """Impeller's RenderTarget::AttachmentConfig."""
+
+    storageMode: ImpellerStorage | None = None
+    loadAction: ImpellerLoad | None = None
+    storeAction: ImpellerStore | None = None
+    clearColor: tuple[Number, ...] | None = None
+
+
+class AttachmentConfigMSAA(Struct):
+    """Impeller's RenderTarget::AttachmentConfigMSAA; of one sample a pixel its AttachmentConfig, and `resolveStorageMode` is nobody's."""
+
+    storageMode: ImpellerStorage | None = None
+    resolveStorageMode: ImpellerStorage | None = None
+    loadAction: ImpellerLoad | None = None
+    storeAction: ImpellerStore | None = None
+    clearColor: tuple[Number, ...] | None = None
+
+
+class RenderTarget(Struct):
+    """Impeller's render target: what it expands to is what the engine builds of it."""
+
+    api: Literal["vulkan", "metal"] | None = None
+    onscreen: Bool | None = None
+    width: Size | None = None
+    height: Size | None = None
+    colorFormat: (
+        Literal[
+            "kA8UNormInt",
+            "kR8UNormInt",
+            "kR8G8UNormInt",
+            "kR8G8B8A8UNormInt",
+            "kR8G8B8A8UNormIntSRGB",
+            "kB8G8R8A8UNormInt",
+            "kB8G8R8A8UNormIntSRGB",
+            "kR32G32B32A32Float",
+            "kR16G16B16A16Float",
+            "kB10G10R10XR",
+            "kB10G10R10XRSRGB",
+            "kB10G10R10A10XR",
+        ]
+        | None
+    ) = None
+    depthFormat: Literal["kS8UInt", "kD24UnormS8Uint", "kD32FloatS8UInt"] | None = None
+    sampleCount: (
+        Annotated[
+            Literal[1, 2, 4, 8, 16, "kCount1", "kCount2", "kCount4", "kCount8", "kCount16", "k1", "k2", "k4", "k8", "k16"],
+            Word,
+        ]
+        | None
+    ) = None
+    enableStencil: Bool | None = None
+    colorAttachmentConfig: AttachmentConfigMSAA | None = None
+    stencilAttachmentConfig: AttachmentConfig | None = None
+
+
 class Description(Struct):
     """A frame, or part of one. Everything is optional but what Vulkan needs to make sense of a structure."""
 
@@ -551,3 +614,6 @@ class Description(Struct):
     pipelines: dict[str, Pipeline] = {}
     commands: tuple[Command | Literal["nextSubpass", "endRenderPass", "endRendering"], ...] | None = None
     scene: Scene | None = None
+    metal: Metal | None = None
+    sampleCountChoices: dict[str, SampleCountChoice] = {}
+    renderTargets: dict[str, RenderTarget] = {}

@@ -913,10 +913,162 @@ class Scene(Record):
     textureDetail: bool | None
 
 
+class SampleCountTest(Record):
+    """A test of the bit of one count in a mask, and the count that the branch behind it gives."""
+
+    __slots__ = ("gives", "tests")
+    SHAPE: ClassVar[dict[str, Shape]] = {
+        "tests": ("samples",),
+        "gives": ("samples",),
+    }
+    tests: int | None
+    gives: int | None
+
+
+class SampleCountChoice(Record):
+    """How a program finds its sample count in the masks of VkPhysicalDeviceLimits: of which, how combined, and which bit it takes."""
+
+    __slots__ = ("atMost", "chosen", "combined", "formats", "limits", "tests")
+    SHAPE: ClassVar[dict[str, Shape]] = {
+        "limits": (
+            "list",
+            (
+                "word",
+                (
+                    "framebufferColorSampleCounts",
+                    "framebufferDepthSampleCounts",
+                    "framebufferStencilSampleCounts",
+                    "framebufferNoAttachmentsSampleCounts",
+                    "framebufferIntegerColorSampleCounts",
+                    "sampledImageColorSampleCounts",
+                    "sampledImageIntegerSampleCounts",
+                    "sampledImageDepthSampleCounts",
+                    "sampledImageStencilSampleCounts",
+                    "storageImageSampleCounts",
+                ),
+            ),
+        ),
+        "combined": ("word", ("AND", "OR", "MIN", "MAX", "LOGICAL_AND", "LOGICAL_OR", "NONE")),
+        "chosen": ("word", ("MAXIMUM", "ATMOST")),
+        "atMost": ("samples",),
+        "tests": ("list", ("record", "SampleCountTest")),
+        "formats": ("list", ("enum", "VkFormat")),
+    }
+    limits: tuple[str, ...] | None
+    combined: str | None
+    chosen: str | None
+    atMost: int | None
+    tests: tuple[SampleCountTest, ...]
+    formats: tuple[str, ...] | None
+    ABSENT: ClassVar[dict[str, object]] = {"tests": ()}
+
+
+class AttachmentConfig(Record):
+    """Impeller's RenderTarget::AttachmentConfig."""
+
+    __slots__ = ("clearColor", "loadAction", "storageMode", "storeAction")
+    SHAPE: ClassVar[dict[str, Shape]] = {
+        "storageMode": ("word", ("kHostVisible", "kDevicePrivate", "kDeviceTransient")),
+        "loadAction": ("word", ("kDontCare", "kLoad", "kClear")),
+        "storeAction": ("word", ("kDontCare", "kStore", "kMultisampleResolve", "kStoreAndMultisampleResolve")),
+        "clearColor": ("list", ("number", False)),
+    }
+    storageMode: str | None
+    loadAction: str | None
+    storeAction: str | None
+    clearColor: tuple[float, ...] | None
+
+
+class AttachmentConfigMSAA(Record):
+    """Impeller's RenderTarget::AttachmentConfigMSAA; of one sample a pixel its AttachmentConfig, and `resolveStorageMode` is nobody's."""
+
+    __slots__ = ("clearColor", "loadAction", "resolveStorageMode", "storageMode", "storeAction")
+    SHAPE: ClassVar[dict[str, Shape]] = {
+        "storageMode": ("word", ("kHostVisible", "kDevicePrivate", "kDeviceTransient")),
+        "resolveStorageMode": ("word", ("kHostVisible", "kDevicePrivate", "kDeviceTransient")),
+        "loadAction": ("word", ("kDontCare", "kLoad", "kClear")),
+        "storeAction": ("word", ("kDontCare", "kStore", "kMultisampleResolve", "kStoreAndMultisampleResolve")),
+        "clearColor": ("list", ("number", False)),
+    }
+    storageMode: str | None
+    resolveStorageMode: str | None
+    loadAction: str | None
+    storeAction: str | None
+    clearColor: tuple[float, ...] | None
+
+
+class RenderTarget(Record):
+    """Impeller's render target: what it expands to is what the engine builds of it."""
+
+    __slots__ = (
+        "api",
+        "colorAttachmentConfig",
+        "colorFormat",
+        "depthFormat",
+        "enableStencil",
+        "height",
+        "onscreen",
+        "sampleCount",
+        "stencilAttachmentConfig",
+        "width",
+    )
+    SHAPE: ClassVar[dict[str, Shape]] = {
+        "api": ("word", ("vulkan", "metal")),
+        "onscreen": ("bool",),
+        "width": ("int", 1, 2147483647),
+        "height": ("int", 1, 2147483647),
+        "colorFormat": (
+            "word",
+            (
+                "kA8UNormInt",
+                "kR8UNormInt",
+                "kR8G8UNormInt",
+                "kR8G8B8A8UNormInt",
+                "kR8G8B8A8UNormIntSRGB",
+                "kB8G8R8A8UNormInt",
+                "kB8G8R8A8UNormIntSRGB",
+                "kR32G32B32A32Float",
+                "kR16G16B16A16Float",
+                "kB10G10R10XR",
+                "kB10G10R10XRSRGB",
+                "kB10G10R10A10XR",
+            ),
+        ),
+        "depthFormat": ("word", ("kS8UInt", "kD24UnormS8Uint", "kD32FloatS8UInt")),
+        "sampleCount": ("word", (1, 2, 4, 8, 16, "kCount1", "kCount2", "kCount4", "kCount8", "kCount16", "k1", "k2", "k4", "k8", "k16")),
+        "enableStencil": ("bool",),
+        "colorAttachmentConfig": ("record", "AttachmentConfigMSAA"),
+        "stencilAttachmentConfig": ("record", "AttachmentConfig"),
+    }
+    api: str | None
+    onscreen: bool | None
+    width: int | None
+    height: int | None
+    colorFormat: str | None
+    depthFormat: str | None
+    sampleCount: int | str | None
+    enableStencil: bool | None
+    colorAttachmentConfig: AttachmentConfigMSAA | None
+    stencilAttachmentConfig: AttachmentConfig | None
+
+
 class Description(Record):
     """A frame, or part of one. Everything is optional but what Vulkan needs to make sense of a structure."""
 
-    __slots__ = ("commands", "device", "enabled", "frame", "framebuffers", "images", "pipelines", "renderPasses", "scene")
+    __slots__ = (
+        "commands",
+        "device",
+        "enabled",
+        "frame",
+        "framebuffers",
+        "images",
+        "metal",
+        "pipelines",
+        "renderPasses",
+        "renderTargets",
+        "sampleCountChoices",
+        "scene",
+    )
     SHAPE: ClassVar[dict[str, Shape]] = {
         "frame": ("record", "FrameSize"),
         "device": ("either", ("record", "Device"), ("text",)),
@@ -927,6 +1079,9 @@ class Description(Record):
         "pipelines": ("map", ("record", "Pipeline")),
         "commands": ("list", ("command",)),
         "scene": ("record", "Scene"),
+        "metal": ("record", "Metal"),
+        "sampleCountChoices": ("map", ("record", "SampleCountChoice")),
+        "renderTargets": ("map", ("record", "RenderTarget")),
     }
     frame: FrameSize | None
     device: Device | str | None
@@ -937,7 +1092,268 @@ class Description(Record):
     pipelines: dict[str, Pipeline]
     commands: tuple[Command, ...] | None
     scene: Scene | None
-    ABSENT: ClassVar[dict[str, object]] = {"images": {}, "renderPasses": {}, "framebuffers": {}, "pipelines": {}}
+    metal: Metal | None
+    sampleCountChoices: dict[str, SampleCountChoice]
+    renderTargets: dict[str, RenderTarget]
+    ABSENT: ClassVar[dict[str, object]] = {
+        "images": {},
+        "renderPasses": {},
+        "framebuffers": {},
+        "pipelines": {},
+        "sampleCountChoices": {},
+        "renderTargets": {},
+    }
+
+
+class Metal(Record):
+    """A frame in Metal's words, and what the GPU offers: its family, and what supportsTextureSampleCount says."""
+
+    __slots__ = ("commands", "family", "renderPasses", "renderPipelines", "supportedSampleCounts", "textures")
+    SHAPE: ClassVar[dict[str, Shape]] = {
+        "family": ("enum", "MTLGPUFamily"),
+        "supportedSampleCounts": ("list", ("samples",)),
+        "textures": ("map", ("record", "MetalTexture")),
+        "renderPasses": ("map", ("record", "MetalRenderPass")),
+        "renderPipelines": ("map", ("record", "MetalRenderPipeline")),
+        "commands": ("list", ("command", "MetalCommand")),
+    }
+    family: str | None
+    supportedSampleCounts: tuple[int, ...] | None
+    textures: dict[str, MetalTexture]
+    renderPasses: dict[str, MetalRenderPass]
+    renderPipelines: dict[str, MetalRenderPipeline]
+    commands: tuple[MetalCommand, ...] | None
+    ABSENT: ClassVar[dict[str, object]] = {"textures": {}, "renderPasses": {}, "renderPipelines": {}}
+
+
+class MetalTexture(Record):
+    """MTLTextureDescriptor; `drawable` is a texture of a CAMetalLayer, `encoding` what the values mean."""
+
+    __slots__ = (
+        "arrayLength",
+        "drawable",
+        "encoding",
+        "height",
+        "mipmapLevelCount",
+        "pixelFormat",
+        "sampleCount",
+        "storageMode",
+        "textureType",
+        "usage",
+        "width",
+    )
+    SHAPE: ClassVar[dict[str, Shape]] = {
+        "pixelFormat": ("enum", "MTLPixelFormat"),
+        "width": ("int", 1, 2147483647),
+        "height": ("int", 1, 2147483647),
+        "textureType": ("enum", "MTLTextureType"),
+        "sampleCount": ("samples",),
+        "usage": ("flags", "MTLTextureUsage"),
+        "storageMode": ("enum", "MTLStorageMode"),
+        "mipmapLevelCount": ("int", 1, 2147483647),
+        "arrayLength": ("int", 1, 2147483647),
+        "drawable": ("bool",),
+        "encoding": ("word", ("LINEAR", "GAMMA", "DATA")),
+    }
+    pixelFormat: str | None
+    width: int | None
+    height: int | None
+    textureType: str | None
+    sampleCount: int | None
+    usage: tuple[str, ...] | None
+    storageMode: str | None
+    mipmapLevelCount: int | None
+    arrayLength: int | None
+    drawable: bool | None
+    encoding: str | None
+
+
+class MetalColorAttachment(Record):
+    """MTLRenderPassColorAttachmentDescriptor."""
+
+    __slots__ = ("loadAction", "resolveTexture", "storeAction", "texture")
+    SHAPE: ClassVar[dict[str, Shape]] = {
+        "texture": ("name", "metal.textures"),
+        "resolveTexture": ("name", "metal.textures"),
+        "loadAction": ("enum", "MTLLoadAction"),
+        "storeAction": ("enum", "MTLStoreAction"),
+    }
+    texture: str | None
+    resolveTexture: str | None
+    loadAction: str | None
+    storeAction: str | None
+
+
+class MetalDepthAttachment(Record):
+    """MTLRenderPassDepthAttachmentDescriptor."""
+
+    __slots__ = ("depthResolveFilter", "loadAction", "resolveTexture", "storeAction", "texture")
+    SHAPE: ClassVar[dict[str, Shape]] = {
+        "texture": ("name", "metal.textures"),
+        "resolveTexture": ("name", "metal.textures"),
+        "loadAction": ("enum", "MTLLoadAction"),
+        "storeAction": ("enum", "MTLStoreAction"),
+        "depthResolveFilter": ("enum", "MTLMultisampleDepthResolveFilter"),
+    }
+    texture: str | None
+    resolveTexture: str | None
+    loadAction: str | None
+    storeAction: str | None
+    depthResolveFilter: str | None
+
+
+class MetalStencilAttachment(Record):
+    """MTLRenderPassStencilAttachmentDescriptor."""
+
+    __slots__ = ("loadAction", "resolveTexture", "stencilResolveFilter", "storeAction", "texture")
+    SHAPE: ClassVar[dict[str, Shape]] = {
+        "texture": ("name", "metal.textures"),
+        "resolveTexture": ("name", "metal.textures"),
+        "loadAction": ("enum", "MTLLoadAction"),
+        "storeAction": ("enum", "MTLStoreAction"),
+        "stencilResolveFilter": ("enum", "MTLMultisampleStencilResolveFilter"),
+    }
+    texture: str | None
+    resolveTexture: str | None
+    loadAction: str | None
+    storeAction: str | None
+    stencilResolveFilter: str | None
+
+
+class MetalRenderPass(Record):
+    """MTLRenderPassDescriptor; the colour attachments are a list, or a mapping by index, null for one that is not used."""
+
+    __slots__ = ("colorAttachments", "depthAttachment", "stencilAttachment")
+    SHAPE: ClassVar[dict[str, Shape]] = {
+        "colorAttachments": (
+            "either",
+            ("numbered", ("null", ("record", "MetalColorAttachment")), 7),
+            ("list", ("null", ("record", "MetalColorAttachment")), 8),
+        ),
+        "depthAttachment": ("record", "MetalDepthAttachment"),
+        "stencilAttachment": ("record", "MetalStencilAttachment"),
+    }
+    colorAttachments: dict[str, MetalColorAttachment | None] | tuple[MetalColorAttachment | None, ...]
+    depthAttachment: MetalDepthAttachment | None
+    stencilAttachment: MetalStencilAttachment | None
+    ABSENT: ClassVar[dict[str, object]] = {"colorAttachments": ()}
+
+
+class MetalPipelineColor(Record):
+    """MTLRenderPipelineColorAttachmentDescriptor."""
+
+    __slots__ = ("blendingEnabled", "isBlendingEnabled", "pixelFormat")
+    SHAPE: ClassVar[dict[str, Shape]] = {
+        "pixelFormat": ("enum", "MTLPixelFormat"),
+        "isBlendingEnabled": ("bool",),
+        "blendingEnabled": ("bool",),
+    }
+    pixelFormat: str | None
+    isBlendingEnabled: bool | None
+    blendingEnabled: bool | None
+
+
+class MetalRenderPipeline(Record):
+    """MTLRenderPipelineDescriptor; names that Objective-C has otherwise, or that are deprecated, stand for the same property."""
+
+    __slots__ = (
+        "alphaToCoverageEnabled",
+        "alphaToOneEnabled",
+        "colorAttachments",
+        "depthAttachmentPixelFormat",
+        "isAlphaToCoverageEnabled",
+        "isAlphaToOneEnabled",
+        "isRasterizationEnabled",
+        "rasterSampleCount",
+        "rasterizationEnabled",
+        "renderPass",
+        "sampleCount",
+        "stencilAttachmentPixelFormat",
+    )
+    SHAPE: ClassVar[dict[str, Shape]] = {
+        "renderPass": ("name", "metal.renderPasses"),
+        "rasterSampleCount": ("samples",),
+        "sampleCount": ("samples",),
+        "colorAttachments": (
+            "either",
+            ("numbered", ("null", ("record", "MetalPipelineColor")), 7),
+            ("list", ("null", ("record", "MetalPipelineColor")), 8),
+        ),
+        "depthAttachmentPixelFormat": ("enum", "MTLPixelFormat"),
+        "stencilAttachmentPixelFormat": ("enum", "MTLPixelFormat"),
+        "isAlphaToCoverageEnabled": ("bool",),
+        "alphaToCoverageEnabled": ("bool",),
+        "isAlphaToOneEnabled": ("bool",),
+        "alphaToOneEnabled": ("bool",),
+        "isRasterizationEnabled": ("bool",),
+        "rasterizationEnabled": ("bool",),
+    }
+    renderPass: str | None
+    rasterSampleCount: int | None
+    sampleCount: int | None
+    colorAttachments: dict[str, MetalPipelineColor | None] | tuple[MetalPipelineColor | None, ...]
+    depthAttachmentPixelFormat: str | None
+    stencilAttachmentPixelFormat: str | None
+    isAlphaToCoverageEnabled: bool | None
+    alphaToCoverageEnabled: bool | None
+    isAlphaToOneEnabled: bool | None
+    alphaToOneEnabled: bool | None
+    isRasterizationEnabled: bool | None
+    rasterizationEnabled: bool | None
+    ABSENT: ClassVar[dict[str, object]] = {"colorAttachments": ()}
+
+
+class MetalRead(Record):
+    """A shader reads the texture; of a multisampled one which samples it reads, and what it does with them."""
+
+    __slots__ = ("resolves", "samples", "stage", "texture")
+    SHAPE: ClassVar[dict[str, Shape]] = {
+        "texture": ("name", "metal.textures"),
+        "stage": ("word", ("vertex", "fragment", "compute", "tile")),
+        "samples": ("word", (1, "ALL")),
+        "resolves": ("word", ("AVERAGE", "MIN", "MAX", "OTHER")),
+    }
+    texture: str | None
+    stage: str | None
+    samples: int | str | None
+    resolves: str | None
+
+
+class MetalWrite(Record):
+    """A shader writes the texture."""
+
+    __slots__ = ("stage", "texture")
+    SHAPE: ClassVar[dict[str, Shape]] = {
+        "texture": ("name", "metal.textures"),
+        "stage": ("word", ("vertex", "fragment", "compute", "tile")),
+    }
+    texture: str | None
+    stage: str | None
+
+
+class MetalCopy(Record):
+    """A blit encoder's copy from one texture to another."""
+
+    __slots__ = ("destination", "source")
+    SHAPE: ClassVar[dict[str, Shape]] = {
+        "source": ("name", "metal.textures"),
+        "destination": ("name", "metal.textures"),
+    }
+    source: str | None
+    destination: str | None
+
+
+class MetalCommand(Command):
+    """What a command buffer encodes: a whole render pass, what its shaders read or write, a copy, a drawable that is presented."""
+
+    __slots__ = ()
+    SHAPE: ClassVar[dict[str, Shape]] = {
+        "renderPass": ("name", "metal.renderPasses"),
+        "readTexture": ("record", "MetalRead"),
+        "writeTexture": ("record", "MetalWrite"),
+        "copy": ("record", "MetalCopy"),
+        "present": ("name", "metal.textures"),
+    }
 
 
 RECORDS: dict[str, type[Record]] = {
@@ -984,5 +1400,22 @@ RECORDS: dict[str, type[Record]] = {
     "Nothing": Nothing,
     "Command": Command,
     "Scene": Scene,
+    "SampleCountTest": SampleCountTest,
+    "SampleCountChoice": SampleCountChoice,
+    "AttachmentConfig": AttachmentConfig,
+    "AttachmentConfigMSAA": AttachmentConfigMSAA,
+    "RenderTarget": RenderTarget,
     "Description": Description,
+    "Metal": Metal,
+    "MetalTexture": MetalTexture,
+    "MetalColorAttachment": MetalColorAttachment,
+    "MetalDepthAttachment": MetalDepthAttachment,
+    "MetalStencilAttachment": MetalStencilAttachment,
+    "MetalRenderPass": MetalRenderPass,
+    "MetalPipelineColor": MetalPipelineColor,
+    "MetalRenderPipeline": MetalRenderPipeline,
+    "MetalRead": MetalRead,
+    "MetalWrite": MetalWrite,
+    "MetalCopy": MetalCopy,
+    "MetalCommand": MetalCommand,
 }

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 
-from ..vulkan.names import parse_enum
+from ..vulkan.names import nearest, parse_enum, parse_flags
 
 SAMPLE_COUNTS = (1, 2, 4, 8, 16, 32, 64)
 
@@ -30,9 +30,13 @@ def sample_count(value: object) -> int | None:
 
 
 def enumerant(enums: str, text: str) -> str | None:
-    """The canonical name in the first of the enums, joined by `|`, that has it; None where none has."""
+    """The canonical name in the first of the enums, joined by `|`, that has it; None where none has. `MTL...` are Metal's."""
     found = _found.get((enums, text))
     if found is None:
+        if enums.startswith("MTL"):
+            from ..metal.names import parse
+
+            return parse(enums, text)
         found = next((name for enum in enums.split("|") if (name := parse_enum(enum, text)) is not None), None)
         if found is not None:
             _found[enums, text] = found
@@ -41,6 +45,26 @@ def enumerant(enums: str, text: str) -> str | None:
 
 _found: dict[tuple[str, str], str] = {}
 """Spellings met: the same few words state most of a frame. What is no name is not kept, so that no input makes this grow."""
+
+
+def flags(enum: str, text: str) -> list[str]:
+    """The canonical names in a text that joins them by `|`, as `names.parse_flags`; ValueError with the part that is unknown."""
+    if enum.startswith("MTL"):
+        from ..metal.names import parse_options
+
+        return parse_options(enum, text)
+    return parse_flags(enum, text)
+
+
+def nearest_enumerant(enums: str, text: str) -> str | None:
+    """The enumerant that was most likely meant by a word that is none."""
+    if enums.startswith("MTL"):
+        from ..metal.names import nearest_to
+
+        return nearest_to(enums, text)
+    from ..vulkan.enums import ENUMS
+
+    return nearest(text, [name for each in enums.split("|") for name in dict.fromkeys(ENUMS[each].values())])
 
 
 def finite(value: float) -> bool:

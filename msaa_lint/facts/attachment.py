@@ -20,8 +20,8 @@ def pass_facts(each: Pass) -> Facts:
     return facts
 
 
-def attachment_facts(attachment: Attachment) -> Facts:
-    """What is known of an attachment in its pass."""
+def attachment_facts(attachment: Attachment, known: bool) -> Facts:
+    """What is known of an attachment in its pass; `known` says whether the pass's subpasses are."""
     facts = Facts()
     record = attachment.record
     target = attachment.target
@@ -33,7 +33,8 @@ def attachment_facts(attachment: Attachment) -> Facts:
         format_at, samples_at = (at, samples_at) if name == "format" else (format_at, at)
     facts.put("attachment.format", attachment.format.name if attachment.format is not None else None, format_at)
     facts.put("attachment.samples", attachment.samples, samples_at)
-    facts.put("attachment.used", attachment.used)
+    if known or attachment.used:
+        facts.put("attachment.used", attachment.used)
     facts.put("attachment.drawn", attachment.drawn)
     facts.put("attachment.is_resolve_target", bool(attachment.resolve))
     facts.put("attachment.read_as_input", bool(attachment.input))

@@ -73,11 +73,12 @@ class Spot(NamedTuple):
 
 
 class Events:
-    """The events of a frame's images. `followed` is false where there are more than are followed: nothing is known then."""
+    """The events of a frame's images. `followed` is false where there are more than are followed, or their order is not known: nothing is
+    known then."""
 
     def __init__(self, frame: Frame) -> None:
         self.frame = frame
-        self.followed = uses_at_most(frame) <= MAX_USES
+        self.followed = uses_at_most(frame) <= MAX_USES and frame.document.ordered
         self.runs = list(_runs(frame)) if self.followed else []
         self.of: dict[str, list[Event]] = {}
         self.written: dict[int, list[Spot]] = {}

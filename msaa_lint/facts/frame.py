@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ..document.document import Document
+from ..document.document import Document, StencilApart
 from ..document.record import Record
 from ..document.records import (
     AttachmentDescription,
@@ -239,7 +239,8 @@ class Frame:
 
     @property
     def has_commands(self) -> bool:
-        return self.description.commands is not None
+        """Whether what is recorded is known, and in which order."""
+        return self.description.commands is not None and self.document.ordered
 
     def render_pass(self, name: str | None) -> Pass | None:
         return self._named.get(name) if name is not None else None
@@ -268,8 +269,11 @@ class Frame:
                 made.attachments.append(self._described(name, description, index))
             named = {a.name: a for a in made.attachments}
             made.subpasses = [self._subpass(made, subpass, n, named) for n, subpass in enumerate(record.subpasses)]
+            metal = self.document.metal
             for attachment in made.attachments:
-                attachment.aspects = _aspects(attachment)
+                # A slot of Metal's says which aspects it is attached for.
+                stated = tuple(metal.attachments.get(id(attachment.record), ())) if metal is not None else ()
+                attachment.aspects = _aspects(attachment, stated)
             self.passes.append(made)
             self._named[name] = made
 
@@ -341,7 +345,8 @@ class Frame:
             target = find(reference)
             if target is None:
                 continue
-            resolve = Resolve("subpass", "color", record, f"{record.path}.resolveAttachments[{n}]")
+            slots = "resolveAttachments" if self.document.metal is None else "colorAttachments"
+            resolve = Resolve("subpass", "color", record, f"{record.path}.{slots}[{n}]")
             resolve.source = made.color[n] if n < len(made.color) else None
             resolve.target = target
             resolve.mode = "AVERAGE"
@@ -356,7 +361,24 @@ class Frame:
         chained = record.depthStencilResolve
         if chained is not None and (target := find(chained.attachment)) is not None:
             self._depth_stencil_resolve(made, depth_stencil, target, index)
+        if self.document.metal is not None and id(record) in self.document.metal.stencils:
+            self._stencil_apart(made, self.document.metal.stencils[id(record)], named, index)
         return made
+
+    def _stencil_apart(self, made: PassSubpass, apart: StencilApart, named: dict[str, Attachment], index: int) -> None:
+        """Adds the stencil attachment of a Metal pass whose texture is not its depth attachment's, and its resolve."""
+        stencil = named[apart.attachment]
+        made.depth_stencil.append(stencil)
+        stencil.depth_stencil.add(index)
+        if apart.target is None:
+            return
+        resolve = Resolve("subpass", "stencil", apart.record, apart.record.path)
+        resolve.source, resolve.target = stencil, named[apart.target]
+        resolve.mode = "SAMPLE_ZERO" if apart.record.stencilResolveFilter != "depthResolvedSample" else None
+        resolve.mode_at = apart.record.place("stencilResolveFilter", "resolveTexture")
+        resolve.source_at, resolve.target_at = apart.record.place("texture"), apart.record.place("resolveTexture")
+        resolve.target.resolve.setdefault(index, set()).add("stencil" if resolve.mode is not None else "?")
+        self._joined(made, resolve, index)
 
     def _depth_stencil_resolve(self, made: PassSubpass, source: Attachment | None, target: Attachment, index: int) -> None:
         record = made.record
@@ -515,12 +537,14 @@ class Frame:
         return (size.width, size.height) if size is not None else (None, None)
 
 
-def _aspects(attachment: Attachment) -> list[Aspect]:
-    """The aspects of a described attachment; what its use tells of them where its format is unknown."""
+def _aspects(attachment: Attachment, stated: tuple[str, ...] = ()) -> list[Aspect]:
+    """The aspects of a described attachment; where its format is unknown those that are `stated`, or what its use tells of them."""
     record = attachment.record
     assert isinstance(record, AttachmentDescription)
     if attachment.format is not None:
         names: tuple[str | None, ...] = attachment.format.aspects
+    elif stated:
+        names = stated
     else:
         names = ("color",) if attachment.color or any("color" in aspects for aspects in attachment.resolve.values()) else (None,)
     made = []

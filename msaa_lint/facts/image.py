@@ -86,7 +86,7 @@ def image_facts(target: Target, bindings: Bindings, frame: Frame, timeline: Time
     if target.samples is not None:
         facts.put("image.share_of_devices", sample_count_share(target.samples, tilers=False))
         facts.put("image.share_of_tilers", sample_count_share(target.samples, tilers=True))
-    facts.put("image.loaded", _loaded(bound))
+    facts.put("image.loaded", _loaded(bound, frame))
     if image is None:
         facts.put("image.is_render_target", rendered)
         return facts
@@ -181,8 +181,19 @@ def _compression_blockers(image: Image, device: DeviceProfile | None) -> list[tu
     return [(name, at) for name, (there, at) in stated.items() if there and name in names]
 
 
-def _loaded(bound: list[Attachment]) -> bool | None:
-    """Whether some pass loads an aspect of it; unknown where a load operation is not stated."""
+def _loaded(bound: list[Attachment], frame: Frame) -> bool | None:
+    """Whether some pass loads an aspect of it; unknown where a load operation is not stated.
+
+    Of a program's file also where no pass of it has the image; of a page's pieces where a pass loads samples of an image that is not known.
+    """
+    if not bound and not frame.document.whole and not frame.document.pieces:
+        return None
+    if not bound and frame.document.pieces:
+        strangers = [
+            a for each in frame.passes for a in each.attachments if a.target is not None and a.target.image is None and a.samples != 1
+        ]
+        if any(aspect.load == "LOAD" for attachment in strangers if attachment.used for aspect in attachment.aspects):
+            return None
     ops = [aspect.load for attachment in bound if attachment.used for aspect in attachment.aspects]
     if "LOAD" in ops:
         return True

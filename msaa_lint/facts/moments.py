@@ -68,8 +68,8 @@ class Moments:
         """Whether the commands go on to where a picture is shown."""
         self.writes = not kinds.isdisjoint(_WRITES)
         """Whether commands outside of passes write to images."""
-        self.followed = uses_at_most(frame) <= MAX_USES
-        """False where there are more uses than are followed."""
+        self.followed = uses_at_most(frame) <= MAX_USES and frame.document.ordered
+        """False where there are more uses than are followed, or their order is not known."""
         if not self.followed:
             return
         for name, moment in self._recorded() if frame.has_commands else self._once_each():

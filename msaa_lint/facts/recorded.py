@@ -119,7 +119,8 @@ def touch_facts(facts: Facts, each: Pass, attachment: Attachment, aspect: Aspect
     untouched = not attachment.used
     if attachment.used and instances and facts.values.get("aspect.resolved") is False:
         untouched = _untouched(each, attachment, aspect, instances, frame)
-    facts.put("aspect.untouched", untouched)
+    if attachment.used or each.subpasses or frame.document.whole:
+        facts.put("aspect.untouched", untouched)
     if untouched:
         needs = aspect.store_member if aspect.store == "STORE" and aspect.load != "LOAD" else aspect.load_member
         facts.places["aspect.untouched"] = attachment.record.place(needs) if attachment.used else attachment.record.head

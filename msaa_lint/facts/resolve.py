@@ -52,6 +52,8 @@ def writers_of(frame: Frame) -> Writers:
     writers: Writers = {}
     if uses_at_most(frame) > MAX_USES:
         return writers
+    if not frame.document.ordered:
+        return _only_writers(frame)
     begins = {position: each for each in frame.passes for position in each.begun}
     for position, command in enumerate(frame.commands):
         if position in begins:
@@ -62,6 +64,15 @@ def writers_of(frame: Frame) -> Writers:
         if isinstance(written, str):
             writers.setdefault(written, []).append((position, None))
     return writers
+
+
+def _only_writers(frame: Frame) -> Writers:
+    """Where the order is not known: of the images that one pass alone draws to, that pass, before all else."""
+    drawn: dict[str, list[Pass]] = {}
+    for each in frame.passes:
+        for name in {t.name for a in each.attachments if a.drawn for t in targets_at(frame, a, None)}:
+            drawn.setdefault(name, []).append(each)
+    return {name: [(-1, passes[0])] for name, passes in drawn.items() if len(passes) == 1}
 
 
 def command_facts(facts: Facts, resolve: Resolve, position: int, frame: Frame, writers: Writers) -> None:

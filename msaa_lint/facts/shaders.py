@@ -160,6 +160,7 @@ class Shaders:
         if target.format is not None:
             facts.put("read.is_color", "color" in target.format.aspects)
             facts.put("read.numeric", target.format.numeric or None)
+        facts.put("read.alone", not self.frame.passes and target.format is None and target.samples != 1, body.place("image"))
         facts.put("read.resolves", body.resolves, body.place("resolves", "samples", "image"))
         several = body.samples == ALL or body.resolves is not None
         facts.put("read.samples", ALL if several else ONE if body.samples == 1 else None, body.place("samples", "resolves", "image"))
@@ -221,6 +222,7 @@ class Shaders:
                 facts.put("read.image", attachment.title, attachment.record.head)
                 facts.put("read.image_samples", attachment.samples, attachment.record.place("samples", "image"))
                 facts.put("read.on_tile", True)
+                facts.put("read.alone", False)
                 facts.put("read.pass_could_resolve", False)
                 facts.put("read.resolves", image.resolves or OTHER, stage.place("module"))
                 facts.put("read.samples", _takes(image, attachment.samples), stage.place("module"))

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from ..devices import DeviceProfile
 from ..document.document import Document
 from .attachment import aspect_facts, attachment_facts, pass_facts, resolves_at
+from .choices import choices
 from .clear_values import clear_value_facts
 from .dependency import external_dependencies, recorded_barriers
 from .facts import Facts, Subject
@@ -49,6 +50,9 @@ def subjects(
     assert isinstance(efficient, int)
     above = {id(target) for target in targets if target.samples is not None and target.samples > efficient}
     studied = study(frame) if above and study is not None else UNSTUDIED
+    lowered, metal = document.metal, document.description.metal
+    if lowered is not None:
+        from .metal import action_facts, filter_facts, texture_facts
     writers = writers_of(frame) if frame.resolve_commands else {}
     in_vain = read_in_vain(frame, writers, timeline) if writers else set()
     for target in targets:
@@ -57,6 +61,8 @@ def subjects(
         turns.put(facts, target)
         shaders.averaged(facts, target)
         put_study(facts, target.samples, studied if id(target) in above else UNSTUDIED)
+        if lowered is not None and metal is not None:
+            texture_facts(facts, target, metal, around.values.get("device.lazy_memory"))
         images[id(target.record)] = facts
         yield Subject("image", target.path, target.record.head, Facts(around, facts), target)
     of_subpass: dict[str, Facts] = {}
@@ -68,8 +74,9 @@ def subjects(
         yield Subject("pass", each.path, each.record.head, shared, each)
         instances = records.get(each.path, [])
         resolves = resolves_at(each)
+        known = document.whole or bool(each.subpasses)
         for attachment in each.attachments:
-            base = Facts(shared, _image_of(attachment, images), attachment_facts(attachment))
+            base = Facts(shared, _image_of(attachment, images), attachment_facts(attachment, known))
             yield Subject("attachment", attachment.record.path, attachment.record.head, base, attachment)
             for aspect in attachment.aspects:
                 facts = Facts(base, aspect_facts(each, attachment, aspect, resolves.get(id(attachment), []), timeline))
@@ -77,6 +84,8 @@ def subjects(
                     facts.put("aspect.fetched", fetched(attachment, aspect, results.events))
                 touch_facts(facts, each, attachment, aspect, instances, frame)
                 lifetime_facts(facts, each, attachment, aspect, moments)
+                if lowered is not None:
+                    action_facts(facts, attachment, aspect, lowered)
                 yield Subject("aspect", attachment.record.path, attachment.record.head, facts, (attachment, aspect))
         for subpass in each.subpasses:
             own = Facts(shared, subpass_facts(subpass, frame, drawn, device))
@@ -86,6 +95,8 @@ def subjects(
             for resolve in subpass.resolves:
                 facts = Facts(shared, resolve_facts(resolve, device))
                 results.put(facts, resolve)
+                if lowered is not None:
+                    filter_facts(facts, resolve, lowered)
                 yield Subject("resolve", resolve.path, resolve.record.head, facts, resolve)
         for record, facts in external_dependencies(each, barriers, frame.has_commands and not frame.commands):
             yield Subject("dependency", record.path, record.head, Facts(shared, facts), record)
@@ -103,6 +114,7 @@ def subjects(
         shaders.put(facts, pipeline)
         yield Subject("pipeline", pipeline.path, pipeline.head, Facts(base, facts), (pipeline, drawn_in))
     yield from shaders.reads(around)
+    yield from choices(document.description, around)
 
 
 def _image_of(attachment: Attachment, images: dict[int, Facts]) -> Facts:

@@ -17,7 +17,19 @@ def profile(description: Description, default: DeviceProfile | None = None) -> D
     stated = description.device
     if isinstance(stated, Device):
         return described(stated)
-    return builtin(stated) or default if stated is not None else default
+    if stated is None:
+        return of_family(description) or default
+    return builtin(stated) or default
+
+
+def of_family(description: Description) -> DeviceProfile | None:
+    """What the GPU family that a frame in Metal's words states has in common; None where it states none of Apple's."""
+    metal = description.metal
+    if metal is None or metal.family is None:
+        return None
+    from ..metal.families import profile as profile_of
+
+    return profile_of(metal.family, metal.supportedSampleCounts)
 
 
 def described(device: Device) -> DeviceProfile:
@@ -60,6 +72,10 @@ def surroundings(description: Description, device: DeviceProfile | None) -> Fact
         facts.put("frame.height", size.height, size.place("height"))
         facts.put("frame.fps", float(size.fps) if size.fps is not None else None, size.place("fps"))
     facts.put("frame.has_commands", description.commands is not None)
+    metal = description.metal
+    facts.put("frame.api", "VULKAN" if metal is None else "METAL")
+    if metal is not None:
+        facts.put("device.metal_family", metal.family, metal.place("family"))
     _device(facts, device)
     _enabled(facts, description, device)
     scene = description.scene

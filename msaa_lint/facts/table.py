@@ -29,7 +29,23 @@ WORDS: dict[str, tuple[str, ...]] = {
     "fetched": ("ONE", "ALL", "NOT_STATED", "OTHER"),
     "samples read": ("ONE", "ALL", "OTHER"),
     "resolves": ("AVERAGE", "MIN", "MAX", "OTHER"),
+    "api": ("VULKAN", "METAL"),
+    "storage mode": ("shared", "managed", "private", "memoryless"),
+    "texture type": (
+        "type1D", "type1DArray", "type2D", "type2DArray", "type2DMultisample", "typeCube", "typeCubeArray", "type3D",
+        "type2DMultisampleArray", "typeTextureBuffer",
+    ),
+    "texture usage": ("shaderRead", "shaderWrite", "renderTarget", "pixelFormatView", "shaderAtomic"),
+    "load action": ("dontCare", "load", "clear"),
+    "store action": ("dontCare", "store", "multisampleResolve", "storeAndMultisampleResolve", "unknown", "customSampleDepthStore"),
+    "resolve filter": ("sample0", "min", "max", "depthResolvedSample"),
+    "family": (
+        *(f"apple{number}" for number in range(1, 11)), "mac1", "mac2", "macCatalyst1", "macCatalyst2", "common1", "common2", "common3",
+        "metal3", "metal4",
+    ),
     "fits": ("SAME", "DIFFERENT", "NOT_STATED"),
+    "combined": ("AND", "OR", "MIN", "MAX", "LOGICAL_AND", "LOGICAL_OR", "NONE"),
+    "chosen": ("MAXIMUM", "ATMOST"),
     "study": ("NONE", "JUSTIFIES", "DECLINES", "STALE", "UNUSABLE"),
     "numeric": ("UNORM", "SNORM", "USCALED", "SSCALED", "UINT", "SINT", "UFLOAT", "SFLOAT", "SRGB", "SFIXED5", "BOOL"),
     "vendor": (
@@ -43,6 +59,7 @@ _FRAME = (
     Fact("frame.height", "INT", "height of the frame in pixels"),
     Fact("frame.fps", "DOUBLE", "frames a second"),
     Fact("frame.has_commands", "BOOL", "the description records commands"),
+    Fact("frame.api", "STRING", "in whose words the frame is: VULKAN or METAL; never unknown", "api"),
 )
 _DEVICE = (
     Fact("device.known", "BOOL", "the device is named or described, and is one device, not a class with guaranteed minimums"),
@@ -55,6 +72,7 @@ _DEVICE = (
     Fact("device.lazy_memory_known", "BOOL", "its memory types are stated"),
     Fact("device.max_efficient_samples", "INT", "the largest count that keeps full throughput: 4 unless the device says otherwise"),
     Fact("device.sample_rate_shading", "BOOL", "it offers the feature sampleRateShading"),
+    Fact("device.metal_family", "STRING", "Metal: the GPU family that is stated", "family"),
     Fact(
         "device.mixed_samples",
         "BOOL",
@@ -131,6 +149,12 @@ _IMAGE = (
         "study",
     ),
     Fact("image.study_says", "STRING", "what that record found, or why it does not count; never unknown"),
+    Fact("image.storage_mode", "STRING", "Metal: its storage mode", "storage mode"),
+    Fact("image.texture_type", "STRING", "Metal: its texture type", "texture type"),
+    Fact("image.type_fits", "BOOL", "Metal: its texture type is a multisample one where it has several samples, and none where it has one"),
+    Fact("image.usage_words", "LIST", "Metal: its usage, in Metal's words", "texture usage"),
+    Fact("image.memoryless_offered", "BOOL", "Metal: the GPU has memoryless textures: a family from apple2 on, or one with lazy memory"),
+    Fact("image.memoryless_conflicts", "LIST", "Metal: its usage but renderTarget: no memoryless texture may have it", "texture usage"),
 )
 _PASS = (
     Fact("pass.kind", "STRING", "a VkRenderPass or a vkCmdBeginRendering", "pass kind"),
@@ -211,6 +235,14 @@ _ASPECT = (
         "no subpass refers to the attachment, or no draw and no clear that is recorded touches the aspect; false where that is not known; "
         "never unknown",
     ),
+)
+_ACTION = (
+    Fact("aspect.load_action", "STRING", "Metal: its load action; absent for what is only resolved to", "load action"),
+    Fact("aspect.store_action", "STRING", "Metal: its store action; absent for what is only resolved to", "store action"),
+    Fact("aspect.has_resolve_texture", "BOOL", "Metal: a resolve texture is stated for it"),
+    Fact("aspect.resolve_texture", "STRING", "Metal: that texture's name"),
+    Fact("aspect.resolves_by_action", "BOOL", "Metal: its store action is one that resolves"),
+    Fact("aspect.resolve_filter", "STRING", "Metal: the filter that is stated for the resolve of depth, or of stencil", "resolve filter"),
 )
 _SUBPASS = (
     Fact("subpass.index", "INT", "its index; 0 in dynamic rendering"),
@@ -311,6 +343,7 @@ _RESOLVE = (
     Fact("resolve.waiting_stages", "LIST", "the source stages of those", "VkPipelineStageFlagBits2"),
     Fact("resolve.read_in_pass", "BOOL", "that reader is a later subpass of the pass"),
     Fact("resolve.read_next_frame", "BOOL", "that reader is in the next frame"),
+    Fact("resolve.filter", "STRING", "Metal: the filter that is stated for it, of depth or stencil", "resolve filter"),
     Fact("resolve.share_of_tilers", "INT", "depth and stencil: per cent of tile-based devices in reports that offer the mode"),
 )
 _PIPELINE = (
@@ -375,6 +408,7 @@ _READ = (
         "BOOL",
         "it loops over those N, averages them, or takes their least or greatest, under no such condition: as if the image had no others",
     ),
+    Fact("read.alone", "BOOL", "no pass is described, nor the image's format, nor that it has one sample: the reader is all there is"),
     Fact("read.on_tile", "BOOL", "the image is attached to the pass around the read"),
     Fact("read.writer", "STRING", "the pass that last wrote the image before"),
     Fact("read.pass_could_resolve", "BOOL", "that pass does not resolve it, and could; false where the pass around has the image attached"),
@@ -394,19 +428,33 @@ _DEPENDENCY = (
     Fact("dependency.multisampled", "BOOL", "that subpass is the first to use a multisampled attachment"),
     Fact("dependency.multisampled_depth_stencil", "BOOL", "that subpass is the first to use a multisampled depth-stencil attachment"),
 )
+_CHOICE = (
+    Fact("choice.name", "STRING", "the function or variable that holds the count"),
+    Fact("choice.limits", "LIST", "the members of VkPhysicalDeviceLimits whose masks are asked"),
+    Fact("choice.combined", "STRING", "how the masks are combined; NONE for one alone", "combined"),
+    Fact("choice.chosen", "STRING", "MAXIMUM: the greatest count that is offered; ATMOST: the greatest up to a stated one", "chosen"),
+    Fact("choice.at_most", "INT", "the greatest count that it may give: as stated, else by its tests; 64 where nothing caps it"),
+    Fact("choice.retested", "INT", "a count whose bit an earlier test of the chain has asked, which gives another count"),
+    Fact("choice.first_gives", "INT", "the count that the earlier test gives"),
+    Fact("choice.never_given", "INTS", "the counts of the branches behind later tests of that bit, which are never taken; never unknown"),
+    Fact("choice.depth_counts_asked", "BOOL", "the counts for depth are among its limits"),
+    Fact("choice.stencil_counts_asked", "BOOL", "the counts for stencil are among its limits"),
+    Fact("choice.stencil_formats", "LIST", "the formats with a stencil aspect among those of images that get the count", "VkFormat"),
+)
 
 GLOBAL = (*_FRAME, *_DEVICE, *_ENABLED, *_SCENE)
 
 SUBJECTS: dict[str, tuple[Fact, ...]] = {
     "image": (*_IMAGE, *GLOBAL),
     "attachment": (*_ATTACHMENT, *_IMAGE, *_PASS, *GLOBAL),
-    "aspect": (*_ASPECT, *_ATTACHMENT, *_IMAGE, *_PASS, *GLOBAL),
+    "aspect": (*_ASPECT, *_ACTION, *_ATTACHMENT, *_IMAGE, *_PASS, *GLOBAL),
     "pass": (*_PASS, *GLOBAL),
     "subpass": (*_SUBPASS, *_PASS, *GLOBAL),
     "resolve": (*_RESOLVE, *_PASS, *GLOBAL),
     "pipeline": (*_PIPELINE, *_SUBPASS, *_PASS, *GLOBAL),
     "dependency": (*_DEPENDENCY, *_PASS, *GLOBAL),
     "read": (*_READ, *GLOBAL),
+    "choice": (*_CHOICE, *GLOBAL),
 }
 """The facts that a rule about each kind of subject may ask."""
 

@@ -138,12 +138,18 @@ class Timeline:
                 yield resolve.target_image.name, Use(position, resolve.aspect, OVERWRITTEN)
 
     def after(self, target: str, aspect: str | None, position: int) -> str | None:
-        """What first happens to an image after a position, round the loop; None where nothing does."""
+        """What first happens to an image after a position, round the loop; None where nothing does.
+
+        Where the order of the passes is not known, what any of them does that spares the contents most.
+        """
         key = (target, aspect)
         if key not in self._uses_of:
             uses = [use for use in self.uses.get(target, []) if _same(use.aspect, aspect)]
             self._uses_of[key] = ([use.position for use in uses], uses)
         positions, uses = self._uses_of[key]
+        if uses and not self.frame.document.ordered:
+            kinds = {use.kind for use in uses}
+            return READ if READ in kinds else UNKNOWN if UNKNOWN in kinds else OVERWRITTEN
         return uses[bisect_right(positions, position) % len(uses)].kind if uses else None
 
     def stored_before(self, each: Pass, attachment: Attachment, aspect: Aspect) -> Store | None:

@@ -6,11 +6,11 @@ import re
 from collections.abc import Iterable, Sequence
 from functools import cached_property
 from types import TracebackType
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..document.document import Document
 from ..document.record import Record
-from ..document.records import Framebuffer
+from ..document.records import RECORDS, Framebuffer
 from ..facts.facts import Subject
 from ..facts.frame import Attachment, Frame, Pass
 from ..facts.image import Bindings
@@ -21,6 +21,9 @@ from ..finding import Span
 from ..page import Mend, Setting
 from .mentions import Mentions
 from .usages import Usages
+
+if TYPE_CHECKING:
+    from .metal_mentions import MetalMentions
 
 PLAIN = ("set", "unset", "add", "remove")
 """The actions that change one member of a record and nothing else."""
@@ -48,7 +51,14 @@ class Refused(NamedTuple):
 
 
 class Structural(Exception):
-    """A change that `applied` cannot make: it adds entries or takes them away. Write it into the text (`text.edits`) and read that."""
+    """A change that `applied` cannot make: it adds entries or takes them away, or is one of Metal's words, of which the records are made.
+
+    Write it into the text (`text.edits`) and read that.
+    """
+
+
+METAL = tuple(kind for name, kind in RECORDS.items() if name.startswith("Metal"))
+"""The structures of frames in Metal's words."""
 
 
 class Mending:
@@ -86,6 +96,14 @@ class Mending:
         return Mentions(self.frame)
 
     @cached_property
+    def metal_mentions(self) -> MetalMentions:
+        from .metal_mentions import MetalMentions
+
+        metal = self.document.description.metal
+        assert metal is not None
+        return MetalMentions(metal)
+
+    @cached_property
     def recorded_at(self) -> dict[Span, list[tuple[int, int | None]]]:
         """The commands by the places that facts name; of a vkCmdClearAttachments its entries too."""
         from .clears import recorded_at
@@ -117,9 +135,9 @@ def changes(mend: Mend, subject: Subject, mending: Mending) -> tuple[Change, ...
 
     made: list[Change] = []
     if mend.do:
-        from .deeds import DEEDS
+        from .deeds import deed
 
-        done = DEEDS[mend.do](subject, mending)
+        done = deed(mend.do, mending.document)(subject, mending)
         if isinstance(done, Refused):
             return done
         made += done
@@ -178,7 +196,7 @@ class applied:
         self._before: list[tuple[Record, str, Any]] = []
 
     def __enter__(self) -> None:
-        if any(change.action not in PLAIN for change in self._changes):
+        if any(change.action not in PLAIN or isinstance(change.record, METAL) for change in self._changes):
             raise Structural
         for change in self._changes:
             before = getattr(change.record, change.member)

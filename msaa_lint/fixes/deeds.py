@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from ..document.document import Document
 from ..document.records import Image
 from ..facts.facts import Subject
 from ..facts.frame import Resolve, Target
@@ -58,3 +59,16 @@ DEEDS: dict[str, Deed] = {
     "share-image": share_image,
     "hand-over-depth": hand_over_depth,
 }
+
+
+def deed(name: str, document: Document) -> Deed:
+    """What a name does to a frame in its API's words; where it is known of the other's alone, it refuses."""
+    if document.metal is None:
+        return DEEDS.get(name, _in_other_words)
+    from .metal import DEEDS as OF_METAL
+
+    return OF_METAL.get(name, _in_other_words)
+
+
+def _in_other_words(_: Subject, __: Mending) -> list[Change] | Refused:
+    return Refused("the fix is for frames in another API's words")

@@ -18,7 +18,12 @@ Places = list[Place] | Refused
 
 def places(fact: str, subject: Subject, mending: Mending) -> Places:
     """The members that state a fact of a subject; why none can be changed, where none can."""
-    return CHANGEABLE[fact](subject, mending)
+    if mending.document.metal is not None:
+        from . import metal
+
+        return metal.places(fact, subject, mending)
+    find = CHANGEABLE.get(fact)
+    return find(subject, mending) if find is not None else Refused("the fix is in Metal's words, and the frame in Vulkan's")
 
 
 def targets_of(subject: Subject) -> list[Target]:

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ..diagnostics import diagnostic
-from ..facts.table import FACTS, SUBJECTS
+from ..facts.table import FACTS, SUBJECTS, WORDS
 from ..finding import Finding, Span
 from ..page import Mend, Rule, Setting
 from ..vulkan.names import nearest
 from .deeds import DEEDS
 from .members import CHANGEABLE, ONLY
+from .metal import CHANGEABLE as OF_METAL
+from .metal import DEEDS as METAL_DEEDS
 
 
 def problems(rule: Rule) -> list[Finding]:
@@ -20,14 +22,14 @@ def problems(rule: Rule) -> list[Finding]:
 
 
 def _wrong(mend: Mend, rule: Rule) -> Iterator[tuple[Span, str]]:
-    if mend.do and mend.do not in DEEDS:
-        yield mend.at, f"no `do: {mend.do[:80]}`; there are {', '.join(DEEDS)}"
+    if mend.do and mend.do not in DEEDS and mend.do not in METAL_DEEDS:
+        yield mend.at, f"no `do: {mend.do[:80]}`; there are {', '.join({**DEEDS, **METAL_DEEDS})}"
     known = {fact.name for fact in SUBJECTS[rule.subject]}
     for setting in (*mend.set, *mend.add, *mend.remove):
         if setting.fact not in known:
             yield setting.at, f"there is no fact {setting.fact} of {rule.subject}"
-        elif setting.fact not in CHANGEABLE:
-            yield setting.at, f"{setting.fact} cannot be changed by a fix; what can is {', '.join(CHANGEABLE)}"
+        elif setting.fact not in CHANGEABLE and setting.fact not in OF_METAL:
+            yield setting.at, f"{setting.fact} cannot be changed by a fix; what can is {', '.join({**CHANGEABLE, **OF_METAL})}"
         else:
             yield from _value(setting, known)
 
@@ -43,8 +45,9 @@ def _value(setting: Setting, known: set[str]) -> Iterator[tuple[Span, str]]:
     elif fact.enum and isinstance(value, str):
         from ..vulkan.enums import VALUES
 
-        if value not in VALUES.get(fact.enum, ()):
-            close = nearest(value, VALUES.get(fact.enum, ()))
+        words = WORDS[fact.enum] if fact.enum in WORDS else tuple(VALUES.get(fact.enum, ()))
+        if value not in words:
+            close = nearest(value, words)
             yield setting.at, f"{fact.name} is never '{value[:80]}'" + (f"; did you mean '{close}'?" if close else "")
 
 

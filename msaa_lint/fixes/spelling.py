@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cached_property
 from typing import Any, NamedTuple
 
 from ..document.record import Record, Shape
@@ -12,7 +13,7 @@ from ..vulkan.enums import BITLESS, PREFIXES, VALUES
 from ..vulkan.names import VENDORS, parse_enum
 
 _COUNT = re.compile(r"((?:VK_)?SAMPLE_COUNT_)[0-9]+((?:_BIT)?)")
-_PLAIN = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]*")
+_PLAIN = re.compile(r"\.?[A-Za-z0-9_][A-Za-z0-9_.-]*")
 _BOOLEANS = {"true": "false", "True": "False", "TRUE": "FALSE", "VK_TRUE": "VK_FALSE", "1": "0"}
 _OPPOSITES = {**_BOOLEANS, **{false: true for true, false in _BOOLEANS.items()}}
 
@@ -78,16 +79,33 @@ class Spelling:
 
     def name(self, enum: str, name: str, like: str, record: Record) -> str:
         """An enumerant in the form of another one, else in that of the record, else in that of the document."""
+        if enum.startswith("MTL"):
+            from ..metal.names import spelled
+
+            return spelled(enum, name, like or _metal_form(record) or self._usual_metal)
         flags = "FlagBits" in enum
         if like.isdecimal():
             return str(VALUES[enum][name])
         form = form_of(enum, like) if like else None
         return enumerant(enum, name, form or _form(record, flags) or self._usual(flags) or Form(2 if self.dumped else 0, self.dumped))
 
+    @cached_property
+    def _usual_metal(self) -> str:
+        return next((form for record in self._records if (form := _metal_form(record))), "")
+
     def _usual(self, flags: bool) -> Form | None:
         if flags not in self._forms:
             self._forms[flags] = next((form for record in self._records if (form := _form(record, flags)) is not None), None)
         return self._forms[flags]
+
+
+def _metal_form(record: Record) -> str:
+    """The first enumerant of Metal's that a record states, as it is written."""
+    for member, (_, value) in record.spelled.items():
+        if record.SHAPE[member][0] in ("enum", "flags"):
+            items = value.value if value.kind == "sequence" else [value]
+            return next((item.text.partition("|")[0].strip() for item in items if item.kind == "scalar"), "")
+    return ""
 
 
 def _form(record: Record, flags: bool) -> Form | None:

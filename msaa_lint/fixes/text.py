@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import Any
 
 from ..document.document import Document
 from ..document.record import Record, Shape
+from ..document.scalars import enumerant
 from ..finding import Edit, Span
 from ..source.node import Node
 from ..source.text import Source
 from ..vulkan.enums import VALUES
-from ..vulkan.names import parse_enum
-from .changes import PLAIN, Change, Refused
+from .changes import METAL, PLAIN, Change, Refused
 from .layout import Collection, Edits
 from .places import Text
 from .rendering import Rendering
@@ -45,7 +45,8 @@ class Writing:
 
     @cached_property
     def _records(self) -> list[Record]:
-        return list(records_of(self.document.description))
+        # What a frame in Metal's words was made into stands at places of those words, and is not written.
+        return list(records_of(self.document.description.metal or self.document.description))
 
     @cached_property
     def _spelling(self) -> Spelling:
@@ -82,11 +83,23 @@ class Writing:
             if isinstance(inserted, Refused):
                 return inserted
             made += inserted
-        return tuple(sorted(set(made)))
+        return tuple(sorted(set(self._on_lines_that_stay(made))))
+
+    def _on_lines_that_stay(self, made: Sequence[Edit]) -> Iterator[Edit]:
+        """The edits, with what would go in at the end of a line that another of them takes away at the end of the line before it."""
+        gone = sorted((each.span for each in made if each.span.start < each.span.end), reverse=True)
+        for edit in made:
+            at = edit.span.start
+            for start, end in gone if edit.text and at == edit.span.end else ():
+                if start < at < end and self.text.begins_line(start) and self.text.line_start(start) > 0:
+                    at = self.text.line_end(self.text.line_start(self.text.line_start(start) - 1))
+            yield edit if at == edit.span.start else Edit(Span(at, at), edit.text)
 
     def _group(self, group: Sequence[Change], asked: _Asked) -> Edits | str:
         """The edits for the changes of one member; or its value, where it is to be inserted."""
         record, member = group[0].record, group[0].member
+        if self.document.metal is not None and not isinstance(record, METAL):
+            return Refused("the change is in Vulkan's words, and the frame in Metal's")
         if any(change.action not in PLAIN for change in group):
             return self._structural(group)
         if not record.states(member):
@@ -145,8 +158,10 @@ class Writing:
         come = [change.value for change in group if change.action == "add"]
         if node.kind != "sequence":
             return self._flags_text(enum, gone, come, node, record)
-        names = [parse_enum(enum, item.text) if item.kind == "scalar" else None for item in node.value]
+        names = [enumerant(enum, item.text) if item.kind == "scalar" else None for item in node.value]
         numbers = [n for n, name in enumerate(names) if name in gone]
+        if any(self._lends(node.value[n]) for n in numbers):
+            return Refused("others take over a flag in it by an anchor")
         edits: list[Edit] = []
         for n, name in zip(numbers, come, strict=False):
             replaced = self._scalar(node.value[n].anchor or node.value[n], record.SHAPE[member], name, record)
@@ -187,12 +202,12 @@ class Writing:
         new = [self._spelling.name(enum, name, parts[0], record) for name in come]
         kept = []
         for part in parts:
-            known = parse_enum(enum, part)
+            known = enumerant(enum, part)
             if known in gone:
                 # As in a list, what comes stands where something went.
                 kept += new[:1]
                 del new[:1]
-            elif known is not None and VALUES[enum][known]:
+            elif known is not None and (enum not in VALUES or VALUES[enum][known]):
                 kept.append(part)
         kept += new
         if not kept:

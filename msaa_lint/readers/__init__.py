@@ -26,7 +26,21 @@ CAPTURES: dict[str, tuple[str, ...]] = {
 """The readers of captures by the name that `--input-format` takes (a module each, with `_` for `-`), and what a capture has near its
 beginning."""
 
-HEADS = ("images:", "renderPasses:", "pipelines:", "commands:", "framebuffers:", '"renderPasses"', '"images"', "PipelineState")
+HEADS = (
+    "images:",
+    "renderPasses:",
+    "pipelines:",
+    "commands:",
+    "framebuffers:",
+    "renderTargets:",
+    "sampleCountChoices:",
+    "metal:",
+    '"renderPasses"',
+    '"images"',
+    '"renderTargets"',
+    '"metal"',
+    "PipelineState",
+)
 """What a file of ours has near its beginning: a folder's other files are passed over."""
 
 

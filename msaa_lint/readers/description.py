@@ -25,14 +25,40 @@ def read(source: Source, root: Node) -> Document:
         description: Description = binder.record(Description, root, "", "", Span(root.start, root.start))
     else:
         description = binder.record(Description, root, "", "", root.span)
+    if description.states("renderTargets"):
+        return _of_render_targets(source, description, binder)
     check_names(binder, description)
+    if description.metal is not None:
+        return _of_metal(source, description, binder)
     return Document(source, description, tuple(binder.problems))
+
+
+def _of_metal(source: Source, description: Description, binder: Binder) -> Document:
+    """A frame in Metal's words, with the Vulkan records of the same meaning where it has no mistakes."""
+    from . import metal
+
+    metal.check(binder, description)
+    if binder.problems:
+        return Document(source, description, tuple(binder.problems))
+    return Document(source, description, (), metal=metal.lower(description))
+
+
+def _of_render_targets(source: Source, description: Description, binder: Binder) -> Document:
+    """What the render targets of a description expand to; the description itself where it has mistakes."""
+    from ..impeller import expansion
+
+    expansion.check(binder, description)
+    _device(binder, description)
+    if binder.problems:
+        return Document(source, description, tuple(binder.problems))
+    tree = expansion.expanded(description)
+    return read(source, tree)._replace(tree=tree)
 
 
 def check_names(binder: Binder, description: Description) -> None:
     """Dangling references: names of sections, attachments of a pass, subpasses."""
     for mention in binder.mentions:
-        entries = getattr(description, mention.section)
+        entries = _section(description, mention.section)
         if mention.name not in entries:
             _dangling(binder, mention, entries)
     _device(binder, description)
@@ -45,6 +71,15 @@ def check_names(binder: Binder, description: Description) -> None:
         if within is not None and pipeline.subpass is not None and pipeline.subpass >= max(len(within.subpasses), 1):
             message = f"`{pipeline.renderPass}` has {_subpasses(within)}, no subpass {pipeline.subpass}"
             binder.report("MSAA904", message, pipeline.place("subpass"), f"{pipeline.path}.subpass")
+
+
+def _section(description: Description, name: str) -> dict[str, object]:
+    """The entries of a section, `metal.textures` of one within another."""
+    found: object = description
+    for part in name.split("."):
+        found = getattr(found, part)
+    assert isinstance(found, dict)
+    return found
 
 
 def _dangling(binder: Binder, mention: Mention, entries: dict[str, object]) -> None:

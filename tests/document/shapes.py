@@ -7,8 +7,11 @@ from typing import Any
 from hypothesis import strategies as st
 
 from msaa_lint.document.generate import member
-from msaa_lint.document.models import Command, Struct
+from msaa_lint.document.metal_models import MetalCommand
+from msaa_lint.document.models import Command
 from msaa_lint.document.records import RECORDS
+from msaa_lint.document.struct import Struct
+from msaa_lint.metal import names as metal_names
 from msaa_lint.vulkan.enums import BITLESS, ENUMS, PREFIXES, VALUES
 from msaa_lint.vulkan.names import VENDORS
 
@@ -18,7 +21,9 @@ NAMES = st.sampled_from(["a", "b", "color_ms", "0", "ünï", "with space", "a.b"
 TEXTS = st.text(st.characters(codec="utf-8", exclude_categories=("Cs", "Cc")), max_size=6)
 
 MODELS: dict[str, type[Struct]] = {
-    model.__name__: model for model in Struct.__subclasses__() if model.__module__ == Struct.__module__ and model.__name__ in RECORDS
+    model.__name__: model
+    for model in Struct.__subclasses__()
+    if model.__module__ in (Command.__module__, MetalCommand.__module__) and model.__name__ in RECORDS
 }
 
 
@@ -38,10 +43,11 @@ def spellings(enum: str) -> list[str]:
 
 
 SPELLINGS = {enum: spellings(enum) for enum in VALUES}
+METAL_SPELLINGS = {enum: metal_names.spellings(enum) for enum in metal_names.ENUMS}
 
 
 def enumerants(enums: str) -> st.SearchStrategy[str]:
-    return st.sampled_from([name for enum in enums.split("|") for name in SPELLINGS[enum]])
+    return st.sampled_from([name for enum in enums.split("|") for name in {**SPELLINGS, **METAL_SPELLINGS}[enum]])
 
 
 def flags(enum: str) -> st.SearchStrategy[Json]:
@@ -63,13 +69,13 @@ def by_shape(shape: tuple[Any, ...]) -> st.SearchStrategy[Json]:
         case "record":
             return structure(shape[1])
         case "list":
-            return st.lists(by_shape(shape[1]), max_size=3)
+            return st.lists(by_shape(shape[1]), max_size=3 if len(shape) == 2 else shape[2])
         case "counted":
             return st.lists(by_shape(shape[1]), max_size=3) | st.dictionaries(NAMES, by_shape(shape[1]), max_size=3)
         case "map":
             return st.dictionaries(NAMES, by_shape(shape[1]), max_size=2)
         case "numbered":
-            return st.dictionaries(st.integers(0, 2**32 - 1).map(str), by_shape(shape[1]), max_size=2)
+            return st.dictionaries(st.integers(0, shape[2] if len(shape) > 2 else 2**32 - 1).map(str), by_shape(shape[1]), max_size=2)
         case "slot":
             return st.none() | NAMES | st.integers(0, 2**32 - 1) | structure("AttachmentReference")
         case "subpass":
@@ -92,8 +98,9 @@ def by_shape(shape: tuple[Any, ...]) -> st.SearchStrategy[Json]:
         case "either":
             return st.one_of(*(by_shape(arm) for arm in shape[1:]))
         case "command":
-            members = {name: member(field)[0] for name, field in Command.model_fields.items()}
-            bare = st.sampled_from([name for name, found in members.items() if found[0] == "null"])
+            members = {name: member(field)[0] for name, field in MODELS[shape[1] if len(shape) > 1 else "Command"].model_fields.items()}
+            words = [name for name, found in members.items() if found[0] == "null"]
+            bare = st.sampled_from(words) if words else st.nothing()
             return bare | st.one_of(*(by_shape(found).map(lambda value, name=name: {name: value}) for name, found in members.items()))
     raise TypeError(kind)
 

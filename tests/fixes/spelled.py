@@ -7,6 +7,8 @@ from collections.abc import Callable
 from random import Random
 from typing import Any
 
+from msaa_lint.metal import names as metal
+from msaa_lint.metal.names import objective_c
 from msaa_lint.source.node import Node
 from msaa_lint.source.text import Source
 from msaa_lint.source.tree import Limits, parse
@@ -27,6 +29,16 @@ ENUMS = {
     "finalLayout": "VK_IMAGE_LAYOUT_",
     "format": "VK_FORMAT_",
 }
+METAL = {
+    "usage": "MTLTextureUsage",
+    "storageMode": "MTLStorageMode",
+    "textureType": "MTLTextureType",
+    "loadAction": "MTLLoadAction",
+    "storeAction": "MTLStoreAction",
+    "depthResolveFilter": "MTLMultisampleDepthResolveFilter",
+    "pixelFormat": "MTLPixelFormat",
+}
+"""Members of a frame in Metal's words."""
 
 
 def data_of(text: str) -> Any:
@@ -56,12 +68,24 @@ class _Spelled:
         self.random = random
         self.long = random.random() < 0.4
         self.joined = random.random() < 0.3
+        self.dotted = random.random() < 0.3
+
+    def metals(self, enum: str, value: Any) -> Any:
+        """Metal's words as Objective-C has them, or with a dot."""
+        names = [value] if isinstance(value, str) else value
+        like = objective_c(enum, metal.ENUMS[enum][0]) if self.long else "." if self.dotted else ""
+        words = [metal.spelled(enum, name, like) for name in names]
+        return words[0] if isinstance(value, str) else " | ".join(words) if self.joined else words
 
     def likely(self, share: float) -> bool:
         return self.random.random() < share
 
     def respelled(self, key: str, value: Any) -> Any:
         """A member's value in the document's spelling."""
+        if key in METAL and isinstance(value, (str, list)):
+            names = [value] if isinstance(value, str) else value
+            if all(isinstance(name, str) and name in metal.ENUMS[METAL[key]] for name in names) and names:
+                return self.metals(METAL[key], value)
         if key in FLAGS and isinstance(value, list):
             names = [f"{FLAGS[key]}{name}_BIT" if self.long else name for name in value]
             return " | ".join(names) if self.joined and names else names

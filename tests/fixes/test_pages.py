@@ -11,6 +11,8 @@ from msaa_lint.engine import Engine
 from msaa_lint.facts.table import FACTS, SUBJECTS
 from msaa_lint.fixes.deeds import DEEDS
 from msaa_lint.fixes.members import CHANGEABLE, ONLY
+from msaa_lint.fixes.metal import CHANGEABLE as METAL_CHANGEABLE
+from msaa_lint.fixes.metal import DEEDS as METAL_DEEDS
 from msaa_lint.fixes.pages import problems
 
 from ..marked import unmarked
@@ -107,8 +109,9 @@ def test_the_facts_that_can_be_changed_are_facts() -> None:
 def test_the_catalogue() -> None:
     rules = load().rules
     assert [each for rule in rules for each in problems(rule)] == []
-    assert {mend.do for rule in rules for mend in rule.mends if mend.do} == set(DEEDS)
-    assert {setting.fact for rule in rules for mend in rule.mends for setting in (*mend.set, *mend.add, *mend.remove)} <= set(CHANGEABLE)
+    assert {mend.do for rule in rules for mend in rule.mends if mend.do} == {*DEEDS, *METAL_DEEDS}
+    changed = {setting.fact for rule in rules for mend in rule.mends for setting in (*mend.set, *mend.add, *mend.remove)}
+    assert changed <= {*CHANGEABLE, *METAL_CHANGEABLE}
     for rule in rules:
         assert {fact.name for fact in SUBJECTS[rule.subject]}
 

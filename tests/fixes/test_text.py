@@ -315,3 +315,30 @@ def test_a_frame_is_joined_once_for_all_fixes() -> None:
     (judged,) = lint(ALIASED).judged
     mending = Mending(judged.document)
     assert mending.frame is mending.frame
+
+
+@pytest.mark.parametrize("comment", ["", "      # to be read\n"])
+@pytest.mark.parametrize("line", ["\n", "\r\n"])
+def test_what_goes_in_at_the_end_of_a_line_that_goes_stands_on_the_line_before(line: str, comment: str) -> None:
+    """The last item of a list that ends its structure is taken away, and a member is put behind that list."""
+    before = f"""\
+device: apple-a15
+metal:
+  textures:
+    color:
+      pixelFormat: rgba8Unorm
+      sampleCount: 4
+      usage:
+      - renderTarget
+{comment}      - shaderRead
+    drawable: {{pixelFormat: rgba8Unorm, drawable: true}}
+  renderPasses:
+    main:
+      colorAttachments: [{{texture: color, resolveTexture: drawable, loadAction: clear, storeAction: multisampleResolve}}]
+  commands: [{{renderPass: main}}, {{present: drawable}}]
+"""
+    done = fixed(before.replace("\n", line), unsafe=True)
+    assert [found.rule for found in done.fixed] == ["metal-usage-blocks-memoryless"]
+    moved = before.replace("      - shaderRead\n", "").replace("- renderTarget\n", "- renderTarget\n      storageMode: memoryless\n")
+    assert done.text.replace(line, "\n").replace("# to be read", "").split() == moved.replace("# to be read", "").split()
+    assert done.text.count("# to be read") == bool(comment)
