@@ -1,0 +1,108 @@
+"""What the engine builds of render targets on Metal: textures and a render pass each.
+
+From its `allocator_mtl.mm` (storage modes), `render_target.cc` (the textures), `render_pass_mtl.mm` (attachments), `surface_mtl.mm` and
+`swapchain_transients_mtl.mm` (the drawable).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from . import words
+from .stated import Stated
+from .target import Target
+
+Members = dict[str, Any]
+
+
+def section(targets: list[Target], memoryless: bool | None, apple: bool | None) -> Members:
+    """The members of a `metal` section.
+
+    `memoryless` says whether the device has memoryless textures (family apple2 and later), `apple` whether it is Apple's own; None where
+    that is not known.
+    """
+    made: Members = {"textures": {}, "renderPasses": {}, "renderPipelines": {}}
+    for target in targets:
+        made["textures"] |= _textures(target, memoryless, apple)
+        made["renderPasses"][target.name] = Stated(_render_pass(target), target.at)
+        made["renderPipelines"][target.name] = Stated(_pipeline(target), target.at)
+    if targets and all(target.onscreen for target in targets):
+        # Of what is sampled later the frame says nothing: without commands a usage that allows it counts.
+        made["commands"] = [Stated(each, target.at) for target in targets for each in _commands(target)]
+    return {member: entries for member, entries in made.items() if entries}
+
+
+def _textures(target: Target, memoryless: bool | None, apple: bool | None) -> Members:
+    def texture(format: Stated, usage: list[str], samples: Stated | None, mode: Stated) -> Stated:
+        members = {
+            "pixelFormat": Stated(words.METAL_FORMATS.get(format.value), format.at),
+            "width": target.width,
+            "height": target.height,
+            "textureType": "type2DMultisample" if samples is not None and samples.value > 1 else "type2D",
+            "sampleCount": samples,
+            "usage": usage,
+            "storageMode": _storage(mode, memoryless, apple),
+        }
+        return Stated(members, target.at)
+
+    color, at = target.color, target.at
+    made: Members = {}
+    single = color.resolve_storage if target.multisampled else color.storage
+    if target.multisampled:
+        made[f"{target.name}_color_ms"] = texture(target.color_format, ["renderTarget"], target.samples, color.storage)
+    if target.onscreen:
+        members = {"pixelFormat": Stated(words.METAL_FORMATS.get(target.color_format.value), target.color_format.at), "drawable": True}
+        made[f"{target.name}_color"] = Stated(members, at)
+    else:
+        made[f"{target.name}_color"] = texture(target.color_format, ["renderTarget", "shaderRead"], None, single)
+    if target.has_depth_stencil:
+        made[f"{target.name}_depth_stencil"] = texture(target.depth_format, ["renderTarget"], target.samples, target.depth_stencil.storage)
+    return made
+
+
+def _storage(mode: Stated, memoryless: bool | None, apple: bool | None) -> Stated:
+    """`ToMTLStorageMode`: what the host sees is shared with one memory and managed with two."""
+    if mode.value == "kDevicePrivate":
+        return Stated("private", mode.at)
+    if mode.value == "kHostVisible":
+        return Stated("shared" if apple else None, mode.at)
+    return Stated(None if memoryless is None else "memoryless" if memoryless else "private", mode.at)
+
+
+def _render_pass(target: Target) -> Members:
+    color = target.color
+    attachment: Members = {
+        "texture": f"{target.name}_color_ms" if target.multisampled else f"{target.name}_color",
+        # The engine gives a multisampled target a resolve texture whatever its store action is.
+        "resolveTexture": Stated(f"{target.name}_color", color.store.at) if target.multisampled else None,
+        "loadAction": Stated(words.METAL_LOADS[color.load.value], color.load.at),
+        "storeAction": Stated(words.METAL_STORES[color.store.value], color.store.at),
+    }
+    made: Members = {"colorAttachments": [attachment]}
+    if target.has_depth_stencil:
+        config = target.depth_stencil
+        aspect = {
+            "texture": f"{target.name}_depth_stencil",
+            "loadAction": Stated(words.METAL_LOADS[config.load.value], config.load.at),
+            "storeAction": Stated(words.METAL_STORES[config.store.value], config.store.at),
+        }
+        if target.has_depth:
+            made["depthAttachment"] = aspect
+        if target.has_stencil:
+            made["stencilAttachment"] = aspect
+    return made
+
+
+def _pipeline(target: Target) -> Members:
+    depth_stencil = Stated(words.METAL_FORMATS.get(target.depth_format.value), target.depth_format.at)
+    return {
+        "renderPass": target.name,
+        "rasterSampleCount": target.samples,
+        "colorAttachments": [{"pixelFormat": Stated(words.METAL_FORMATS.get(target.color_format.value), target.color_format.at)}],
+        "depthAttachmentPixelFormat": depth_stencil if target.has_depth_stencil and target.has_depth else None,
+        "stencilAttachmentPixelFormat": depth_stencil if target.has_depth_stencil and target.has_stencil else None,
+    }
+
+
+def _commands(target: Target) -> list[Members]:
+    return [{"renderPass": target.name}, {"present": f"{target.name}_color"}]

@@ -1,0 +1,236 @@
+"""What the engine builds of render targets on Vulkan: images, a render pass each, and what a frame records.
+
+From its `allocator_vk.cc` (usages and memory), `render_target.cc` (the textures), `render_pass_builder_vk.cc` (operations, layouts and
+dependencies), `surface_vk.cc`, `swapchain_transients_vk.cc` and `khr_swapchain_impl_vk.cc` (the swapchain), `pipeline_vk.cc`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from . import words
+from .stated import Stated
+from .target import Target
+
+Members = dict[str, Any]
+
+COLOR_USAGE = ("COLOR_ATTACHMENT", "INPUT_ATTACHMENT")
+"""Every colour target may be read by framebuffer fetch, which is an input attachment."""
+
+TRANSFERS = ("TRANSFER_SRC", "TRANSFER_DST")
+"""What is not transient may be blitted."""
+
+
+def description(targets: list[Target], lazy: bool | None) -> Members:
+    """The sections of a description. `lazy` says whether the device has lazily allocated memory; None where that is not known."""
+    made: Members = {"images": {}, "renderPasses": {}, "framebuffers": {}, "pipelines": {}, "commands": []}
+    for target in targets:
+        made["images"] |= _images(target, lazy)
+        made["renderPasses"][target.name] = Stated(_render_pass(target), target.at)
+        framebuffer = _framebuffer(target)
+        if framebuffer is not None:
+            made["framebuffers"][target.name] = Stated(framebuffer, target.at)
+        made["pipelines"][target.name] = Stated(_pipeline(target), target.at)
+        made["commands"] += _commands(target, framebuffer is not None)
+    return {section: entries for section, entries in made.items() if entries}
+
+
+def _images(target: Target, lazy: bool | None) -> Members:
+    color, at = target.color, target.at
+    made: Members = {}
+    single = color.resolve_storage if target.multisampled else color.storage
+    if target.multisampled:
+        usage = _usage(COLOR_USAGE, color.storage, lazy)
+        made[f"{target.name}_color_ms"] = _image(target, target.color_format, target.samples, usage, _memory(color.storage, lazy), None)
+    if target.onscreen:
+        swapchain = Stated(COLOR_USAGE, at)
+        made[f"{target.name}_color"] = _image(target, target.color_format, Stated(1, at), swapchain, None, True)
+    else:
+        usage = _usage((*COLOR_USAGE, "SAMPLED"), single, lazy)
+        made[f"{target.name}_color"] = _image(target, target.color_format, Stated(1, at), usage, _memory(single, lazy), False)
+    if target.has_depth_stencil:
+        mode = target.depth_stencil.storage
+        usage = _usage(("DEPTH_STENCIL_ATTACHMENT",), mode, lazy)
+        made[f"{target.name}_depth_stencil"] = _image(target, target.depth_format, target.samples, usage, _memory(mode, lazy), None)
+    return made
+
+
+def _image(target: Target, format: Stated, samples: Stated, usage: Stated, memory: Stated | None, presentable: bool | None) -> Stated:
+    extent = {"width": target.width, "height": target.height, "depth": 1} if target.width and target.height else None
+    members = {
+        "format": Stated(words.VULKAN_FORMATS.get(format.value), format.at),
+        "samples": samples,
+        "usage": usage,
+        "memory": memory,
+        "presentable": presentable,
+        "extent": extent,
+        "imageType": "2D",
+        "tiling": "OPTIMAL",
+        "mipLevels": 1,
+        "arrayLayers": 1,
+        "sharingMode": "EXCLUSIVE",
+    }
+    return Stated(members, target.at)
+
+
+def _usage(usage: tuple[str, ...], mode: Stated, lazy: bool | None) -> Stated:
+    """`ToVKImageUsageFlags`: TRANSIENT_ATTACHMENT only where the device has lazily allocated memory."""
+    if mode.value != "kDeviceTransient":
+        return Stated((*usage, *TRANSFERS), mode.at)
+    if lazy is None:
+        return Stated(None, mode.at)
+    return Stated((*usage, "TRANSIENT_ATTACHMENT") if lazy else usage, mode.at)
+
+
+def _memory(mode: Stated, lazy: bool | None) -> Stated | None:
+    """`ToVKTextureMemoryPropertyFlags`, which are preferred flags: which memory the host sees is up to the device."""
+    if mode.value == "kHostVisible" or (mode.value == "kDeviceTransient" and lazy is None):
+        return None
+    transient = mode.value == "kDeviceTransient" and lazy
+    return Stated(("DEVICE_LOCAL", "LAZILY_ALLOCATED") if transient else ("DEVICE_LOCAL",), mode.at)
+
+
+def _render_pass(target: Target) -> Members:
+    color = "color_ms" if target.multisampled else "color"
+    attachments = {color: _color_attachment(target)}
+    # The engine lists the colour as an input attachment too, for the pipelines that fetch it; which do is not said.
+    subpass: Members = {"colorAttachments": [_slot(color)]}
+    if target.resolves:
+        resolve = "color" if target.multisampled else "resolve"
+        attachments[resolve] = _resolve_attachment(target)
+        subpass["resolveAttachments"] = Stated([_slot(resolve)], target.color.store.at)
+    if target.has_depth_stencil:
+        attachments["depth_stencil"] = _depth_stencil_attachment(target)
+        subpass["depthStencilAttachment"] = "depth_stencil"
+    return {"attachments": attachments, "subpasses": [subpass], "dependencies": _dependencies(target.has_depth_stencil)}
+
+
+def _slot(name: str) -> Members:
+    """Colour is in GENERAL, so that framebuffer fetch may read it."""
+    return {"attachment": name, "layout": "GENERAL"}
+
+
+def _final_layout(onscreen: bool, samples: int) -> str:
+    """`ComputeFinalLayout`."""
+    return "GENERAL" if onscreen or samples > 1 else "SHADER_READ_ONLY_OPTIMAL"
+
+
+def _color_attachment(target: Target) -> Stated:
+    name = "color_ms" if target.multisampled else "color"
+    config, samples = target.color, target.samples.value
+    # What comes from the swapchain is in the layout that it was given there.
+    before = _final_layout(target.onscreen, samples) if samples > 1 or not target.onscreen else None
+    members = {
+        "image": f"{target.name}_{name}",
+        "loadOp": Stated(words.VULKAN_LOADS[config.load.value], config.load.at),
+        "storeOp": Stated(words.VULKAN_STORES[config.store.value], config.store.at),
+        "initialLayout": before if config.load.value == "kLoad" else "UNDEFINED",
+        "finalLayout": _final_layout(target.onscreen, samples),
+    }
+    return Stated(members, target.at)
+
+
+def _resolve_attachment(target: Target) -> Stated:
+    """The colour's own with one sample, stored: the engine begins it with the colour's load operation."""
+    config = target.color
+    members: Members = {"image": f"{target.name}_color"} if target.multisampled else {}
+    if not target.multisampled:
+        members = {"format": Stated(words.VULKAN_FORMATS.get(target.color_format.value), target.color_format.at), "samples": 1}
+    members |= {
+        "loadOp": Stated(words.VULKAN_LOADS[config.load.value], config.load.at),
+        "storeOp": Stated("STORE", config.store.at),
+        "initialLayout": _final_layout(target.onscreen, target.samples.value) if config.load.value == "kLoad" else "UNDEFINED",
+        "finalLayout": _final_layout(target.onscreen, 1),
+    }
+    return Stated(members, target.at)
+
+
+def _depth_stencil_attachment(target: Target) -> Stated:
+    """Depth and stencil are not told apart; a format of stencil alone has neither operation of depth."""
+    config = target.depth_stencil
+    load = Stated(words.VULKAN_LOADS[config.load.value], config.load.at)
+    store = Stated(words.VULKAN_STORES[config.store.value], config.store.at)
+    members = {
+        "image": f"{target.name}_depth_stencil",
+        "loadOp": load if target.has_depth else "DONT_CARE",
+        "storeOp": store if target.has_depth else "DONT_CARE",
+        "stencilLoadOp": load,
+        "stencilStoreOp": store,
+        "initialLayout": "UNDEFINED",
+        "finalLayout": "DEPTH_STENCIL_ATTACHMENT_OPTIMAL",
+    }
+    return Stated(members, target.at)
+
+
+def _dependencies(depth: bool) -> list[Members]:
+    """After what used the attachments before, and before who samples the result."""
+    tests = ["EARLY_FRAGMENT_TESTS", "LATE_FRAGMENT_TESTS"] if depth else []
+    write = ["DEPTH_STENCIL_ATTACHMENT_WRITE"] if depth else []
+    return [
+        {
+            "srcSubpass": "EXTERNAL",
+            "dstSubpass": 0,
+            "srcStageMask": ["COLOR_ATTACHMENT_OUTPUT", "FRAGMENT_SHADER", *tests],
+            "srcAccessMask": ["SHADER_READ", "COLOR_ATTACHMENT_WRITE", *write],
+            "dstStageMask": ["COLOR_ATTACHMENT_OUTPUT", *tests[:1]],
+            "dstAccessMask": ["COLOR_ATTACHMENT_WRITE", *write, *(["DEPTH_STENCIL_ATTACHMENT_READ"] if depth else [])],
+        },
+        {
+            "srcSubpass": 0,
+            "dstSubpass": "EXTERNAL",
+            "srcStageMask": ["COLOR_ATTACHMENT_OUTPUT", *tests[1:]],
+            "srcAccessMask": ["COLOR_ATTACHMENT_WRITE", *write],
+            "dstStageMask": ["FRAGMENT_SHADER"],
+            "dstAccessMask": ["SHADER_READ"],
+        },
+    ]
+
+
+def _framebuffer(target: Target) -> Members | None:
+    """None where the pass resolves to a texture that nobody made."""
+    if target.resolves and not target.multisampled:
+        return None
+    names = ["color_ms"] if target.multisampled else ["color"]
+    names += ["color"] if target.resolves else []
+    names += ["depth_stencil"] if target.has_depth_stencil else []
+    return {
+        "renderPass": target.name,
+        "attachments": [f"{target.name}_{name}" for name in names],
+        "width": target.width,
+        "height": target.height,
+        "layers": 1,
+    }
+
+
+def _pipeline(target: Target) -> Members:
+    state = {
+        "rasterizationSamples": target.samples,
+        "sampleShadingEnable": False,
+        "alphaToCoverageEnable": False,
+        "alphaToOneEnable": False,
+    }
+    return {"renderPass": target.name, "subpass": 0, "multisampleState": state}
+
+
+def _commands(target: Target, framebuffer: bool) -> list[Stated]:
+    begin: Members = {"renderPass": target.name, "framebuffer": target.name if framebuffer else None}
+    if target.width and target.height:
+        begin["renderArea"] = {"x": 0, "y": 0, "width": target.width, "height": target.height}
+    made: list[Any] = [{"beginRenderPass": begin}, {"draw": {"pipeline": target.name}}, "endRenderPass"]
+    image = f"{target.name}_color"
+    if target.onscreen:
+        made += _presented(image)
+    else:
+        # Textures are made to be sampled; whether this one is in this frame is not said.
+        made.append({"readImage": {"image": image, "stage": "FRAGMENT"}})
+    return [Stated(each, target.at) for each in made]
+
+
+def _presented(image: str) -> list[Members]:
+    barrier = {
+        "srcStageMask": ["COLOR_ATTACHMENT_OUTPUT"],
+        "srcAccessMask": ["COLOR_ATTACHMENT_WRITE"],
+        "dstStageMask": ["BOTTOM_OF_PIPE"],
+        "images": [{"image": image, "oldLayout": "GENERAL", "newLayout": "PRESENT_SRC_KHR"}],
+    }
+    return [{"pipelineBarrier": barrier}, {"present": {"image": image}}]

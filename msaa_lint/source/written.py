@@ -1,0 +1,141 @@
+"""A tree as YAML: what reads back as the same tree. Short structures stand in a line, the others over several."""
+
+from __future__ import annotations
+
+import re
+
+from .node import Node
+from .scalars import WORDS, resolve
+
+WIDTH = 140
+"""Columns of a line; only a long scalar makes a longer one."""
+
+MAX_KEY = 1000
+"""Characters of a key in front of its value: YAML 1.2 (section 7.4.2) has a limit of 1024 for those."""
+
+_PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_./-]*(?: [A-Za-z0-9_./-]+)*")
+_PLAIN_KEY = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]*")
+_WORDS = frozenset(word.lower() for word in (*WORDS, "yes", "no", "on", "off"))
+_PRINTABLE = re.compile("[\t\n\r -~\xa0-\u2027\u202a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
+_ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\r": "\\r", "\t": "\\t", "\0": "\\0"}
+
+
+def written(root: Node) -> str:
+    """The text of a document, with a line end; anchors and aliases are written out.
+
+    A mapping that holds mappings, or is deep or long, is written over several lines, a member each.
+    """
+    lines: list[str] = []
+    # What is still to be written, the next one last: the line up to a value, how far the lines below it are indented, and the value.
+    todo: list[tuple[str, int, Node]] = [("", 0, root)]
+    sizes = _sizes(root)
+    while todo:
+        head, indent, node = todo.pop()
+        members = node.value
+        if node.kind == "scalar" or not members or _in_line(head, node, sizes, top=not head):
+            lines.append(f"{head} {_flow(node)}" if head else _flow(node))
+            continue
+        # A list's first member may stand on the line of its dash; what a key has in front of it may not.
+        if head.endswith("-"):
+            head += " "
+        elif head:
+            lines.append(head)
+            head = ""
+        pad = " " * indent
+        below: list[tuple[str, int, Node]] = []
+        if node.kind == "mapping":
+            for key, value in members.items():
+                begin = head if not below and head else pad
+                text = _key(key)
+                if len(text) <= MAX_KEY:
+                    below.append((f"{begin}{text}:", indent + 2, value))
+                else:
+                    below.append((f"{begin}? {text}\n{pad}:", indent + 2, value))
+        else:
+            for value in members:
+                below.append((f"{head if not below and head else pad}-", indent + 2, value))
+        todo.extend(reversed(below))
+    return "\n".join(lines) + "\n"
+
+
+def _sizes(root: Node) -> dict[int, tuple[int, int, bool]]:
+    """Of every structure by its identity: how long it is in one line (at least what is more than a line), how deep structures stand in it,
+    and whether a mapping in it holds further ones."""
+    order: list[Node] = []
+    todo = [root]
+    while todo:
+        node = todo.pop()
+        if node.kind != "scalar":
+            order.append(node)
+            todo.extend(node.value.values() if node.kind == "mapping" else node.value)
+    found: dict[int, tuple[int, int, bool]] = {}
+    for node in reversed(order):
+        length, depth, nested = 2, 1, False
+        inner = node.value.items() if node.kind == "mapping" else ((None, each) for each in node.value)
+        for key, value in inner:
+            length += 2 + (len(key) + 2 if key is not None else 0)
+            if value.kind == "scalar":
+                length += len(value.text)
+            else:
+                own = found[id(value)]
+                length += own[0]
+                depth = max(depth, own[1] + 1)
+                nested = nested or value.kind == "mapping"
+            if length > WIDTH:
+                length = WIDTH + 1
+        found[id(node)] = (length, depth, nested)
+    return found
+
+
+def _in_line(head: str, node: Node, sizes: dict[int, tuple[int, int, bool]], top: bool) -> bool:
+    """Whether a structure may stand in the line of what is before it: no section, which holds mappings, no item of one
+    member, no list of several mappings."""
+    length, depth, nested = sizes[id(node)]
+    section = node.kind == "mapping" and nested and not head.startswith(" ")
+    section = section or (node.kind == "mapping" and len(node.value) == 1 and head.endswith("-"))
+    section = section or (node.kind == "sequence" and sum(each.kind == "mapping" for each in node.value) > 1)
+    # Quotes and escapes make it longer than was counted.
+    return not (top or section or depth > 2 or length > WIDTH) and len(head) + 1 + len(_flow(node)) <= WIDTH
+
+
+def _flow(node: Node) -> str:
+    """A value in one line; only what is a line long at most, or empty, comes here as a structure."""
+    if node.kind == "mapping":
+        return "{" + ", ".join(f"{_key(key)}: {_flow(value)}" for key, value in node.value.items()) + "}"
+    if node.kind == "sequence":
+        return "[" + ", ".join(map(_flow, node.value)) + "]"
+    return _scalar(node)
+
+
+def _scalar(node: Node) -> str:
+    """A scalar that reads back as its value."""
+    value = node.value
+    if isinstance(value, str):
+        return value if _PLAIN.fullmatch(value) and value.lower() not in _WORDS and resolve(value) == value else _quoted(value)
+    if value is None:
+        return "null"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if node.text and type(resolve(node.text)) is type(value) and repr(resolve(node.text)) == repr(value) and node.text.isprintable():
+        return node.text
+    if isinstance(value, float) and (value != value or value in (float("inf"), float("-inf"))):
+        return ".nan" if value != value else ".inf" if value > 0 else "-.inf"
+    return repr(value)
+
+
+def _key(text: str) -> str:
+    return text if _PLAIN_KEY.fullmatch(text) and text.lower() not in _WORDS else _quoted(text)
+
+
+def _quoted(text: str) -> str:
+    """A text in double quotes, with what YAML does not allow in a stream escaped."""
+    return '"' + "".join(_escaped(character) for character in text) + '"'
+
+
+def _escaped(character: str) -> str:
+    if character in _ESCAPES:
+        return _ESCAPES[character]
+    if _PRINTABLE.match(character):
+        return character
+    code = ord(character)
+    return f"\\x{code:02X}" if code < 0x100 else f"\\u{code:04X}" if code < 0x10000 else f"\\U{code:08X}"
