@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from .finding import SEVERITIES, Finding
+from .finding import CONFIDENCES, SEVERITIES, Finding
 from .globs import Glob
 from .settings import Origin, quoted
 
@@ -172,6 +172,10 @@ def _level(reading: Reading, key: str, value: object) -> str | None:
     return reading.one_of((key,), value, LEVELS[:-1])
 
 
+def _confidence(reading: Reading, key: str, value: object) -> str | None:
+    return reading.one_of((key,), value, CONFIDENCES)
+
+
 def _severity(reading: Reading, key: str, value: object) -> dict[str, str]:
     table = reading.table((key,), value, 'a table such as {MSAA2 = "note"}')
     read = {name: reading.one_of((key, name), level, LEVELS) for name, level in table.items() if reading.selector((key, name), name, True)}
@@ -280,6 +284,7 @@ KEYS: dict[str, Callable[[Reading, str, Any], Any]] = {
     "severity": _severity,
     "fail-on": _level,
     "fail-on-cost": _fail_on_cost,
+    "fail-confidence": _confidence,
     "min-severity": _level,
     "profile": _profile,
     "rules": _rules,

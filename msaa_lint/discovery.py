@@ -19,6 +19,17 @@ ENDINGS = (".msaa.yaml", ".msaa.yml", ".msaa.json")
 MAYBE = (".yaml", ".yml", ".json", ".jsonl", ".xml", ".foz")
 """Of those that are inputs if they look like one."""
 
+SOURCES = (
+    ".c", ".h", ".cc", ".cpp", ".cxx", ".hpp", ".hh", ".hxx", ".inl", ".ipp", ".h++", ".swift",
+    ".glsl", ".vert", ".frag", ".comp", ".tesc", ".tese", ".geom", ".mesh", ".task",
+)  # fmt: skip
+"""Of those that are inputs if they speak of multisampling: source code, `programs.LANGUAGES` without Markdown, which is no program."""
+
+PAGES = (".md", ".markdown", ".mdx")
+"""Of those whose code is read where they are asked for."""
+
+EXTRA = 'source code needs the extra: pip install "msaa-lint[source]"'
+
 HEAD_BYTES = 64 << 10
 MAX_DEPTH = 64
 _PASSED_OVER = frozenset({"node_modules", "bower_components", "__pycache__", "__pypackages__", "site-packages", "venv", "CVS"})
@@ -33,17 +44,20 @@ class Discovered(NamedTuple):
     notes: list[str]
 
 
-def discover(paths: Iterable[str], settings_for: Callable[[str], Settings], looks_like: Callable[[str], bool]) -> Discovered:
+def discover(
+    paths: Iterable[str], settings_for: Callable[[str], Settings], looks_like: Callable[[str], bool], sources: bool = False
+) -> Discovered:
     """The files to lint.
 
     A file named is linted whatever its name, unless `exclude` has it: that is noted and no error, since hooks name every file. Of a
     folder, its inputs are: by `include`, else those called `*.msaa.yaml` (yml, json) and the YAML and JSON files whose first 64 KiB
-    satisfy `looks_like`. Hidden folders and those of tools and environments are passed over; links to folders are not followed, links
+    satisfy `looks_like`; with `sources` the source code that speaks of multisampling, too, where the extra that reads it is installed: else
+    it is counted in a note. Hidden folders and those of tools and environments are passed over; links to folders are not followed, links
     to files are where they stay in the project. A path that is not there and a folder without inputs are findings (MSAA921).
 
     `settings_for` gives the settings that govern a file or folder. `-` is handed on as it is.
     """
-    walk = _Walk(settings_for, looks_like)
+    walk = _Walk(settings_for, looks_like, sources)
     for path in paths:
         if path == STDIN:
             walk.files[STDIN] = None
@@ -58,6 +72,9 @@ def discover(paths: Iterable[str], settings_for: Callable[[str], Settings], look
         else:
             help = "a link to nothing" if os.path.lexists(path) else ""
             walk.findings.append(diagnostic("MSAA921", f"no such file or folder {quoted(path)}", shown(path), help=help))
+    if walk.unread:
+        many = "1 file" if walk.unread == 1 else f"{walk.unread} files"
+        walk.notes.append(f"{many} of source code passed over: {EXTRA}")
     return Discovered(sorted(walk.files, key=_order), walk.findings, list(dict.fromkeys(walk.notes)))
 
 
@@ -72,9 +89,12 @@ def _excluded(path: str, glob: Glob) -> str:
 class _Walk:
     """The folders of one run."""
 
-    def __init__(self, settings_for: Callable[[str], Settings], looks_like: Callable[[str], bool]) -> None:
+    def __init__(self, settings_for: Callable[[str], Settings], looks_like: Callable[[str], bool], sources: bool) -> None:
         self.settings_for = settings_for
         self.looks_like = looks_like
+        self.sources = sources
+        self.unread = 0
+        self._code: bool | None = None
         self.files: dict[str, None] = {}
         self.findings: list[Finding] = []
         self.notes: list[str] = []
@@ -86,7 +106,7 @@ class _Walk:
             self.notes.append(_excluded(top, glob))
             return
         project = project_root(top)
-        before, excluded = len(self.findings), 0
+        before, excluded, unread = len(self.findings), 0, self.unread
         taken: list[str] = []
         waiting = [(top, 0)]
         while waiting:
@@ -115,11 +135,16 @@ class _Walk:
                     elif entry.is_symlink() and not (os.path.isfile(path) and inside(path, project)):
                         self.notes.append(f"{shown(path)} is a link that leaves the project, or to no file: name it to lint it")
                     elif os.path.isfile(path):
-                        taken.append(path)
+                        if entry.name.lower().endswith((*SOURCES, *PAGES)) and not self._reads_code():
+                            self.unread += 1
+                        else:
+                            taken.append(path)
         self.files.update((shown(path), None) for path in taken)
         if not taken and len(self.findings) == before:
             names = ", ".join("*" + ending for ending in ENDINGS)
             help = f"its inputs are excluded ({excluded})" if excluded else f"inputs are called {names}, or look like one; name others"
+            if self.unread > unread:
+                help = EXTRA
             self.findings.append(diagnostic("MSAA921", f"nothing to lint in {quoted(top)}", shown(top), help=help))
 
     def _is_input(self, entry: os.DirEntry[str], path: str, include: Sequence[Glob]) -> bool:
@@ -130,6 +155,8 @@ class _Walk:
             return False
         if name.endswith(ENDINGS):
             return True
+        if self.sources and name.endswith(SOURCES):
+            return entry.is_file(follow_symlinks=False) and self._speaks(path)
         # The target of a link is not looked into: it may lie anywhere.
         if not name.endswith(MAYBE) or not entry.is_file(follow_symlinks=False):
             return False
@@ -138,6 +165,22 @@ class _Walk:
         except OSError:
             self.notes.append(f"{shown(path)} cannot be read, and its name does not say that it is an input")
             return False
+
+    def _speaks(self, path: str) -> bool:
+        from .programs.mentions import file_speaks
+
+        try:
+            return file_speaks(path)
+        except OSError:
+            return False
+
+    def _reads_code(self) -> bool:
+        """Whether the extra that reads source code is installed."""
+        if self._code is None:
+            from .programs import installed
+
+            self._code = installed()
+        return self._code
 
 
 def _head(path: str) -> str:

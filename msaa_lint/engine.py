@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from .catalogue import Catalogue
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from .facts.frame import Frame
     from .facts.study import Studied
     from .modules import Modules
+    from .programmed import Programmed
+    from .source.comments import Comment
     from .spirv.reflect import Reflected
 
 Severity = Callable[[Rule, str, str | None], str | None]
@@ -45,7 +47,8 @@ class Judged(NamedTuple):
 
 
 class Linted(NamedTuple):
-    """What one input gave. `source` is None where it could not be decoded, `together` where no finding has a price."""
+    """What one input gave. `source` is None where it could not be decoded, `together` where no finding has a price; `code` says that it is
+    source code, which is not fixed."""
 
     file: str
     source: Source | None
@@ -54,6 +57,7 @@ class Linted(NamedTuple):
     suppressed: list[Suppressed]
     together: Together | None = None
     judged: Sequence[Judged] = ()
+    code: bool = False
 
 
 class Engine:
@@ -65,7 +69,7 @@ class Engine:
 
     def lint(
         self,
-        data: bytes | Captured,
+        data: bytes | Captured | Programmed,
         file: str,
         severity: Severity,
         *,
@@ -75,12 +79,18 @@ class Engine:
         ignores: bool = True,
         prices: bool = False,
     ) -> Linted:
-        """The findings of one input, in the order of their places: the bytes of a file, or a capture that was read.
+        """The findings of one input, in the order of their places: the bytes of a file, or a capture or source code that was read.
 
         `format` names a reader where content does not tell; `device` the profile for descriptions that state none; `ignores` says whether
         suppression comments count; `prices` whether findings are priced.
         """
-        capture = None if isinstance(data, bytes) else data
+        capture: Captured | None = None
+        if not isinstance(data, bytes):
+            from .programmed import Programmed, linted
+
+            if isinstance(data, Programmed):
+                return linted(self, data, file, severity, device, ignores, prices)
+            capture = data
         if capture is not None:
             # The limits are for what people write; a capture's own text is as long as what it was made of is varied.
             source, limits, format, ignores = capture.source, WITHOUT_LIMITS, None, False
@@ -101,13 +111,16 @@ class Engine:
             if capture is not None:
                 document = _of_capture(document, capture, device)
             prefix = f"documents[{number}]." if len(parsed.documents) > 1 else ""
-            (found, unknown, mends), own = self._judge(document, file, severity, device, bool(parsed.problems))
+            (found, unknown, mends), own = self.of_document(document, file, severity, device, bool(parsed.problems))
             findings.extend(_within(found, prefix))
             undecided.extend(u._replace(subject=prefix + u.subject) for u in unknown)
             judged.append(Judged(document, mends, number, own))
         suppressed: list[Suppressed] = []
         if ignores and "msaa-lint" in source.text.lower():
-            findings, suppressed = self._suppress(findings, source, parsed.documents, severity, {u.rule for u in undecided})
+            from .source.comments import comments
+
+            said = comments(source, parsed.documents)
+            findings, suppressed = self.suppress(findings, said, source, severity, {u.rule for u in undecided})
         findings.sort(key=place_order)
         together = None
         mended = [each for each in judged if each.mends]
@@ -119,8 +132,8 @@ class Engine:
             findings = of_capture(capture, findings)
         return Linted(file, source, findings, undecided, suppressed, together, judged)
 
-    def _judge(
-        self, document: Document, file: str, severity: Severity, device: DeviceProfile | None, broken: bool
+    def of_document(
+        self, document: Document, file: str, severity: Severity, device: DeviceProfile | None, broken: bool = False
     ) -> tuple[Verdicts, DeviceProfile | None]:
         """A document's own mistakes; where it has none, what the rules say, and the device they judge for.
 
@@ -152,19 +165,27 @@ class Engine:
                 modules.append(Modules(document, file))
             return modules[0].reflected(stage, alpha)
 
-        verdicts = self.judge.judge(subjects(document, own, study, shader), file, severity)
+        verdicts = self.judge.judge(subjects(document, own, study, shader), file, severity, document.api)
         verdicts.findings.extend(found for each in modules for found in each.findings)
         return verdicts, own
 
-    def _suppress(
-        self, findings: Sequence[Finding], source: Source, documents: Sequence[Node], severity: Severity, undecided: set[str]
+    def suppress(
+        self,
+        findings: Sequence[Finding],
+        comments: Sequence[Comment],
+        source: Source,
+        severity: Severity,
+        undecided: set[str],
+        alone: Collection[int] | None = None,
     ) -> tuple[list[Finding], list[Suppressed]]:
-        """Of a rule that is off, or that stayed undecided, nothing can be said of a suppression being unused."""
-        from .source.comments import comments
+        """The findings that comments leave, what is wrong with the comments, and the findings that they silence.
+
+        Of a rule that is off, or that stayed undecided, nothing can be said of a suppression being unused.
+        """
         from .suppressions import apply
 
         enabled = {rule.name for rule in self.catalogue.rules if severity(rule, rule.severity, None) is not None} - undecided
-        kept, suppressed, extra = apply(findings, comments(source, documents), source, self.catalogue.rules, enabled)
+        kept, suppressed, extra = apply(findings, comments, source, self.catalogue.rules, enabled, alone)
         return [*kept, *extra], suppressed
 
 

@@ -146,6 +146,11 @@ class Result(NamedTuple):
     together: Mapping[str, Price] = {}
 
 
+def sure(found: Finding, confidence: str) -> bool:
+    """Whether a finding is of a confidence, or a higher one."""
+    return CONFIDENCES.index(found.confidence) >= CONFIDENCES.index(confidence)
+
+
 def rank(severity: str) -> int:
     """0 for note, 1 for warning, 2 for error."""
     return SEVERITIES.index(severity)

@@ -1,4 +1,4 @@
-"""What an input is: bytes of a text, or a capture, which is read as a stream and may be of any length."""
+"""What an input is: bytes of a text, source code, or a capture, which is read as a stream and may be of any length."""
 
 from __future__ import annotations
 
@@ -9,39 +9,51 @@ from typing import TYPE_CHECKING, BinaryIO
 
 from .diagnostics import diagnostic
 from .finding import Finding
-from .readers import CAPTURES, capture_format
+from .readers import CAPTURES, FORMATS, capture_format
 from .source.files import opened
 from .source.node import Limits
 from .source.text import Unreadable
 
 if TYPE_CHECKING:
     from .captured import Captured
+    from .programmed import Programmed
 
 HEAD = 64 << 10
 """So many bytes tell what an input is."""
 
 STDIN = "-"
 
+DESCRIPTIONS = (".yaml", ".yml", ".json", ".jsonl", ".xml", ".foz")
+"""Endings that source code never has."""
+
 
 class Unconverted(Unreadable):
     """Something that a tool wrote for itself: what it is, and what to run to have it as something that is read."""
+
+
+class Uninstalled(Unreadable):
+    """Source code, where the extra that reads it is not installed."""
 
 
 def refused(error: OSError | Unreadable, name: str) -> Finding:
     """The finding of an input that cannot be read."""
     if isinstance(error, Unconverted):
         return diagnostic("MSAA901", f"this is {error}", name)
+    if isinstance(error, Uninstalled):
+        return diagnostic("MSAA921", str(error), name)
     code = "MSAA906" if isinstance(error, Unreadable) else "MSAA901"
     reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
     return diagnostic(code, f"the input cannot be read: {reason}", name)
 
 
-def load(path: str, limits: Limits, name: str | None = None, format: str | None = None, data: bytes | None = None) -> bytes | Captured:
-    """The bytes of a text, or a capture that was read as far as it goes.
+def load(
+    path: str, limits: Limits, name: str | None = None, format: str | None = None, data: bytes | None = None
+) -> bytes | Captured | Programmed:
+    """The bytes of a text, source code that was read, or a capture that was read as far as it goes.
 
     `path` is `-` for standard input, for which `data` may stand; `name` is what findings call the input, `format` what it is to be read as,
-    whatever it looks like. OSError where it cannot be read or is no file; Unreadable where a text is larger than the limit, or it is
-    something that must be converted first.
+    whatever it looks like. OSError where it cannot be read or is no file; Unreadable where a text is larger than the limit, it is something
+    that must be converted first, or it is source code and the extra `source` is not installed.
     """
     if path == STDIN:
         stream: BinaryIO = sys.stdin.buffer if data is None else io.BytesIO(data)
@@ -51,10 +63,13 @@ def load(path: str, limits: Limits, name: str | None = None, format: str | None 
         return _loaded(file, size, limits, name or path, format, os.path.abspath(path))
 
 
-def _loaded(stream: BinaryIO, size: int | None, limits: Limits, name: str, format: str | None, path: str | None) -> bytes | Captured:
+def _loaded(
+    stream: BinaryIO, size: int | None, limits: Limits, name: str, format: str | None, path: str | None
+) -> bytes | Captured | Programmed:
     # No more than there is: Python sets aside as much memory as it is asked to read.
     head = stream.read(HEAD if size is None else min(size, HEAD) + 1)
-    found = format if format in CAPTURES else None if format is not None else capture_format(head)
+    language = _language(name, head, format)
+    found = format if format in CAPTURES else None if format is not None or language is not None else capture_format(head)
     if found is not None:
         from .captured import captured
 
@@ -62,7 +77,7 @@ def _loaded(stream: BinaryIO, size: int | None, limits: Limits, name: str, forma
             stream.seek(0)
             return captured(stream, found, name, path)
         return captured(io.BufferedReader(_Joined(head, stream), HEAD), found, name, path)
-    hint = _hint(head) if format is None else None
+    hint = _hint(head) if format is None and language is None else None
     if hint is not None:
         raise Unconverted(hint)
     data = head if size is None else head + stream.read(max(min(size, limits.bytes) + 1 - len(head), 0))
@@ -71,7 +86,32 @@ def _loaded(stream: BinaryIO, size: int | None, limits: Limits, name: str, forma
         data += stream.read(max(limits.bytes + 1 - len(data), 0))
     if len(data) > limits.bytes:
         raise Unreadable(f"the input is larger than the limit of {limits.bytes} bytes")
-    return data
+    return data if language is None else _program(data, name, language)
+
+
+def _language(name: str, head: bytes, format: str | None) -> str | None:
+    """The language of source code; None of anything else. Nothing of it is loaded for what has a description's ending."""
+    if format is not None:
+        if format in FORMATS:
+            return None
+        from .programs import LANGUAGES
+
+        return format if format in LANGUAGES else None
+    if name.endswith(DESCRIPTIONS):
+        return None
+    from .programs import language_of
+
+    return language_of(name, head.decode("latin-1"))
+
+
+def _program(data: bytes, name: str, language: str) -> Programmed:
+    from .programmed import programmed
+    from .programs.parsing import Missing
+
+    try:
+        return programmed(data, name, language)
+    except Missing as error:
+        raise Uninstalled(str(error)) from None
 
 
 def _hint(head: bytes) -> str | None:

@@ -1,4 +1,4 @@
-"""Finds the SPIR-V that shader stages name, and says what it says of multisampling.
+"""Finds the SPIR-V or the GLSL that shader stages name, and says what it says of multisampling.
 
 A module comes with the input (a capture's), or is a file: its path counts from the folder of the description and must stay in its project
 with all symbolic links followed. It may come from a stranger's branch: it is limited, checked, and never more than data. What is wrong
@@ -27,6 +27,12 @@ That takes half a minute or so; a game's frame takes a hundredth of it."""
 STEP = 16
 
 TOO_MANY = "this module and others after it are not looked at: there are too many, or they are too large"
+
+GLSL = (".frag", ".comp", ".glsl", ".vert", ".tesc", ".tese", ".geom", ".mesh", ".task")
+"""The endings of texts that are GLSL."""
+
+MAGIC = (b"\x03\x02\x23\x07", b"\x07\x23\x02\x03")
+"""What SPIR-V begins with, in either byte order."""
 
 MAX_KEPT = 8
 """Modules that are kept as they were read: pipelines that share one mostly stand together."""
@@ -115,10 +121,27 @@ class Modules:
             code = self._bytes(name)
         if self._left < len(code) // 4:
             raise _Unusable("MSAA906", TOO_MANY)
+        if name.endswith(GLSL) and code[:4] not in MAGIC:
+            code = self._of_text(name, code)
         try:
             return Module(code)
         except SpirvError as error:
             raise _Unusable("MSAA903", f"{_quoted(name)}: {error}", "a module is SPIR-V, as glslang and DXC write it") from None
+
+    def _of_text(self, name: str, code: bytes) -> bytes:
+        """The module that GLSL makes."""
+        from .programs.glsl.shader import shader
+        from .programs.glsl.text import NotRead
+        from .programs.parsing import Missing
+
+        self._left -= STEP * len(code)
+        try:
+            # What a page shows, and what others include, may be a part of a shader.
+            return shader(code.decode("utf-8", "replace"), True).code
+        except Missing as error:
+            raise _Unusable("MSAA903", f"{_quoted(name)} is GLSL", str(error)) from None
+        except NotRead as error:
+            raise _Unusable("MSAA903", f"{_quoted(name)} cannot be followed: {error}", "name its SPIR-V, which is read whole") from None
 
     def _bytes(self, name: str) -> bytes:
         path = os.path.join(self._folder, name)

@@ -106,7 +106,7 @@ def with_fixes(linted: Linted, judged: Judged, device: DeviceProfile | None, ter
 
     if linted.source is None or not judged.mends:
         return None
-    offers = Offers(linted.source, judged)
+    offers = Offers(linted.source, judged, rewritten=not linted.code)
     changes: list[tuple[Change, ...]] = []
     for found in linted.findings:
         own = offers.changes(found)

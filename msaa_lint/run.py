@@ -14,7 +14,7 @@ from .catalogue import EDITIONS, Catalogue, load
 from .diagnostics import diagnostic
 from .discovery import STDIN, discover
 from .engine import Engine, Linted, Together, rule_infos
-from .finding import Finding, Price, Result, RuleInfo, Suppressed, Undecided, rank
+from .finding import Finding, Price, Result, RuleInfo, Suppressed, Undecided, rank, sure
 from .profiles import Problem, device_of, profile_of
 from .readers import looks_like
 from .selection import Selection
@@ -26,6 +26,7 @@ from .source.tree import Limits
 if TYPE_CHECKING:
     from .captured import Captured
     from .fixes.inputs import Mended
+    from .programmed import Programmed
 
 Progress = Callable[[int, int, str], None]
 """Told how many of how many inputs are done, and the next one's name."""
@@ -65,13 +66,14 @@ class Request(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """A run's result, the settings that govern the current folder (its outputs and thresholds), lines for the standard error stream, and
-    what fixes made of inputs."""
+    """A run's result, the settings that govern the current folder (its outputs and thresholds), lines for the standard error stream, what
+    fixes made of inputs, and by file what the findings cost together that are sure enough to fail the run."""
 
     result: Result
     settings: Settings
     notes: Sequence[str]
     mended: "Sequence[Mended]" = ()
+    charged: Mapping[str, Price] = {}
 
 
 class Governed(NamedTuple):
@@ -92,6 +94,7 @@ class Run:
         self.suppressed: list[Suppressed] = []
         self.sources: dict[str, Source] = {}
         self.priced: dict[str, Together] = {}
+        self.charged: dict[str, Together] = {}
         self._settings: dict[str | None, Settings] = {}
         self._governed: dict[str | None, Governed] = {}
         self._catalogues: dict[tuple[str, ...], Catalogue] = {}
@@ -145,7 +148,7 @@ class Run:
         device = device_of(governed.settings.profile)
         severity = governed.selection.for_file(name, device.vendor if device is not None else None)
 
-        def judge(data: "bytes | Captured", prices: bool = False) -> Linted:
+        def judge(data: "bytes | Captured | Programmed", prices: bool = False) -> Linted:
             return governed.engine.lint(
                 data, name, severity, limits=limits, format=self.request.format, device=device, ignores=self.request.ignores, prices=prices
             )
@@ -154,9 +157,10 @@ class Run:
         if not isinstance(data, bytes):
             self.notes.extend(data.notes)
             if self.request.fix is not None:
-                self.notes.append(
-                    f"{name} is a capture, and stays as it is: `msaa-lint convert` writes a description of it that can be fixed"
-                )
+                kind = "source code" if data.source.origins is None else "a capture"
+                self.notes.append(f"{name} is {kind}, and stays as it is: `msaa-lint convert` writes a description of it that can be fixed")
+                if stdin and linted.code:
+                    self.mended.append(_as_it_is(data, linted))
         elif self.request.fix is not None and (stdin or any(found.fix is not None for found in linted.findings)):
             from .fixes.inputs import mend
 
@@ -192,6 +196,10 @@ class Run:
         self.findings.extend(settled)
         if linted.together is not None:
             self.priced[linted.file] = self._together(linted.together, settled)
+            here = self.settings(os.curdir)
+            if here.fail_on_cost is not None:
+                certain = [found for found in settled if sure(found, here.fail_confidence)]
+                self.charged[linted.file] = self._together(linted.together, certain)
         self.undecided.extend(linted.undecided)
         self.suppressed.extend(linted.suppressed)
 
@@ -211,7 +219,7 @@ def run(request: Request, progress: Progress | None = None) -> Outcome:
     here = this.governed(os.curdir)
     formats = request.formats or _names(here.settings.output) or [request.fallback]
     this.prices = request.by_price or here.settings.fail_on_cost is not None or not PRICED.isdisjoint(formats)
-    found = discover(request.paths, this.settings, looks_like)
+    found = discover(request.paths, this.settings, looks_like, sources=True)
     this.findings.extend(found.findings)
     for number, path in enumerate(found.files):
         if progress is not None:
@@ -232,10 +240,23 @@ def run(request: Request, progress: Progress | None = None) -> Outcome:
     rules: list[RuleInfo] = rule_infos(here.engine.catalogue, severity, request.full_rules)
     findings = _once(this.findings)
     together = _together(this.priced, findings)
+    charged = together
+    if here.settings.fail_on_cost is not None:
+        charged = _together(this.charged, [found for found in findings if sure(found, here.settings.fail_confidence)])
     if request.by_price:
         findings.sort(key=_dearest)
     result = Result(findings, this.undecided, this.suppressed, files, this.sources, rules, together)
-    return Outcome(result, here.settings, notes, this.mended)
+    return Outcome(result, here.settings, notes, this.mended, charged)
+
+
+def _as_it_is(data: "Captured | Programmed", linted: Linted) -> "Mended":
+    """Source code from standard input, which is not mended: whoever asks for the mended text gets it back."""
+    from .fixes.inputs import Mended
+    from .programmed import Programmed
+
+    assert isinstance(data, Programmed)
+    text = data.source.text
+    return Mended(linted.file, text, text, data.data, linted, (), ())
 
 
 def _baseline(this: Run, here: Governed, files: list[str], notes: list[str]) -> None:

@@ -49,8 +49,9 @@ class Settings(NamedTuple):
     All of them hold rule selectors: a name, a code, the beginning of a code (MSAA2, MSAA), or ALL. `command_line` is what the command
     line says of the same. `rules` are pages of a user's own rules, or folders of them.
 
-    Of outcomes: `fail_on` is the lowest severity that ends the run with 1, `fail_on_cost` the price that does (as in 50MB/s),
-    `min_severity` the lowest severity that is shown, `output` the outputs (none: the program's choice), `baseline` the baseline's path.
+    Of outcomes: `fail_on` is the lowest severity that ends the run with 1, `fail_on_cost` the price that does (as in 50MB/s), both of
+    findings whose confidence is at least `fail_confidence`; `min_severity` is the lowest severity that is shown, `output` the outputs
+    (none: the program's choice), `baseline` the baseline's path.
 
     Of inputs: `exclude` is never linted, `include` is what is linted of a folder (none: the usual names, and what looks like an input),
     `profile` a class of device or a built-in device's name, `limits` the stated ones of depth, nodes and bytes.
@@ -66,6 +67,7 @@ class Settings(NamedTuple):
     severity: Mapping[str, str] = {}
     fail_on: str = "warning"
     fail_on_cost: str | None = None
+    fail_confidence: str = "medium"
     min_severity: str = "note"
     profile: str | None = None
     rules: tuple[str, ...] = ()
@@ -96,6 +98,7 @@ def override(
     severity: Mapping[str, str] | None = None,
     fail_on: str | None = None,
     fail_on_cost: str | None = None,
+    fail_confidence: str | None = None,
     min_severity: str | None = None,
     profile: str | None = None,
     rules: Iterable[str] = (),
@@ -120,6 +123,7 @@ def override(
         "edition": edition,
         "fail_on": fail_on,
         "fail_on_cost": fail_on_cost,
+        "fail_confidence": fail_confidence,
         "min_severity": min_severity,
         "profile": profile,
         "baseline": None if baseline is None else os.path.abspath(baseline),

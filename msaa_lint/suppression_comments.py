@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from .finding import Edit, Span
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from .source.text import Source
 
 WORDS = ("ignore", "ignore-file")
-HOW = "write `# msaa-lint: ignore[rule-name] reason`"
+HOW = "write `{mark} msaa-lint: {word}[rule-name] reason`"
 
 MAX_NEAREST = 50
 
@@ -48,10 +48,13 @@ class Complain(Protocol):
     def __call__(self, code: str, message: str, span: Span, help: str = "") -> None: ...
 
 
-def read(comments: Iterable[Comment], source: Source, complain: Complain) -> list[Directive]:
-    """The suppressions in comments, in the order of their places; what looks like one and is none is complained about."""
+def read(comments: Iterable[Comment], source: Source, complain: Complain, alone: Collection[int] | None = None) -> list[Directive]:
+    """The suppressions in comments, in the order of their places; what looks like one and is none is complained about.
+
+    `alone`, in source code, are the lines that hold comments and nothing else: there a `#` at the beginning of a line is none.
+    """
     found: list[Directive] = []
-    lines = _Lines(source)
+    lines = _Lines(source, alone)
     for comment in sorted(comments, key=lambda each: each.span.start):
         starts = list(_BEGINNING.finditer(comment.text))
         if not starts:
@@ -80,8 +83,10 @@ def without(directive: Directive, entry: Entry, whole: bool) -> Edit:
 class _Lines:
     """The lines of a text, and how a comment stands among them: its line, whether it is `alone` on it, and the line that it is about."""
 
-    def __init__(self, source: Source) -> None:
+    def __init__(self, source: Source, comments: Collection[int] | None) -> None:
         self.source = source
+        self.mark = "#" if comments is None else "//"
+        self._comments = comments
         self.line = self.about = 0
         self.alone = False
         self._run = (0, 0)
@@ -91,17 +96,30 @@ class _Lines:
     def at(self, comment: Comment) -> None:
         """Moves on to a comment. One alone on its line is about the next line that does not begin with a comment too."""
         self.line, column = self.source.position(comment.span.start)
-        self.alone = not self.source.line(self.line)[: column - 1].strip()
+        if self._comments is not None:
+            self.alone = self.line in self._comments
+        else:
+            self.alone = not self.source.line(self.line)[: column - 1].strip()
         self.about = self._after(self.line) if self.alone else self.line
 
     def _after(self, line: int) -> int:
         first, after = self._run
         if not first <= line < after:
             after = line + 1
-            while after <= self.source.line_count and self.source.line(after).lstrip().startswith("#"):
+            while after <= self.source.line_count and self._holds_a_comment(after):
                 after += 1
             self._run = (line, after)
         return after
+
+    def _holds_a_comment(self, number: int) -> bool:
+        """Whether a line holds a comment and nothing else."""
+        if self._comments is not None:
+            return number in self._comments
+        return self.source.line(number).lstrip().startswith("#")
+
+    def how(self, word: str = WORDS[0]) -> str:
+        """How a suppression is written."""
+        return HOW.format(mark=self.mark, word=word)
 
     def nearest(self, word: str) -> str | None:
         """What was meant by a word that is none of WORDS; only the first few are looked up."""
@@ -117,7 +135,8 @@ class _Lines:
             at = 1
             while at <= self.source.line_count:
                 text = self.source.line(at).strip()
-                if text and not text.startswith(("#", "%")) and text != "---" and not text.startswith("--- #"):
+                yaml = self._comments is None and (text.startswith("%") or text == "---" or text.startswith("--- #"))
+                if text and not yaml and not self._holds_a_comment(at):
                     break
                 at += 1
             self._content = at
@@ -132,7 +151,7 @@ def _read(comment: Comment, match: re.Match[str], start: int, end: int, lines: _
     span = Span(base + match.start(), base + match.start() + len(comment.text[match.start() : end].rstrip()))
     if match[1].lower() != "msaa-lint" or match[2] is None:
         if rest.startswith("[") and word.startswith("i"):
-            complain("MSAA913", "not written as a suppression: it silences nothing", span, HOW)
+            complain("MSAA913", "not written as a suppression: it silences nothing", span, lines.how())
         return None
     if word not in WORDS:
         _unknown_word(match, base, lines, complain)
@@ -141,18 +160,16 @@ def _read(comment: Comment, match: re.Match[str], start: int, end: int, lines: _
     close = rest.find("]")
     if not rest.startswith("["):
         if rest.startswith(("(", "{", ":", "=")):
-            complain(
-                "MSAA913", f"`{word}` without square brackets: it silences nothing", span, f"write `# msaa-lint: {word}[rule-name] reason`"
-            )
+            complain("MSAA913", f"`{word}` without square brackets: it silences nothing", span, lines.how(word))
         else:
-            complain("MSAA913", f"`{word}` without a rule: it silences nothing", named, f"write `# msaa-lint: {word}[rule-name] reason`")
+            complain("MSAA913", f"`{word}` without a rule: it silences nothing", named, lines.how(word))
         return None
     if close < 0:
-        complain("MSAA913", "a suppression without its `]`: it silences nothing", span, HOW)
+        complain("MSAA913", "a suppression without its `]`: it silences nothing", span, lines.how())
         return None
     entries = _entries(rest[1:close], base + match.end() + 1)
     if not entries:
-        complain("MSAA913", f"`{word}[]` names no rule: it silences nothing", Span(span.start, base + match.end() + close + 1), HOW)
+        complain("MSAA913", f"`{word}[]` names no rule: it silences nothing", Span(span.start, base + match.end() + close + 1), lines.how())
         return None
     line: int | None = lines.about
     if word == "ignore-file":

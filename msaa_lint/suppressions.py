@@ -28,16 +28,22 @@ _ABOUT_COMMENTS = frozenset(info.name for info in DIAGNOSTICS.values() if info.s
 
 
 def apply(
-    findings: Iterable[Finding], comments: Sequence[Comment], source: Source, known_rules: Iterable[Named], enabled: Collection[str]
+    findings: Iterable[Finding],
+    comments: Sequence[Comment],
+    source: Source,
+    known_rules: Iterable[Named],
+    enabled: Collection[str],
+    alone: Collection[int] | None = None,
 ) -> tuple[list[Finding], list[Suppressed], list[Finding]]:
     """The findings of one file that stay, those that its comments silence, and what is wrong with the comments (MSAA911, 912, 913).
 
     `enabled` are the names of the rules that were judged: a suppression of any other is not called unused, so a rule that stayed
-    undecided is best left out. Nothing is called unused in a file with a 9xx error, since that was not judged.
+    undecided is best left out. Nothing is called unused in a file with a 9xx error, since that was not judged. `alone`, in source code,
+    are the lines that hold comments and nothing else.
     """
     findings = list(findings)
     complaints = _Complaints(source)
-    directives = read(comments, source, complaints.add)
+    directives = read(comments, source, complaints.add, alone)
     words = Words(known_rules)
     table = _Table()
     for directive in directives:

@@ -8,8 +8,11 @@ from pathlib import Path
 
 RULES = Path(__file__).parent.parent / "rules"
 
-_FENCE = re.compile(r"^```(?P<language>yaml|json) (?P<kind>bad|fixed|good)\b[^\n]*\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
-_MARK = re.compile(r"^#\s*(?P<carets>\^+)\s*(?P<words>.*)$")
+_FENCE = re.compile(r"^```(?P<language>\w+) (?P<kind>bad|fixed|good)\b[^\n]*\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
+_MARK = re.compile(r"^(?:#|//)\s*(?P<carets>\^+)\s*(?P<words>.*)$")
+
+DESCRIPTIONS = ("yaml", "json")
+PROGRAMS = ("c", "cpp", "swift", "glsl")
 
 
 @dataclass(frozen=True)
@@ -38,17 +41,20 @@ class Example:
         return f"{self.rule}-{self.kind}-{self.number}"
 
 
-def examples(page: Path) -> list[Example]:
-    """The examples of a page, in order."""
+def examples(page: Path, languages: tuple[str, ...] = DESCRIPTIONS) -> list[Example]:
+    """The examples of a page that are in some languages, in order."""
     found = []
-    for number, match in enumerate(_FENCE.finditer(page.read_text(encoding="utf-8"))):
-        text = match["text"]
-        found.append(Example(page.stem, number, match["kind"], match["language"], text, tuple(marks(text))))
+    for match in _FENCE.finditer(page.read_text(encoding="utf-8")):
+        assert match["language"] in DESCRIPTIONS + PROGRAMS, f"{page.name}: what language is {match['language']}?"
+        if match["language"] in languages:
+            text = match["text"]
+            found.append(Example(page.stem, len(found), match["kind"], match["language"], text, tuple(marks(text))))
     return found
 
 
 def marks(text: str) -> list[Mark]:
-    """The marks of a text: `#      ^^^^^ warning, medium` points at the columns of the last line above that is no mark."""
+    """The marks of a text: `#      ^^^^^ warning, medium`, in source code `//     ^^^^^`, points at the columns of the last line above that
+    is no mark."""
     found = []
     above = 0
     for number, line in enumerate(text.splitlines(), 1):
@@ -63,6 +69,6 @@ def marks(text: str) -> list[Mark]:
     return found
 
 
-def all_examples() -> list[Example]:
-    """Every example of the catalogue."""
-    return [example for page in sorted(RULES.glob("*.md")) if page.name != "README.md" for example in examples(page)]
+def all_examples(languages: tuple[str, ...] = DESCRIPTIONS) -> list[Example]:
+    """Every example of the catalogue that is in some languages: descriptions, unless PROGRAMS are asked for."""
+    return [example for page in sorted(RULES.glob("*.md")) if page.name != "README.md" for example in examples(page, languages)]

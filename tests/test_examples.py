@@ -32,6 +32,16 @@ EXPECTED: dict[str, list[tuple[int, str]]] = {
         (17, "transient-needs-memory"),
         (47, "sample-shading-everywhere"),
     ],
+    "tutorial/choice.msaa.yaml": [
+        (5, "source-stencil-counts-ignored"),
+        (7, "source-sample-count-maximum"),
+        (13, "source-sample-bit-retested"),
+    ],
+    "notes/choice.msaa.yaml": [
+        (4, "source-stencil-counts-ignored"),
+        (5, "source-sample-masks-compared"),
+        (9, "source-sample-masks-compared"),
+    ],
     "notes/notes.msaa.yaml": [(6, "multisampled-attachment-stored")],
     "impeller/article.msaa.yaml": [
         (7, "transient-not-lazily-allocated"),
@@ -40,6 +50,45 @@ EXPECTED: dict[str, list[tuple[int, str]]] = {
         (51, "reused-attachment-unsynchronised"),
     ],
     "impeller/best-practice.msaa.yaml": [],
+    "impeller/article-advice.msaa.yaml": [
+        (14, "resolve-then-copy"),
+        (39, "reused-attachment-unsynchronised"),
+        (59, "attachment-blocks-compression"),
+        (59, "transient-not-lazily-allocated"),
+        (59, "transient-usage-conflict"),
+        (66, "transient-needs-memory"),
+        (67, "depth-read-without-resolve"),
+        (79, "shader-resolve-off-tile"),
+        (105, "multisampled-attachment-loaded"),
+        (106, "multisampled-depth-stored"),
+        (142, "multisampled-fullscreen-pass"),
+    ],
+    "impeller/article-metal.msaa.yaml": [
+        (15, "metal-usage-blocks-memoryless"),
+        (29, "metal-resolve-then-blit"),
+        (31, "metal-samples-stored-unread"),
+        (35, "metal-depth-stored-unread"),
+    ],
+    "impeller/article-shorthand.msaa.yaml": [
+        (13, "resolve-target-loaded"),
+        (14, "multisampled-depth-stored"),
+        (14, "multisampled-image-not-transient"),
+        (14, "multisampled-stencil-stored"),
+        (15, "resolve-target-loaded"),
+        (18, "sample-count-above-four"),
+        (18, "sample-count-unsupported"),
+        (18, "sixteen-samples-biased"),
+        (33, "metal-memoryless-possible"),
+        (33, "metal-samples-stored-unread"),
+        (34, "metal-depth-stored-unread"),
+        (34, "metal-depth-stored-unread"),
+        (34, "metal-memoryless-possible"),
+        (35, "tile-budget-exceeded"),
+        (38, "metal-sample-count-unsupported"),
+    ],
+    "impeller/engine-metal.msaa.yaml": [],
+    "impeller/engine-shorthand.msaa.yaml": [(6, "resolve-target-loaded")],
+    "impeller/engine-vulkan.msaa.yaml": [(42, "resolve-target-loaded")],
     "shader-resolve/note.msaa.yaml": [
         (25, "sample-shading-ineffective"),
         (35, "half-float-resolve-overflow"),
@@ -73,3 +122,17 @@ def test_example(name: str) -> None:
         assert finding.span is not None
         found.append((result.sources[finding.file].position(finding.span.start).line, finding.rule))
     assert sorted(found) == EXPECTED[name]
+
+
+def test_the_example_in_code() -> None:
+    result = lint(str(EXAMPLES / "code" / "forward.cpp"), isolated=True)
+    found = []
+    for finding in result.findings:
+        assert finding.span is not None
+        assert finding.confidence == "low"
+        found.append((result.sources[finding.file].position(finding.span.start).line, finding.rule))
+    assert found == [
+        (11, "source-sample-masks-compared"),
+        (25, "multisampled-image-not-transient"),
+        (36, "multisampled-attachment-stored"),
+    ]

@@ -22,10 +22,12 @@ PACKAGE = ROOT / "msaa_lint"
 HEAVY = frozenset({
     "annotated_types", "asyncio", "click", "concurrent", "dataclasses", "email", "hashlib", "html", "http", "importlib.metadata",
     "importlib.resources", "inspect", "jsonschema", "logging", "multiprocessing", "numpy", "pathlib", "pathspec", "pydantic",
-    "pydantic_core", "rich", "shellingham", "socket", "sqlite3", "ssl", "subprocess", "tempfile", "tomllib", "typer", "unicodedata",
-    "urllib", "vulkan", "xml",
+    "pydantic_core", "rich", "shellingham", "socket", "sqlite3", "ssl", "subprocess", "tempfile", "tomllib", "tree_sitter",
+    "tree_sitter_c", "tree_sitter_cpp", "tree_sitter_glsl", "tree_sitter_swift", "typer", "unicodedata", "urllib", "vulkan", "xml",
     "msaa_lint.baseline", "msaa_lint.cli.app", "msaa_lint.config_keys", "msaa_lint.document.fields", "msaa_lint.document.generate",
-    "msaa_lint.document.models", "msaa_lint.modules", "msaa_lint.spirv", "msaa_lint.toml_text", "msaa_lint.vulkan.generate",
+    "msaa_lint.document.models", "msaa_lint.facts.metal", "msaa_lint.impeller", "msaa_lint.metal", "msaa_lint.readers.metal",
+    "msaa_lint.modules", "msaa_lint.programmed", "msaa_lint.programs", "msaa_lint.spirv",
+    "msaa_lint.toml_text", "msaa_lint.vulkan.generate",
 })  # fmt: skip
 """Nothing of this, nor anything below it, on the way of a run without a configuration file, whatever it finds."""
 
@@ -100,6 +102,15 @@ def test_misspelt_word_loads_difflib_and_nothing_else(tmp_path: Path) -> None:
     assert below(found, HEAVY | WRITING) == []
 
 
+def test_source_code_that_is_passed_over_loads_no_grammar(tmp_path: Path) -> None:
+    (tmp_path / "other.cpp").write_text("int main() {}\n")
+    done, found = imported(tmp_path, CLEAN, ".")
+    assert done.returncode == 0, done.stdout
+    assert "msaa_lint.programs.mentions" in found
+    light = {"msaa_lint.programs", "msaa_lint.programs.mentions"}
+    assert below(found - light, HEAVY | NEAREST | WRITING) == []
+
+
 def test_version_loads_nothing_of_ours(tmp_path: Path) -> None:
     command = [sys.executable, "-X", "importtime", "-m", "msaa_lint", "--version"]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
@@ -108,20 +119,31 @@ def test_version_loads_nothing_of_ours(tmp_path: Path) -> None:
     assert found == ["msaa_lint"]
 
 
+MODULES = sorted(PACKAGE.rglob("*.py"))
+
+
+def name_of(path: Path) -> str:
+    """`report.full` of msaa_lint/report/full.py; a package goes by its folder."""
+    return ".".join(path.relative_to(PACKAGE).with_suffix("").parts).removesuffix(".__init__")
+
+
 MAY_IMPORT = {
     "source": {"source", "finding"},
     "finding": {"source"},
     "vulkan": {"vulkan"},
     "devices": {"devices", "vulkan"},
     "spirv": {"spirv"},
-    "document": {"document", "finding", "source", "vulkan"},
+    "metal": {"metal", "devices", "vulkan"},
+    "document": {"document", "finding", "metal", "source", "vulkan"},
     "captures": {"captures", "devices", "document", "source", "vulkan"},
-    "readers": {"readers", "captures", "devices", "document", "finding", "source", "vulkan"},
-    "facts": {"facts", "devices", "document", "finding", "spirv", "vulkan"},
+    "impeller": {"impeller", "devices", "document", "finding", "source"},
+    "readers": {"readers", "captures", "devices", "document", "finding", "impeller", "metal", "source", "vulkan"},
+    "programs": {"programs", "document", "finding", "readers", "source", "spirv", "vulkan"},
+    "facts": {"facts", "devices", "document", "finding", "metal", "spirv", "vulkan"},
     "cost": {"cost", "devices", "document", "facts", "finding", "vulkan"},
     "confirm": {
         "confirm", "condition", "cost", "devices", "diagnostics", "discovery", "document", "engine", "facts", "finding", "fixes",
-        "inputs", "profiles", "readers", "run", "source", "spirv", "vulkan",
+        "inputs", "profiles", "programmed", "readers", "run", "source", "spirv", "vulkan",
     },
     "study": {
         "__version__", "study", "confirm", "cost", "devices", "document", "facts", "finding", "readers", "source", "studied", "vulkan",
@@ -131,22 +153,16 @@ MAY_IMPORT = {
 """The arrows of CONTRIBUTING.md: a part, and all of ours that it may know."""
 
 ONLY_IN = {
-    "pydantic": {"document.models", "document.fields", "document.generate", "cli.schema"},
+    "pydantic": {"document.metal_models", "document.models", "document.struct", "document.fields", "document.generate", "cli.schema"},
     "typer": {"cli.app"},
     "yaml": {"source.comments", "source.events", "source.pure", "source.tree"},
     "cel_expr_python": {"condition"},
     "vulkan_object": {"vulkan.generate"},
     "orjson": {"captures.json_stream", "readers.fossilize_objects"},
     "vulkan": {"confirm.binding"},
+    "tree_sitter": {name_of(path) for path in MODULES if name_of(path).startswith("programs.")},
 }
 """Packages of others, and the modules that may import them."""
-
-MODULES = sorted(PACKAGE.rglob("*.py"))
-
-
-def name_of(path: Path) -> str:
-    """`report.full` of msaa_lint/report/full.py; a package goes by its folder."""
-    return ".".join(path.relative_to(PACKAGE).with_suffix("").parts).removesuffix(".__init__")
 
 
 def imports(path: Path) -> Iterator[str]:

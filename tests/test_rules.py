@@ -11,13 +11,14 @@ from msaa_lint.catalogue import EDITIONS, check_rule, load, markdown
 from msaa_lint.condition import Condition
 from msaa_lint.engine import Engine, Linted
 from msaa_lint.page import Rule
+from msaa_lint.programmed import programmed
 
-from .pages import RULES, Example, all_examples, examples
+from .pages import DESCRIPTIONS, PROGRAMS, RULES, Example, all_examples, examples
 
 CATALOGUE = load()
 BY_NAME = {rule.name: rule for rule in CATALOGUE.rules}
 ENGINE = Engine(CATALOGUE)
-EXAMPLES = all_examples()
+EXAMPLES = all_examples((*DESCRIPTIONS, *PROGRAMS))
 
 
 def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
@@ -25,8 +26,11 @@ def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
     return "note" if rule.vendors and vendor not in rule.vendors else suggested
 
 
-def lint(text: str, severity: Callable[[Rule, str, str | None], str | None] = as_written) -> Linted:
-    return ENGINE.lint(text.encode(), str(RULES / "example.yaml"), severity)
+def lint(text: str, severity: Callable[[Rule, str, str | None], str | None] = as_written, language: str = "yaml") -> Linted:
+    name = str(RULES / f"example.{language}")
+    if language in PROGRAMS:
+        return ENGINE.lint(programmed(text.encode(), name, language), name, severity)
+    return ENGINE.lint(text.encode(), name, severity)
 
 
 def places(linted: Linted, rule: str) -> list[tuple[int, int, int]]:
@@ -64,7 +68,7 @@ def test_page(rule: Rule) -> None:
 
 @pytest.mark.parametrize("rule", CATALOGUE.rules, ids=lambda rule: rule.name)
 def test_page_has_examples(rule: Rule) -> None:
-    kinds = [example.kind for example in examples(RULES / f"{rule.name}.md")]
+    kinds = [example.kind for example in examples(RULES / f"{rule.name}.md", (*DESCRIPTIONS, *PROGRAMS))]
     assert "bad" in kinds
     assert "good" in kinds
     assert ("fixed" in kinds) == bool(rule.mends)
@@ -72,7 +76,7 @@ def test_page_has_examples(rule: Rule) -> None:
 
 @pytest.mark.parametrize("example", [e for e in EXAMPLES if e.kind == "bad"], ids=str)
 def test_bad_example_fires_at_its_marks(example: Example) -> None:
-    linted = lint(example.text)
+    linted = lint(example.text, language=example.language)
     assert not [finding for finding in linted.findings if finding.fatal]
     assert example.marks, "a bad example marks where"
     assert places(linted, example.rule) == sorted((mark.line, mark.column, mark.end_column) for mark in example.marks)
@@ -90,7 +94,7 @@ def test_bad_example_fires_at_its_marks(example: Example) -> None:
 
 @pytest.mark.parametrize("example", [e for e in EXAMPLES if e.kind != "bad"], ids=str)
 def test_good_and_fixed_examples_do_not_fire(example: Example) -> None:
-    linted = lint(example.text)
+    linted = lint(example.text, language=example.language)
     assert not [finding for finding in linted.findings if finding.fatal]
     assert places(linted, example.rule) == []
     assert not example.marks

@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 import typer
 
 from .. import __version__
+from ..programs import LANGUAGES
 from ..readers import CAPTURES
 from .confirm_options import CONFIRM
 from .options import CHECK, SHARED, Option
@@ -180,14 +181,17 @@ def facts(
 
 @app.command()
 def convert(
-    capture: Annotated[str, typer.Argument(metavar="CAPTURE", help="A capture; - is standard input.")],
+    capture: Annotated[str, typer.Argument(metavar="INPUT", help="A capture, source code, or render targets; - is standard input.")],
     output: Annotated[str | None, typer.Option("--output", "-o", metavar="FILE", help="Write there, shaders beside it.")] = None,
-    input_format: Annotated[Literal[tuple(CAPTURES)] | None, typer.Option(help="Read the capture as this.")] = None,  # type: ignore[valid-type]
+    input_format: Annotated[
+        Literal[(*CAPTURES, *LANGUAGES)] | None,  # type: ignore[valid-type]
+        typer.Option(help="Read the input as this."),
+    ] = None,
     force: Annotated[bool, typer.Option("--force", help="Write over a file that exists.")] = False,
 ) -> None:
-    """Write a capture as a description that can be read, edited, fixed and confirmed.
+    """Write a capture, source code or render targets as a description that can be read, edited, fixed and confirmed.
 
-    Exits with 0, or with 2 where the capture cannot be read to its end; what can be read of it is written.
+    Exits with 0, or with 2 where the input has mistakes or a capture cannot be read to its end; what can be read of that is written.
     """
     from .convert import convert as write
 

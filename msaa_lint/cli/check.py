@@ -9,7 +9,7 @@ from typing import IO, Any
 
 from .. import __version__
 from ..discovery import STDIN
-from ..finding import rank
+from ..finding import rank, sure
 from ..run import Outcome, Request, run
 from .common import Target, colored, ended, outputs, settings, utf_8
 from .options import FORMATS
@@ -99,13 +99,14 @@ def request(given: Mapping[str, Any], targets: Sequence[Target] = (), fallback: 
 
 def exit_code(outcome: Outcome, exit_zero: bool = False) -> int:
     """2 where an input or the configuration could not be used, 1 where a finding is as severe as `fail-on`, or findings as dear as
-    `fail-on-cost`, else 0."""
+    `fail-on-cost`, of those with the confidence `fail-confidence`, else 0."""
     if any(found.fatal for found in outcome.result.findings):
         return 2
     if exit_zero:
         return 0
-    least = rank(outcome.settings.fail_on)
-    return int(any(rank(found.severity) >= least for found in outcome.result.findings) or bool(_dear(outcome)))
+    least, confidence = rank(outcome.settings.fail_on), outcome.settings.fail_confidence
+    failing = any(rank(found.severity) >= least and sure(found, confidence) for found in outcome.result.findings)
+    return int(failing or bool(_dear(outcome)))
 
 
 def _dear(outcome: Outcome) -> list[str]:
@@ -115,7 +116,7 @@ def _dear(outcome: Outcome) -> list[str]:
     from ..budget import budget, reached
 
     limit = budget(outcome.settings.fail_on_cost)
-    return [file for file, price in outcome.result.together.items() if reached(price, limit)]
+    return [file for file, price in outcome.charged.items() if reached(price, limit)]
 
 
 def _print(target: Target, outcome: Outcome, given: Mapping[str, Any]) -> bool:
@@ -160,6 +161,7 @@ def _options(target: Target, outcome: Outcome, given: Mapping[str, Any], out: IO
         edition=edition or "",
         show_suppressed=bool(given.get("show_suppressed")),
         statistics=bool(given.get("statistics")),
+        fail_confidence=outcome.settings.fail_confidence,
     )
 
 

@@ -13,7 +13,7 @@ BROKEN_PIPE = 2
 MOST_PIXELS = 16384
 """A side of what is drawn, at most."""
 
-OVERRIDES = ("edition", "profile", "fail_on", "fail_on_cost", "min_severity", "baseline")
+OVERRIDES = ("edition", "profile", "fail_on", "fail_on_cost", "fail_confidence", "min_severity", "baseline")
 SELECTORS = ("select", "extend_select", "ignore")
 
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import partial
 
+from ..captured import Captured
+from ..document.document import Document
 from ..facts.facts import Subject
 from ..facts.table import FACTS, GLOBAL, SUBJECTS, Fact
 from ..inputs import load
@@ -65,7 +67,9 @@ def _subjects(fact: Fact) -> list[str]:
 
 def of_input(path: str, output: str, profile: str | None) -> int:
     """Prints the facts of every subject of an input; 2 where it cannot be read."""
+    from .. import readers
     from ..profiles import Problem, device_for, device_of
+    from ..programmed import Programmed
 
     try:
         data = load(path, Limits())
@@ -73,19 +77,23 @@ def of_input(path: str, output: str, profile: str | None) -> int:
     except (OSError, Unreadable) as error:
         print(f"msaa-lint: {visible(path)}: {visible(str(error))}", file=sys.stderr)
         return 2
-    parsed = parse(source, Limits())
-    for problem in parsed.problems:
-        print(f"msaa-lint: {visible(path)}: {visible(problem.message)}", file=sys.stderr)
     rows: list[dict[str, object]] = []
-    wrong = bool(parsed.problems)
-    for root in parsed.documents:
-        from .. import readers
+    wrong = False
+    documents: Iterable[Document]
+    if isinstance(data, Programmed):
+        documents = data.program.documents
+    else:
+        parsed = parse(source, Limits())
+        for problem in parsed.problems:
+            print(f"msaa-lint: {visible(path)}: {visible(problem.message)}", file=sys.stderr)
+        wrong = bool(parsed.problems)
+        documents = (readers.read(source, root) for root in parsed.documents)
+    for document in documents:
         from ..facts.subjects import subjects
         from ..modules import Modules
         from ..studied import studied
 
-        document = readers.read(source, root)
-        if not isinstance(data, bytes):
+        if isinstance(data, Captured):
             document = document._replace(modules=data.modules)
         for mistake in document.problems:
             where = source.position(mistake.span.start)

@@ -26,6 +26,9 @@ edition = "{EDITIONS[-1]}"
 # The severity from which on `msaa-lint check` exits with 1: note, warning or error.
 fail-on = "warning"
 
+# The confidence that findings need to do so: low, medium or high. Those of source code are low.
+# fail-confidence = "medium"
+
 # Pages with rules of your own, or folders of them.
 # rules = ["ci/msaa-rules"]
 

@@ -11,10 +11,13 @@ from typing import Any, NamedTuple
 
 FORMATS = ("full", "concise", "json", "sarif", "github", "gitlab", "junit", "markdown")
 LEVELS = ("note", "warning", "error")
+CONFIDENCES = ("low", "medium", "high")
 
 
-INPUT_FORMATS = ("description", "vulkan-sc", "gfxreconstruct", "api-dump", "renderdoc", "fossilize")
-"""The names of `readers.FORMATS` and `readers.CAPTURES`, for help and errors that import no reader."""
+INPUT_FORMATS = (
+    "description", "vulkan-sc", "gfxreconstruct", "api-dump", "renderdoc", "fossilize", "c", "cpp", "swift", "glsl", "markdown",
+)  # fmt: skip
+"""The names of `readers.FORMATS`, `readers.CAPTURES` and `programs.LANGUAGES`, for help and errors that import no reader."""
 
 
 class Option(NamedTuple):
@@ -51,6 +54,7 @@ CHECK = (
     Option("profile", "text", "The device, device class or vendor that inputs without a device are judged for.", "NAME"),
     Option("fail_on", "choice", "Exit with 1 from this severity on.  [default: warning]", choices=LEVELS),
     Option("fail_on_cost", "text", "Exit with 1 where the findings of an input cost this together: 50MB/s, 100mW, 16MiB.", "BUDGET"),
+    Option("fail_confidence", "choice", "Findings of less confidence never fail a run.  [default: medium]", choices=CONFIDENCES),
     Option("fix", "flag", "Mend what has a safe fix, in the files; of `-` the mended text is printed."),
     Option("unsafe_fixes", "flag", "With --fix or --diff: use fixes too that may change the picture, or are a choice."),
     Option("diff", "flag", "Print what --fix would change and write nothing; exit with 1 if that is anything."),

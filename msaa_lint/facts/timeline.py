@@ -187,7 +187,7 @@ class Timeline:
             for target in targets_at(self.frame, attachment, begin):
                 if target.image is None:
                     # Nothing else of the description can name it: only its own load in the next frame shows.
-                    yield True if aspect.load == "LOAD" else None
+                    yield True if aspect.load == "LOAD" or self._may_be_loaded(aspect) else None
                     continue
                 follows = self.after(target.name, aspect.name, position)
                 if follows == READ:
@@ -198,6 +198,17 @@ class Timeline:
                     yield False
                 else:
                     yield True if target.image.presentable else _usage_reads(target)
+
+    def _may_be_loaded(self, aspect: Aspect) -> bool:
+        """Where the order is not known: whether some pass loads the aspect of a multisampled image that is not known either."""
+        if self.frame.document.ordered:
+            return False
+        return any(
+            a.samples != 1 and any(each.load == "LOAD" and _same(each.name, aspect.name) for each in a.aspects)
+            for within in self.frame.passes
+            for a in within.attachments
+            if a.target is not None and a.target.image is None and a.used
+        )
 
     def _read_as_stated(self, target: Target, aspect: Aspect) -> bool | None:
         """Whether what a pass that is never begun stores has a reader: its usage allows one, or something that is described reads."""

@@ -33,6 +33,7 @@ class Options(NamedTuple):
     `root` is the folder that paths are shown relative to (empty: as given). `width` is in terminal cells (0: lines are never cut).
     `max_undecided` is how many missing facts a summary names. `sarif_category` tells several runs on one commit apart.
     `step_summary` is the file that the GitHub output appends a table to: None asks GITHUB_STEP_SUMMARY, empty writes none.
+    `fail_confidence` is what a finding needs to fail the run: summaries say how many have less.
     """
 
     color: bool = False
@@ -45,6 +46,7 @@ class Options(NamedTuple):
     max_undecided: int = 5
     sarif_category: str = ""
     step_summary: str | None = None
+    fail_confidence: str = "low"
 
 
 def render(name: str, result: Result, out: Write, options: Options) -> None:

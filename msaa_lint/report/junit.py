@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from ..finding import sure
 from .escape import shown, visible
 from .paths import relative
 from .place import place
@@ -17,27 +18,28 @@ _ESCAPES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;",
 
 
 def render(result: Result, out: Write, options: Options) -> None:
-    """Prints the document. An unusable input is an error, a note a passing case that prints it, the rest are failures."""
+    """Prints the document. An unusable input is an error, a note a passing case that prints it, and so is what is not sure enough to fail
+    the run; the rest are failures."""
     suites: dict[str, list[Finding]] = {file: [] for file in result.files}
     for finding in result.findings:
         suites.setdefault(finding.file, []).append(finding)
     suites = suites or {"msaa-lint": []}  # Jenkins and GitLab take an empty report for a broken one
     tests = sum(max(1, len(findings)) for findings in suites.values())
     out('<?xml version="1.0" encoding="UTF-8"?>\n')
-    out(f"<testsuites{_attributes(name='msaa-lint', tests=tests, **_counts(result.findings))}>\n")
+    out(f"<testsuites{_attributes(name='msaa-lint', tests=tests, **_counts(result.findings, options))}>\n")
     for file, findings in suites.items():
         path = visible(relative(file, options.root))
-        counts = _counts(findings)
+        counts = _counts(findings, options)
         out(f"  <testsuite{_attributes(name=path, package='org.msaa-lint', tests=max(1, len(findings)), **counts)}>\n")
         for finding in findings:
-            out(_case(finding, path, result))
+            out(_case(finding, path, result, options))
         if not findings:
             out(f"    <testcase{_attributes(name='No findings', classname=_class(path))}/>\n")
         out("  </testsuite>\n")
     out("</testsuites>\n")
 
 
-def _case(finding: Finding, path: str, result: Result) -> str:
+def _case(finding: Finding, path: str, result: Result, options: Options) -> str:
     at = place(result, finding.file, finding.span)
     message = shown(finding.message)
     attributes: dict[str, str | int] = {"name": f"org.msaa-lint.{shown(finding.code)}", "classname": _class(path)}
@@ -46,7 +48,7 @@ def _case(finding: Finding, path: str, result: Result) -> str:
         attributes |= {"file": path, "line": at.line, "column": at.column}
         text = f"line {at.line}, column {at.column}, {message}"
     # One element: Jenkins keeps only the first of several.
-    if finding.severity == "note":
+    if not _fails(finding, options):
         told = f"<system-out>{_xml(text)}</system-out>"
     else:
         kind = "error" if finding.fatal else "failure"
@@ -55,9 +57,13 @@ def _case(finding: Finding, path: str, result: Result) -> str:
     return f"    <testcase{_attributes(**attributes)}>\n      {severity}\n      {told}\n    </testcase>\n"
 
 
-def _counts(findings: Sequence[Finding]) -> dict[str, str | int]:
+def _counts(findings: Sequence[Finding], options: Options) -> dict[str, str | int]:
     errors = sum(finding.fatal for finding in findings)
-    return {"failures": sum(finding.severity != "note" for finding in findings) - errors, "errors": errors}
+    return {"failures": sum(_fails(finding, options) for finding in findings) - errors, "errors": errors}
+
+
+def _fails(finding: Finding, options: Options) -> bool:
+    return finding.severity != "note" and sure(finding, options.fail_confidence)
 
 
 def _class(path: str) -> str:

@@ -163,7 +163,8 @@ def _result(
     made: dict[str, object] = {
         "ruleId": shown(finding.code),
         "ruleIndex": index[finding.code],
-        "level": finding.severity,
+        # Code scanning fails a pull request on an error, which what is not sure must not do.
+        "level": "warning" if finding.confidence == "low" and finding.severity == "error" else finding.severity,
         "message": {"text": _message(finding, [text for text, _ in labels])},
         "locations": [location],
         "partialFingerprints": {"msaaLint/v1": name},

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from ..finding import CONFIDENCES, sure
 from .escape import shown
 
 if TYPE_CHECKING:
@@ -66,6 +67,10 @@ def sentence(result: Result, options: Options) -> str:
         text = f"Found {plural(count.findings, 'finding')} ({', '.join(kinds)}) in {within}"
     else:
         text = f"No findings in {plural(count.files, 'file')}"
+    unsure = sum(not sure(found, options.fail_confidence) for found in result.findings)
+    if unsure:
+        below = " or ".join(CONFIDENCES[: CONFIDENCES.index(options.fail_confidence)])
+        text += f"; {unsure} of {below} confidence, below --fail-confidence"
     if count.suppressed:
         text += f"; {count.suppressed} suppressed"
     reasons = undecided(count, options)

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from msaa_lint import __version__, readers
 from msaa_lint.cli.options import CHECK, FORMATS, INPUT_FORMATS, SHARED, read
+from msaa_lint.programs import LANGUAGES
 from msaa_lint.report import FORMATS as REPORTED
 
 from .test_check import run
@@ -69,7 +70,7 @@ def test_init_makes_a_project_that_lints(tmp_path: Path) -> None:
 
 def test_the_formats_are_those_there_are() -> None:
     assert tuple(REPORTED) == FORMATS
-    assert sorted(INPUT_FORMATS) == sorted([*readers.FORMATS, *readers.CAPTURES])
+    assert sorted(INPUT_FORMATS) == sorted([*readers.FORMATS, *readers.CAPTURES, *LANGUAGES])
 
 
 @pytest.mark.parametrize("command", ["check", "cost", "confirm", "study"])

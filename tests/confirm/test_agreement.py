@@ -48,6 +48,11 @@ ASIDE = {
     ("clear-value-without-clear", "VUID-VkRenderPassBeginInfo-clearValueCount-00902"),  # what must hold besides
     ("depth-resolve-unread", "VUID-VkSubpassDescriptionDepthStencilResolve-pDepthStencilResolveAttachment-03178"),  # likewise
     ("multisampled-image-not-transient", "VUID-VkImageCreateInfo-usage-00963"),  # why some images are excused
+    # How a program comes to its count, of which no device is asked.
+    ("source-sample-count-maximum", "BestPractices-Arm-vkCreateImage-too-large-sample-count"),
+    ("source-sample-count-maximum", "BestPractices-IMG-vkCreateImage-too-large-sample-count"),
+    ("source-sample-masks-compared", "VUID-VkImageCreateInfo-samples-02258"),
+    ("source-stencil-counts-ignored", "VUID-VkImageCreateInfo-samples-02258"),
     ("multisampling-unused", "VUID-VkGraphicsPipelineCreateInfo-multisampledRenderToSingleSampled-06853"),  # what must hold besides
 }
 """Pages that refer to an id that says something else than their rule."""

@@ -33,7 +33,7 @@ def test_inputs_and_outputs_are_described() -> None:
     assert ACTION["runs"]["using"] == "composite"
     for each in (*ACTION["inputs"].values(), *ACTION["outputs"].values()):
         assert each["description"].endswith(".")
-    assert set(ACTION["inputs"]) == {"paths", "config", "fail-on", "args", "annotations", "upload-sarif", "version"}
+    assert set(ACTION["inputs"]) == {"paths", "config", "fail-on", "source", "args", "annotations", "upload-sarif", "version"}
     assert all(isinstance(each["default"], str) for each in ACTION["inputs"].values())
 
 
@@ -179,9 +179,17 @@ def test_uploads_nothing_where_nothing_was_written(runner: Runner) -> None:
 
 
 @needs_bash
-@pytest.mark.parametrize(("version", "wanted"), [("", "/the action/at its ref"), ("0.1.0; x", "msaa-lint==0.1.0; x")])
-def test_installs_its_own_ref_or_a_release(runner: Runner, version: str, wanted: str) -> None:
-    code, given, _ = runner.run("Install msaa-lint", version=version)
+@pytest.mark.parametrize(
+    ("version", "source", "wanted"),
+    [
+        ("", "false", "/the action/at its ref"),
+        ("0.1.0; x", "no", "msaa-lint==0.1.0; x"),
+        ("", "true", "/the action/at its ref[source]"),
+        ("0.1.0", "true", "msaa-lint[source]==0.1.0"),
+    ],
+)
+def test_installs_its_own_ref_or_a_release(runner: Runner, version: str, source: str, wanted: str) -> None:
+    code, given, _ = runner.run("Install msaa-lint", version=version, source=source)
     assert code == 0
     assert given[:3] == ["-m", "pip", "install"]
     assert given[-1] == wanted

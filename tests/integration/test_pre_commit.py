@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from ..programs import test_reading as source
+
 ROOT = Path(__file__).parent.parent.parent
 SHIPPED = (".pre-commit-hooks.yaml", "pyproject.toml", "README.md", "LICENSE", "msaa_lint", "rules")
 """What the hook is installed from."""
@@ -62,10 +64,10 @@ class Scratch:
         path.write_text(text)
         git(self.folder, self.home, "add", name)
 
-    def configure(self, *lines: str) -> None:
-        """Uses the hook as a user does, with what a user says of it."""
+    def configure(self, *lines: str, hook: str = "msaa-lint") -> None:
+        """Uses a hook as a user does, with what a user says of it."""
         rev = git(self.hooks, self.home, "rev-parse", "HEAD")
-        head = ["repos:", f"- repo: {self.hooks}", f"  rev: {rev}", "  hooks:", "  - id: msaa-lint"]
+        head = ["repos:", f"- repo: {self.hooks}", f"  rev: {rev}", "  hooks:", f"  - id: {hook}"]
         self.add(".pre-commit-config.yaml", "\n".join([*head, *(f"    {line}" for line in lines), ""]))
 
     def pre_commit(self, *arguments: str) -> subprocess.CompletedProcess[str]:
@@ -140,3 +142,28 @@ def test_other_files_are_left_alone(scratch: Scratch) -> None:
     done = scratch.pre_commit("run")
     assert done.returncode == 0, done.stdout + done.stderr
     assert "Skipped" in done.stdout
+
+
+def test_source_code_fails_where_it_is_asked_to(scratch: Scratch) -> None:
+    scratch.configure(hook="msaa-lint-source")
+    scratch.add("renderer/pass.cpp", source.CODE)
+    scratch.add("renderer/frame.msaa.yaml", BAD)
+    scratch.add("renderer/page.md", source.CODE)
+    done = scratch.pre_commit("run")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert f"renderer/pass.cpp:{source.PLACE}: {source.FOUND}" in done.stdout
+    assert "of low confidence, below --fail-confidence" in done.stdout
+    assert "in 1 file;" in done.stdout
+    scratch.configure("args: [--fail-confidence, low]", hook="msaa-lint-source")
+    done = scratch.pre_commit("run")
+    assert done.returncode == 1, done.stdout + done.stderr
+    assert f"renderer/pass.cpp:{source.PLACE}: {source.FOUND}" in done.stdout
+
+
+def test_source_code_without_mistakes_passes(scratch: Scratch) -> None:
+    scratch.configure("args: [--fail-confidence, low]", hook="msaa-lint-source")
+    scratch.add("main.cpp", "int main() {}\n")
+    scratch.add("sky.frag", "void main() {}\n")
+    done = scratch.pre_commit("run")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "No findings in 2 files" in done.stdout

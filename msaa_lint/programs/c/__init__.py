@@ -1,0 +1,1 @@
+"""Structures of Vulkan's in C and C++."""

@@ -1,0 +1,76 @@
+"""Kinds of nodes of the syntax trees of C and C++, and what is read of single ones."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
+
+
+DEEPEST = 120
+"""Levels of an expression, or of blocks, that are read: what nests deeper was not written by people."""
+
+
+WORD = re.compile(r"(?<![\w:])[A-Za-z_]\w*")
+"""A word that no other qualifies."""
+
+BLANKS = re.compile(r"\s+")
+
+
+NUMBER = re.compile(r"(0[xX][0-9a-fA-F']+|0[bB][01']+|[0-9][0-9']*)[uUlLzZ]*")
+
+
+REAL = re.compile(r"[0-9']*\.?[0-9']*(?:[eE][-+]?[0-9]+)?[fFlL]?")
+
+
+NAMES = frozenset(
+    {
+        "identifier",
+        "field_identifier",
+        "type_identifier",
+        "qualified_identifier",
+        "namespace_identifier",
+        "this",
+        "template_function",
+        "primitive_type",
+        "template_type",
+        "template_method",
+        "dependent_name",
+    }
+)
+
+
+CLASSES = frozenset({"class_specifier", "struct_specifier", "union_specifier"})
+
+
+CHAIN_TESTS = frozenset({"preproc_if", "preproc_ifdef", "preproc_elif", "preproc_elifdef"})
+
+
+def function_declarator(node: Node | None) -> Node | None:
+    for _ in range(DEEPEST):
+        if node is None or node.type == "function_declarator":
+            return node
+        inner = node.child_by_field_name("declarator")
+        node = inner if inner is not None else next((c for c in node.named_children if c.type.endswith("declarator")), None)
+    return None
+
+
+def without_comments(node: Node) -> list[Node]:
+    """The children that are no comments."""
+    return [child for child in node.named_children if child.type != "comment"]
+
+
+def number(text: str) -> int | float | None:
+    match = NUMBER.fullmatch(text)
+    if match is not None:
+        digits = match[1].replace("'", "")
+        try:
+            return int(digits, 0) if not (len(digits) > 1 and digits[0] == "0" and digits.isdigit()) else int(digits, 8)
+        except ValueError:
+            return None
+    try:
+        return float(text.replace("'", "").rstrip("fFlL")) if REAL.fullmatch(text) else None
+    except ValueError:
+        return None

@@ -1,0 +1,33 @@
+"""C and C++ that fills in Vulkan's structures, as trees in the form of a description."""
+
+from __future__ import annotations
+
+import re
+
+from ...finding import Span
+from ...source.making import mapping
+from ..counts.choices import choices
+from ..parsing import Code, Read, tree
+from .run import Run
+from .syntax import unit
+from .writer import Writer
+
+_WAITS = re.compile(r"ipelineBarrier|Queue(?:Submit|Present)[^}]{0,1500}WaitIdle")
+"""What may stand in for the dependencies of a pass."""
+
+
+def trees(code: Code) -> list[Read]:
+    """What a file, or the pieces of a page, makes: one tree, or none. Missing where the grammar is not installed."""
+    root = tree(code).root_node
+    run = Run(unit(code, root), code.fragments, code.language == "cpp")
+    run.through()
+    read = Writer(run.calls, code.fragments, _WAITS.search(code.text) is not None).read()
+    # Masks of sample counts have such a name, wherever they come from.
+    chosen = choices(root, code) if "ampleCounts" in code.text else []
+    if not chosen:
+        return [read] if read is not None else []
+    start = Span(chosen[0][1].start, chosen[0][1].start)
+    made = read.tree if read is not None else mapping([], Span(0, 0))
+    sections = [(key, made.keys[key].span, value) for key, value in made.value.items()]
+    sections.append(("sampleCountChoices", start, mapping(chosen, start)))
+    return [Read(mapping(sections, Span(0, 0)), read.assumed if read is not None else ())]

@@ -1,0 +1,1 @@
+"""How C and C++ choose a sample count."""

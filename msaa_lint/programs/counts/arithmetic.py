@@ -1,0 +1,80 @@
+"""Whole numbers as C, C++ and GLSL write them, and what their operators make of them."""
+
+from __future__ import annotations
+
+import re
+
+_NUMBER = re.compile(r"([-+]?)(0[xX][0-9a-fA-F]+|0[bB][01]+|[0-9]+)[uUlL]*")
+
+
+def whole(text: str) -> int | None:
+    """The whole number that a literal is, up to 2^32 or so."""
+    match = _NUMBER.fullmatch(text)
+    if match is None or len(match[2]) > 12:
+        return None
+    digits = match[2]
+    base = 16 if digits[1:2] in ("x", "X") else 2 if digits[1:2] in ("b", "B") else 8 if digits[0] == "0" and len(digits) > 1 else 10
+    try:
+        number = int(digits[2:] if base in (16, 2) else digits, base)
+    except ValueError:
+        return None
+    return -number if match[1] == "-" else number
+
+
+def arithmetic(operator: str, left: int, right: int) -> int | None:
+    """Whole numbers, as sample counts and the indices of their bits need them."""
+    if operator in ("<<", ">>"):
+        return (left << right if operator == "<<" else left >> right) if 0 <= right < 32 and 0 <= left < 1 << 32 else None
+    if operator == "/":
+        return left // right if right > 0 and left >= 0 else None
+    if operator in ("<", ">", "<=", ">=", "==", "!=", "&&", "||"):
+        order = {"<": left < right, ">": left > right, "<=": left <= right, ">=": left >= right, "==": left == right, "!=": left != right}
+        both, either = bool(left) and bool(right), bool(left) or bool(right)
+        return int(order.get(operator, both if operator == "&&" else either))
+    if abs(left) >= 1 << 32 or abs(right) >= 1 << 32:
+        return None
+    return {"&": left & right, "|": left | right, "^": left ^ right, "+": left + right, "-": left - right, "*": left * right}.get(operator)
+
+
+_TOKENS = re.compile(r"\s*(\d\w*|&&|\|\||[<>=!]=|<<|>>|[-+*/%<>!()&|^])")
+_LEVELS = (("||",), ("&&",), ("|",), ("^",), ("&",), ("==", "!="), ("<", ">", "<=", ">="), ("<<", ">>"), ("+", "-"), ("*", "/"))
+MOST_TOKENS = 60
+"""Of a condition of the preprocessor."""
+
+
+def condition_holds(text: str) -> bool | None:
+    """Whether a condition of whole numbers holds; None where it is none."""
+    tokens: list[str] = []
+    at = 0
+    text = text.rstrip()
+    while at < len(text):
+        match = _TOKENS.match(text, at)
+        if match is None or len(tokens) > MOST_TOKENS:
+            return None
+        tokens.append(match[1])
+        at = match.end()
+    value, rest = _level(tokens, 0, 0)
+    return None if value is None or rest != len(tokens) else value != 0
+
+
+def _level(tokens: list[str], at: int, level: int) -> tuple[int | None, int]:
+    if level == len(_LEVELS):
+        return _primary(tokens, at)
+    value, at = _level(tokens, at, level + 1)
+    while value is not None and at < len(tokens) and tokens[at] in _LEVELS[level]:
+        operator = tokens[at]
+        other, at = _level(tokens, at + 1, level + 1)
+        value = arithmetic(operator, value, other) if other is not None else None
+    return value, at
+
+
+def _primary(tokens: list[str], at: int) -> tuple[int | None, int]:
+    if at >= len(tokens):
+        return None, at
+    if tokens[at] == "(":
+        value, after = _level(tokens, at + 1, 0)
+        return (value, after + 1) if after < len(tokens) and tokens[after] == ")" else (None, after)
+    if tokens[at] in ("!", "-", "+"):
+        value, after = _primary(tokens, at + 1)
+        return (None if value is None else int(not value) if tokens[at] == "!" else -value if tokens[at] == "-" else value), after
+    return whole(tokens[at]), at + 1

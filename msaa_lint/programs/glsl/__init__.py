@@ -1,0 +1,1 @@
+"""What shaders in GLSL say of multisampling."""

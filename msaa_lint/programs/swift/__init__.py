@@ -1,0 +1,1 @@
+"""Metal descriptors in Swift."""

@@ -1,0 +1,96 @@
+"""Which way a condition goes where the file cannot tell: the way in which there is multisampling, and the same way for the same words."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from .terms import BINARY, CALL, LITERAL, MEMBER, NAME, NOT, OTHER, SET, Term
+
+MOST_TERMS = 2000
+"""So many terms of a branch are looked at for signs of multisampling."""
+
+ALWAYS_OFFERED = (1, 2, 4)
+"""Counts that a guard by supportsTextureSampleCount lets through: 4 on every device, 2 on nearly all."""
+
+_ABOUT_SAMPLES = re.compile(r"sample|msaa|antialias", re.IGNORECASE)
+_SWITCHED = re.compile(r"msaa|multisampl|antialias", re.IGNORECASE)
+_ABOVE_ONE = {(">", 1), (">=", 2), ("!=", 1), ("==", 4)}
+_ONE = {("==", 1), ("<=", 1), ("<", 2)}
+_MIRRORED = {">": "<", "<": ">", ">=": "<=", "<=": ">="}
+_WORDS = frozenset({"type2DMultisample", "type2DMultisampleArray", "multisampleResolve", "storeAndMultisampleResolve"})
+
+
+def by_words(condition: Term) -> bool | None:
+    """What a condition is by its words alone, in a world with multisampling."""
+    turned = False
+    while condition[0] == NOT:
+        condition, turned = condition[1], not turned
+    found = _by_words(condition)
+    return None if found is None else found != turned
+
+
+def _by_words(condition: Term) -> bool | None:
+    if condition[0] == BINARY:
+        sign, left, right = condition[1], condition[2], condition[3]
+        if sign in ("&&", "||"):
+            one, other = by_words(left), by_words(right)
+            if sign == "&&":
+                return False if False in (one, other) else True if one and other else None
+            return True if True in (one, other) else False if one is False and other is False else None
+        if left[0] == LITERAL:
+            sign, left, right = _MIRRORED.get(sign, sign), right, left
+        if right[0] == LITERAL and type(right[1]) is int and _ABOUT_SAMPLES.search(last_name(left)):
+            return True if (sign, right[1]) in _ABOVE_ONE else False if (sign, right[1]) in _ONE else None
+        return None
+    if condition[0] == CALL and last_name(condition[1]) == "supportsTextureSampleCount" and condition[2]:
+        count = condition[2][0][1]
+        return count[1] in ALWAYS_OFFERED if count[0] == LITERAL else None
+    if condition[0] in (NAME, MEMBER) and _SWITCHED.search(last_name(condition)):
+        return True
+    return None
+
+
+def by_branches(then: Any, otherwise: Any) -> bool | None:
+    """What a condition is in a world with multisampling, by what it guards: only one of its branches speaks of multisampling."""
+    one, other = speaks(then), speaks(otherwise)
+    return one if one != other else None
+
+
+def speaks(term: Any) -> bool:
+    """Whether a branch sets up multisampling."""
+    waiting = [term]
+    left = MOST_TERMS
+    while waiting and left:
+        left -= 1
+        each = waiting.pop()
+        if not isinstance(each, tuple) or not each:
+            continue
+        if each[0] == MEMBER and len(each) == 4 and each[2] in _WORDS:
+            return True
+        if each[0] == SET and len(each) == 5 and each[2][0] == MEMBER:
+            name, value = each[2][2], each[3]
+            if name in ("sampleCount", "rasterSampleCount") and not (value[0] == LITERAL and value[1] == 1):
+                return True
+            if name == "resolveTexture" and value[:2] != (LITERAL, None):
+                return True
+        waiting.extend(each)
+    return False
+
+
+def about_samples(name: str) -> bool:
+    """Whether a name is one of a sample count, or of a switch for multisampling."""
+    return _ABOUT_SAMPLES.search(name) is not None
+
+
+def last_name(term: Term) -> str:
+    """The last name of an expression, as `count` of `a.b.count`; empty where it has none."""
+    return str(term[2]) if term[0] == MEMBER else str(term[1]) if term[0] == NAME else last_name(term[1]) if term[0] == CALL else ""
+
+
+def words_of(conditions: tuple[Term, ...], text: str) -> str:
+    """The words of conditions, by which they are known again."""
+    first, last = conditions[0][-1], conditions[-1][-1]
+    if conditions[0][0] == OTHER:
+        return str(conditions[0][1])
+    return "".join(text[first.start : last.end].split())[:500]
