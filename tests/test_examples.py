@@ -132,7 +132,8 @@ def test_the_example_in_code() -> None:
         assert finding.confidence == "low"
         found.append((result.sources[finding.file].position(finding.span.start).line, finding.rule))
     assert found == [
-        (11, "source-sample-masks-compared"),
-        (25, "multisampled-image-not-transient"),
-        (36, "multisampled-attachment-stored"),
+        (29, "source-sample-masks-compared"),
+        (61, "multisampled-attachment-stored"),
+        (61, "transient-needs-memory"),
+        (95, "multisampled-image-not-transient"),
     ]

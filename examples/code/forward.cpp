@@ -1,10 +1,28 @@
-// The multisampled targets of a forward pass and the pass itself, with three mistakes that no compiler sees.
+// The multisampled targets of a forward renderer and its pass, with mistakes that no compiler sees.
 #include <vulkan/vulkan.h>
 
 #include <algorithm>
 #include <array>
 
-VkSampleCountFlagBits chooseSamples(VkPhysicalDevice gpu) {
+class Forward {
+public:
+    void create(VkPhysicalDevice gpu, VkExtent2D size, VkImageView window);
+
+private:
+    VkSampleCountFlagBits chooseSamples(VkPhysicalDevice gpu);
+    void createImage(VkExtent2D size, VkFormat format, VkImageUsageFlags usage, VkImage& image);
+    void createView(VkImage image, VkFormat format, VkImageAspectFlags aspect, VkImageView& view);
+    void createPass();
+
+    VkDevice device{};
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+    VkImage color{}, depth{};
+    VkImageView colorView{}, depthView{};
+    VkRenderPass pass{};
+    VkFramebuffer framebuffer{};
+};
+
+VkSampleCountFlagBits Forward::chooseSamples(VkPhysicalDevice gpu) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(gpu, &properties);
     const VkPhysicalDeviceLimits& limits = properties.limits;
@@ -14,47 +32,78 @@ VkSampleCountFlagBits chooseSamples(VkPhysicalDevice gpu) {
     return VK_SAMPLE_COUNT_1_BIT;
 }
 
-VkImage createDepth(VkDevice device, VkExtent2D extent) {
+void Forward::createImage(VkExtent2D size, VkFormat format, VkImageUsageFlags usage, VkImage& image) {
     VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     info.imageType = VK_IMAGE_TYPE_2D;
-    info.format = VK_FORMAT_D32_SFLOAT;
-    info.extent = {extent.width, extent.height, 1};
+    info.format = format;
+    info.extent = {size.width, size.height, 1};
     info.mipLevels = 1;
     info.arrayLayers = 1;
-    info.samples = VK_SAMPLE_COUNT_4_BIT;
-    info.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
-    VkImage image = VK_NULL_HANDLE;
+    info.samples = samples;
+    info.usage = usage;
     vkCreateImage(device, &info, nullptr, &image);
-    return image;
 }
 
-VkRenderPass createPass(VkDevice device, VkFormat format) {
-    std::array<VkAttachmentDescription, 2> attachments{};
-    attachments[0].format = format;
-    attachments[0].samples = VK_SAMPLE_COUNT_4_BIT;
+void Forward::createView(VkImage image, VkFormat format, VkImageAspectFlags aspect, VkImageView& view) {
+    VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+    info.image = image;
+    info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    info.format = format;
+    info.subresourceRange = {aspect, 0, 1, 0, 1};
+    vkCreateImageView(device, &info, nullptr, &view);
+}
+
+void Forward::createPass() {
+    std::array<VkAttachmentDescription, 3> attachments{};
+    attachments[0].format = VK_FORMAT_B8G8R8A8_SRGB;
+    attachments[0].samples = samples;
     attachments[0].loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
     attachments[0].storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     attachments[0].finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    attachments[1].format = format;
-    attachments[1].samples = VK_SAMPLE_COUNT_1_BIT;
-    attachments[1].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-    attachments[1].storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    attachments[1].finalLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;
+    attachments[1].format = VK_FORMAT_D32_SFLOAT;
+    attachments[1].samples = samples;
+    attachments[1].loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    attachments[1].storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    attachments[1].finalLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+    attachments[2].format = VK_FORMAT_B8G8R8A8_SRGB;
+    attachments[2].samples = VK_SAMPLE_COUNT_1_BIT;
+    attachments[2].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    attachments[2].storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    attachments[2].finalLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;
 
-    VkAttachmentReference color{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    VkAttachmentReference resolve{1, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    VkAttachmentReference colorReference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    VkAttachmentReference depthReference{1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
+    VkAttachmentReference resolveReference{2, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     VkSubpassDescription subpass{};
     subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
     subpass.colorAttachmentCount = 1;
-    subpass.pColorAttachments = &color;
-    subpass.pResolveAttachments = &resolve;
+    subpass.pColorAttachments = &colorReference;
+    subpass.pResolveAttachments = &resolveReference;
+    subpass.pDepthStencilAttachment = &depthReference;
 
     VkRenderPassCreateInfo info{VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO};
     info.attachmentCount = static_cast<uint32_t>(attachments.size());
     info.pAttachments = attachments.data();
     info.subpassCount = 1;
     info.pSubpasses = &subpass;
-    VkRenderPass pass = VK_NULL_HANDLE;
     vkCreateRenderPass(device, &info, nullptr, &pass);
-    return pass;
+}
+
+void Forward::create(VkPhysicalDevice gpu, VkExtent2D size, VkImageView window) {
+    samples = chooseSamples(gpu);
+    createImage(size, VK_FORMAT_B8G8R8A8_SRGB, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT, color);
+    createImage(size, VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, depth);
+    createView(color, VK_FORMAT_B8G8R8A8_SRGB, VK_IMAGE_ASPECT_COLOR_BIT, colorView);
+    createView(depth, VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT, depthView);
+    createPass();
+
+    const VkImageView views[] = {colorView, depthView, window};
+    VkFramebufferCreateInfo info{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
+    info.renderPass = pass;
+    info.attachmentCount = 3;
+    info.pAttachments = views;
+    info.width = size.width;
+    info.height = size.height;
+    info.layers = 1;
+    vkCreateFramebuffer(device, &info, nullptr, &framebuffer);
 }
