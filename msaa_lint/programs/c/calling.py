@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Any
 
 from ...finding import Span
+from .around import Around
+from .terms import Term
 from .values import Guards, Made, Struct, Value
 
 if TYPE_CHECKING:
     from .run import Run
 
 
-class Calling:
+class Calling(ABC):
     """What all parts of following calls share."""
 
     def __init__(self, run: Run) -> None:
@@ -22,6 +25,10 @@ class Calling:
         self.used: set[int] = set()
         self.resolves: dict[Span, tuple[Value, Value]] = {}
         self.followed: dict[Span, int] = {}
+
+    @abstractmethod
+    def object_made(self, kind: str, term: Term, around: Around) -> Value | None:
+        """An object of a class of the file's, by its constructor."""
 
     def begin(self) -> None:
         """Forgets what an earlier turn made, but not which object is which."""

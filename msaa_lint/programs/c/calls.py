@@ -6,16 +6,22 @@ import re
 from collections.abc import Sequence
 
 from ...finding import Span
-from .around import MOST_CALLS, MOST_WAYS, Around
+from .around import MEMBER, MOST_CALLS, MOST_WAYS, Around
 from .names import elements, structure
 from .objects import COUNTS, VIEW, Objects
-from .terms import BRACES, FIELD, INDEX, LAMBDA, NAME, Function, Parameter, Term
-from .values import MOST, NOTHING, UNKNOWN_VALUE, Alternative, Cell, Closure, Ref, Symbol, Value, copied, one
+from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, Function, Parameter, Term
+from .values import MOST, NOTHING, UNKNOWN_VALUE, Alternative, Cell, Closure, Ref, Struct, Symbol, Value, copied, one
 
 _CAST = re.compile(
     r"(?:std::)?u?int(?:8|16|32|64|ptr)?_t$|(?:std::)?size_t$|(?:unsigned|int|float|bool)$|(?:Vk|vk::)\w+(?:FlagBits2?|Flags2?|Bool32)(?:KHR|EXT)?$"
 )
 """Types whose name makes a value of theirs of another."""
+
+
+_OWNED = re.compile(r"(?:std::)?make_(?:unique|shared)<([\w:]+)>$")
+
+OTHERS = Cell()
+"""What stands for an object of a class that is not the method's."""
 
 
 class Calls(Objects):
@@ -32,9 +38,12 @@ class Calls(Objects):
             if closure is not None:
                 return self.follow(closure.parameters, closure.body, around.within, closure.scopes, term, around)
         own = self.own(name, len(arguments), function, around)
-        if own is not None and self.may_follow(own, place, around):
-            return self.of_own(own, term, around)
+        me = self.object_of(own, owner, around) if own is not None and own.within else None
+        if own is not None and me is not OTHERS and self.may_follow(own, place, around):
+            return self.of_own(own, term, around, me)
         if owner is None:
+            if function[0] == NAME and (made := self.object_made(function[1], term, around)) is not None:
+                return made
             kind = structure(function[1]) if function[0] == NAME else ""
             if kind:
                 return self.constructed(kind, arguments, place, around, function[1].startswith(("vk::", "VULKAN")))
@@ -83,6 +92,39 @@ class Calls(Objects):
         fitting = [f for f in fitting if not f.open]
         return fitting[-1] if len(fitting) == 1 or (fitting and self.run.fragments) else None
 
+    def object_of(self, own: Function, owner: Term | None, around: Around) -> Cell | None:
+        """The object whose method is called: None where that is not known, OTHERS where it is of another class."""
+        if owner is None or owner[:2] == (NAME, "this"):
+            return around.me if own.within == around.within else None
+        cell = self.run.place(owner, around) if owner[0] != CALL else None
+        if cell is None:
+            return None
+        kind = self.run.type_of(cell)
+        short = own.within.rpartition("::")[2]
+        if kind and kind != "auto" and short not in kind and self.run.class_of(kind, around.space) != own.within:
+            return OTHERS
+        known = cell.kind == MEMBER or isinstance(self.run.aimed(one(cell.read(around.guards))), Struct)
+        return cell if known else None
+
+    def object_made(self, kind: str, term: Term, around: Around) -> Value | None:
+        """An object of a class of the file's, by its constructor; None where it is none, or there are several that fit."""
+        inner = _OWNED.match(kind)
+        found = self.run.class_of(inner[1] if inner is not None else kind, around.space)
+        if found is None:
+            return None
+        count = len(term[2])
+        fitting = [
+            each
+            for each in self.run.functions.get(found.rpartition("::")[2], ())
+            if each.within == found and sum(p.default is None for p in each.parameters) <= count <= len(each.parameters)
+        ]
+        if len(fitting) != 1 or not self.may_follow(fitting[0], term[3], around):
+            return None
+        made = Struct("", term[3], False)
+        me = Cell(found, "", (Alternative(made, term[3]),))
+        self.of_own(fitting[0], term, around, me)
+        return (Alternative(made, term[3]),)
+
     def may_follow(self, own: Function, place: Span, around: Around) -> bool:
         """Whether a call is followed: not too deep, not in a circle, and not again and again by other ways."""
         if len(around.calls) >= MOST_CALLS or own.at in around.within_calls:
@@ -90,10 +132,10 @@ class Calls(Objects):
         self.followed[place] = self.followed.get(place, 0) + 1
         return self.followed[place] <= MOST_WAYS
 
-    def of_own(self, function: Function, term: Term, around: Around) -> Value:
+    def of_own(self, function: Function, term: Term, around: Around, me: Cell | None = None) -> Value:
         before = len(self.met)
         value = self.follow(
-            function.parameters, function.body, function.within or around.within, (), term, around, function.returns, function
+            function.parameters, function.body, function.within or around.within, (), term, around, function.returns, function, me
         )
         counts = {a.value for a in value if type(a.value) is int}
         if (len(value) >= 3 and counts and counts <= {1, 2, 4, 8, 16, 32, 64}) or (COUNTS.search(function.name) and not counts):
@@ -116,6 +158,7 @@ class Calls(Objects):
         around: Around,
         returns: str = "",
         own: Function | None = None,
+        me: Cell | None = None,
     ) -> Value:
         """Goes through a function with the arguments of a call."""
         cells: dict[str, Cell] = {}
@@ -130,6 +173,7 @@ class Calls(Objects):
         inner.within_calls = around.within_calls if own is None else (*around.within_calls, own.at)
         inner.loops = around.loops
         inner.returns = returns
+        inner.me = me if own is not None else around.me
         self.run.block(body, inner)
         base = around.guards
         returned = [Alternative(a.value, a.at, a.guards - base) for a in inner.returned]

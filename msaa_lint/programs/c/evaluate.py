@@ -170,7 +170,14 @@ class Values(Conditions):
     def assign(self, term: Term, around: Around) -> Value:
         _, sign, target, given, place = term
         cell = self.place(target, around)
-        value = self.value(given, around, cell.kind if cell is not None else "")
+        kind = cell.kind if cell is not None else ""
+        if given[0] == CALL and given[1][:2] == (NAME, "") and cell is not None:
+            # A member that a constructor makes before its body.
+            made = self.calls.object_made(self.type_of(cell), given, around)
+            if made is not None:
+                self.store(cell, made, place, around)
+                return made
+        value = self.value(given, around, kind)
         value = self.by_pointer(_name_of(target), value, given, around)
         if cell is None:
             self.calls.lost(target, around)

@@ -51,7 +51,26 @@ class Places(Machine):
                 return scope[name]
         if constant(name) is not None:
             return None
+        if around.me is not None and name in self.members.get(around.within, ()):
+            return self.mine(name, around.me, around)
         return self.path(self.member_key(name, around))
+
+    def mine(self, name: str, me: Cell, around: Around) -> Cell:
+        """A member of the object whose method is gone through."""
+        value = self.aimed(one(me.read(around.guards)))
+        if isinstance(value, Struct):
+            return value.cell(name)
+        if me.kind == MEMBER:
+            return self.path(f"{self.pointed(me.name) or me.name + '.'}{name}")
+        return self.path(f"{around.within}::{name}")
+
+    def type_of(self, cell: Cell) -> str:
+        """The type that a variable or member is declared with; empty where that is not known."""
+        if cell.kind != MEMBER:
+            return cell.kind
+        within, _, name = cell.name.rpartition("::")
+        term = self.members.get(within, {}).get(name) if within else self.globals.get(name)
+        return str(term[1]) if term is not None else ""
 
     def member_key(self, name: str, around: Around) -> str:
         """What a name that no function declares is called: a member of the class, or a variable outside."""
@@ -132,6 +151,8 @@ class Places(Machine):
     def field(self, of: Term, name: str, around: Around) -> Cell | None:
         name = member(name)
         if of[0] == NAME and of[1] in ("this", "self"):
+            if around.me is not None:
+                return self.mine(name, around.me, around)
             return self.path(self.member_key(name, around))
         cell = self.place(of, around)
         if cell is None:

@@ -75,7 +75,10 @@ class Run(Values):
             return
 
     def roots(self) -> list[Function]:
-        roots = [f for f in self.unit.functions if f.name not in self.unit.called]
+        # A constructor runs where the object is made: as a member, it has no call of its own.
+        types = {term[1] for terms in self.members.values() for term in terms.values()}
+        made = {f.name for f in self.unit.functions if f.within.rpartition("::")[2] == f.name and f.parameters and f.name in types}
+        roots = [f for f in self.unit.functions if f.name not in self.unit.called and f.name not in made]
         return [*roots, Function("", "", "", (), self.unit.outside, Span(0, 0))] if self.fragments else roots
 
     def root(self, function: Function) -> None:

@@ -195,7 +195,11 @@ class Structures(Calling):
         return (Alternative(array, place),)
 
     def of_class(self, kind: str, items: Sequence[tuple[Any, Term]], place: Span, around: Around) -> Value:
-        """An object of a class of the file's, given its members in their order."""
+        """An object of a class of the file's, by its constructor or given its members in their order."""
+        arguments = tuple(given for _, given in items)
+        built = self.object_made(kind, (CALL, (NAME, kind, place), arguments, place), around)
+        if built is not None:
+            return built
         made = Struct("", place, False)
         names = list(self.run.members.get(self.run.class_of(kind, around.space) or "", ()))
         for name, (path, given) in zip(names, items, strict=False):

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from ...finding import Span
 from ..parsing import Code
-from .kinds import CLASSES, DEEPEST, function_declarator
+from .kinds import CLASSES, DEEPEST, function_declarator, without_comments
 from .statements import Statements
 from .terms import ASSIGN, CALL, DO, NAME, Function, Parameter, Term, Unit
 
@@ -228,7 +228,7 @@ class _Reading(Statements):
         for each in given.named_children if given is not None else ():
             if each.type == "field_initializer" and each.named_child_count == 2:
                 name, value = each.named_children
-                items = [self.expression(c, 0) for c in value.named_children]
+                items = [self.expression(c, 0) for c in without_comments(value)]
                 at = Span(name.start_byte, name.end_byte)
                 term = items[0] if len(items) == 1 else (CALL, (NAME, "", at), tuple(items), at)
                 yield (DO, (ASSIGN, "=", (NAME, self.of(name), at), term, at), at)

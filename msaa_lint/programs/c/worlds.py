@@ -15,8 +15,13 @@ ASSUMED = 4
 """The count above 1 that every device offers for colour, depth and stencil (specification, "Required Limits")."""
 
 
-FILLED = ("AttachmentDescription", "AttachmentReference", "RenderingAttachmentInfo", "ImageCreateInfo", "SubpassDescription")
-"""Structures that nobody means to be all zero."""
+NEEDS = {
+    "AttachmentDescription": ("format", "samples"),
+    "AttachmentReference": ("layout",),
+    "RenderingAttachmentInfo": ("imageView",),
+    "ImageCreateInfo": ("format", "usage"),
+}
+"""What is never zero in a structure that is used: where it is not seen to be stated, what else is zero is not known either."""
 
 COUNTS = {
     "attachments": "attachmentCount",
@@ -141,8 +146,9 @@ class World:
         """A member and its place; NOTHING where it is not known. What nobody set in a zeroed structure is None."""
         cell = struct.fields.get(name)
         if cell is None or not cell.writes:
-            # A structure of which nothing is stated was filled in in some way that is not understood.
-            told = struct.zeroed and cell is None and (bool(struct.fields) or first_version(struct.kind) not in FILLED)
+            # A structure without what it cannot do without was filled in in some way that is not understood.
+            needs = NEEDS.get(first_version(struct.kind), ())
+            told = struct.zeroed and cell is None and all(need in struct.fields for need in needs)
             return (None if told else NOTHING), struct.at
         value = self.settle(cell.writes)
         if struct.zeroed and value and all(a.guards for a in value):
