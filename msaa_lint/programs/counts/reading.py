@@ -283,8 +283,12 @@ class Reading:
         if not tests or not (tests[0].mask.known or all(test.spelled for test in tests)):
             return
         mask = tests[0].mask
+        if len({(tuple(name for name, _ in test.mask.limits), test.mask.combined) for test in tests}) > 1:
+            # The variable was given another mask in between.
+            return
         at = owner.at if target == RETURN and owner.at is not None else tests[0].at
-        most = greatest(tests) if chain.pure else None
+        # The greatest of a mask that comes from elsewhere is the device's only if that is the device's.
+        most = greatest(tests) if chain.pure and mask.limits else None
         self.found.append(Found(target or owner.name or "samples", at, mask, tuple(tests), most, target == RETURN))
 
 

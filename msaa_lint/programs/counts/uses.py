@@ -138,7 +138,11 @@ class Uses:
             if left is None or left.type != "field_expression" or self.expressions.name(left) != "samples":
                 return []
             structure = left.child_by_field_name("argument")
-            return self._member(parent, self.expressions.of(structure) if structure is not None else "", "format")
+            name = self.expressions.of(structure) if structure is not None else ""
+            if len(self._member(parent, name, "samples")) > 1:
+                # The structure is used for several images: which format goes with the count is not seen.
+                return []
+            return self._member(parent, name, "format")
         if parent.type == "initializer_pair" and parent.parent is not None:
             given = [child for child in parent.parent.named_children if child.type == "initializer_pair"]
             if self.expressions.of(parent).lstrip(". ").startswith("samples"):
