@@ -83,7 +83,7 @@ VkResult create_pass(VkDevice device, VkRenderPass *pass) {
         .dstSubpass = 0,
         .srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
         .dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-        .srcAccessMask = 0, /* expect: MSAA602#entry */
+        .srcAccessMask = 0, /* expect-later: MSAA602#entry */
         .dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
     };
     VkRenderPassCreateInfo2 info = {
