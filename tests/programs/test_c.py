@@ -91,8 +91,9 @@ def test_a_count(body: str, count: int | None) -> None:
 def test_what_hangs_on_the_same_condition_goes_the_same_way() -> None:
     """The world with several samples is described, whatever the condition is called."""
     for condition in ("msaa", "level > 1", "level != 1", "settings.samples > VK_SAMPLE_COUNT_1_BIT", "isOn()"):
-        body = f"info.samples = {condition} ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT; if ({condition}) info.usage |= 64; else info.usage = 0;"
-        body = body.replace("64", "VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT")
+        body = f"""
+            info.samples = {condition} ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
+            if ({condition}) info.usage |= VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT; else info.usage = 0;"""
         images = read(image(body))["images"]
         assert images == {"image": {**images["image"], "samples": 4, "usage": ["COLOR_ATTACHMENT", "TRANSIENT_ATTACHMENT"]}}
 
@@ -154,7 +155,8 @@ struct Target {{
 }};
 class Scene {{
     Scene(VkDevice device)
-        : color(device, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, VK_SAMPLE_COUNT_4_BIT), id(device, VK_IMAGE_USAGE_SAMPLED_BIT, VK_SAMPLE_COUNT_8_BIT) {{}}
+        : color(device, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, VK_SAMPLE_COUNT_4_BIT),
+          id(device, VK_IMAGE_USAGE_SAMPLED_BIT, VK_SAMPLE_COUNT_8_BIT) {{}}
     Target color, id;
 }};
 """
