@@ -39,7 +39,7 @@ class Stop(Exception):
 class Around:
     """What a function is gone through in: its variables, its class, the calls that lead to it."""
 
-    __slots__ = ("calls", "gone", "guards", "loops", "me", "returned", "returns", "scopes", "space", "within", "within_calls")
+    __slots__ = ("calls", "gone", "guards", "loops", "me", "returned", "returns", "scopes", "space", "turns", "within", "within_calls")
 
     def __init__(self, within: str, scopes: Scopes, guards: Guards, calls: tuple[Span, ...]) -> None:
         self.within = within
@@ -53,6 +53,8 @@ class Around:
         self.gone = False
         """Whether what follows is not reached."""
         self.loops = 0
+        self.turns: tuple[int, ...] = ()
+        """Which turns of loops it is in, of those that are gone through one by one."""
         self.me: Cell | None = None
         """The object whose method it is, where that is known."""
         self.within_calls: tuple[Span, ...] = ()

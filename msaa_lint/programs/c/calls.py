@@ -173,6 +173,7 @@ class Calls(Objects):
         inner.within_calls = around.within_calls if own is None else (*around.within_calls, own.at)
         inner.loops = around.loops
         inner.returns = returns
+        inner.turns = around.turns
         inner.me = me if own is not None else around.me
         self.run.block(body, inner)
         base = around.guards

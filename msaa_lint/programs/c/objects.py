@@ -247,7 +247,7 @@ class Objects(Lists):
 
     def make(self, kind: str, info: Struct, term: Term, around: Around) -> Made:
         """The object that a call makes."""
-        key = (kind, term[3], around.calls)
+        key = (kind, term[3], around.calls, around.turns)
         made = self.made.get(key)
         if made is None:
             made = self.made[key] = Made(kind, key, term[3])

@@ -80,6 +80,13 @@ class Passes(Members):
         for n, struct in enumerate(structs):
             image = images[n] if n < len(images) else None
             nodes[n] = (*nodes[n][:2], self.attachment(struct, image, attached, nodes[n][1], names[n] in sources))
+        if type(self.known(info, "attachmentCount")) is not int:
+            # How many there are is not known: those at the end that nothing refers to need not be there.
+            referred = {reference.text for node in written if node is not None for reference in _leaves(node)}
+            while nodes and nodes[-1][0] not in referred:
+                nodes.pop()
+            if not nodes:
+                return None
         items: list[Item] = [("attachments", head, mapping(nodes, head))]
         if written and all(node is not None for node in written):
             items.append(("subpasses", head, sequence([node for node in written if node is not None], head)))
@@ -211,6 +218,17 @@ class Passes(Members):
         if len(items) < 6:
             return None
         return mapping(items, head_of(struct.at))
+
+
+def _leaves(node: Node) -> Iterator[Node]:
+    """All scalars of a subpass."""
+    waiting = [node]
+    while waiting:
+        each = waiting.pop()
+        if each.kind == "scalar":
+            yield each
+        else:
+            waiting += each.value.values() if each.kind == "mapping" else each.value
 
 
 def _resolved(subpasses: Sequence[Node]) -> set[str]:

@@ -162,19 +162,24 @@ class Run(Values):
         if over is not None:
             items = self.elements(over, around)
             if items is not None and declared and len(items) <= MOST_TURNS:
-                for item in items:
+                before = around.turns
+                for turn, item in enumerate(items):
                     around.scopes[-1][declared[0][2]] = item
+                    around.turns = (*before, turn)
                     self.within_block(body, around, ALWAYS)
-                around.scopes = scopes
+                around.scopes, around.turns = scopes, before
                 return
         turns = self.turns(declared, body, around) if over is None else None
         for statement in declared:
             self.declare(statement, around)
         if turns is not None:
             cell = around.scopes[-1][declared[0][2]]
+            before = around.turns
             for turn in range(*turns):
                 cell.writes = (Alternative(turn, at(declared[0])),)
+                around.turns = (*before, turn)
                 self.within_block(body, around, ALWAYS)
+            around.turns = before
         else:
             for statement in declared:
                 around.scopes[-1][statement[2]] = Cell(statement[1], statement[2])

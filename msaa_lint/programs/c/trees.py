@@ -13,7 +13,10 @@ from .syntax import unit
 from .writer import Writer
 
 _WAITS = re.compile(r"ipelineBarrier|Queue(?:Submit|Present)[^}]{0,1500}WaitIdle")
-"""What may stand in for the dependencies of a pass."""
+"""What may stand in for the dependencies of a pass, frame by frame."""
+
+_FRAMES = re.compile(r"cquireNextImage")
+"""Where the frames of a program follow each other."""
 
 
 def trees(code: Code) -> list[Read]:
@@ -21,7 +24,7 @@ def trees(code: Code) -> list[Read]:
     root = tree(code).root_node
     run = Run(unit(code, root), code.fragments, code.language == "cpp")
     run.through()
-    read = Writer(run.calls, code.fragments, _WAITS.search(code.text) is not None).read()
+    read = Writer(run.calls, code.fragments, _WAITS.search(code.text) is not None or _FRAMES.search(code.text) is None).read()
     # Masks of sample counts have such a name, wherever they come from.
     chosen = choices(root, code) if "ampleCounts" in code.text else []
     if not chosen:

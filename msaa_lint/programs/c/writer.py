@@ -111,7 +111,8 @@ class Writer(Passes, Commands):
         members: list[Item] = []
         if made.kind == "pipeline":
             target = self.aimed(self.get(info, "renderPass")[0])
-            if isinstance(target, Made) and id(target) in passes:
+            # Of a page the listings come one after the other, and need not be of one program.
+            if isinstance(target, Made) and id(target) in passes and not self.fragments:
                 at = self.get(info, "renderPass")[1]
                 members.append(("renderPass", at, scalar(passes[id(target)], at)))
                 subpass, place = self.get(info, "subpass")
