@@ -99,9 +99,13 @@ def _language(name: str, head: bytes, format: str | None) -> str | None:
         return format if format in LANGUAGES else None
     if name.endswith(DESCRIPTIONS):
         return None
-    from .programs import language_of
+    from .programs import LANGUAGES, language_of, unread
 
-    return language_of(name, head.decode("latin-1"))
+    language = language_of(name, head.decode("latin-1"))
+    stranger = unread(name) if language is None else None
+    if stranger is not None:
+        raise Unconverted(f"{stranger}, which is not read; --input-format can say {', '.join(LANGUAGES)}")
+    return language
 
 
 def _program(data: bytes, name: str, language: str) -> Programmed:

@@ -28,9 +28,8 @@ class Programmed(NamedTuple):
 
 
 def programmed(data: bytes, name: str, language: str) -> Programmed:
-    """Reads source code. Nothing raises for what it says, nor for bytes that are no text; Unreadable where there is more of it than is parsed,
-    `programs.parsing.Missing` where the extra is
-    not installed."""
+    """Reads source code. Nothing raises for what it says, nor for bytes that are no text; Unreadable where there is more of it than is
+    parsed, `programs.parsing.Missing` where the extra is not installed."""
     try:
         text = decode(data)
     except Unreadable:

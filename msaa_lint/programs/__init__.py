@@ -25,6 +25,25 @@ LANGUAGES: dict[str, tuple[str, ...]] = {
 }
 """By the name that `--input-format` takes: the endings of its files. Of Markdown the code in fences is read."""
 
+UNREAD = {
+    ".m": "Objective-C",
+    ".mm": "Objective-C++",
+    ".rs": "Rust",
+    ".go": "Go",
+    ".zig": "Zig",
+    ".cs": "C#",
+    ".java": "Java",
+    ".kt": "Kotlin",
+    ".py": "Python",
+    ".js": "JavaScript",
+    ".ts": "TypeScript",
+    ".hlsl": "HLSL",
+    ".slang": "Slang",
+    ".wgsl": "WGSL",
+    ".metal": "Metal's shading language",
+}
+"""Endings of languages that programs draw with and that are not read."""
+
 MODULES = {"c": "c.trees", "cpp": "c.trees", "swift": "swift.trees", "glsl": "glsl.trees"}
 """The module of this package that reads each language."""
 
@@ -61,6 +80,12 @@ def language_of(name: str, head: str) -> str | None:
     from .mentions import speaks
 
     return "markdown" if any(speaks(code.text) for code in codes(head)) else None
+
+
+def unread(name: str) -> str | None:
+    """A language that is not read, by the ending of a file's name; None where it has no such ending."""
+    base, dot, ending = name.rpartition("/")[2].rpartition(".")
+    return UNREAD.get(f".{ending.lower()}") if base and dot else None
 
 
 def installed() -> bool:

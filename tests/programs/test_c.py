@@ -74,6 +74,7 @@ SAMPLES = [
     ("auto pick = [&] { return VK_SAMPLE_COUNT_4_BIT; }; info.samples = pick();", 4),
     ("VkImageCreateInfo* p = &info; p->samples = VK_SAMPLE_COUNT_4_BIT;", 4),
     ("VkImageCreateInfo& r = info; r.samples = VK_SAMPLE_COUNT_4_BIT;", 4),
+    ("VkImageView out = VK_NULL_HANDLE; info.samples = out ? VK_SAMPLE_COUNT_1_BIT : VK_SAMPLE_COUNT_4_BIT;", 4),
     ("info.samples = VK_SAMPLE_COUNT_1_BIT;", 1),
     ("info.samples = unknown();", None),
     ("change(&info);", None),

@@ -557,3 +557,13 @@ def test_what_is_assumed_is_a_note(monkeypatch: pytest.MonkeyPatch) -> None:
     assert program.assumed[0] == (first,)
     assert program.assumed[1][0] == first
     assert program.assumed[1][3:] == ("1 more is assumed",)
+
+
+@pytest.mark.parametrize(("name", "language"), [("view.mm", "Objective-C++"), ("shader.HLSL", "HLSL"), ("main.rs", "Rust")])
+def test_a_language_that_is_not_read_is_said_to_be(tmp_path: Path, name: str, language: str) -> None:
+    path = tmp_path / name
+    path.write_text(CODE, encoding="utf-8")
+    done = run(tmp_path, "check", "--isolated", name)
+    assert done.returncode == 2
+    assert f"this is {language}, which is not read; --input-format can say c, cpp," in done.stdout
+    assert run(tmp_path, "check", *ONLY, "--input-format", "cpp", name).stdout.startswith(f"{name}:{PLACE}: {FOUND}")

@@ -31,7 +31,7 @@ ELSEWHERE = (
 )
 """Facts that a dump of one pipeline cannot have."""
 
-EXAMPLES = [e for e in all_examples() if "renderPasses:" in e.text and "PipelineState" not in e.text]
+EXAMPLES = [e for e in all_examples() if "renderPasses:" in e.text and not re.search("PipelineState|^metal:", e.text, re.MULTILINE)]
 
 
 def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:

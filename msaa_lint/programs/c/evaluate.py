@@ -8,6 +8,7 @@ from ...finding import Span
 from .around import MEMBER, Around
 from .conditions import Conditions, clash, opposite
 from .names import constant
+from .places import an_element
 from .terms import ADDRESS, ASSIGN, BINARY, BRACES, CALL, CHOICE, FIELD, INDEX, LAMBDA, LITERAL, NAME, TARGET, UNARY, Term, at
 from .values import MOST, NOTHING, UNKNOWN_VALUE, Alternative, Array, Cell, Closure, Flags, Ref, Struct, Symbol, Value, one
 
@@ -46,7 +47,7 @@ class Values(Conditions):
             return self.choice(term, around, kind)
         if tag == CALL:
             made = self.calls.call(term, around)
-            if term[1][0] == FIELD and term[1][2] in ("front", "back", "at"):
+            if an_element(term):
                 # A reference, which counts as what it refers to.
                 made = tuple(b for a in made for b in (a.value.cell.read(around.guards) if isinstance(a.value, Ref) else (a,)))
             return made

@@ -79,16 +79,17 @@ class Expressions(ABC):
         at = Span(node.start_byte, node.end_byte)
         deeper = depth + 1
         if kind in NAMES:
-            return (NAME, self.meant(BLANKS.sub("", self.of(node))), at)
+            name = self.of(node)
+            return (LITERAL, None, at) if name == "VK_NULL_HANDLE" else (NAME, self.meant(BLANKS.sub("", name)), at)
         if kind == "field_expression":
-            name, of = node.child_by_field_name("field"), node.child_by_field_name("argument")
-            if name is None:
+            member, of = node.child_by_field_name("field"), node.child_by_field_name("argument")
+            if member is None:
                 return (UNKNOWN, self.of(node), at)
             return (
                 FIELD,
                 self.expression(of, deeper),
-                self.of(name).partition("<")[0].rpartition("::")[2],
-                Span(name.start_byte, name.end_byte),
+                self.of(member).partition("<")[0].rpartition("::")[2],
+                Span(member.start_byte, member.end_byte),
             )
         if kind == "call_expression":
             return self.call(node, deeper, at)

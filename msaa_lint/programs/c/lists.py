@@ -74,6 +74,10 @@ class Lists(Structures):
             index = one(self.run.value(arguments[0], around))
             if type(index) is int and 0 <= index < len(array.items):
                 return (Alternative(Ref(array.items[index]), place),)
+        if name in ("at", "rbegin", "rend"):
+            # Of which element it is, nobody can tell what is written to it.
+            array.whole = False
+            return UNKNOWN_VALUE
         if name in ("clear",):
             array.items.clear()
             array.whole = not around.guards

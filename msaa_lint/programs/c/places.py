@@ -18,6 +18,11 @@ def _lasts(value: object) -> bool:
     return value is not None and not isinstance(value, (bool, float, Flags)) and (not isinstance(value, int) or value > 1)
 
 
+def an_element(term: Term) -> bool:
+    """Whether an expression calls a method that gives a reference to an element of a list."""
+    return bool(term[0] == CALL and term[1][0] == FIELD and term[1][2] in ("front", "back", "at"))
+
+
 class Places(Machine):
     """What expressions name."""
 

@@ -16,6 +16,7 @@ from .calls import Calls
 from .conditions import opposite
 from .evaluate import Values
 from .names import elements, extent, structure
+from .places import an_element
 from .terms import BINARY, BLOCK, DECLARE, DO, FIELD, IF, INDEX, LEAVE, LOOP, NAME, RETURN, SOME, UNARY, Function, Term, Unit, at
 from .values import ALWAYS, MOST, NOTHING, UNKNOWN_VALUE, Alternative, Array, Cell, Closure, Guards, Made, Ref, Struct, Symbol, Value, one
 
@@ -216,7 +217,8 @@ class Run(Values):
             around.scopes[-1][name] = self.path(f"::{name}")
             return
         if indirect and given is not None:
-            cell = self.place(given, around) if given[0] in (NAME, FIELD, INDEX) and not kind.endswith("*") else None
+            named = given[0] in (NAME, FIELD, INDEX) or an_element(given)
+            cell = self.place(given, around) if named and not kind.endswith("*") else None
             if cell is not None and not isinstance(one(cell.read(around.guards)), Ref):
                 around.scopes[-1][name] = cell
                 return

@@ -484,3 +484,35 @@ VkRenderPass by_class_op(VkDevice device, bool cond) {
     att[1] = one();
     return create(device, att.data());
 }
+
+VkRenderPass by_front_reference(VkDevice device, bool cond) {
+    (void)cond;
+    std::array<VkAttachmentDescription, 2> att{kept(), one()};
+    auto& first = att.front();
+    first.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    return create(device, att.data());
+}
+
+VkRenderPass by_back_reference(VkDevice device, bool cond) {
+    (void)cond;
+    std::vector<VkAttachmentDescription> att{many(), kept()};
+    VkAttachmentDescription& last = att.back();
+    last = one();
+    return create(device, att.data());
+}
+
+VkRenderPass by_at_reference(VkDevice device, int which) {
+    std::vector<VkAttachmentDescription> att{kept(), one()};
+    auto& chosen = att.at(which);
+    chosen.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    return create(device, att.data());
+}
+
+VkRenderPass by_reverse_iterator(VkDevice device, bool cond) {
+    (void)cond;
+    std::vector<VkAttachmentDescription> att{one(), kept()};
+    auto last = att.rbegin();
+    last->storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    std::swap(att[0], att[1]);
+    return create(device, att.data());
+}
