@@ -104,6 +104,7 @@ class _Rounds:
                     self.refuse(found, changes.reason)
                 elif changes is not None:
                     changed.append((found, changes))
+            changed = _leaving_one(changed)
             every = wishes(change for _, changes in changed for change in changes)
             for found, changes in changed:
                 edits = offers.edits(changes, every)
@@ -149,6 +150,23 @@ class _Rounds:
         half = len(group) // 2
         taken, now, judged = self.take(group[:half], taken, text, linted, now, judged)
         return self.take(group[half:], taken, text, linted, now, judged)
+
+
+def _leaving_one(changed: Iterable[tuple[Finding, tuple[Change, ...]]]) -> list[tuple[Finding, tuple[Change, ...]]]:
+    """Fixes without those that would take the last entry of a list together with others: an empty list may mean something else than
+    none, and who takes the last entry alone, in the next round, knows that it is the last."""
+    gone: Counter[tuple[int, str]] = Counter()
+    kept = []
+    for found, changes in changed:
+        drops = Counter((id(change.record), change.member) for change in changes if change.action == "drop")
+        lengths = {
+            (id(change.record), change.member): len(getattr(change.record, change.member)) for change in changes if change.action == "drop"
+        }
+        if any(gone[key] and gone[key] + count >= lengths[key] for key, count in drops.items()):
+            continue
+        gone += drops
+        kept.append((found, changes))
+    return kept
 
 
 def _joined(fixes: Iterable[_Fix]) -> list[_Fix]:

@@ -7,7 +7,7 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from msaa_lint.engine import Linted
@@ -57,6 +57,7 @@ def check(text: str, unsafe: bool) -> None:
 
 @settings(max_examples=400, deadline=None)
 @given(st.sampled_from(MENDABLE), st.integers(0, 2**32), st.booleans())
+@example("clear-command-instead-of-load-op-bad-2", 0, True)
 def test_however_it_is_written(name: str, seed: int, unsafe: bool) -> None:
     """The same is mended, and means the same after it; comments, line ends and the end of the text stay."""
     text = written(DATA[name], Random(seed))

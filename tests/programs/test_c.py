@@ -196,3 +196,44 @@ def test_what_is_too_much_is_passed_over(name: str) -> None:
     for language in ("c", "cpp"):
         for fragments in (False, True):
             trees(Code(ascii_only(MUCH[name]), language, fragments))
+
+
+LISTED = [
+    ("\n#ifdef MSAA\n.samples = VK_SAMPLE_COUNT_4_BIT,\n#else\n.samples = VK_SAMPLE_COUNT_1_BIT,\n#endif\n", 4),
+    ("\n#if defined(MSAA)\n.samples = VK_SAMPLE_COUNT_4_BIT,\n#else\n.samples = VK_SAMPLE_COUNT_1_BIT,\n#endif\n", 4),
+    ("\n#ifndef MSAA\n.samples = VK_SAMPLE_COUNT_1_BIT,\n#else\n.samples = VK_SAMPLE_COUNT_4_BIT,\n#endif\n", 4),
+    (".samples = (VkSampleCountFlagBits)(VK_SAMPLE_COUNT_4_BIT\n#ifdef MORE\n* 2\n#endif\n),", None),
+]
+
+
+@pytest.mark.parametrize(("listed", "count"), LISTED)
+def test_a_directive_in_braces(listed: str, count: int | None) -> None:
+    """The grammar knows none there."""
+    text = f"""{HEAD}
+void create(VkDevice device, VkImage* image) {{
+    VkImageCreateInfo info{{
+        .format = VK_FORMAT_R8G8B8A8_UNORM,{listed}
+        .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+    }};
+    vkCreateImage(device, &info, nullptr, image);
+}}
+"""
+    found = read(text).get("images", {})
+    assert isinstance(found, dict)
+    assert [image.get("samples") for image in found.values()] == ([count] if count is not None else [])
+
+
+def test_which_member_is_which_is_not_known_behind_a_directive() -> None:
+    text = f"""{HEAD}
+void create(VkDevice device, VkImage* image) {{
+    VkImageCreateInfo info{{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO, nullptr, 0, VK_IMAGE_TYPE_2D,
+#ifdef WIDE
+        VK_FORMAT_R16G16B16A16_SFLOAT,
+#else
+        VK_FORMAT_R8G8B8A8_UNORM,
+#endif
+        extent, 1, 1, VK_SAMPLE_COUNT_4_BIT, VK_IMAGE_TILING_OPTIMAL, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT}};
+    vkCreateImage(device, &info, nullptr, image);
+}}
+"""
+    assert "samples" not in str(read(text).get("images", ""))

@@ -49,6 +49,8 @@ class Calls(Objects):
                 return self.constructed(kind, arguments, place, around, function[1].startswith(("vk::", "VULKAN")))
             if name == "to_array" and len(arguments) == 1 and arguments[0][0] == BRACES:
                 return self.listed(function[1].partition("<")[2].rstrip(">"), arguments[0][2], place, around)
+            if name in ("make_array", "makeArray") and arguments:
+                return self.listed("", [(None, each) for each in arguments], place, around)
             if function[0] == NAME and len(arguments) == 1 and _CAST.match(function[1]):
                 return self.run.value(arguments[0], around)
             inner = elements(function[1]) if function[0] == NAME else None

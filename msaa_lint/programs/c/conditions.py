@@ -6,6 +6,7 @@ from typing import Any
 
 from ...finding import Span
 from .around import Around
+from .directives import tested
 from .places import Places
 from .terms import ADDRESS, BINARY, CALL, FIELD, INDEX, LITERAL, NAME, TARGET, UNARY, Term
 from .values import MOST, Guards, Made, Symbol, one
@@ -66,7 +67,7 @@ class Conditions(Places):
         bare = text[1:].strip()
         if bare in ("0", "1"):
             return bare == "1"
-        return frozenset({(f"#{bare}", True)})
+        return frozenset({tested(bare)})
 
     def condition(self, term: Term, around: Around) -> bool | Guards:
         """What a condition comes to: decided, or what must hold."""

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ...finding import Span
+from .directives import Section, tested
 from .kinds import BLANKS, CHAIN_TESTS, CLASSES, DEEPEST, NAMES, WORD, number, without_comments
 from .terms import (
     ADDRESS,
@@ -46,6 +47,7 @@ class Expressions(ABC):
     aliases: dict[str, str]
     """By name, what a file calls otherwise."""
     called_names: set[str]
+    sections: tuple[Section, ...]
 
     @abstractmethod
     def parameters(self, listed: Node | None) -> tuple[Parameter, ...]:
@@ -170,7 +172,7 @@ class Expressions(ABC):
             and self.of(function) in ("std::move", "std::as_const")
         ):
             return self.expression(said[0], depth)
-        arguments = tuple(self.expression(child, depth) for child in said)
+        arguments = tuple(self.in_order(said, (self.expression(child, depth) for child in said)))
         called = self.expression(function, depth)
         named = called[1] if called[0] == NAME else called[2] if called[0] == FIELD else ""
         short = str(named).rpartition("::")[2].partition("<")[0]
@@ -180,7 +182,13 @@ class Expressions(ABC):
 
     def items(self, node: Node, depth: int) -> Iterator[tuple[tuple[str | int, ...] | None, Term]]:
         """The items of braces: the members that a designator names, or None, and what stands there."""
-        yield from self.items_of(node.named_children, depth)
+        nodes = node.named_children
+        if self.torn(nodes):
+            # What the preprocessor makes of them is not known.
+            at = Span(node.start_byte, node.end_byte)
+            yield None, (SOME, "#", True, (UNKNOWN, "", at), at)
+            return
+        yield from self.items_of(nodes, depth)
 
     def items_of(self, nodes: list[Node], depth: int) -> Iterator[tuple[tuple[str | int, ...] | None, Term]]:
         for child in nodes:
@@ -190,7 +198,7 @@ class Expressions(ABC):
                 yield from self.sometimes(child, depth + 1)
                 continue
             if child.type != "initializer_pair":
-                yield None, self.expression(child, depth)
+                yield None, self.in_sections(child, self.expression(child, depth))
                 continue
             path: list[str | int] = []
             given = child.child_by_field_name("value")
@@ -203,14 +211,35 @@ class Expressions(ABC):
                     path.append(index[1] if index[0] == LITERAL and isinstance(index[1], int) else f"[{self.of(inner)}")
                 else:
                     path.append(self.of(inner))
-            yield tuple(path), self.expression(given, depth)
+            yield tuple(path), self.in_sections(child, self.expression(given, depth))
+
+    def torn(self, nodes: list[Node]) -> bool:
+        """Whether a directive of the preprocessor is left between the items of a list."""
+        return any(child.is_error and self.text.startswith("#", child.start_byte) for child in nodes)
+
+    def in_sections(self, node: Node, term: Term) -> Term:
+        """An item of a list with the conditions that it is there under; of one that is half of it under some, nothing is known."""
+        for section in self.sections:
+            if node.start_byte < section.start < node.end_byte and term[0] not in (BRACES, CALL, LAMBDA):
+                return (UNKNOWN, "", term[-1])
+            if section.start <= node.start_byte < section.end:
+                term = (SOME, section.text, section.way, term, term[-1])
+        return term
+
+    def in_order(self, nodes: list[Node], terms: Iterator[Term]) -> Iterator[Term]:
+        """Arguments; none is known from the first on that is there only under a condition."""
+        shifted = self.torn(nodes)
+        for node, term in zip(nodes, terms, strict=True):
+            given = self.in_sections(node, term)
+            shifted = shifted or given[0] == SOME
+            yield (UNKNOWN, "", term[-1]) if shifted else given
 
     def sometimes(self, node: Node, depth: int) -> Iterator[tuple[tuple[str | int, ...] | None, Term]]:
         """The items of a block of the preprocessor within braces."""
         test = node.child_by_field_name("condition") or node.child_by_field_name("name")
         other = node.child_by_field_name("alternative")
-        text = "#" + (self.of(test).strip() if test is not None else "")
-        way = not (node.type == "preproc_ifdef" and self.text.startswith("#ifndef", node.start_byte))
+        ndef = node.type == "preproc_ifdef" and self.text.startswith("#ifndef", node.start_byte)
+        text, way = tested(self.of(test) if test is not None else "", not ndef)
         inner: list[Node] = [child for child in node.named_children if child not in (test, other)]
         for here, nodes in (
             (way, inner),

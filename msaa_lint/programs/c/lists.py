@@ -9,9 +9,11 @@ from .around import Around
 from .names import MEMBERS, member, set_by, structure
 from .structures import Structures, member_type
 from .terms import CALL, FIELD, INDEX, LITERAL, NAME, Term
-from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Ref, Struct, Value, copied, one
+from .values import ALWAYS, NOTHING, UNKNOWN_VALUE, Alternative, Array, Cell, Ref, Struct, Value, copied, one
 
 APPEND = frozenset({"push_back", "emplace_back", "append", "add", "pushBack", "Add", "PushBack", "push"})
+
+COUNTED = frozenset({"size", "count", "length"})
 
 SELF = frozenset({"get", "value", "data", "begin", "as_span", "handle", "ptr", "operator*", "release", "Get", "asSpan", "c_ptr"})
 
@@ -24,6 +26,8 @@ class Lists(Structures):
         cell = self.run.place(owner, around) if owner[0] != CALL else None
         held = cell.read(around.guards) if cell is not None else self.run.value(owner, around)
         value = self.run.aimed(one(held))
+        if len(held) > 1 and any(isinstance(self.run.aimed(each.value), Array) for each in held):
+            return self.of_several(held, name, place)
         setter = set_by(name)
         if isinstance(value, Struct) and value.kind and setter is not None:
             if len(arguments) != 1 or (setter not in map(member, MEMBERS[value.kind]) and setter != "next"):
@@ -49,6 +53,19 @@ class Lists(Structures):
             return UNKNOWN_VALUE
         return None
 
+    def of_several(self, held: Value, name: str, place: Span) -> Value:
+        """What a method gives of a list that is one or another: nobody can tell which of them others change."""
+        found: list[Alternative] = []
+        for each in held:
+            array = self.run.aimed(each.value)
+            if name in ("data", "begin", "cbegin"):
+                found.append(Alternative(Ref(Cell(writes=(Alternative(each.value, each.at),))), place, each.guards))
+            elif name in COUNTED:
+                found += [a._replace(guards=each.guards) for a in self.counted(array, place)] or [Alternative(NOTHING, place, each.guards)]
+            elif isinstance(array, Array):
+                array.whole = False
+        return tuple(found)
+
     def of_list(self, array: Array, cell: Cell | None, name: str, arguments: Sequence[Term], place: Span, around: Around) -> Value:
         if name in APPEND:
             kind = array.kind
@@ -66,7 +83,7 @@ class Lists(Structures):
             return (Alternative(Ref(item), place),)
         if name in ("data", "begin", "cbegin", "get"):
             return (Alternative(Ref(cell if cell is not None else Cell(writes=(Alternative(array, place),))), place),)
-        if name in ("size", "count", "length"):
+        if name in COUNTED:
             return self.counted(array, place)
         if name in ("back", "front") and array.items:
             return (Alternative(Ref(array.items[-1 if name == "back" else 0]), place),)
@@ -109,6 +126,9 @@ class Lists(Structures):
     def lost(self, target: Term, around: Around) -> None:
         """Something was written to a place that cannot be told: of a list's element, the list is no longer known."""
         if target[0] in (FIELD, INDEX):
-            value = self.run.aimed(one(self.run.value(target[1], around)))
-            if isinstance(value, Array):
-                value.whole = False
+            for each in self.run.value(target[1], around):
+                value = self.run.aimed(each.value)
+                if isinstance(value, Array):
+                    value.whole = False
+                elif isinstance(value, Struct) and target[0] == FIELD:
+                    value.cell(member(target[2])).write(UNKNOWN_VALUE, target[-1], ALWAYS)

@@ -145,21 +145,21 @@ class Objects(Lists):
 
     def handed(self, name: str, given: Term, term: Term, around: Around) -> None:
         """A list, or a structure, that is handed to somebody else's function, which may change it if it takes a reference."""
-        known = one(self.run.value(given, around))
-        if isinstance(known, Closure):
-            self.captured(known)
-            return
-        value = self.run.aimed(known)
-        if not isinstance(value, (Array, Struct)) or self.keeps(name, given, term):
-            return
-        stated = self.run.unit.prototypes.get(name, ())
-        position = term[2].index(given)
-        if isinstance(known, Struct) and name not in _MOVES:
-            # C++ may take a reference where nothing looks like it, and a macro may do anything.
-            by_reference = stated[position].by_reference if position < len(stated) else self.run.plus or name.isupper()
-            if not by_reference:
-                return
-        self.unknown_now(value)
+        for known in [each.value for each in self.run.value(given, around)]:
+            if isinstance(known, Closure):
+                self.captured(known)
+                continue
+            value = self.run.aimed(known)
+            if not isinstance(value, (Array, Struct)) or self.keeps(name, given, term):
+                continue
+            stated = self.run.unit.prototypes.get(name, ())
+            position = term[2].index(given)
+            if isinstance(known, Struct) and name not in _MOVES:
+                # C++ may take a reference where nothing looks like it, and a macro may do anything.
+                by_reference = stated[position].by_reference if position < len(stated) else self.run.plus or name.isupper()
+                if not by_reference:
+                    continue
+            self.unknown_now(value)
 
     def leaves(self, value: Any, depth: int = 0) -> None:
         """Notes that an object goes where nobody can follow it, and the image of a view with it."""
@@ -193,7 +193,8 @@ class Objects(Lists):
                     waiting.extend(term)
         for scope in closure.scopes:
             for name in names & scope.keys():
-                self.unknown_now(self.run.aimed(one(scope[name].writes)))
+                for write in scope[name].writes:
+                    self.unknown_now(self.run.aimed(write.value))
 
     @staticmethod
     def unknown_now(value: Any) -> None:

@@ -13,7 +13,7 @@ from typing import Any
 from ...finding import Span
 from .around import MOST_PASSES, MOST_TURNS, Around, Stop
 from .calls import Calls
-from .conditions import opposite
+from .conditions import clash, opposite
 from .evaluate import Values
 from .names import elements, extent, structure
 from .places import an_element
@@ -100,11 +100,11 @@ class Run(Values):
                 return
             self.statement(statement, around)
 
-    def within_block(self, statements: Sequence[Term], around: Around, guards: Guards) -> bool:
+    def within_block(self, statements: Sequence[Term], around: Around, guards: Guards, own: bool = True) -> bool:
         """Goes through a block under conditions, with variables of its own; whether it leaves what is around it."""
         outer, scopes = around.guards, around.scopes
         around.guards = outer | guards
-        around.scopes = (*scopes, {})
+        around.scopes = (*scopes, {}) if own else scopes
         self.block(statements, around)
         around.guards, around.scopes = outer, scopes
         left, around.gone = around.gone, False
@@ -136,19 +136,21 @@ class Run(Values):
 
     def test(self, condition: bool | Guards, term: Term, around: Around) -> None:
         then, otherwise = term[2], term[3]
+        # What the preprocessor leaves stands where it stood.
+        own = term[0] == IF
         if isinstance(condition, bool):
-            around.gone = self.within_block(then if condition else otherwise, around, ALWAYS)
+            around.gone = self.within_block(then if condition else otherwise, around, ALWAYS, own)
             return
         known = dict(around.guards)
         if any(known.get(text) is (not way) for text, way in condition):
-            around.gone = self.within_block(otherwise, around, ALWAYS)
+            around.gone = self.within_block(otherwise, around, ALWAYS, own)
             return
         if all(known.get(text) is way for text, way in condition):
-            around.gone = self.within_block(then, around, ALWAYS)
+            around.gone = self.within_block(then, around, ALWAYS, own)
             return
         against = opposite(condition)
-        left = self.within_block(then, around, condition)
-        leaves = self.within_block(otherwise, around, against) if otherwise else False
+        left = self.within_block(then, around, condition, own)
+        leaves = self.within_block(otherwise, around, against, own) if otherwise else False
         if left and leaves:
             around.gone = True
         elif left:
@@ -222,7 +224,7 @@ class Run(Values):
             if cell is not None and not isinstance(one(cell.read(around.guards)), Ref):
                 around.scopes[-1][name] = cell
                 return
-        cell = Cell(kind, name)
+        cell = self.declared_elsewhere(name, kind, around) or Cell(kind, name)
         around.scopes[-1][name] = cell
         if given is None:
             value = self.bare(kind, name, place, indirect, around)
@@ -232,6 +234,14 @@ class Run(Values):
         cell.write(value, place, around.guards)
         self.calls.called_by(value, name, around)
         self.calls.born += [(a.value, around.guards) for a in value if isinstance(a.value, Struct) and a.value.kind]
+
+    @staticmethod
+    def declared_elsewhere(name: str, kind: str, around: Around) -> Cell | None:
+        """A variable that the preprocessor has declared in the other branch of an #if."""
+        before = around.scopes[-1].get(name)
+        if before is None or before.kind.partition("[")[0] != kind.partition("[")[0] or not around.guards or not before.writes:
+            return None
+        return before if all(clash(write.guards, around.guards) for write in before.writes) else None
 
     def filled(self, array: Array, kind: str, around: Around) -> None:
         """Gives an array as many elements as its type has."""

@@ -66,6 +66,11 @@ class Structures(Calling):
                 continue
             if n >= len(names):
                 return
+            if given[0] == SOME:
+                # Which member is which hangs on a condition.
+                for name in names[n:]:
+                    made.cell(member(name)).write(UNKNOWN_VALUE, given[-1], ALWAYS)
+                return
             name = names[n]
             value = self.run.by_pointer(name, self.run.value(given, around, member_type(made.kind, name)), given, around)
             known = self.run.aimed(one(value))

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from ...finding import Span
 from ..parsing import Code
+from .directives import Section
 from .kinds import CLASSES, DEEPEST, function_declarator, without_comments
 from .statements import Statements
 from .terms import ASSIGN, CALL, DO, NAME, Function, Parameter, Term, Unit
@@ -45,16 +46,18 @@ CONTAINERS = frozenset(
 )
 
 
-def unit(code: Code, root: Node) -> Unit:
-    """The functions of a file, what its classes declare, and what stands outside."""
-    return _Reading(code.text, code.fragments).unit(root)
+def unit(code: Code, root: Node, conditional: tuple[Section, ...] = ()) -> Unit:
+    """The functions of a file, what its classes declare, and what stands outside. `conditional` are parts of lists that are there only
+    under conditions."""
+    return _Reading(code.text, code.fragments, conditional).unit(root)
 
 
 class _Reading(Statements):
     """One file while it is read."""
 
-    def __init__(self, text: str, fragments: bool) -> None:
+    def __init__(self, text: str, fragments: bool, conditional: tuple[Section, ...]) -> None:
         self.text = text
+        self.sections = conditional
         self.fragments = fragments
         self.found: list[tuple[str, str, Node]] = []
         """Functions: the namespace and the class that they are in, and where."""

@@ -8,6 +8,7 @@ from ...finding import Span
 from ...source.making import mapping
 from ..counts.choices import choices
 from ..parsing import Code, Read, tree
+from .directives import lists_cleared
 from .run import Run
 from .syntax import unit
 from .writer import Writer
@@ -22,7 +23,10 @@ _FRAMES = re.compile(r"cquireNextImage")
 def trees(code: Code) -> list[Read]:
     """What a file, or the pieces of a page, makes: one tree, or none. Missing where the grammar is not installed."""
     root = tree(code).root_node
-    run = Run(unit(code, root), code.fragments, code.language == "cpp")
+    text, conditional = lists_cleared(code.text, root)
+    if conditional:
+        root = tree(code._replace(text=text)).root_node
+    run = Run(unit(code._replace(text=text), root, conditional), code.fragments, code.language == "cpp")
     run.through()
     read = Writer(run.calls, code.fragments, _WAITS.search(code.text) is not None or _FRAMES.search(code.text) is None).read()
     # Masks of sample counts have such a name, wherever they come from.

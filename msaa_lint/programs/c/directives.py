@@ -1,0 +1,126 @@
+"""Conditions of the preprocessor within braces and calls, which the grammar does not know: it takes `#ifdef` for a mistake, and what
+follows for something else."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_left
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
+
+_DIRECTIVE = re.compile(r"^[ \t]*#[ \t]*(ifdef|ifndef|if|elifdef|elifndef|elif|else|endif)\b((?:\\\n|[^\n])*)", re.MULTILINE)
+_COMMENT = re.compile(r"//.*|/\*.*?(?:\*/|$)", re.DOTALL)
+_BLOCK = re.compile(
+    r"\b(?:class|struct|union|enum|namespace|else|do|try|const|noexcept|override|final|extern|mutable)\b[^=(]*$|\)\s*$|^\s*$"
+)
+"""What stands before the brace of a block, not of a list."""
+
+_DEFINED = re.compile(r"(!?)\s*defined\s*(?:\(\s*(\w+)\s*\)|(\w+))")
+
+FARTHEST = 20_000
+"""Characters that a list may have before a directive in it."""
+
+
+class Section(NamedTuple):
+    """A part of the text that is there if a condition holds, or (`way`) does not, as a number of characters from the beginning."""
+
+    start: int
+    end: int
+    text: str
+    way: bool
+
+
+def tested(text: str, way: bool = True) -> tuple[str, bool]:
+    """A condition of the preprocessor in words that are the same for #ifdef and #if defined, and which way it goes."""
+    match = _DEFINED.fullmatch(text.strip())
+    return (f"#{match[2] or match[3]}", way is not bool(match[1])) if match is not None else (f"#{text.strip()}", way)
+
+
+def lists_cleared(text: str, root: Node) -> tuple[str, tuple[Section, ...]]:
+    """The text without the directives that stand within lists and that the parser stumbled over, and what hangs on each of them."""
+    if not root.has_error or "#if" not in text.replace(" ", ""):
+        return text, ()
+    torn = sorted(_mistakes(root))
+    found: list[Section] = []
+    blanked: list[tuple[int, int]] = []
+    open_groups: list[list[re.Match[str]]] = []
+    for match in _DIRECTIVE.finditer(text):
+        word = match[1]
+        if word.startswith("if"):
+            open_groups.append([match])
+        elif open_groups:
+            open_groups[-1].append(match)
+            if word == "endif":
+                group = open_groups.pop()
+                if any(_touched(torn, each) for each in group) and _in_a_list(text, group[0].start()):
+                    found += _of_group(group)
+                    blanked += [each.span() for each in group]
+    if not blanked:
+        return text, ()
+    parts: list[str] = []
+    last = 0
+    for start, end in sorted(blanked):
+        parts += (text[last:start], re.sub(r"[^\n]", " ", text[start:end]))
+        last = end
+    return "".join((*parts, text[last:])), tuple(sorted(found))
+
+
+def _mistakes(root: Node) -> Iterator[tuple[int, int]]:
+    """Where the parser found what it does not know."""
+    waiting = [root]
+    while waiting:
+        node = waiting.pop()
+        if node.is_error:
+            yield node.start_byte, node.end_byte
+        waiting += [child for child in node.children if child.has_error]
+
+
+def _touched(torn: list[tuple[int, int]], match: re.Match[str]) -> bool:
+    """Whether a mistake begins or ends on the line of a directive, or is around it and short."""
+    start, end = match.span()
+    at = bisect_left(torn, (start, 0))
+    return any(a < end and b > start and (a >= start or b - a < FARTHEST) for a, b in torn[max(at - 8, 0) : at + 8])
+
+
+def _in_a_list(text: str, at: int) -> bool:
+    """Whether the innermost bracket that is open at a place is one of a call, or of a list of values."""
+    depth = 0
+    for n in range(at - 1, max(at - FARTHEST, 0) - 1, -1):
+        character = text[n]
+        if character in ")}]":
+            depth += 1
+        elif character in "({[":
+            if depth == 0:
+                if character != "{":
+                    return True
+                before, sign = _before(text, n)
+                if before.strip() or sign != "{":
+                    return _BLOCK.search(before) is None
+                # Braces at the beginning of others are what those are.
+                depth += 1
+            depth -= 1
+        elif character == ";" and depth == 0:
+            return False
+    return False
+
+
+def _before(text: str, at: int) -> tuple[str, str]:
+    """What stands between the end of the statement before and a place, without comments, and the sign at that end."""
+    start = max(text.rfind(sign, 0, at) for sign in ";{}")
+    return _COMMENT.sub("", text[max(start + 1, at - 400) : at]), text[start : start + 1] if start >= 0 else ""
+
+
+def _of_group(group: list[re.Match[str]]) -> Iterator[Section]:
+    """What hangs on the directives from an #if to its #endif."""
+    failed: list[tuple[str, bool]] = []
+    for n, match in enumerate(group[:-1]):
+        start, end = match.end(), group[n + 1].start()
+        yield from (Section(start, end, text, not way) for text, way in failed)
+        if match[1] == "else":
+            continue
+        said = tested(_COMMENT.sub("", match[2]), not match[1].endswith("ndef"))
+        yield Section(start, end, *said)
+        failed.append(said)
