@@ -158,10 +158,9 @@ def _leaving_one(changed: Iterable[tuple[Finding, tuple[Change, ...]]]) -> list[
     gone: Counter[tuple[int, str]] = Counter()
     kept = []
     for found, changes in changed:
-        drops = Counter((id(change.record), change.member) for change in changes if change.action == "drop")
-        lengths = {
-            (id(change.record), change.member): len(getattr(change.record, change.member)) for change in changes if change.action == "drop"
-        }
+        dropped = [change for change in changes if change.action == "drop"]
+        drops = Counter((id(change.record), change.member) for change in dropped)
+        lengths = {(id(change.record), change.member): len(getattr(change.record, change.member)) for change in dropped}
         if any(gone[key] and gone[key] + count >= lengths[key] for key, count in drops.items()):
             continue
         gone += drops

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ...finding import Span
-from .directives import Section, tested
-from .kinds import BLANKS, CHAIN_TESTS, CLASSES, DEEPEST, NAMES, WORD, number, without_comments
+from .directives import Section
+from .kinds import BLANKS, CLASSES, DEEPEST, NAMES, WORD, number, without_comments
 from .terms import (
     ADDRESS,
     ASSIGN,
@@ -188,14 +188,8 @@ class Expressions(ABC):
             at = Span(node.start_byte, node.end_byte)
             yield None, (SOME, "#", True, (UNKNOWN, "", at), at)
             return
-        yield from self.items_of(nodes, depth)
-
-    def items_of(self, nodes: list[Node], depth: int) -> Iterator[tuple[tuple[str | int, ...] | None, Term]]:
         for child in nodes:
             if child.type == "comment" or depth > DEEPEST:
-                continue
-            if child.type in CHAIN_TESTS or child.type == "preproc_else":
-                yield from self.sometimes(child, depth + 1)
                 continue
             if child.type != "initializer_pair":
                 yield None, self.in_sections(child, self.expression(child, depth))
@@ -233,18 +227,3 @@ class Expressions(ABC):
             given = self.in_sections(node, term)
             shifted = shifted or given[0] == SOME
             yield (UNKNOWN, "", term[-1]) if shifted else given
-
-    def sometimes(self, node: Node, depth: int) -> Iterator[tuple[tuple[str | int, ...] | None, Term]]:
-        """The items of a block of the preprocessor within braces."""
-        test = node.child_by_field_name("condition") or node.child_by_field_name("name")
-        other = node.child_by_field_name("alternative")
-        ndef = node.type == "preproc_ifdef" and self.text.startswith("#ifndef", node.start_byte)
-        text, way = tested(self.of(test) if test is not None else "", not ndef)
-        inner: list[Node] = [child for child in node.named_children if child not in (test, other)]
-        for here, nodes in (
-            (way, inner),
-            (not way, list(other.named_children) if other is not None and other.type == "preproc_else" else []),
-        ):
-            for child in nodes:
-                for path, term in self.items_of([child], depth):
-                    yield path, (SOME, text, here, term, term[-1])

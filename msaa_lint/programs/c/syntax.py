@@ -46,18 +46,18 @@ CONTAINERS = frozenset(
 )
 
 
-def unit(code: Code, root: Node, conditional: tuple[Section, ...] = ()) -> Unit:
-    """The functions of a file, what its classes declare, and what stands outside. `conditional` are parts of lists that are there only
+def unit(code: Code, root: Node, sections: tuple[Section, ...] = ()) -> Unit:
+    """The functions of a file, what its classes declare, and what stands outside. `sections` are parts of lists that are there only
     under conditions."""
-    return _Reading(code.text, code.fragments, conditional).unit(root)
+    return _Reading(code.text, code.fragments, sections).unit(root)
 
 
 class _Reading(Statements):
     """One file while it is read."""
 
-    def __init__(self, text: str, fragments: bool, conditional: tuple[Section, ...]) -> None:
+    def __init__(self, text: str, fragments: bool, sections: tuple[Section, ...]) -> None:
         self.text = text
-        self.sections = conditional
+        self.sections = sections
         self.fragments = fragments
         self.found: list[tuple[str, str, Node]] = []
         """Functions: the namespace and the class that they are in, and where."""

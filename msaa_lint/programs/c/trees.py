@@ -23,10 +23,11 @@ _FRAMES = re.compile(r"cquireNextImage")
 def trees(code: Code) -> list[Read]:
     """What a file, or the pieces of a page, makes: one tree, or none. Missing where the grammar is not installed."""
     root = tree(code).root_node
-    text, conditional = lists_cleared(code.text, root)
-    if conditional:
-        root = tree(code._replace(text=text)).root_node
-    run = Run(unit(code._replace(text=text), root, conditional), code.fragments, code.language == "cpp")
+    text, sections = lists_cleared(code.text, root)
+    if sections:
+        code = code._replace(text=text)
+        root = tree(code).root_node
+    run = Run(unit(code, root, sections), code.fragments, code.language == "cpp")
     run.through()
     read = Writer(run.calls, code.fragments, _WAITS.search(code.text) is not None or _FRAMES.search(code.text) is None).read()
     # Masks of sample counts have such a name, wherever they come from.
@@ -35,6 +36,6 @@ def trees(code: Code) -> list[Read]:
         return [read] if read is not None else []
     start = Span(chosen[0][1].start, chosen[0][1].start)
     made = read.tree if read is not None else mapping([], Span(0, 0))
-    sections = [(key, made.keys[key].span, value) for key, value in made.value.items()]
-    sections.append(("sampleCountChoices", start, mapping(chosen, start)))
-    return [Read(mapping(sections, Span(0, 0)), read.assumed if read is not None else ())]
+    items = [(key, made.keys[key].span, value) for key, value in made.value.items()]
+    items.append(("sampleCountChoices", start, mapping(chosen, start)))
+    return [Read(mapping(items, Span(0, 0)), read.assumed if read is not None else ())]
