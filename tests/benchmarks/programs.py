@@ -9,10 +9,9 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import tempfile
 
 from inputs import ROOT
-from run import CHECK, Failed, Task, environment, measure, row, verdict
+from run import CHECK, Task, environment, measure, printed, row, verdict
 
 LINES = 2_000
 GOAL = 0.3
@@ -35,21 +34,7 @@ print(min(times), len(made.documents))
 
 
 def main() -> int:
-    """Measures and prints; 2 where a command failed."""
-    if not hasattr(os, "wait4"):
-        print("this system does not say what a process took", file=sys.stderr)
-        return 2
-    quick = "--quick" in sys.argv[1:]
-    with tempfile.TemporaryDirectory() as folder:
-        try:
-            lines = table(folder, 5 if quick else 21)
-        except (Failed, subprocess.CalledProcessError) as error:
-            print(error, file=sys.stderr)
-            return 2
-        finally:
-            os.chdir(ROOT)
-    print("\n".join(lines))
-    return 0
+    return printed(lambda folder, quick: table(folder, 5 if quick else 21))
 
 
 def table(folder: str, rounds: int) -> list[str]:
