@@ -6,10 +6,10 @@ import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from msaa_lint.catalogue import load
-from msaa_lint.confirm.explanations import CONSEQUENCES, EXPLANATIONS, Explanation
-from msaa_lint.confirm.families import FAMILIES, Looks
-from msaa_lint.confirm.noise import NOISE
+from msaa_lint.experiments.confirm.explanations import CONSEQUENCES, EXPLANATIONS, Explanation
+from msaa_lint.experiments.confirm.families import FAMILIES, Looks
+from msaa_lint.experiments.confirm.noise import NOISE
+from msaa_lint.linter.rules.registry import load
 
 PAGE = Path(__file__).parent / "agreement.md"
 NAMES = {"arm": "Arm", "img": "IMG", "amd": "AMD", "nvidia": "NVIDIA"}

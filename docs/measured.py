@@ -15,19 +15,19 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from msaa_lint.confirm.child import Limits
-from msaa_lint.confirm.results import Unusable
-from msaa_lint.confirm.session import Session, environment
-from msaa_lint.report.study_plot import plot
-from msaa_lint.study import coverage, fragments, locations, snap
-from msaa_lint.study.drawn import clip, covered
-from msaa_lint.study.measure import difference, errors, truth
-from msaa_lint.study.outcome import Pictured, Study
-from msaa_lint.study.pareto import marked
-from msaa_lint.study.points import SSAA, Point, Technique, techniques
-from msaa_lint.study.scenes import scene
-from msaa_lint.study.scenes.scene import Scene
-from msaa_lint.study.times import Clock
+from msaa_lint.cli.report.study_plot import plot
+from msaa_lint.experiments.confirm.child import Limits
+from msaa_lint.experiments.confirm.results import Unusable
+from msaa_lint.experiments.confirm.session import Session, environment
+from msaa_lint.experiments.study import coverage, fragments, locations, snap
+from msaa_lint.experiments.study.device_coverage import clip, covered
+from msaa_lint.experiments.study.measure import difference, errors, truth
+from msaa_lint.experiments.study.outcome import Pictured, Study
+from msaa_lint.experiments.study.pareto import marked
+from msaa_lint.experiments.study.points import SSAA, Point, Technique, techniques
+from msaa_lint.experiments.study.scenes import scene
+from msaa_lint.experiments.study.scenes.scene import Scene
+from msaa_lint.experiments.study.times import Clock
 
 
 @dataclasses.dataclass

@@ -21,9 +21,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from msaa_lint.confirm.families import Family
-from msaa_lint.confirm.messages import bare, classify
-from msaa_lint.confirm.noise import Noise
+from msaa_lint.experiments.confirm.families import Family
+from msaa_lint.experiments.confirm.messages import bare, classify
+from msaa_lint.experiments.confirm.noise import Noise
 
 PAGE = Path(__file__).parent / "captures-and-the-layer.md"
 ROOT = PAGE.parent.parent

@@ -1,4 +1,4 @@
-"""Writes the table of docs/study-numbers.md: hard cases, the exact answer, and what naive float32, float64 and msaa_lint.study give.
+"""Writes the table of docs/study-numbers.md: hard cases, the exact answer, and what naive float32, float64 and the study give.
 
 `python docs/study_numbers.py` writes it, `--check` only says whether it is fresh. Exact answers are rational arithmetic (fractions).
 """
@@ -16,10 +16,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from msaa_lint.study import coverage
-from msaa_lint.study.effects import depth_resolve, hdr, tone_mapping
-from msaa_lint.study.measure import total
-from msaa_lint.study.resolve import average, to_srgb, to_unorm, weighted
+from msaa_lint.experiments.study import coverage
+from msaa_lint.experiments.study.effects import depth_resolve, hdr, tone_mapping
+from msaa_lint.experiments.study.measure import total
+from msaa_lint.experiments.study.resolve import average, to_srgb, to_unorm, weighted
 
 PAGE = Path(__file__).parent / "study-numbers.md"
 CENTER = np.array([[128, 128]])

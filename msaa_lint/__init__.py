@@ -5,13 +5,14 @@
 
 from __future__ import annotations
 
+from .core.package import VERSION as __version__
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from .finding import Result
+    from .core.finding import Result
 
-__version__ = "0.1.0"
 __all__ = ["__version__", "lint"]
 
 
@@ -34,7 +35,7 @@ def lint(
     mistake in an input, a page or the configuration is a finding (MSAA9xx), never an exception. The other arguments are the command's
     options.
     """
-    from .run import Request, run
+    from .linter.run import Request, run
 
     overrides = {
         "select": select, "extend_select": extend_select, "ignore": ignore, "rules": rules, "profile": profile, "edition": edition,

@@ -6,7 +6,7 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from .document.shapes import Json, structure
+from tests.frame.description.shapes import Json, structure
 
 SECTIONS = {
     "images": ["image", "srcImage", "dstImage", "resolveImage"],

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import textwrap
 
-from msaa_lint.finding import Span
+from msaa_lint.core.text.span import Span
 
 OPEN, CLOSE = "⟦", "⟧"
 

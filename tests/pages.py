@@ -6,7 +6,9 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-RULES = Path(__file__).parent.parent / "rules"
+from tests.paths import ROOT
+
+RULES = ROOT / "rules"
 
 _FENCE = re.compile(r"^```(?P<language>\w+) (?P<kind>bad|fixed|good)\b[^\n]*\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
 _MARK = re.compile(r"^(?:#|//)\s*(?P<carets>\^+)\s*(?P<words>.*)$")

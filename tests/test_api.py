@@ -11,7 +11,7 @@ import pytest
 
 import msaa_lint
 from msaa_lint import lint
-from msaa_lint.finding import Finding, Result
+from msaa_lint.core.finding import Finding, Result
 
 BAD = """\
 images:

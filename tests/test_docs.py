@@ -6,11 +6,10 @@ import os
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parent.parent
+from tests.paths import ROOT
 
 GENERATED = {
     "rules/README.md": ["-m", "msaa_lint", "rule", "--all", "--output", "markdown"],

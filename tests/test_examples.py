@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 
 import pytest
 
 from msaa_lint import lint
+from tests.paths import ROOT
 
-EXAMPLES = Path(__file__).parent.parent / "examples"
+EXAMPLES = ROOT / "examples"
 
 EXPECTED: dict[str, list[tuple[int, str]]] = {
     "khronos-msaa/inline.msaa.yaml": [],

@@ -11,12 +11,13 @@ import os
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parent.parent
+from tests.paths import ROOT
+
 PACKAGE = ROOT / "msaa_lint"
 
 HEAVY = frozenset({
@@ -24,10 +25,11 @@ HEAVY = frozenset({
     "importlib.resources", "inspect", "jsonschema", "logging", "multiprocessing", "numpy", "pathlib", "pathspec", "pydantic",
     "pydantic_core", "rich", "shellingham", "socket", "sqlite3", "ssl", "subprocess", "tempfile", "tomllib", "tree_sitter",
     "tree_sitter_c", "tree_sitter_cpp", "tree_sitter_glsl", "tree_sitter_swift", "typer", "unicodedata", "urllib", "vulkan", "xml",
-    "msaa_lint.baseline", "msaa_lint.cli.app", "msaa_lint.config_keys", "msaa_lint.document.fields", "msaa_lint.document.generate",
-    "msaa_lint.document.models", "msaa_lint.facts.metal", "msaa_lint.impeller", "msaa_lint.metal", "msaa_lint.readers.metal",
-    "msaa_lint.modules", "msaa_lint.programmed", "msaa_lint.programs", "msaa_lint.spirv",
-    "msaa_lint.toml_text", "msaa_lint.vulkan.generate",
+    "msaa_lint.cli.app", "msaa_lint.frame.description.fields", "msaa_lint.frame.description.generate",
+    "msaa_lint.frame.description.models", "msaa_lint.frame.facts.metal", "msaa_lint.frame.metal", "msaa_lint.frame.spirv",
+    "msaa_lint.frame.vulkan.generate", "msaa_lint.input.code", "msaa_lint.input.impeller", "msaa_lint.input.readers.metal",
+    "msaa_lint.input.shader_modules", "msaa_lint.input.source_file", "msaa_lint.linter.settings.config_keys",
+    "msaa_lint.linter.settings.toml_text", "msaa_lint.linter.suppress.baseline",
 })  # fmt: skip
 """Nothing of this, nor anything below it, on the way of a run without a configuration file, whatever it finds."""
 
@@ -61,7 +63,7 @@ def imported(folder: Path, text: str, *arguments: str) -> tuple[subprocess.Compl
     command = [sys.executable, "-X", "importtime", "-m", "msaa_lint", "check", *arguments, "one.msaa.yaml"]
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
     found = frozenset(re.findall(r"^import time:.*\|\s*([\w.]+)\s*$", done.stderr, re.MULTILINE))
-    assert {"msaa_lint.run", "msaa_lint.source.tree", "yaml"} <= found, done.stderr
+    assert {"msaa_lint.linter.run", "msaa_lint.core.text.tree", "yaml"} <= found, done.stderr
     return done, found
 
 
@@ -106,8 +108,8 @@ def test_source_code_that_is_passed_over_loads_no_grammar(tmp_path: Path) -> Non
     (tmp_path / "other.cpp").write_text("int main() {}\n")
     done, found = imported(tmp_path, CLEAN, ".")
     assert done.returncode == 0, done.stdout
-    assert "msaa_lint.programs.mentions" in found
-    light = {"msaa_lint.programs", "msaa_lint.programs.mentions"}
+    assert "msaa_lint.input.code.mentions" in found
+    light = {"msaa_lint.input.code", "msaa_lint.input.code.mentions"}
     assert below(found - light, HEAVY | NEAREST | WRITING) == []
 
 
@@ -116,93 +118,136 @@ def test_version_loads_nothing_of_ours(tmp_path: Path) -> None:
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     found = re.findall(r"\|\s*(msaa_lint[\w.]*)\s*$", done.stderr, re.MULTILINE)
     assert done.stdout.startswith("msaa-lint ")
-    assert found == ["msaa_lint"]
+    assert set(found) == {"msaa_lint", "msaa_lint.core", "msaa_lint.core.package"}
 
 
-MODULES = sorted(PACKAGE.rglob("*.py"))
+ROOMS = ("core", "frame", "input", "linter", "experiments", "cli")
+"""From the ground up: each imports only those before it."""
 
+MAX_ENTRIES = 8
+"""At the top of the package: the rooms, `__init__` and `__main__`."""
 
-def name_of(path: Path) -> str:
-    """`report.full` of msaa_lint/report/full.py; a package goes by its folder."""
-    return ".".join(path.relative_to(PACKAGE).with_suffix("").parts).removesuffix(".__init__")
+MAX_LEVELS = 9
 
-
-MAY_IMPORT = {
-    "source": {"source", "finding"},
-    "finding": {"source"},
-    "vulkan": {"vulkan"},
-    "devices": {"devices", "vulkan"},
-    "spirv": {"spirv"},
-    "metal": {"metal", "devices", "vulkan"},
-    "document": {"document", "finding", "metal", "source", "vulkan"},
-    "captures": {"captures", "devices", "document", "source", "vulkan"},
-    "impeller": {"impeller", "devices", "document", "finding", "source"},
-    "readers": {"readers", "captures", "devices", "document", "finding", "impeller", "metal", "source", "vulkan"},
-    "programs": {"programs", "document", "finding", "readers", "source", "spirv", "vulkan"},
-    "facts": {"facts", "devices", "document", "finding", "metal", "spirv", "vulkan"},
-    "cost": {"cost", "devices", "document", "facts", "finding", "vulkan"},
-    "confirm": {
-        "confirm", "condition", "cost", "devices", "diagnostics", "discovery", "document", "engine", "facts", "finding", "fixes",
-        "inputs", "profiles", "programmed", "readers", "run", "source", "spirv", "vulkan",
-    },
-    "study": {
-        "__version__", "study", "confirm", "cost", "devices", "document", "facts", "finding", "readers", "source", "studied", "vulkan",
-    },
-    "report": {"report", "confirm", "cost", "finding", "source", "study"},
-}  # fmt: skip
-"""The arrows of CONTRIBUTING.md: a part, and all of ours that it may know."""
+MODULES = {".".join(path.relative_to(PACKAGE).with_suffix("").parts): path for path in sorted(PACKAGE.rglob("*.py"))}
+TREES = {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in MODULES.items()}
+"""By name below the package, `report.full` or `report.__init__`; each parsed once."""
 
 ONLY_IN = {
-    "pydantic": {"document.metal_models", "document.models", "document.struct", "document.fields", "document.generate", "cli.schema"},
+    "pydantic": {"cli.schema", "frame.description"},
     "typer": {"cli.app"},
-    "yaml": {"source.comments", "source.events", "source.pure", "source.tree"},
-    "cel_expr_python": {"condition"},
-    "vulkan_object": {"vulkan.generate"},
-    "orjson": {"captures.json_stream", "readers.fossilize_objects"},
-    "vulkan": {"confirm.binding"},
-    "tree_sitter": {name_of(path) for path in MODULES if name_of(path).startswith("programs.")},
+    "yaml": {"core.text"},
+    "cel_expr_python": {"linter.rules.condition"},
+    "vulkan_object": {"frame.vulkan.generate"},
+    "orjson": {"input.captures.json_stream", "input.readers.fossilize_objects"},
+    "vulkan": {"experiments.confirm.binding"},
+    "tree_sitter": {"input.code"},
+    "matplotlib": {"cli.report"},
+    "numpy": {"experiments.study"},
 }
-"""Packages of others, and the modules that may import them."""
+"""Packages of others, and the modules or rooms that may import them."""
 
 
-def imports(path: Path) -> Iterator[str]:
-    """What a module imports anywhere in it, whole names; of ours without `msaa_lint`, with a dot in front."""
-    folder = ["", *path.relative_to(PACKAGE).parent.parts]
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+def module_of(name: str) -> str | None:
+    """The module that a dotted name below the package is."""
+    package = f"{name}.__init__" if name else "__init__"
+    return name if name in MODULES else package if package in MODULES else None
+
+
+def imports(module: str) -> Iterator[str]:
+    """What a module imports, anywhere in it: modules of ours with a dot in front, packages of others by their first name."""
+    folder = module.split(".")[:-1]
+    for node in ast.walk(TREES[module]):
         if isinstance(node, ast.Import):
             for alias in node.names:
-                yield alias.name.replace("msaa_lint.", ".", 1) if alias.name.startswith("msaa_lint.") else alias.name
+                own = alias.name.startswith("msaa_lint")
+                yield f".{module_of(alias.name.partition('.')[2])}" if own else alias.name.split(".")[0]
         elif isinstance(node, ast.ImportFrom):
-            base = ".".join(folder[: len(folder) - node.level + 1]) if node.level else ""
-            module = f"{base}.{node.module}" if node.level and node.module else node.module or base
-            module = "." + module.removeprefix("msaa_lint.") if module.startswith("msaa_lint.") else module
-            if module in ("", "msaa_lint"):
-                yield from (f".{alias.name}" for alias in node.names)
-            else:
-                yield module
+            if not node.level and not (node.module or "").startswith("msaa_lint"):
+                yield (node.module or "").split(".")[0]
+                continue
+            parts = (
+                [*folder[: len(folder) - node.level + 1], *(node.module or "").split(".")]
+                if node.level
+                else (node.module or "").split(".")[1:]
+            )
+            base = ".".join(part for part in parts if part)
+            for alias in node.names:
+                found = module_of(f"{base}.{alias.name}" if base else alias.name) or module_of(base)
+                assert found is not None, f"{module} imports {base} {alias.name}"
+                yield f".{found}"
 
 
-def test_reads_imports_of_every_form() -> None:
-    assert {".finding", ".report.escape", "__future__"} <= set(imports(PACKAGE / "report" / "full.py"))
-    assert ".run" in set(imports(PACKAGE / "__init__.py"))
-    assert ".baseline" in set(imports(PACKAGE / "run.py")), "`from . import baseline`, within a function"
+ARROWS = {(module, name[1:]) for module in MODULES for name in imports(module) if name.startswith(".") and name[1:] != module}
 
 
-@pytest.mark.parametrize("part", MAY_IMPORT)
-def test_a_part_knows_only_what_comes_before_it(part: str) -> None:
-    modules = [path for path in MODULES if name_of(path).split(".")[0] == part]
-    assert modules
-    found = {f"{name_of(path)}: {name}" for path in modules for name in imports(path) if name.startswith(".")}
-    assert {line for line in found if line.split(": .")[1].split(".")[0] not in MAY_IMPORT[part]} == set()
+def circles(arrows: Mapping[str, set[str]]) -> set[str]:
+    """Those that can be reached from themselves."""
+    left = {name: set(targets) for name, targets in arrows.items()}
+    while free := {name for name, targets in left.items() if not targets & left.keys()}:
+        left = {name: targets for name, targets in left.items() if name not in free}
+    # What is left imports a circle or is on one.
+    while free := {name for name in left if not any(name in targets for targets in left.values())}:
+        left = {name: targets for name, targets in left.items() if name not in free}
+    return set(left)
 
 
-def test_only_the_commands_know_the_command_line() -> None:
-    knowing = {name_of(path) for path in MODULES if any(name == ".cli" or name.startswith(".cli.") for name in imports(path))}
-    assert {name for name in knowing if name != "__main__" and not name.startswith("cli.")} == set()
+def within(folder: str) -> dict[str, set[str]]:
+    """The arrows between the entries of a folder, a subfolder being one entry; `` is the package itself."""
+    depth = len(folder.split(".")) if folder else 0
+    found: dict[str, set[str]] = {}
+    for source, target in ARROWS:
+        ends = [source.split("."), target.split(".")]
+        if all(not folder or end[:depth] == folder.split(".") for end in ends):
+            a, b = (end[depth] for end in ends)
+            if a != b:
+                found.setdefault(a, set()).add(b)
+    return found
+
+
+def test_imports_are_found() -> None:
+    assert {".core.finding", ".cli.report.escape", "__future__"} <= set(imports("cli.report.full"))
+    assert ".linter.run" in set(imports("__init__")), "within a function"
+
+
+def test_the_top_is_easy_to_take_in() -> None:
+    entries = {path.name for path in PACKAGE.iterdir() if path.name != "__pycache__"}
+    assert entries == {*ROOMS, "__init__.py", "__main__.py"}
+    assert len(entries) <= MAX_ENTRIES
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_a_room_imports_only_rooms_below_it(room: str) -> None:
+    below = {*ROOMS[: ROOMS.index(room) + 1]}
+    assert {arrow for arrow in ARROWS if arrow[0].split(".")[0] == room and arrow[1].split(".")[0] not in below} == set()
+
+
+def test_no_module_is_in_a_circle() -> None:
+    arrows: dict[str, set[str]] = {}
+    for source, target in ARROWS:
+        arrows.setdefault(source, set()).add(target)
+    assert circles(arrows) == set()
+
+
+@pytest.mark.parametrize("folder", sorted({name.rpartition(".")[0] for name in MODULES}))
+def test_no_folder_has_a_circle(folder: str) -> None:
+    assert circles(within(folder)) == set()
+
+
+def test_rooms_are_few_levels_deep() -> None:
+    arrows = within("")
+    levels: dict[str, int] = {}
+
+    def level(name: str) -> int:
+        if name not in levels:
+            levels[name] = 1 + max(map(level, arrows.get(name, ())), default=0)
+        return levels[name]
+
+    assert max(map(level, arrows)) <= MAX_LEVELS
 
 
 @pytest.mark.parametrize("package", ONLY_IN)
 def test_a_package_is_known_in_one_place(package: str) -> None:
-    knowing = {name_of(path) for path in MODULES if any(name.split(".")[0] == package for name in imports(path))}
-    assert knowing <= ONLY_IN[package]
+    knowing = {module for module in MODULES if package in imports(module)}
+    assert {module for module in knowing if not any(f"{module}.".startswith(f"{place}.") for place in ONLY_IN[package])} == set()
     assert knowing

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import pytest
 
-from msaa_lint.catalogue import load
-from msaa_lint.engine import Engine
-from msaa_lint.finding import Finding
-from msaa_lint.page import Rule
+from msaa_lint.core.finding import Finding
+from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.rules.registry import load
+from msaa_lint.linter.rules.rule_file import Rule
 
 ENGINE = Engine(load())
 

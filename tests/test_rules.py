@@ -7,13 +7,12 @@ from collections.abc import Callable
 
 import pytest
 
-from msaa_lint.catalogue import EDITIONS, check_rule, load, markdown
-from msaa_lint.condition import Condition
-from msaa_lint.engine import Engine, Linted
-from msaa_lint.page import Rule
-from msaa_lint.programmed import programmed
-
-from .pages import DESCRIPTIONS, PROGRAMS, RULES, Example, all_examples, examples
+from msaa_lint.input.source_file import programmed
+from msaa_lint.linter.engine import Engine, FileResult
+from msaa_lint.linter.rules.condition import Condition
+from msaa_lint.linter.rules.registry import EDITIONS, check_rule, load, markdown
+from msaa_lint.linter.rules.rule_file import Rule
+from tests.pages import DESCRIPTIONS, PROGRAMS, RULES, Example, all_examples, examples
 
 CATALOGUE = load()
 BY_NAME = {rule.name: rule for rule in CATALOGUE.rules}
@@ -26,14 +25,14 @@ def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
     return "note" if rule.vendors and vendor not in rule.vendors else suggested
 
 
-def lint(text: str, severity: Callable[[Rule, str, str | None], str | None] = as_written, language: str = "yaml") -> Linted:
+def lint(text: str, severity: Callable[[Rule, str, str | None], str | None] = as_written, language: str = "yaml") -> FileResult:
     name = str(RULES / f"example.{language}")
     if language in PROGRAMS:
         return ENGINE.lint(programmed(text.encode(), name, language), name, severity)
     return ENGINE.lint(text.encode(), name, severity)
 
 
-def places(linted: Linted, rule: str) -> list[tuple[int, int, int]]:
+def places(linted: FileResult, rule: str) -> list[tuple[int, int, int]]:
     found = []
     for finding in linted.findings:
         if finding.rule == rule:
@@ -103,6 +102,6 @@ def test_good_and_fixed_examples_do_not_fire(example: Example) -> None:
 @pytest.mark.parametrize("rule", CATALOGUE.rules, ids=lambda rule: rule.name)
 def test_nothing_known_decides_nothing(rule: Rule) -> None:
     """Without facts no condition holds: unknown is not wrong."""
-    from msaa_lint.condition import activation
+    from msaa_lint.linter.rules.condition import activation
 
     assert Condition(rule.when, rule.subject).holds(activation(rule.subject, {})) is not True

@@ -7,16 +7,17 @@ from pathlib import Path
 
 import pytest
 
-from msaa_lint import lint, readers
-from msaa_lint.catalogue import load
-from msaa_lint.engine import Engine
-from msaa_lint.finding import Finding, Result
-from msaa_lint.modules import Modules
-from msaa_lint.source.text import Source
-from msaa_lint.source.tree import Limits, parse
+from msaa_lint import lint
+from msaa_lint.core.finding import Finding, Result
+from msaa_lint.core.text.source import Source
+from msaa_lint.core.text.tree import Limits, parse
+from msaa_lint.input import readers
+from msaa_lint.input.shader_modules import Modules
+from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.rules.registry import load
+from tests.paths import ROOT
 
-ROOT = Path(__file__).parent.parent
-OWN = ROOT / "tests" / "spirv" / "shaders"
+OWN = ROOT / "tests" / "frame" / "spirv" / "shaders"
 RULES = ROOT / "rules" / "shaders"
 
 
@@ -452,7 +453,7 @@ def test_modules_that_came_with_the_input_are_looked_at_first(tmp_path: Path) ->
 
 def test_many_large_modules_are_not_all_read(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     code = (OWN / "no_alpha.frag.spv").read_bytes()
-    monkeypatch.setattr("msaa_lint.modules.MAX_WORK", len(code) // 4 + 100)
+    monkeypatch.setattr("msaa_lint.input.shader_modules.MAX_WORK", len(code) // 4 + 100)
     names = ["no_alpha.frag", "alpha_one.frag", "alpha_stored.frag"]
     pipelines = "".join(pipeline(name, NEEDED).replace("own:", f"own{n}:").replace("pipelines:\n", "") for n, name in enumerate(names))
     result = linted(tmp_path, f"pipelines:\n{pipelines}", *names)

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import re
 from functools import cache
-from pathlib import Path
 
 import pytest
 
 from msaa_lint import lint
+from tests.paths import ROOT
 
-ROOT = Path(__file__).parent.parent
 EXAMPLES = ROOT / "examples"
 PAIR = re.compile(r"`([a-z0-9-]+)` at `([\w./-]+):(\d+)`")
 

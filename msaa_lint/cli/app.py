@@ -8,9 +8,10 @@ from typing import Annotated, Any, Literal
 
 import typer
 
-from .. import __version__
-from ..programs import LANGUAGES
-from ..readers import CAPTURES
+from msaa_lint.core.package import VERSION
+from msaa_lint.input.code import LANGUAGES
+from msaa_lint.input.readers import CAPTURES
+
 from .confirm_options import CONFIRM
 from .options import CHECK, SHARED, Option
 from .study_options import STUDY
@@ -26,7 +27,7 @@ app = typer.Typer(
 
 def _version(asked: bool) -> None:
     if asked:
-        typer.echo(f"msaa-lint {__version__}")
+        typer.echo(f"msaa-lint {VERSION}")
         raise typer.Exit
 
 

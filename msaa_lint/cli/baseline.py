@@ -6,10 +6,11 @@ import os
 import sys
 from collections.abc import Sequence
 
-from .. import baseline as counts
-from ..report.escape import visible
-from ..report.summary import plural
-from ..run import Request, run
+from msaa_lint.linter.run import Request, run
+from msaa_lint.linter.suppress import baseline as counts
+
+from .report.escape import visible
+from .report.summary import plural
 
 
 def baseline(paths: Sequence[str], file: str, prune: bool, config: str | None, isolated: bool) -> int:

@@ -7,10 +7,11 @@ import sys
 from collections.abc import Mapping, Sequence
 from typing import IO, Any
 
-from .. import __version__
-from ..discovery import STDIN
-from ..finding import rank, sure
-from ..run import Outcome, Request, run
+from msaa_lint.core.finding import is_confident, rank
+from msaa_lint.core.package import VERSION
+from msaa_lint.input.discovery import STDIN
+from msaa_lint.linter.run import Outcome, Request, run
+
 from .common import Target, colored, ended, outputs, settings, utf_8
 from .options import FORMATS
 
@@ -32,7 +33,7 @@ def _check(given: Mapping[str, Any]) -> int:
     outcome = run(request(given, targets, fallback), _progress())
     if not targets:
         targets = outputs(outcome.settings.output, FORMATS, EXAMPLE) or [Target(fallback, None)]
-    from ..report.escape import visible
+    from .report.escape import visible
 
     for note in outcome.notes:
         print(f"msaa-lint: {visible(note)}", file=sys.stderr)
@@ -51,8 +52,8 @@ def _check(given: Mapping[str, Any]) -> int:
 
 def _fixed(targets: list[Target], outcome: Outcome, given: Mapping[str, Any]) -> int | None:
     """Prints what fixes did, or would do; the exit code where that is all. What goes to standard output then has it for itself."""
-    from ..report.escape import visible
     from .fixing import print_diff, print_text, remarks
+    from .report.escape import visible
 
     written = not given.get("diff")
     if not written or STDIN in given["paths"]:
@@ -105,7 +106,7 @@ def exit_code(outcome: Outcome, exit_zero: bool = False) -> int:
     if exit_zero:
         return 0
     least, confidence = rank(outcome.settings.fail_on), outcome.settings.fail_confidence
-    failing = any(rank(found.severity) >= least and sure(found, confidence) for found in outcome.result.findings)
+    failing = any(rank(found.severity) >= least and is_confident(found, confidence) for found in outcome.result.findings)
     return int(failing or bool(_dear(outcome)))
 
 
@@ -113,14 +114,14 @@ def _dear(outcome: Outcome) -> list[str]:
     """The inputs whose findings cost together what `fail-on-cost` allows, or more."""
     if outcome.settings.fail_on_cost is None:
         return []
-    from ..budget import budget, reached
+    from msaa_lint.linter.settings.cost_limit import budget, reached
 
     limit = budget(outcome.settings.fail_on_cost)
     return [file for file, price in outcome.charged.items() if reached(price, limit)]
 
 
 def _print(target: Target, outcome: Outcome, given: Mapping[str, Any]) -> bool:
-    from ..report import render
+    from .report import render
 
     if target.path not in (None, ERRORS):
         try:
@@ -134,7 +135,7 @@ def _print(target: Target, outcome: Outcome, given: Mapping[str, Any]) -> bool:
     utf_8(out)
     options = _options(target, outcome, given, out)
     if given.get("statistics") and target.format in ("full", "concise"):
-        from ..report.statistics import render as count
+        from .report.statistics import render as count
 
         count(outcome.result, out.write, options)
     else:
@@ -144,7 +145,7 @@ def _print(target: Target, outcome: Outcome, given: Mapping[str, Any]) -> bool:
 
 
 def _options(target: Target, outcome: Outcome, given: Mapping[str, Any], out: IO[str]) -> Any:
-    from ..report import Options
+    from .report import Options
 
     terminal = out.isatty()
     width = 0
@@ -157,7 +158,7 @@ def _options(target: Target, outcome: Outcome, given: Mapping[str, Any], out: IO
         color=target.format in ("full", "concise") and colored(given.get("color", "auto"), terminal),
         width=width or 140,
         root=os.environ.get("GITHUB_WORKSPACE", "") if target.format in ("github", "sarif") else _gitlab_root(target.format),
-        version=__version__,
+        version=VERSION,
         edition=edition or "",
         show_suppressed=bool(given.get("show_suppressed")),
         statistics=bool(given.get("statistics")),

@@ -45,7 +45,7 @@ def ended(
     try:
         return command(given)
     except told as error:
-        from ..report.escape import visible
+        from .report.escape import visible
 
         print(f"msaa-lint: {visible(str(error))}", file=sys.stderr)
         return 2
@@ -58,7 +58,7 @@ def ended(
     except Exception as error:
         if given.get("traceback"):
             raise
-        from ..report.escape import visible
+        from .report.escape import visible
 
         reason = visible(str(error)[:300])
         print(f"msaa-lint: the program failed: {type(error).__name__}: {reason} (--traceback shows where)", file=sys.stderr)
@@ -90,7 +90,7 @@ def outputs(stated: Sequence[str], formats: Sequence[str], example: str) -> list
     for text in stated:
         name, equals, path = text.partition("=")
         if name not in formats:
-            from ..vulkan.names import nearest
+            from msaa_lint.frame.vulkan.names import nearest
 
             close = nearest(name, formats)
             hint = f"did you mean {close}?" if close else f"there are {', '.join(formats)}"

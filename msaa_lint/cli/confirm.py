@@ -8,14 +8,15 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import IO, TYPE_CHECKING, Any, NamedTuple
 
-from .. import __version__
-from ..confirm.child import Limits
-from ..confirm.results import NotWritten, Unusable
-from ..report.escape import visible
+from msaa_lint.core.package import VERSION
+from msaa_lint.experiments.confirm.child import Limits
+from msaa_lint.experiments.confirm.results import NotWritten, Unusable
+
 from .common import MOST_PIXELS, Mistake, Target, colored, ended, outputs, settings, size, written
+from .report.escape import visible
 
 if TYPE_CHECKING:
-    from ..confirm.session import Session
+    from msaa_lint.experiments.confirm.session import Session
 
 FORMATS = ("full", "json")
 COUNTS = (1, 2, 4, 8, 16, 32, 64)
@@ -80,7 +81,7 @@ def _confirm(given: Mapping[str, Any]) -> int:
     if not given["paths"]:
         raise Mistake("PATH... is due: files and folders to confirm, or --list-devices")
     asked = options(given)
-    from ..confirm.session import Session, environment
+    from msaa_lint.experiments.confirm.session import Session, environment
 
     with Session(asked.devices[0], validation=asked.layer, limits=asked.limits, environment=environment(asked.devices[0])) as first:
         # The device opens while we read.
@@ -89,8 +90,8 @@ def _confirm(given: Mapping[str, Any]) -> int:
 
 
 def _tried(given: Mapping[str, Any], asked: Options, first: Session) -> int:
-    from ..confirm.session import Session, environment
-    from ..confirm.trial import Terms, trial
+    from msaa_lint.experiments.confirm.session import Session, environment
+    from msaa_lint.experiments.confirm.trial import Terms, trial
 
     terms = Terms(asked.gate, asked.image, asked.time, asked.repeats, asked.size, asked.samples, len(asked.devices) > 1, asked.resolves)
     runs = []
@@ -107,7 +108,7 @@ def _tried(given: Mapping[str, Any], asked: Options, first: Session) -> int:
         with Session(name, validation=asked.layer, limits=asked.limits, environment=environment(name)) as session:
             runs.append(trial(session, read, terms, meanwhile=_warm))
     (read_inputs,) = found
-    from ..confirm.outcome import exit_code
+    from msaa_lint.experiments.confirm.outcome import exit_code
 
     for note in read_inputs.notes:
         print(f"msaa-lint: {visible(note)}", file=sys.stderr)
@@ -132,8 +133,8 @@ def _warm() -> None:
 
 
 def _inputs(given: Mapping[str, Any]) -> Any:
-    from ..confirm.inputs import inputs
-    from ..run import Request
+    from msaa_lint.experiments.confirm.inputs import inputs
+    from msaa_lint.linter.run import Request
 
     return inputs(
         Request(
@@ -149,12 +150,12 @@ def _inputs(given: Mapping[str, Any]) -> Any:
 
 def _render(format: str, runs: Sequence[Any], wrong: Sequence[Any], given: Mapping[str, Any], out: IO[str]) -> None:
     if format == "json":
-        from ..report.confirm_json import render as as_json
+        from .report.confirm_json import render as as_json
 
-        as_json(runs, wrong, out.write, __version__)
+        as_json(runs, wrong, out.write, VERSION)
         return
-    from ..report import Options as Shown
-    from ..report.confirm_text import render
+    from .report import Options as Shown
+    from .report.confirm_text import render
 
     terminal = out.isatty()
     width = 140
@@ -168,11 +169,11 @@ def _render(format: str, runs: Sequence[Any], wrong: Sequence[Any], given: Mappi
 
 def list_devices(given: Mapping[str, Any]) -> int:
     """Prints the devices that the loader finds; 2 where it finds none."""
-    from ..confirm.outcome import about
-    from ..confirm.session import Session
+    from msaa_lint.experiments.confirm.outcome import about
+    from msaa_lint.experiments.confirm.session import Session
 
     asked = options(given)
-    with Session(limits=asked.limits, execute="msaa_lint.confirm.devices") as session:
+    with Session(limits=asked.limits, execute="msaa_lint.experiments.confirm.devices") as session:
         found = [about(device) for device in session.devices()]
     if any(target.format == "json" for target in asked.targets):
         import json

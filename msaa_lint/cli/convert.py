@@ -7,14 +7,15 @@ import sys
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from ..inputs import load
-from ..programmed import Programmed
-from ..report.escape import visible
-from ..source.text import Source, Unreadable, decode
-from ..source.tree import Limits, parse
+from msaa_lint.core.text.source import Source, Unreadable, decode
+from msaa_lint.core.text.tree import Limits, parse
+from msaa_lint.input.opening import load
+from msaa_lint.input.source_file import SourceFile
+
+from .report.escape import visible
 
 if TYPE_CHECKING:
-    from ..document.document import Document
+    from msaa_lint.frame.description.document import Document
 
 
 def convert(path: str, output: str | None, format: str | None, force: bool) -> int:
@@ -29,7 +30,7 @@ def convert(path: str, output: str | None, format: str | None, force: bool) -> i
         return _failed(path, getattr(error, "strerror", None) or str(error))
     if isinstance(made, bytes):
         return _text(path, made, output, format, force)
-    if isinstance(made, Programmed):
+    if isinstance(made, SourceFile):
         return _program(path, made, output, force)
     if not _output(made.source.text, made.modules, output, force):
         return 2
@@ -40,8 +41,8 @@ def convert(path: str, output: str | None, format: str | None, force: bool) -> i
 
 def _text(path: str, data: bytes, output: str | None, format: str | None, force: bool) -> int:
     """Writes the descriptions that the documents of a text give, one after another."""
-    from .. import readers
-    from ..source.written import written
+    from msaa_lint.core.text.emitter import written
+    from msaa_lint.input import readers
 
     name = "<stdin>" if path == "-" else path
     try:
@@ -63,9 +64,9 @@ def _text(path: str, data: bytes, output: str | None, format: str | None, force:
     return 0 if _output("---\n".join(map(written, trees)), {}, output, force) else 2
 
 
-def _program(path: str, code: Programmed, output: str | None, force: bool) -> int:
+def _program(path: str, code: SourceFile, output: str | None, force: bool) -> int:
     """Writes what was read of source code, a document for each of its parts. What had to be assumed is said beside it."""
-    from ..source.written import written
+    from msaa_lint.core.text.emitter import written
 
     name = visible(code.source.name)
     trees = [document.tree for document in code.program.documents if document.tree is not None]

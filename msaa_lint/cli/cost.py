@@ -9,18 +9,19 @@ from collections.abc import Mapping
 from functools import partial
 from typing import IO, Any, NamedTuple
 
-from .. import __version__
-from ..cost.amounts import Terms
-from ..cost.costed import Compared, compared
-from ..cost.samples import COUNTS
-from ..cost.variants import DEFAULT_COUNTS
-from ..finding import Result
-from ..project import shown
-from ..reckon import Reckoned, name_of, reckon, with_fixes
-from ..report import Options
-from ..report.escape import visible
-from ..run import Request
+from msaa_lint.core.finding import Result
+from msaa_lint.core.package import VERSION
+from msaa_lint.core.project import shown
+from msaa_lint.frame.cost.amounts import Terms
+from msaa_lint.frame.cost.input_cost import Compared, compared
+from msaa_lint.frame.cost.samples import COUNTS
+from msaa_lint.frame.cost.variants import DEFAULT_COUNTS
+from msaa_lint.linter.cost_run import CostResult, name_of, run_costs, with_fixes
+from msaa_lint.linter.run import Request
+
 from .common import Mistake, Target, colored, ended, outputs, size, utf_8, written
+from .report import Options
+from .report.escape import visible
 
 FORMATS = ("full", "json", "markdown")
 MOST = 2**31 - 1
@@ -35,7 +36,7 @@ def cost(given: Mapping[str, Any]) -> int:
 class Shown(NamedTuple):
     """What is printed: the frames, or the two inputs that are compared."""
 
-    reckoned: Reckoned
+    reckoned: CostResult
     compared: Compared | None
 
 
@@ -54,7 +55,7 @@ def _cost(given: Mapping[str, Any]) -> int:
         format=given.get("input_format"),
         stdin_filename=given.get("stdin_filename"),
     )
-    reckoned = reckon(request, terms, counts, with_fixes)
+    reckoned = run_costs(request, terms, counts, with_fixes)
     made = Shown(reckoned, _compared(reckoned, request, bool(given.get("each"))))
     for note in reckoned.notes:
         print(f"msaa-lint: {visible(note)}", file=sys.stderr)
@@ -66,7 +67,7 @@ def _cost(given: Mapping[str, Any]) -> int:
     return 2 if reckoned.wrong.findings else 0
 
 
-def _compared(reckoned: Reckoned, request: Request, each: bool) -> Compared | None:
+def _compared(reckoned: CostResult, request: Request, each: bool) -> Compared | None:
     """Two inputs that are named and no folders are compared; where one of them cannot be used, the other is shown alone."""
     if each or len(request.paths) != 2 or any(os.path.isdir(path) for path in request.paths):
         return None
@@ -105,7 +106,7 @@ def _above_zero(value: float, option: str) -> float:
 
 def _power(text: str) -> float:
     """Milliwatts of `2500`, `2500mW`, `2.5W`."""
-    from ..budget import budget
+    from msaa_lint.linter.settings.cost_limit import budget
 
     try:
         return _above_zero(float(text), "--budget")
@@ -127,11 +128,11 @@ def _print_errors(wrong: Result, given: Mapping[str, Any]) -> None:
     terminal = sys.stderr.isatty()
     options = _options(given, sys.stderr, True)
     if terminal:
-        from ..report.full import paragraph
+        from .report.full import paragraph
 
         lines = [paragraph(found, wrong, options, set()) + "\n" for found in wrong.findings]
     else:
-        from ..report.concise import line
+        from .report.concise import line
 
         lines = [line(found, wrong, options) for found in wrong.findings]
     utf_8(sys.stderr)
@@ -143,21 +144,21 @@ def _render(format: str, made: Shown, given: Mapping[str, Any], out: IO[str]) ->
     options = _options(given, out, format == "full")
     frames, wrong, both = made.reckoned.frames, made.reckoned.wrong, made.compared
     if format == "json":
-        from ..report import cost_json
+        from .report import cost_json
 
         if both is not None:
             cost_json.render_comparison(both, wrong, out.write, options)
         else:
             cost_json.render(frames, wrong, out.write, options)
     elif format == "markdown":
-        from ..report import cost_markdown
+        from .report import cost_markdown
 
         if both is not None:
             cost_markdown.render_comparison(both, out.write, options)
         else:
             cost_markdown.render(frames, wrong, out.write, options)
     else:
-        from ..report import cost_full
+        from .report import cost_full
 
         if both is not None:
             cost_full.render_comparison(both, out.write, options)
@@ -172,12 +173,12 @@ def _options(given: Mapping[str, Any], out: IO[str], paints: bool) -> Options:
         import shutil
 
         width = shutil.get_terminal_size().columns
-    return Options(color=paints and colored(given.get("color", "auto"), terminal), width=width, version=__version__)
+    return Options(color=paints and colored(given.get("color", "auto"), terminal), width=width, version=VERSION)
 
 
 def chart_format(path: str) -> str:
     """The format of a chart, by its file's ending."""
-    from ..cost.chart import FORMATS as KNOWN
+    from .report.cost_chart import FORMATS as KNOWN
 
     ending = os.path.splitext(path)[1].lower().removeprefix(".")
     if ending not in KNOWN:
@@ -186,9 +187,9 @@ def chart_format(path: str) -> str:
 
 
 def _draw(path: str, made: Shown) -> None:
-    from ..cost import chart
-    from ..report.cost_rows import head
-    from ..report.paths import shown_path
+    from .report import cost_chart as chart
+    from .report.cost_rows import head
+    from .report.paths import shown_path
 
     frames = made.reckoned.frames
     if made.compared is not None and len(made.compared.old) == len(made.compared.new) == 1:

@@ -7,15 +7,16 @@ import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal
 
-from ..devices import builtin, names
-from ..devices.mapping import description
-from ..devices.offer import Offer, builtin_offer, record
-from ..devices.paths import is_path, split
-from ..devices.reports import EXPECTED, MAX_BYTES, NotAReport, pick
-from ..devices.reports.found import Report
-from ..profiles import Problem, parsed, profile_of, reports
-from ..report.escape import shown
-from ..source.text import Unreadable
+from msaa_lint.core.text.source import Unreadable
+from msaa_lint.frame.devices import builtin, names
+from msaa_lint.frame.devices.mapping import description
+from msaa_lint.frame.devices.offer import Offer, builtin_offer, record
+from msaa_lint.frame.devices.paths import is_path, split
+from msaa_lint.frame.devices.reports import EXPECTED, MAX_BYTES, NotAReport, pick
+from msaa_lint.frame.devices.reports.members import Report
+from msaa_lint.frame.profiles import Problem, parsed, profile_of, reports
+
+from .report.escape import shown
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -128,8 +129,8 @@ def _stdin() -> list[Report]:
 
 
 def _running() -> list[Offer]:
-    from ..confirm.devices import running
-    from ..confirm.results import Unusable
+    from msaa_lint.experiments.confirm.devices import running
+    from msaa_lint.experiments.confirm.results import Unusable
 
     try:
         return [Offer(report) for report in running(MOST_SECONDS)]
@@ -162,7 +163,7 @@ def _list(output: Output) -> int:
 def _print(offers: Sequence[Offer]) -> None:
     from rich.table import Table
 
-    from ..devices import words
+    from msaa_lint.frame.devices import wording as words
 
     console = _console()
     with console.capture() as captured:

@@ -6,14 +6,15 @@ import sys
 from collections.abc import Iterable, Iterator
 from functools import partial
 
-from ..captured import Captured
-from ..document.document import Document
-from ..facts.facts import Subject
-from ..facts.table import FACTS, GLOBAL, SUBJECTS, Fact
-from ..inputs import load
-from ..report.escape import visible
-from ..source.text import Source, Unreadable, decode
-from ..source.tree import Limits, parse
+from msaa_lint.core.text.source import Source, Unreadable, decode
+from msaa_lint.core.text.tree import Limits, parse
+from msaa_lint.frame.description.document import Document
+from msaa_lint.frame.facts.facts import Subject
+from msaa_lint.frame.facts.table import FACTS, GLOBAL, SUBJECTS, Fact
+from msaa_lint.input.capture_input import CaptureInput
+from msaa_lint.input.opening import load
+
+from .report.escape import visible
 
 TYPES = {"BOOL": "bool", "INT": "int", "DOUBLE": "double", "STRING": "string", "LIST": "list(string)", "INTS": "list(int)"}
 
@@ -67,9 +68,9 @@ def _subjects(fact: Fact) -> list[str]:
 
 def of_input(path: str, output: str, profile: str | None) -> int:
     """Prints the facts of every subject of an input; 2 where it cannot be read."""
-    from .. import readers
-    from ..profiles import Problem, device_for, device_of
-    from ..programmed import Programmed
+    from msaa_lint.frame.profiles import Problem, device_for, device_of
+    from msaa_lint.input import readers
+    from msaa_lint.input.source_file import SourceFile
 
     try:
         data = load(path, Limits())
@@ -80,7 +81,7 @@ def of_input(path: str, output: str, profile: str | None) -> int:
     rows: list[dict[str, object]] = []
     wrong = False
     documents: Iterable[Document]
-    if isinstance(data, Programmed):
+    if isinstance(data, SourceFile):
         documents = data.program.documents
     else:
         parsed = parse(source, Limits())
@@ -89,11 +90,11 @@ def of_input(path: str, output: str, profile: str | None) -> int:
         wrong = bool(parsed.problems)
         documents = (readers.read(source, root) for root in parsed.documents)
     for document in documents:
-        from ..facts.subjects import subjects
-        from ..modules import Modules
-        from ..studied import studied
+        from msaa_lint.frame.facts.subjects import subjects
+        from msaa_lint.input.shader_modules import Modules
+        from msaa_lint.linter.study_record import studied
 
-        if isinstance(data, Captured):
+        if isinstance(data, CaptureInput):
             document = document._replace(modules=data.modules)
         for mistake in document.problems:
             where = source.position(mistake.span.start)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import sys
 
-from ..finding import Finding, Result
-from ..fixes.diff import unified
-from ..fixes.inputs import Mended
-from ..report.escape import visible
-from ..run import Outcome
+from msaa_lint.core.finding import Finding, Result
+from msaa_lint.linter.fixes.diff import unified
+from msaa_lint.linter.fixes.file_fixes import FixedText
+from msaa_lint.linter.run import Outcome
+
+from .report.escape import visible
 
 
 def print_text(outcome: Outcome, name: str) -> None:
@@ -50,6 +51,6 @@ def _more(result: Result) -> str:
     return f", {len(unsafe)} of them with an unsafe fix (--unsafe-fixes)" if unsafe else ""
 
 
-def _line(each: Mended, finding: Finding) -> str:
+def _line(each: FixedText, finding: Finding) -> str:
     source = each.linted.source
     return f":{source.position(finding.span.start).line}" if source is not None and finding.span is not None else ""

@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 import sys
 
-from .. import __version__
-from ..catalogue import EDITIONS
-from ..report.escape import visible
+from msaa_lint.core.package import VERSION
+from msaa_lint.linter.rules.registry import EDITIONS
+
+from .report.escape import visible
 
 CONFIGURATION = f"""\
 # msaa-lint's configuration. Every key may be left out; `msaa-lint rule --all` lists the rules.
@@ -65,7 +66,7 @@ HOOK = f"""\
 For pre-commit, in .pre-commit-config.yaml:
 
   - repo: https://github.com/msaa-lint/msaa-lint
-    rev: v{__version__}
+    rev: v{VERSION}
     hooks:
       - id: msaa-lint
 

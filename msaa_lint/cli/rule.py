@@ -5,12 +5,13 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from ..catalogue import load, markdown
-from ..diagnostics import DIAGNOSTICS
-from ..finding import RuleInfo
-from ..page import APIS, Rule
-from ..report.escape import visible
-from ..vulkan.names import nearest
+from msaa_lint.core.diagnostics import DIAGNOSTICS
+from msaa_lint.core.finding import RuleInfo
+from msaa_lint.frame.vulkan.names import nearest
+from msaa_lint.linter.rules.registry import load, markdown
+from msaa_lint.linter.rules.rule_file import APIS, Rule
+
+from .report.escape import visible
 
 
 def explain(name: str, own: Sequence[str], output: str) -> int:
@@ -81,7 +82,7 @@ def index(infos: Sequence[RuleInfo]) -> str:
 
 
 def _info(rule: Rule) -> RuleInfo:
-    from ..catalogue import info
+    from msaa_lint.linter.rules.registry import info
 
     return info(rule)
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 import re
 
-from ..vulkan.enums import BITLESS, ENUMS, PREFIXES, VALUES
-from ..vulkan.names import VENDORS
+from msaa_lint.frame.vulkan.enums import BITLESS, ENUMS, PREFIXES, VALUES
+from msaa_lint.frame.vulkan.names import VENDORS
 
 
 def schema(which: str) -> int:
@@ -16,7 +16,7 @@ def schema(which: str) -> int:
     if which == "description":
         print(json.dumps(description_schema(), indent=2))
     else:
-        path = os.path.join(os.path.dirname(os.path.dirname(__file__)), "report", f"{which.replace('-', '_')}.schema.json")
+        path = os.path.join(os.path.dirname(__file__), "report", f"{which.replace('-', '_')}.schema.json")
         with open(path, encoding="utf-8") as file:
             print(file.read(), end="")
     return 0
@@ -24,7 +24,7 @@ def schema(which: str) -> int:
 
 def description_schema() -> dict[str, object]:
     """The JSON Schema of a description, from the models."""
-    from ..document.models import Description
+    from msaa_lint.frame.description.models import Description
 
     enums: dict[str, object] = {}
     made = _spelled(Description.model_json_schema(), enums)
@@ -40,7 +40,7 @@ def description_schema() -> dict[str, object]:
 
 def _spelled(node: object, enums: dict[str, object]) -> object:
     """A schema with references to the spellings of its enums, which it adds to `enums`."""
-    from ..document.fields import ENUMERANT, FLAGS
+    from msaa_lint.frame.description.fields import ENUMERANT, FLAGS
 
     if isinstance(node, list):
         return [_spelled(item, enums) for item in node]
@@ -71,7 +71,7 @@ def spellings(enum: str) -> str:
 
 def of_metal(enum: str, every: bool = False) -> list[str]:
     """Swift's names of an enum of Metal's; `every` spelling of them."""
-    from ..metal import names
+    from msaa_lint.frame.metal import names
 
     return names.spellings(enum) if every else list(names.ENUMS[enum])
 

@@ -10,20 +10,21 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from typing import IO, TYPE_CHECKING, Any, NamedTuple
 
-from .. import __version__
-from ..confirm.results import NotWritten
-from ..confirm.results import Unusable as NoDevice
-from ..report.escape import visible
-from ..study.outcome import Pictured, Study, Untimed
-from ..study.points import COUNTS, KINDS, MSAA, Point, Technique, techniques
-from ..study.tasks import Failed, Task, Unusable
+from msaa_lint.core.package import VERSION
+from msaa_lint.experiments.confirm.results import NotWritten
+from msaa_lint.experiments.confirm.results import Unusable as NoDevice
+from msaa_lint.experiments.study.outcome import Pictured, Study, Untimed
+from msaa_lint.experiments.study.points import COUNTS, KINDS, MSAA, Point, Technique, techniques
+from msaa_lint.experiments.study.tasks import Failed, Task, Unusable
+
 from .common import MOST_PIXELS, Mistake, Target, colored, ended, outputs, size, written
+from .report.escape import visible
 from .study_subjects import Subject, subjects
 
 if TYPE_CHECKING:
-    from ..finding import Finding
-    from ..study.kept import Kept
-    from ..study.times import Cost, Model, Source
+    from msaa_lint.core.finding import Finding
+    from msaa_lint.experiments.study.checkpoint import Kept
+    from msaa_lint.experiments.study.times import Cost, Model, Source
 
 FORMATS = ("full", "json")
 PLOTS = (".svg", ".png")
@@ -111,7 +112,7 @@ def _cores() -> int:
 
 def list_scenes() -> int:
     """Prints the scenes that can be named, and what each is for."""
-    from ..study.scenes import SAYS
+    from msaa_lint.experiments.study.scenes import SAYS
 
     for name, says in SAYS.items():
         print(f"{name:16} {says}")
@@ -119,8 +120,8 @@ def list_scenes() -> int:
 
 
 def _study(given: Mapping[str, Any], asked: Wanted) -> int:
-    from ..study.kept import Kept
-    from ..study.sweep import ordered, sweep, with_cost
+    from msaa_lint.experiments.study.checkpoint import Kept
+    from msaa_lint.experiments.study.sweep import ordered, sweep, with_cost
 
     kept = Kept(given["resume"]) if "resume" in given else None
     pixels, studied, wrong, notes = subjects(given, asked.size)
@@ -161,8 +162,8 @@ def _found(
     wrong: Sequence[Finding],
 ) -> Study:
     """All that there is to print; pictures and records are written."""
-    from ..study.advice import advice
-    from ..study.pareto import marked
+    from msaa_lint.experiments.study.advice import advice
+    from msaa_lint.experiments.study.pareto import marked
 
     best = marked(points)
     reasons = {technique.name: cost.reason for own in priced.values() for technique, cost in own.items() if cost.reason}
@@ -200,8 +201,8 @@ def _priced(
     studied: Sequence[Subject], given: Mapping[str, Any], asked: Wanted, pixels: tuple[int, int], kept: Kept | None
 ) -> tuple[dict[str, dict[Technique, Cost]], str]:
     """By scene what each technique takes, and the device whose clock it is by."""
-    from ..study.sweep import costs
-    from ..study.times import Model
+    from msaa_lint.experiments.study.sweep import costs
+    from msaa_lint.experiments.study.times import Model
 
     found: dict[str, dict[Technique, Cost]] = {}
     with _clock(given) as clock, _bar(len(studied)) as progress:
@@ -219,7 +220,7 @@ def _source(clock: Any, subject: Subject, model: Model) -> contextlib.AbstractCo
     """Where the costs of a scene are from."""
     if clock is None:
         return contextlib.nullcontext(model)
-    from ..study.timed import Timed
+    from msaa_lint.experiments.study.scene_timing import Timed
 
     return Timed(clock, subject.picture, model)
 
@@ -230,7 +231,7 @@ def _clock(given: Mapping[str, Any]) -> Iterator[Any]:
     if "device" not in given:
         yield None
         return
-    from ..study.times import Clock
+    from msaa_lint.experiments.study.times import Clock
 
     with Clock(given["device"], repeats=given.get("repeats", 15)) as clock:
         yield clock
@@ -258,15 +259,15 @@ def _bar(total: int) -> Iterator[Any]:
 
 
 def _crops(given: Mapping[str, Any], asked: Wanted, studied: Sequence[Subject]) -> list[str]:
-    from ..confirm.png import Album
-    from ..study.crops import crops
+    from msaa_lint.experiments.confirm.png import Album
+    from msaa_lint.experiments.study.crops import crops
 
     album = Album(given["crops"])
     return [crops(album, subject.asked.name, subject.picture, asked.techniques, asked.bits) for subject in studied]
 
 
 def _plot(path: str, found: Study) -> None:
-    from ..report import study_plot
+    from .report import study_plot
 
     try:
         data = study_plot.plot(found, os.path.splitext(path)[1].lower().removeprefix("."))
@@ -283,7 +284,7 @@ def _plot(path: str, found: Study) -> None:
 
 def _records(studied: Sequence[Subject], found: Study) -> list[str]:
     """Writes the records of the descriptions, each for all documents of its file; none where a point of it failed."""
-    from ..study.record import Recorded, write
+    from msaa_lint.experiments.study.record import Recorded, write
 
     files: dict[str, list[Subject]] = {}
     for subject in studied:
@@ -306,12 +307,12 @@ def _records(studied: Sequence[Subject], found: Study) -> list[str]:
 
 def _render(format: str, found: Study, given: Mapping[str, Any], out: IO[str]) -> None:
     if format == "json":
-        from ..report.study_json import render as as_json
+        from .report.study_json import render as as_json
 
-        as_json(found, out.write, __version__)
+        as_json(found, out.write, VERSION)
         return
-    from ..report import Options as Shown
-    from ..report.study_text import render
+    from .report import Options as Shown
+    from .report.study_text import render
 
     terminal = out.isatty()
     width = 160

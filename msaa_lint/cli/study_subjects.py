@@ -6,13 +6,14 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..devices import DeviceProfile
-from ..study.tasks import Asked
+from msaa_lint.experiments.study.tasks import Asked
+from msaa_lint.frame.devices import DeviceProfile
+
 from .common import MOST_PIXELS, Mistake, settings
 
 if TYPE_CHECKING:
-    from ..facts.frame import Frame
-    from ..finding import Finding
+    from msaa_lint.core.finding import Finding
+    from msaa_lint.frame.facts.frame import Frame
 
 SIZE = (1920, 1080)
 MESHES = (".obj", ".ply")
@@ -40,7 +41,7 @@ class Subjects(NamedTuple):
 
 def subjects(given: Mapping[str, Any], size: tuple[int, int] | None) -> Subjects:
     """What the arguments name, at the size that they state, if they do. Mistake where one names nothing."""
-    from ..study.scenes import NAMES
+    from msaa_lint.experiments.study.scenes import NAMES
 
     named: list[Asked] = []
     paths: list[str] = []
@@ -67,7 +68,7 @@ def subjects(given: Mapping[str, Any], size: tuple[int, int] | None) -> Subjects
 
 def _picture(asked: Asked, pixels: tuple[int, int]) -> Any:
     """The scene of what is asked for. Mistake where it cannot be had."""
-    from ..study.sweep import picture
+    from msaa_lint.experiments.study.sweep import picture
 
     try:
         return picture(asked, *pixels)
@@ -82,7 +83,7 @@ def _picture(asked: Asked, pixels: tuple[int, int]) -> Any:
 
 
 def _unknown(word: str, names: Sequence[str]) -> str:
-    from ..vulkan.names import nearest
+    from msaa_lint.frame.vulkan.names import nearest
 
     close = nearest(word, names)
     help = f"did you mean {close}?" if close else f"scenes are {', '.join(names)}"
@@ -90,8 +91,8 @@ def _unknown(word: str, names: Sequence[str]) -> str:
 
 
 def _descriptions(paths: Sequence[str], given: Mapping[str, Any]) -> Any:
-    from ..confirm.inputs import Inputs, inputs
-    from ..run import Request
+    from msaa_lint.experiments.confirm.inputs import Inputs, inputs
+    from msaa_lint.linter.run import Request
 
     if not paths:
         return Inputs([], [], [])
@@ -108,7 +109,7 @@ def _descriptions(paths: Sequence[str], given: Mapping[str, Any]) -> Any:
 
 
 def _profile(given: Mapping[str, Any]) -> DeviceProfile | None:
-    from ..profiles import Problem, profile_of
+    from msaa_lint.frame.profiles import Problem, profile_of
 
     if "profile" not in given:
         return None

@@ -19,7 +19,7 @@ GOAL = 0.3
 
 ALONE = """
 import sys, time
-from tests.programs.generated import program
+from tests.input.code.generated import program
 text, places = program(int(sys.argv[1]))
 from msaa_lint.programs import read
 from msaa_lint.source.text import Source
@@ -39,7 +39,7 @@ def main() -> int:
 
 def table(folder: str, rounds: int) -> list[str]:
     sys.path.insert(0, ROOT)
-    from tests.programs.generated import program
+    from tests.input.code.generated import program
 
     text, _ = program(LINES)
     for name, content in (("program.cpp", text), ("empty.cpp", "int main() {}\n"), ("empty.msaa.yaml", "frame: {fps: 60}\n")):

@@ -15,11 +15,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from msaa_lint.study.coverage import rows
-from msaa_lint.study.exact_area import areas, areas_of
-from msaa_lint.study.fragments import fragments, masks
-from msaa_lint.study.locations import SUBPIXELS, standard
-from msaa_lint.vulkan.sample_locations import STANDARD
+from msaa_lint.experiments.study.coverage import rows
+from msaa_lint.experiments.study.exact_area import areas, areas_of
+from msaa_lint.experiments.study.fragments import fragments, masks
+from msaa_lint.experiments.study.locations import SUBPIXELS, standard
+from msaa_lint.frame.vulkan.sample_locations import STANDARD
 
 WIDTH, HEIGHT = 1920, 1080
 LARGE = np.array([[(10, 20), (WIDTH * SUBPIXELS - 77, 300 * SUBPIXELS), (500 * SUBPIXELS + 3, HEIGHT * SUBPIXELS - 9)]])

@@ -13,11 +13,11 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from msaa_lint.study import effects
-from msaa_lint.study.points import MSAA, SAMPLE_SHADING, Technique
-from msaa_lint.study.scenes import shapes
-from msaa_lint.study.scenes.scene import BLACK, Scene
-from msaa_lint.study.simulate import simulated
+from msaa_lint.experiments.study import effects
+from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, Technique
+from msaa_lint.experiments.study.scenes import shapes
+from msaa_lint.experiments.study.scenes.scene import BLACK, Scene
+from msaa_lint.experiments.study.simulate import simulated
 
 SIZE = (1920, 1080)
 FOUR = Technique(MSAA, 4)

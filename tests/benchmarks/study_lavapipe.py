@@ -14,12 +14,12 @@ import time
 import numpy as np
 from study_coverage import HEIGHT, LARGE, WIDTH, small
 
-from msaa_lint.study.coverage import rows
-from msaa_lint.study.drawn import clip
-from msaa_lint.study.fragments import masks
-from msaa_lint.study.locations import SUBPIXELS, standard
-from msaa_lint.study.points import MSAA, Technique
-from msaa_lint.study.times import Clock
+from msaa_lint.experiments.study.coverage import rows
+from msaa_lint.experiments.study.device_coverage import clip
+from msaa_lint.experiments.study.fragments import masks
+from msaa_lint.experiments.study.locations import SUBPIXELS, standard
+from msaa_lint.experiments.study.points import MSAA, Technique
+from msaa_lint.experiments.study.times import Clock
 
 
 def simulated(triangles: np.ndarray, samples: int, rounds: int) -> float:

@@ -10,12 +10,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from msaa_lint import __version__, readers
+from msaa_lint import __version__
 from msaa_lint.cli.options import CHECK, FORMATS, INPUT_FORMATS, SHARED, read
-from msaa_lint.programs import LANGUAGES
-from msaa_lint.report import FORMATS as REPORTED
-
-from .test_check import run
+from msaa_lint.cli.report import FORMATS as REPORTED
+from msaa_lint.input import readers
+from msaa_lint.input.code import LANGUAGES
+from tests.cli.test_check import run
 
 
 def test_version_and_help(tmp_path: Path) -> None:

@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from ..cost.test_reports import validator
-from .test_check import ROOT, run
+from tests.cli.test_check import ROOT, run
+from tests.frame.cost.test_reports import validator
 
 EXAMPLES = ROOT / "examples" / "khronos-msaa"
 INLINE, SEPARATE = str(EXAMPLES / "inline.msaa.yaml"), str(EXAMPLES / "color-separate.msaa.yaml")

@@ -10,8 +10,9 @@ from typing import Any
 
 import pytest
 
-from ..devices import reported
-from .test_check import run
+from tests.cli.test_check import run
+from tests.frame.devices import reported
+from tests.paths import ROOT
 
 EIGHT = """\
 device: {}
@@ -90,7 +91,7 @@ def test_json(folder: Path) -> None:
 
 def test_the_documentation_has_every_key(folder: Path) -> None:
     (found,) = devices(run(folder, "device", "phone.json", "--output", "json").stdout)
-    text = (Path(__file__).parents[2] / "docs" / "devices.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "devices.md").read_text(encoding="utf-8")
     rows = [line for line in text.splitlines() if line.startswith("| `")]
     documented = [name for row in rows for name in re.findall(r"`(\w+)`", row.split("|")[1])]
     assert sorted(documented) == sorted(found)
@@ -216,17 +217,17 @@ def test_no_driver(folder: Path) -> None:
 def test_without_the_package(folder: Path) -> None:
     (folder / "broken").mkdir()
     (folder / "broken" / "vulkan.py").write_text("raise ImportError(\"No module named 'vulkan'\", name='vulkan')\n")
-    done = run(folder, "device", PYTHONPATH=f"{folder / 'broken'}{os.pathsep}{Path(__file__).parents[2]}")
+    done = run(folder, "device", PYTHONPATH=f"{folder / 'broken'}{os.pathsep}{ROOT}")
     assert done.returncode == 2
     assert "pip install 'msaa-lint[confirm]'" in done.stderr
-    assert run(folder, "device", "mali-g76", PYTHONPATH=f"{folder / 'broken'}{os.pathsep}{Path(__file__).parents[2]}").returncode == 0
+    assert run(folder, "device", "mali-g76", PYTHONPATH=f"{folder / 'broken'}{os.pathsep}{ROOT}").returncode == 0
 
 
 def test_a_driver_that_crashes_is_named_by_its_signal(folder: Path) -> None:
     """A package `vulkan` that dies as a driver does: the command lives."""
     (folder / "crash").mkdir()
     (folder / "crash" / "vulkan.py").write_text("import os, signal\nos.kill(os.getpid(), signal.SIGSEGV)\n")
-    done = run(folder, "device", PYTHONPATH=f"{folder / 'crash'}{os.pathsep}{Path(__file__).parents[2]}")
+    done = run(folder, "device", PYTHONPATH=f"{folder / 'crash'}{os.pathsep}{ROOT}")
     assert done.returncode == 2
     assert "SIGSEGV" in done.stderr
 

@@ -18,10 +18,10 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 import atheris  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 with atheris.instrument_imports():
-    from msaa_lint.captures.call import Broken, Call
-    from msaa_lint.readers import fossilize, fossilize_code, fossilize_objects  # noqa: F401
+    from msaa_lint.input.captures.call import Broken, Call
+    from msaa_lint.input.readers import fossilize, fossilize_code, fossilize_objects  # noqa: F401
 
-from tests.readers.dialects_binary import MAGIC, entry, packed
+from tests.input.readers.dialects_binary import MAGIC, entry, packed
 
 EVERYTHING = frozenset(f"vkCreate{kind}" for kind in ("Instance", "ShaderModule", "RenderPass", "RenderPass2", "GraphicsPipelines"))
 HEADS = (

@@ -13,7 +13,8 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parent.parent.parent
+from tests.paths import ROOT
+
 EXAMPLE = ROOT / "examples" / "capture"
 CAPTURES = ("forward.jsonl", "forward-fixed.jsonl", "forward.xml")
 WIDTH, HEIGHT = 320, 180

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from ..programs import test_reading as source
+from tests.input.code import test_reading as source
+from tests.paths import ROOT
 
-ROOT = Path(__file__).parent.parent.parent
 SHIPPED = (".pre-commit-hooks.yaml", "pyproject.toml", "README.md", "LICENSE", "msaa_lint", "rules")
 """What the hook is installed from."""
 

@@ -1,0 +1,112 @@
+"""GitHub Actions: findings as workflow commands, which become annotations, and a table in the step's summary."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from msaa_lint.core.finding import rank
+
+from .escape import shown, visible
+from .markdown import literal, table
+from .paths import relative
+from .place import place
+from .summary import fixable, plural, sentence
+
+if TYPE_CHECKING:
+    from msaa_lint.core.finding import Finding, Result
+    from msaa_lint.core.text.source import Source
+
+    from . import Options, Write
+
+MOST = 10
+"""Annotations of one level that GitHub keeps of a step; the rest vanish without a word."""
+
+SUMMARY_BYTES = 1 << 20
+"""Size from which GitHub drops a step's whole summary."""
+
+_LEVEL = {"error": "error", "warning": "warning", "note": "notice"}
+
+
+def render(result: Result, out: Write, options: Options) -> None:
+    """Prints at most ten commands a level, errors first, and appends the summary to the file of `options.step_summary`."""
+    room = {"error": MOST, "warning": MOST, "note": MOST}
+    severities = [finding.severity for finding in result.findings]
+    if any(severities.count(severity) > most for severity, most in room.items()):
+        room["note"] -= 1  # for the last one, which counts the rest
+    left_out = 0
+    for finding in sorted(result.findings, key=lambda finding: -rank(finding.severity)):
+        if room[finding.severity] > 0:
+            room[finding.severity] -= 1
+            out(_command(finding, result, options) + "\n")
+        else:
+            left_out += 1
+    path = os.environ.get("GITHUB_STEP_SUMMARY", "") if options.step_summary is None else options.step_summary
+    trouble = _append(path, result, options) if path else ""
+    if left_out:
+        where = "see the summary of this step" if path and not trouble else "GitHub shows no more of one step"
+        out(f"::notice title=msaa-lint::{plural(left_out, 'more finding')}, {where}\n")
+    if trouble:
+        out(f"::warning title=msaa-lint::{_data('the summary of this step could not be written: ' + shown(trouble))}\n")
+
+
+def _command(finding: Finding, result: Result, options: Options) -> str:
+    properties: dict[str, str | int] = {"file": visible(relative(finding.file, options.root))}
+    source = result.sources.get(finding.file)
+    if finding.span is not None and source is not None and source.origins is not None:
+        at = place(result, finding.file, finding.span)
+        properties |= {"line": at.line, "endLine": at.line} if at is not None else {}
+    elif finding.span is not None and source is not None:
+        properties |= _region(source, finding.span.start, finding.span.end)
+    properties["title"] = f"{shown(finding.rule)} ({shown(finding.code)})"
+    lines = [shown(finding.message)]
+    lines += [f"help: {shown(text)}" for text in (finding.help or (finding.fix.title if finding.fix else ""),) if text.strip()]
+    told = ",".join(f"{name}={_property(str(value))}" for name, value in properties.items())
+    return f"::{_LEVEL[finding.severity]} {told}::{_data(chr(10).join(lines))}"
+
+
+def _region(source: Source, start: int, end: int) -> dict[str, str | int]:
+    """Lines, and columns where it is one line, as GitHub wants them; never below the last line with text, where it shows nothing."""
+    text = source.text
+    start = min(start, len(text))
+    end = max(start, min(end, len(text)))
+    while end > start and text[end - 1] in "\r\n \t":
+        end -= 1
+    if start == end and not text[start : start + 1].strip():
+        while start and text[start - 1 : start] in "\r\n \t":
+            start -= 1
+        end = start
+    line, column = source.position(start)
+    end_line, end_column = source.position(end)
+    if line == end_line:
+        return {"line": line, "endLine": end_line, "col": column, "endColumn": end_column}
+    return {"line": line, "endLine": end_line}
+
+
+def _append(path: str, result: Result, options: Options) -> str:
+    """Appends the table to the summary as far as it fits; what went wrong, or nothing."""
+    try:
+        with open(path, "ab") as file:
+            room = SUMMARY_BYTES - file.seek(0, os.SEEK_END)
+            head = "".join(f"{literal(line)}\n\n" for line in (sentence(result, options), fixable(result)) if line)
+            head = f"### msaa-lint\n\n{head}"
+            rows = table(result, options, room - _size(head), _size) if result.findings else ()
+            text = head + "".join(rows) + "\n"
+            if _size(text) > room:
+                return "it is full"
+            file.write(text.encode())
+    except (OSError, ValueError) as error:
+        return str(error)
+    return ""
+
+
+def _size(text: str) -> int:
+    return len(text.encode())
+
+
+def _data(text: str) -> str:
+    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+
+
+def _property(text: str) -> str:
+    return _data(text).replace(":", "%3A").replace(",", "%2C")

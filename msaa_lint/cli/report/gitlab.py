@@ -1,0 +1,43 @@
+"""GitLab's Code Quality report: one JSON list."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .data import write_list
+from .escape import shown, visible
+from .fingerprint import fingerprints
+from .paths import relative
+from .place import place
+
+if TYPE_CHECKING:
+    from msaa_lint.core.finding import Finding, Result
+
+    from . import Options, Write
+
+_SEVERITY = {"note": "info", "warning": "minor", "error": "major"}
+
+
+def render(result: Result, out: Write, options: Options) -> None:
+    """Prints the list; an empty one where nothing was found."""
+    names = fingerprints(result.findings, options.root)
+    write_list((_issue(finding, name, result, options) for finding, name in zip(result.findings, names, strict=True)), out)
+    out("\n")
+
+
+def _issue(finding: Finding, name: str, result: Result, options: Options) -> dict[str, object]:
+    at = place(result, finding.file, finding.span)
+    location: dict[str, object] = {"path": visible(relative(finding.file, options.root))}
+    if at:
+        begin, end = {"line": at.line, "column": at.column}, {"line": at.end_line, "column": at.end_column}
+        location["positions"] = {"begin": begin, "end": end}
+    else:
+        location["lines"] = {"begin": 1}
+    return {
+        # GitLab does not show check_name.
+        "description": f"{shown(finding.rule)}: {shown(finding.message)}",
+        "check_name": shown(finding.rule),
+        "fingerprint": name,
+        "severity": _SEVERITY[finding.severity],
+        "location": location,
+    }

@@ -1,0 +1,83 @@
+"""JUnit's XML: a test suite for each file, a test case for each finding, and a passing one for each clean file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from msaa_lint.core.finding import is_confident
+
+from .escape import shown, visible
+from .paths import relative
+from .place import place
+
+if TYPE_CHECKING:
+    from msaa_lint.core.finding import Finding, Result
+
+    from . import Options, Write
+
+_ESCAPES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&apos;"})
+
+
+def render(result: Result, out: Write, options: Options) -> None:
+    """Prints the document. An unusable input is an error, a note a passing case that prints it, and so is what is not sure enough to fail
+    the run; the rest are failures."""
+    suites: dict[str, list[Finding]] = {file: [] for file in result.files}
+    for finding in result.findings:
+        suites.setdefault(finding.file, []).append(finding)
+    suites = suites or {"msaa-lint": []}  # Jenkins and GitLab take an empty report for a broken one
+    tests = sum(max(1, len(findings)) for findings in suites.values())
+    out('<?xml version="1.0" encoding="UTF-8"?>\n')
+    out(f"<testsuites{_attributes(name='msaa-lint', tests=tests, **_counts(result.findings, options))}>\n")
+    for file, findings in suites.items():
+        path = visible(relative(file, options.root))
+        counts = _counts(findings, options)
+        out(f"  <testsuite{_attributes(name=path, package='org.msaa-lint', tests=max(1, len(findings)), **counts)}>\n")
+        for finding in findings:
+            out(_case(finding, path, result, options))
+        if not findings:
+            out(f"    <testcase{_attributes(name='No findings', classname=_class(path))}/>\n")
+        out("  </testsuite>\n")
+    out("</testsuites>\n")
+
+
+def _case(finding: Finding, path: str, result: Result, options: Options) -> str:
+    at = place(result, finding.file, finding.span)
+    message = shown(finding.message)
+    attributes: dict[str, str | int] = {"name": f"org.msaa-lint.{shown(finding.code)}", "classname": _class(path)}
+    text = f"{path}, {message}"
+    if at:
+        attributes |= {"file": path, "line": at.line, "column": at.column}
+        text = f"line {at.line}, column {at.column}, {message}"
+    # One element: Jenkins keeps only the first of several.
+    if not _fails(finding, options):
+        told = f"<system-out>{_xml(text)}</system-out>"
+    else:
+        kind = "error" if finding.fatal else "failure"
+        told = f"<{kind}{_attributes(message=message, type=shown(finding.rule))}>{_xml(text)}</{kind}>"
+    severity = f"<properties><property{_attributes(name='severity', value=finding.severity)}/></properties>"
+    return f"    <testcase{_attributes(**attributes)}>\n      {severity}\n      {told}\n    </testcase>\n"
+
+
+def _counts(findings: Sequence[Finding], options: Options) -> dict[str, str | int]:
+    errors = sum(finding.fatal for finding in findings)
+    return {"failures": sum(_fails(finding, options) for finding in findings) - errors, "errors": errors}
+
+
+def _fails(finding: Finding, options: Options) -> bool:
+    return finding.severity != "note" and is_confident(finding, options.fail_confidence)
+
+
+def _class(path: str) -> str:
+    folder, slash, name = path.rpartition("/")
+    stem = name.rpartition(".")[0] or name
+    return folder + slash + stem
+
+
+def _attributes(**values: str | int) -> str:
+    return "".join(f' {name}="{_xml(str(value))}"' for name, value in values.items())
+
+
+def _xml(text: str) -> str:
+    """`text`, already without the characters that XML 1.0 forbids, as character data or an attribute's value."""
+    return text.translate(_ESCAPES)

@@ -1,0 +1,34 @@
+"""Lines and columns of findings: 1-based, in code points, the end column after the last character."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from msaa_lint.core.finding import Result
+    from msaa_lint.core.text.span import Span
+
+
+class Place(NamedTuple):
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+
+
+def place(result: Result, file: str, span: Span | None) -> Place | None:
+    """Where `span` is in `file`; None for an input without text."""
+    source = result.sources.get(file)
+    if span is None or source is None:
+        return None
+    if source.origins is not None:
+        origin = source.origin(span.start)
+        if origin is None or origin.line is None:
+            return None
+        column = origin.column or 1
+        return Place(origin.line, column, origin.line, column)
+    start = max(0, min(span.start, len(source.text)))
+    end = max(start, min(span.end, len(source.text)))
+    line, column = source.position(start)
+    end_line, end_column = source.position(end)
+    return Place(line, column, end_line, end_column)

@@ -1,1 +1,0 @@
-"""Shaders: GLSL, and the SPIR-V made from it by `python -m msaa_lint.confirm.shaders.generate`."""

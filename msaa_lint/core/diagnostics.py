@@ -1,0 +1,32 @@
+"""The 9xx: what is wrong with an input, a page, a suppression or the configuration itself."""
+
+from __future__ import annotations
+
+from .finding import Finding, RuleInfo
+from .text.span import Label, Span
+
+_TEXTS = {
+    "MSAA901": ("syntax", "error", "The input is not readable: its encoding, its YAML or its JSON is broken."),
+    "MSAA902": ("unknown-key", "error", "A key that the structure does not have."),
+    "MSAA903": ("wrong-value", "error", "A value of the wrong type, or one that its type does not have."),
+    "MSAA904": ("dangling-reference", "error", "A name or an index that nothing in the description has."),
+    "MSAA905": ("duplicate-key", "error", "The same key twice in one mapping."),
+    "MSAA906": ("limit-exceeded", "error", "The input exceeds a limit on depth, nodes or size."),
+    "MSAA911": ("unused-suppression", "warning", "A suppression comment that silences nothing."),
+    "MSAA912": ("unknown-rule-in-suppression", "warning", "A suppression comment that names no rule there is, or that cannot be read."),
+    "MSAA913": ("blanket-suppression", "warning", "A suppression comment that names no rule: it silences nothing."),
+    "MSAA921": ("configuration", "error", "The configuration, a rule page, a baseline or a path cannot be used."),
+}
+
+DIAGNOSTICS: dict[str, RuleInfo] = {
+    code: RuleInfo(code, name, severity, "high", summary, f"{summary}\n") for code, (name, severity, summary) in _TEXTS.items()
+}
+"""By code."""
+
+
+def diagnostic(
+    code: str, message: str, file: str, span: Span | None = None, subject: str = "", labels: tuple[Label, ...] = (), help: str = ""
+) -> Finding:
+    """A 9xx finding."""
+    info = DIAGNOSTICS[code]
+    return Finding(code, info.name, info.severity, "high", message, file, span, subject, labels, (), help)

@@ -1,0 +1,337 @@
+"""A plan's steps, recorded into command buffers."""
+
+from __future__ import annotations
+
+import struct
+from typing import Any
+
+from . import parts
+from .binding import push_bytes
+from .build import Built
+from .defined_contents import Contents
+from .layouts import Layouts
+from .parts import CLEAR, COLOR, DEPTH, DEPTH_READ_LAYOUT, NONE, READ_LAYOUT, SOURCE_LAYOUT, STENCIL, TARGET_LAYOUT, Inner, Pass, Step
+from .scene import BACKDROP, CLEARED, CLEARED_INTEGERS, CLEARED_STENCIL
+
+PEAK, HDR_PEAK = 1.0, 8.0
+"""The brightest that the scene is drawn."""
+
+ALL_LEVELS = 1000.0
+"""VK_LOD_CLAMP_NONE."""
+
+
+class Recorder:
+    """Records the steps of a plan, in order, and follows what the images are in and hold."""
+
+    def __init__(self, built: Built) -> None:
+        self.built = built
+        self.vk = built.vk
+        self.call = built.opened.call
+        self.plan = built.plan
+        self.layouts = Layouts(built)
+        self.contents = Contents(self.plan)
+
+    def step(self, buffer: Any, step: Step) -> None:
+        """Records one step."""
+        if step.kind == "begin":
+            each = self.plan.passes[step.number]
+            if each.kind == parts.RENDERING:
+                self._rendering(buffer, each, step)
+            else:
+                self._render_pass(buffer, each, step)
+            self.contents.begin(each, step)
+        elif step.kind == "barrier":
+            self._barrier(buffer, step)
+        elif step.kind in _TRANSFERS:
+            _TRANSFERS[step.kind](self, buffer, step)
+            self.contents.transfer(step)
+
+    def _read(self, step: Step) -> list[int]:
+        """The images that a pass reads, where it can."""
+        return list(dict.fromkeys(self.contents.reads(step)))
+
+    def _reading(self, image: int) -> tuple[int, int, None]:
+        return image, READ_LAYOUT if self.plan.images[image].aspects & COLOR else DEPTH_READ_LAYOUT, None
+
+    def _render_pass(self, buffer: Any, each: Pass, step: Step) -> None:
+        vk = self.vk
+        framebuffer = each.framebuffers[step.framebuffer]
+        reads = self._read(step)
+        wanted: list[tuple[int, int, int | None]] = [
+            (image, a.initial, a.stencil_initial if a.stencil_initial != NONE else None)
+            for a, image in zip(each.attachments, framebuffer.images, strict=True)
+        ]
+        self.layouts.into(buffer, [*wanted, *map(self._reading, reads)])
+        begin = vk.VkRenderPassBeginInfo(
+            renderPass=self.built.render_passes[step.number],
+            framebuffer=self.built.framebuffers[step.number, step.framebuffer],
+            renderArea=self._rect(step.area),
+            pClearValues=self._clears(each, framebuffer.images),
+        )
+        second = each.api == 2
+        if second:
+            self.call("vkCmdBeginRenderPass2")(buffer, begin, vk.VkSubpassBeginInfo(contents=0))
+        else:
+            vk.vkCmdBeginRenderPass(buffer, begin, 0)
+        for subpass in range(len(each.subpasses)):
+            if subpass and second:
+                self.call("vkCmdNextSubpass2")(buffer, vk.VkSubpassBeginInfo(contents=0), vk.VkSubpassEndInfo())
+            elif subpass:
+                vk.vkCmdNextSubpass(buffer, 0)
+            self._inner(buffer, each, step, subpass, reads)
+        if second:
+            self.call("vkCmdEndRenderPass2")(buffer, vk.VkSubpassEndInfo())
+        else:
+            vk.vkCmdEndRenderPass(buffer)
+        for a, image in zip(each.attachments, framebuffer.images, strict=True):
+            self.layouts.left(image, a.final, a.stencil_final if a.stencil_final != NONE else None)
+
+    def _rendering(self, buffer: Any, each: Pass, step: Step) -> None:
+        vk = self.vk
+        resumes = each.flags & parts.RESUMING
+        reads = [] if resumes else self._read(step)
+        layers = self.built.layers(each, each.framebuffers[0])
+        wanted: list[tuple[int, int, int | None]] = []
+        infos: dict[str, list[Any]] = {"color": [], "depth": [], "stencil": []}
+        for r in each.rendered:
+            if r.image == NONE:
+                infos[r.role].append(vk.VkRenderingAttachmentInfo())
+                continue
+            wanted.append((r.image, r.layout, None))
+            if r.resolve_image != NONE:
+                wanted.append((r.resolve_image, r.resolve_layout, None))
+            infos[r.role].append(
+                vk.VkRenderingAttachmentInfo(
+                    imageView=self.built.view(r.image, layers), imageLayout=r.layout, resolveMode=r.mode,
+                    resolveImageView=self.built.view(r.resolve_image, layers) if r.resolve_image != NONE else None,
+                    resolveImageLayout=r.resolve_layout, loadOp=r.load, storeOp=r.store, clearValue=self._clear(r.image),
+                )
+            )  # fmt: skip
+        if not resumes:
+            self.layouts.into(buffer, [*wanted, *map(self._reading, reads)])
+        following = None
+        if each.single_sampled:
+            following = vk.VkMultisampledRenderToSingleSampledInfoEXT(
+                multisampledRenderToSingleSampledEnable=1, rasterizationSamples=each.single_sampled
+            )
+        begin = vk.VkRenderingInfo(
+            pNext=following,
+            flags=each.flags,
+            renderArea=self._rect(step.area),
+            layerCount=each.layers,
+            viewMask=each.view_mask,
+            pColorAttachments=infos["color"],
+            pDepthAttachment=infos["depth"][0] if infos["depth"] else None,
+            pStencilAttachment=infos["stencil"][0] if infos["stencil"] else None,
+        )
+        self.call("vkCmdBeginRendering")(buffer, begin)
+        self._inner(buffer, each, step, 0, reads)
+        self.call("vkCmdEndRendering")(buffer)
+
+    def _inner(self, buffer: Any, each: Pass, step: Step, subpass: int, reads: list[int]) -> None:
+        """What is recorded in a subpass."""
+        vk, framebuffer = self.vk, each.framebuffers[step.framebuffer]
+        near, far = (1.0, 0.0) if self.plan.reversed else (0.0, 1.0)
+        own = [inner for inner in step.inner if inner.subpass == subpass]
+        viewport = vk.VkViewport(width=framebuffer.width, height=framebuffer.height, minDepth=near, maxDepth=far)
+        vk.vkCmdSetViewport(buffer, 0, 1, [viewport])
+        vk.vkCmdSetScissor(buffer, 0, 1, [self._rect(step.area)])
+        images = [i.image for i in own if i.kind == "read" and i.image in reads]
+        filled = bool(images) and self._fill(buffer, step, subpass, list(dict.fromkeys(images)))
+        count, turn = 0, 0
+        drawn, vertices = self.built.vertices()
+        vk.vkCmdBindVertexBuffers(buffer, 0, 1, [drawn], [0])
+        for inner in own:
+            if inner.kind == "samples":
+                count = inner.value
+            elif inner.kind == "clear":
+                self._clear_attachment(buffer, each, step, inner)
+            elif inner.kind == "draw":
+                pipeline = each.pipelines[inner.pipeline]
+                vk.vkCmdBindPipeline(buffer, 0, self.built.pipelines[step.number, inner.pipeline])
+                self._dynamic(buffer, pipeline, count)
+                peak = HDR_PEAK if self.plan.hdr else PEAK
+                pushed = struct.pack("=fi", peak, turn)
+                vk.vkCmdPushConstants(buffer, self.built.opened.layout("scene")[0], 1, 0, len(pushed), push_bytes(pushed))
+                first = 0 if (inner.backdrop and not filled) or self.plan.vertices else BACKDROP
+                vk.vkCmdDraw(buffer, vertices - first, 1, first, 0)
+                turn += 1
+
+    def _dynamic(self, buffer: Any, pipeline: parts.Pipeline, count: int) -> None:
+        if parts.SAMPLES_DYNAMIC in pipeline.dynamic:
+            self.call("vkCmdSetRasterizationSamplesEXT")(buffer, count or pipeline.samples)
+        if parts.MASK_DYNAMIC in pipeline.dynamic:
+            words = [*pipeline.mask, 0xFFFFFFFF][:1]
+            self.call("vkCmdSetSampleMaskEXT")(buffer, count or pipeline.samples, self.vk.ffi.new("uint32_t[]", words))
+        if parts.COVERAGE_DYNAMIC in pipeline.dynamic:
+            self.call("vkCmdSetAlphaToCoverageEnableEXT")(buffer, int(pipeline.alpha_to_coverage))
+
+    def _fill(self, buffer: Any, step: Step, subpass: int, images: list[int]) -> bool:
+        """Puts what is read on every pixel: each image on a stripe of its own."""
+        vk, opened = self.vk, self.built.opened
+        x, y, width, height = step.area
+        layout, set_layout = opened.layout("read")
+        framebuffer = self.plan.passes[step.number].framebuffers[step.framebuffer]
+        done = False
+        for n, number in enumerate(images):
+            image = self.plan.images[number]
+            pipeline = self.built.reader(step.number, subpass, image.samples > 1)
+            if pipeline is None:
+                continue
+            top, bottom = y + height * n // len(images), y + height * (n + 1) // len(images)
+            vk.vkCmdSetScissor(buffer, 0, 1, [self._rect((x, top, width, max(bottom - top, 1)))])
+            vk.vkCmdBindPipeline(buffer, 0, pipeline)
+            descriptor = self.descriptor(set_layout, number)
+            vk.vkCmdBindDescriptorSets(buffer, 0, layout, 0, 1, [descriptor], 0, None)
+            scale = struct.pack("=ffi", image.width / framebuffer.width, image.height / framebuffer.height, image.samples)
+            vk.vkCmdPushConstants(buffer, layout, 16, 0, len(scale), push_bytes(scale))
+            vk.vkCmdDraw(buffer, 3, 1, 0, 0)
+            done = True
+        vk.vkCmdSetScissor(buffer, 0, 1, [self._rect(step.area)])
+        return done
+
+    def descriptor(self, set_layout: Any, number: int, storage: Any = None) -> Any:
+        """A descriptor set with an image to be sampled, and a buffer to be written to."""
+        vk, handle, built = self.vk, self.built.opened.handle, self.built
+        sizes = [vk.VkDescriptorPoolSize(type=1, descriptorCount=1)]
+        if storage is not None:
+            sizes.append(vk.VkDescriptorPoolSize(type=7, descriptorCount=1))
+        pool = vk.vkCreateDescriptorPool(handle, vk.VkDescriptorPoolCreateInfo(maxSets=1, pPoolSizes=sizes), None)
+        built.own(vk.vkDestroyDescriptorPool, pool)
+        found = vk.vkAllocateDescriptorSets(handle, vk.VkDescriptorSetAllocateInfo(descriptorPool=pool, pSetLayouts=[set_layout]))[0]
+        sampler = built.own(vk.vkDestroySampler, vk.vkCreateSampler(handle, vk.VkSamplerCreateInfo(maxLod=ALL_LEVELS), None))
+        aspect = self.plan.images[number].aspects & (COLOR | DEPTH)
+        image = vk.VkDescriptorImageInfo(sampler=sampler, imageView=built.view(number, 1, aspect), imageLayout=self._reading(number)[1])
+        writes = [vk.VkWriteDescriptorSet(dstSet=found, dstBinding=0, descriptorCount=1, descriptorType=1, pImageInfo=[image])]
+        if storage is not None:
+            whole = vk.VkDescriptorBufferInfo(buffer=storage, offset=0, range=0xFFFFFFFFFFFFFFFF)
+            writes.append(vk.VkWriteDescriptorSet(dstSet=found, dstBinding=1, descriptorCount=1, descriptorType=7, pBufferInfo=[whole]))
+        vk.vkUpdateDescriptorSets(handle, len(writes), writes, 0, None)
+        return found
+
+    def _clear_attachment(self, buffer: Any, each: Pass, step: Step, inner: Inner) -> None:
+        vk = self.vk
+        images = self._drawn(each, step, inner.subpass)
+        number = images[inner.value] if inner.aspects & COLOR and inner.value < len(images) else NONE
+        clear = self._clear(number) if number != NONE else vk.VkClearValue(depthStencil=self._clear_depth())
+        attachment = vk.VkClearAttachment(aspectMask=inner.aspects, colorAttachment=inner.value, clearValue=clear)
+        rect = vk.VkClearRect(rect=self._rect(step.area), baseArrayLayer=0, layerCount=1)
+        vk.vkCmdClearAttachments(buffer, 1, [attachment], 1, [rect])
+
+    def _drawn(self, each: Pass, step: Step, subpass: int) -> list[int]:
+        if each.kind == parts.RENDERING:
+            return [r.image for r in each.rendered if r.role == "color"]
+        images = each.framebuffers[step.framebuffer].images
+        return [images[r.attachment] if r.attachment != NONE else NONE for r in each.subpasses[subpass].colors]
+
+    def _clear_depth(self) -> Any:
+        return self.vk.VkClearDepthStencilValue(0.0 if self.plan.reversed else 1.0, CLEARED_STENCIL)
+
+    def _clears(self, each: Pass, images: tuple[int, ...]) -> list[Any]:
+        """The values of a pass's attachments, up to the last that is cleared."""
+        clearing = [
+            index
+            for index, (a, image) in enumerate(zip(each.attachments, images, strict=True))
+            if a.load == CLEAR or (a.stencil_load == CLEAR and self.plan.images[image].aspects & STENCIL)
+        ]
+        return [self._clear(image) for image in images[: clearing[-1] + 1]] if clearing else []
+
+    def _clear(self, number: int) -> Any:
+        vk, image = self.vk, self.plan.images[number]
+        if not image.aspects & COLOR:
+            return vk.VkClearValue(depthStencil=self._clear_depth())
+        if image.numeric in ("UINT", "SINT"):
+            member = "uint32" if image.numeric == "UINT" else "int32"
+            return vk.VkClearValue(color=vk.VkClearColorValue(**{member: list(CLEARED_INTEGERS)}))
+        return vk.VkClearValue(color=vk.VkClearColorValue(float32=list(CLEARED)))
+
+    def _rect(self, area: tuple[int, ...]) -> Any:
+        vk = self.vk
+        return vk.VkRect2D(offset=vk.VkOffset2D(area[0], area[1]), extent=vk.VkExtent2D(area[2], area[3]))
+
+    def _barrier(self, buffer: Any, step: Step) -> None:
+        """A barrier of the frame: its masks as they are stated, layouts from where the images are."""
+        vk = self.vk
+        source, target, source_access, target_access = step.masks
+        if not source or not target:
+            source, target = source or 0x10000, target or 0x10000
+        names = ("srcStageMask", "srcAccessMask", "dstStageMask", "dstAccessMask")
+        masks = dict(zip(names, (source, source_access, target, target_access), strict=True))
+        barriers = []
+        for number, old, new in step.layouts:
+            if number not in self.built.images:
+                continue
+            now = self.layouts.now(number, COLOR if self.plan.images[number].aspects & COLOR else DEPTH)
+            before = parts.UNDEFINED if old == parts.UNDEFINED else now
+            after = now if new in (NONE, parts.UNDEFINED) else new
+            whole = vk.VkImageSubresourceRange(aspectMask=self.plan.images[number].aspects, levelCount=0xFFFFFFFF, layerCount=0xFFFFFFFF)
+            if after != parts.UNDEFINED:
+                barriers.append(
+                    vk.VkImageMemoryBarrier2(
+                        **masks, oldLayout=before, newLayout=after, srcQueueFamilyIndex=0xFFFFFFFF, dstQueueFamilyIndex=0xFFFFFFFF,
+                        image=self.built.image(number), subresourceRange=whole,
+                    )
+                )  # fmt: skip
+                self.layouts.left(number, after)
+        memory = [] if barriers else [vk.VkMemoryBarrier2(**masks)]
+        self.call("vkCmdPipelineBarrier2")(buffer, vk.VkDependencyInfo(pMemoryBarriers=memory, pImageMemoryBarriers=barriers))
+
+    def _layers(self, number: int, aspects: int) -> Any:
+        return self.vk.VkImageSubresourceLayers(aspectMask=aspects, mipLevel=0, baseArrayLayer=0, layerCount=1)
+
+    def _extent(self, step: Step) -> Any:
+        source, target = self.plan.images[step.source], self.plan.images[step.target]
+        return self.vk.VkExtent3D(min(source.width, target.width), min(source.height, target.height), 1)
+
+    def _between(self, buffer: Any, step: Step) -> tuple[Any, Any, int]:
+        self.layouts.into(buffer, [(step.source, SOURCE_LAYOUT, None), (step.target, TARGET_LAYOUT, None)])
+        aspects = self.plan.images[step.source].aspects & self.plan.images[step.target].aspects
+        return self.built.image(step.source), self.built.image(step.target), aspects
+
+    def _resolve(self, buffer: Any, step: Step) -> None:
+        source, target, aspects = self._between(buffer, step)
+        region = self.vk.VkImageResolve(
+            srcSubresource=self._layers(step.source, aspects), dstSubresource=self._layers(step.target, aspects), extent=self._extent(step)
+        )
+        self.vk.vkCmdResolveImage(buffer, source, SOURCE_LAYOUT, target, TARGET_LAYOUT, 1, [region])
+
+    def _copy(self, buffer: Any, step: Step) -> None:
+        source, target, aspects = self._between(buffer, step)
+        region = self.vk.VkImageCopy(
+            srcSubresource=self._layers(step.source, aspects), dstSubresource=self._layers(step.target, aspects), extent=self._extent(step)
+        )
+        self.vk.vkCmdCopyImage(buffer, source, SOURCE_LAYOUT, target, TARGET_LAYOUT, 1, [region])
+
+    def _blit(self, buffer: Any, step: Step) -> None:
+        vk = self.vk
+        source, target, aspects = self._between(buffer, step)
+        corners = [
+            [vk.VkOffset3D(), vk.VkOffset3D(self.plan.images[n].width, self.plan.images[n].height, 1)] for n in (step.source, step.target)
+        ]
+        region = vk.VkImageBlit(
+            srcSubresource=self._layers(step.source, aspects), srcOffsets=corners[0],
+            dstSubresource=self._layers(step.target, aspects), dstOffsets=corners[1],
+        )  # fmt: skip
+        vk.vkCmdBlitImage(buffer, source, SOURCE_LAYOUT, target, TARGET_LAYOUT, 1, [region], 0)
+
+    def _clear_image(self, buffer: Any, step: Step) -> None:
+        vk, image = self.vk, self.plan.images[step.target]
+        self.layouts.into(buffer, [(step.target, TARGET_LAYOUT, None)])
+        whole = vk.VkImageSubresourceRange(aspectMask=image.aspects, levelCount=image.levels, layerCount=image.layers)
+        if image.aspects & COLOR:
+            # Kept, for the colour is within it.
+            clear = self._clear(step.target)
+            color = vk.ffi.addressof(clear.color)
+            vk.vkCmdClearColorImage(buffer, self.built.image(step.target), TARGET_LAYOUT, color, 1, [whole])
+        else:
+            clear = self._clear_depth()
+            vk.vkCmdClearDepthStencilImage(buffer, self.built.image(step.target), TARGET_LAYOUT, clear, 1, [whole])
+
+    def _nothing(self, buffer: Any, step: Step) -> None:
+        """Copies from and to buffers of the frame, which nothing else sees, and presenting, which has no screen here."""
+
+
+_TRANSFERS = {
+    "resolve": Recorder._resolve, "copy": Recorder._copy, "blit": Recorder._blit, "clear": Recorder._clear_image,
+    "copyOut": Recorder._nothing, "copyIn": Recorder._nothing, "present": Recorder._nothing,
+}  # fmt: skip

@@ -1,0 +1,235 @@
+"""The images of a plan: what is not described of them comes from how they are used, and is said in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from msaa_lint.frame.facts.frame import Attachment, Frame, Pass, Resolve, Target
+from msaa_lint.frame.vulkan.formats import Format, format_of
+
+from .parts import (
+    COLOR,
+    COLOR_ATTACHMENT,
+    DEPTH,
+    DEPTH_ATTACHMENT,
+    INPUT_ATTACHMENT,
+    SAMPLED,
+    STENCIL,
+    STORAGE,
+    TRANSFER_SOURCE,
+    TRANSFER_TARGET,
+    Image,
+)
+from .plan_integers import mask, number
+
+DEFAULT_SIZE = (256, 256)
+COLOR_FORMAT, DEPTH_FORMAT = "R8G8B8A8_UNORM", "D32_SFLOAT"
+ASPECTS = {"color": COLOR, "depth": DEPTH, "stencil": STENCIL}
+
+_BY_COMMAND = {
+    "readImage": SAMPLED, "writeImage": STORAGE, "copyImageToBuffer": TRANSFER_SOURCE, "copyBufferToImage": TRANSFER_TARGET,
+    "clearColorImage": TRANSFER_TARGET, "clearDepthStencilImage": TRANSFER_TARGET,
+}  # fmt: skip
+
+
+_BY_LAYOUT = {"SHADER_READ_ONLY_OPTIMAL": SAMPLED, "TRANSFER_SRC_OPTIMAL": TRANSFER_SOURCE, "TRANSFER_DST_OPTIMAL": TRANSFER_TARGET}
+
+RENDER_TO_SINGLE_SAMPLED = 0x40000
+"""VK_IMAGE_CREATE_MULTISAMPLED_RENDER_TO_SINGLE_SAMPLED_BIT_EXT."""
+
+
+class _Used:
+    """What a frame does with an image."""
+
+    def __init__(self, target: Target, name: str) -> None:
+        self.target = target
+        self.name = name
+        self.usage = 0
+        self.format: Format | None = target.format
+        self.samples: int | None = target.samples
+        self.source = False
+        self.resolved_to = False
+        self.beside: list[_Used] = []
+        self.partners: list[_Used] = []
+        self.area = (0, 0)
+        self.layers = 0
+        self.viewed = 0
+        self.single_sampled = False
+
+
+class Images:
+    """The images of a frame, by number. `base` is the size in pixels of what does not state one."""
+
+    def __init__(self, frame: Frame) -> None:
+        self.frame = frame
+        self.words: list[str] = []
+        self._used: dict[int, _Used] = {}
+        self._numbers: dict[int, int] = {}
+        self.base, self._sized = _base(frame)
+        for name, target in frame.targets.items():
+            self._add(target, name)
+        for each in frame.passes:
+            self._pass(each)
+        self._commands()
+        self._settle()
+        self.made = tuple(self._image(used) for used in self._used.values())
+
+    @property
+    def sized(self) -> bool:
+        """Whether every image has a size that something states."""
+        return self._sized or all(used.area != (0, 0) for used in self._used.values())
+
+    def of(self, target: Target) -> int:
+        """The number of a target's image."""
+        return self._numbers[id(target.record)]
+
+    def named(self, name: str | None) -> int:
+        """The number of the image that a description names; -1 for none."""
+        target = self.frame.target(name)
+        return self.of(target) if target is not None else -1
+
+    def _add(self, target: Target, name: str) -> _Used:
+        key = id(target.record)
+        if key not in self._used:
+            self._numbers[key] = len(self._used)
+            self._used[key] = _Used(target, name)
+        return self._used[key]
+
+    def _targets(self, each: Pass, attachment: Attachment) -> list[_Used]:
+        return [self._add(t, t.name if t.image is not None else f"{each.name}.{attachment.name}") for t in attachment.targets]
+
+    def _pass(self, each: Pass) -> None:
+        by_attachment = {id(a): self._targets(each, a) for a in each.attachments}
+        for attachment in each.attachments:
+            for used in by_attachment[id(attachment)]:
+                used.format = used.format or attachment.format
+                used.samples = used.samples or attachment.samples
+                resolved = {aspect for aspects in attachment.resolve.values() for aspect in aspects}
+                color = bool(attachment.color) or "color" in resolved
+                depth = bool(attachment.depth_stencil) or bool({"depth", "stencil", "?"} & resolved)
+                used.usage |= (COLOR_ATTACHMENT if color else 0) | (DEPTH_ATTACHMENT if depth else 0)
+                used.usage |= INPUT_ATTACHMENT if attachment.input else 0
+                layouts = {getattr(attachment.record, member, None) for member in ("initialLayout", "finalLayout")}
+                used.usage |= sum(bit for name, bit in _BY_LAYOUT.items() if name in layouts)
+        for subpass in each.subpasses:
+            drawn = [u for a in (*subpass.color, *subpass.depth_stencil) if a is not None for u in by_attachment[id(a)]]
+            for used in drawn:
+                used.beside += [other for other in drawn if other is not used][:16]
+            for resolve in subpass.resolves:
+                self._resolve(resolve, by_attachment)
+            views = (subpass.record.viewMask or 0).bit_length()
+            for used in drawn:
+                used.viewed = max(used.viewed, views)
+                used.single_sampled = used.single_sampled or subpass.single_sampled is True
+        self._sizes(each, by_attachment)
+
+    def _resolve(self, resolve: Resolve, by_attachment: dict[int, list[_Used]]) -> None:
+        sources = by_attachment.get(id(resolve.source), []) if resolve.source is not None else []
+        targets = by_attachment.get(id(resolve.target), []) if resolve.target is not None else []
+        if resolve.target_image is not None:
+            targets = targets or [self._add(resolve.target_image, resolve.target_image.name)]
+        for used in sources:
+            used.source = True
+            used.partners += targets[:16]
+        for used in targets:
+            used.resolved_to = True
+            used.partners += sources[:16]
+            used.usage |= COLOR_ATTACHMENT if resolve.aspect == "color" else DEPTH_ATTACHMENT
+
+    def _sizes(self, each: Pass, by_attachment: dict[int, list[_Used]]) -> None:
+        sizes, layers = [], [1]
+        for framebuffer in self.frame.framebuffers.get(each.name, ()):
+            sizes.append((framebuffer.width or 0, framebuffer.height or 0))
+            layers.append(framebuffer.layers or 1)
+        records = [each.record, *(self.frame.commands[at].body for at in each.begun)]
+        for record in records:
+            area = getattr(record, "renderArea", None)
+            if area is not None:
+                sizes.append(((area.x or 0) + (area.width or 0), (area.y or 0) + (area.height or 0)))
+            layers.append(getattr(record, "layerCount", None) or 1)
+        for used in (u for group in by_attachment.values() for u in group):
+            used.area = (max(used.area[0], *(s[0] for s in sizes), 0), max(used.area[1], *(s[1] for s in sizes), 0)) if sizes else used.area
+            used.layers = max(used.layers, *layers)
+
+    def _commands(self) -> None:
+        for command in self.frame.commands:
+            body = command.body
+            if command.kind in ("resolveImage", "copyImage", "blitImage"):
+                source, target = (self._command(getattr(body, member, None)) for member in ("srcImage", "dstImage"))
+                if source is not None:
+                    source.usage |= TRANSFER_SOURCE
+                if target is not None:
+                    target.usage |= TRANSFER_TARGET
+                if source is not None and target is not None:
+                    source.partners.append(target)
+                    target.partners.append(source)
+                    source.source, target.resolved_to = source.source or command.kind == "resolveImage", target.resolved_to
+            elif command.kind in _BY_COMMAND:
+                used = self._command(getattr(body, "image", None) or getattr(body, "srcImage", None) or getattr(body, "dstImage", None))
+                if used is not None:
+                    used.usage |= _BY_COMMAND[command.kind]
+
+    def _command(self, name: str | None) -> _Used | None:
+        target = self.frame.target(name)
+        return self._add(target, target.name) if target is not None else None
+
+    def _settle(self) -> None:
+        """Formats and counts that nothing states: those of what it is resolved with or drawn beside, else the usual ones."""
+        for used in self._used.values():
+            if used.format is None:
+                known = next((p.format for p in used.partners if p.format is not None), None)
+                depth = used.usage & DEPTH_ATTACHMENT and not used.usage & COLOR_ATTACHMENT
+                used.format = known or format_of(DEPTH_FORMAT if depth else COLOR_FORMAT)
+                assert used.format is not None
+                self.words.append(f"the format of {used.name} is not stated: {used.format.name} is taken")
+        for used in self._used.values():
+            if used.samples is None:
+                beside = [other.samples for other in used.beside if other.samples is not None]
+                used.samples = 1 if used.resolved_to and not used.source else max(beside) if beside else 4 if used.source else 1
+                self.words.append(f"the sample count of {used.name} is not stated: {used.samples} is taken")
+
+    def _image(self, used: _Used) -> Image:
+        record = used.target.image
+        form = used.format
+        assert form is not None and used.samples is not None
+        usage, flags, lazy = used.usage, 0, False
+        type_name, tiling, levels, layers, depth = "2D", 0, 1, max(used.layers, used.viewed, 1), 1
+        width, height = used.area if used.area[0] > self.base[0] or used.area[1] > self.base[1] or not self._sized else self.base
+        width, height = width or self.base[0], height or self.base[1]
+        if record is None and used.single_sampled and used.samples == 1:
+            flags = RENDER_TO_SINGLE_SAMPLED
+        if record is not None:
+            flags = mask("VkImageCreateFlagBits", record.flags)
+            type_name = record.imageType or "2D"
+            tiling = number("VkImageTiling", record.tiling) if record.tiling is not None else 0
+            levels = record.mipLevels or 1
+            cube = flags & 0x10
+            layers = record.arrayLayers or (6 if cube else layers)
+            lazy = "LAZILY_ALLOCATED" in (record.memory or ())
+            if record.usage is not None:
+                usage = mask("VkImageUsageFlagBits", record.usage)
+            if cube:
+                height = width
+            if record.extent is not None:
+                width, height, depth = record.extent.width or width, record.extent.height or height, record.extent.depth or 1
+        if not usage:
+            usage = DEPTH_ATTACHMENT if "color" not in form.aspects else COLOR_ATTACHMENT
+        aspects = sum(ASPECTS[each] for each in form.aspects) or COLOR
+        kind = number("VkImageType", type_name)
+        return Image(
+            used.name, number("VkFormat", form.name), used.samples, usage, width, 1 if kind == 0 else height, depth, layers, levels,
+            kind, tiling, flags, lazy, aspects, form.numeric, form.bytes,
+        )  # fmt: skip
+
+
+def _base(frame: Frame) -> tuple[tuple[int, int], bool]:
+    """The size of what states none, and whether anything states it."""
+    size = frame.description.frame
+    if size is not None and size.width is not None and size.height is not None:
+        return (size.width, size.height), True
+    stated: Iterable[tuple[int | None, int | None]] = (
+        *((f.width, f.height) for f in frame.description.framebuffers.values()),
+        *((i.extent.width, i.extent.height) for i in frame.description.images.values() if i.extent is not None),
+    )
+    known = [(width, height) for width, height in stated if width is not None and height is not None]
+    return (max(known), True) if known else (DEFAULT_SIZE, False)

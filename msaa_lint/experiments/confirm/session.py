@@ -1,0 +1,217 @@
+"""The parent's side: frames run in one child as long as it lives, and what killed it is found, tried alone and left out."""
+
+from __future__ import annotations
+
+import glob
+import os
+import shutil
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from types import TracebackType
+from typing import Any
+
+from msaa_lint.core import package
+
+from .child import Child, Ended, Limits
+from .frame_results import Collected, FrameRun, Ran
+from .protocol import Event
+from .results import Unusable
+from .worker import EXECUTE
+
+ICD_FOLDERS = ("/etc/vulkan/icd.d", "/usr/local/share/vulkan/icd.d", "/usr/share/vulkan/icd.d")
+PINNED = ("VK_DRIVER_FILES", "VK_ICD_FILENAMES", "VK_LOADER_DRIVERS_SELECT", "VK_ADD_DRIVER_FILES")
+
+MOST_DEATHS = 16
+"""Deaths of a frame's passes, after which the rest of that frame is left: each costs two new processes."""
+
+OPENING = 30.0
+"""Seconds that a driver may take to show itself, at least: the first run after a start of the machine loads everything from disk."""
+
+
+def environment(device: str | None) -> dict[str, str]:
+    """What a child's environment is: ours, and where neither it nor `device` says which driver, lavapipe's alone if that is installed.
+
+    Loading one driver takes a third of the time that loading all of Mesa's takes.
+    """
+    made = dict(os.environ)
+    if device is None and not any(made.get(name) for name in PINNED):
+        found = [path for folder in ICD_FOLDERS for path in sorted(glob.glob(os.path.join(folder, "lvp_icd*.json")))]
+        if found:
+            made["VK_DRIVER_FILES"] = found[0]
+    return made
+
+
+class Session:
+    """A device in child processes. `with Session(...) as session:`; nothing is left of it afterwards, in memory or on disk."""
+
+    def __init__(
+        self,
+        device: str | None = None,
+        *,
+        validation: bool = True,
+        vendors: Sequence[str] = ("arm", "img"),
+        limits: Limits | None = None,
+        environment: Mapping[str, str] | None = None,
+        execute: str = EXECUTE,
+    ) -> None:
+        self.name = device
+        self.validation = validation
+        self.vendors = tuple(vendors)
+        self.limits = limits or Limits()
+        self.environment = {**(os.environ if environment is None else environment), **_own_path(environment)}
+        self.execute = execute
+        self.device: dict[str, Any] = {}
+        self.layer: dict[str, Any] | None = None
+        self.printed: list[str] = []
+        self.meanwhile: Callable[[], None] | None = None
+        """Called once, while the child works on the next run."""
+        self._folder = ""
+        self._child: Child | None = None
+        self._opened = False
+
+    def __enter__(self) -> Session:
+        self._folder = tempfile.mkdtemp(prefix="msaa-lint-confirm-")
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+        try:
+            self.close()
+        finally:
+            shutil.rmtree(self._folder, ignore_errors=True)
+
+    def close(self) -> None:
+        """Ends the child, if there is one."""
+        child, self._child, self._opened = self._child, None, False
+        if child is not None:
+            child.close()
+            text = child.printed.text().strip()
+            if text:
+                self.printed.append(text)
+
+    def start(self) -> None:
+        """Has a child open the device, without waiting for it."""
+        if self._child is None:
+            self._start({"do": "open", "device": self.name, "validation": self.validation, "vendors": list(self.vendors)})
+
+    def open(self) -> dict[str, Any]:
+        """The device, opened. Unusable where there is none."""
+        if not self._opened:
+            self.start()
+            found = self._first()
+            self.device, self.layer = found["device"], found.get("layer")
+            self._opened = True
+        return self.device
+
+    def devices(self) -> list[dict[str, Any]]:
+        """Every device that the loader finds. Unusable where it finds no driver."""
+        self.close()
+        self._start({"do": "devices"})
+        try:
+            return list(self._first()["devices"])
+        finally:
+            self.close()
+
+    def folder(self, name: str) -> str:
+        """A folder of the session's own for files of a run."""
+        path = os.path.join(self._folder, name)
+        os.makedirs(path, exist_ok=True)
+        return path
+
+    def run(self, plan: Mapping[str, Any], passes: Sequence[int], want: Mapping[str, Any]) -> FrameRun:
+        """Runs passes of a plan, in their order; what the driver does is in what is returned. Unusable where no device opens any more."""
+        done: dict[int, Ran] = {}
+        left = list(passes)
+        while left:
+            collected = Collected()
+            try:
+                self._collect(plan, left, want, collected)
+            except Ended as ended:
+                guilty = collected.at
+                if guilty is None:
+                    # Before any pass: each has a run of its own to show whether it was its doing.
+                    done.update((number, self._alone(plan, number, want, ended)) for number in left[:MOST_DEATHS])
+                    done.update((number, _left(number)) for number in left[MOST_DEATHS:])
+                    return FrameRun(done, tuple(collected.messages), {}, False)
+                done[guilty] = self._alone(plan, guilty, want, ended)
+                left.remove(guilty)
+                if sum(ran.end != "" for ran in done.values()) >= MOST_DEATHS:
+                    done.update((number, _left(number)) for number in left)
+                    return FrameRun(done, tuple(collected.messages), {}, False)
+                continue
+            whole = not done and not collected.failed
+            done.update((number, collected.ran(number)) for number in left)
+            return FrameRun(done, tuple(collected.messages), collected.images if whole else {}, whole, collected.failed)
+        return FrameRun(done, whole=False)
+
+    def _alone(self, plan: Mapping[str, Any], number: int, want: Mapping[str, Any], ended: Ended) -> Ran:
+        """A pass that its process died at, by itself in a fresh one. One that took too long is not waited for again."""
+        if ended.how == "timed-out":
+            return Ran(number, end="timed-out", reason=str(ended))
+        self.close()
+        collected = Collected()
+        try:
+            self._collect(plan, [number], want, collected)
+        except Ended as again:
+            how = "timed-out" if again.how == "timed-out" else "died"
+            return collected.ran(number)._replace(end=how, signal=again.signal, reason=str(again))
+        finally:
+            self.close()
+        ran = collected.ran(number)
+        return ran._replace(end="died", signal=ended.signal, reason=f"{ended} (in company: alone it lives)")
+
+    def _collect(self, plan: Mapping[str, Any], passes: Sequence[int], want: Mapping[str, Any], into: Collected) -> None:
+        self.open()
+        assert self._child is not None
+        request = {"do": "run", "plan": plan, "passes": list(passes), "want": dict(want)}
+        try:
+            self._child.send(request)
+            meanwhile, self.meanwhile = self.meanwhile, None
+            if meanwhile is not None:
+                meanwhile()
+            for event in self._child.answers():
+                into.take(event)
+        except Ended:
+            self.close()
+            raise
+
+    def _start(self, request: Mapping[str, Any]) -> None:
+        self._child = Child(self._folder, self.limits, self.environment, self.execute)
+        self._child.send(request, max(OPENING, self.limits.seconds))
+
+    def _first(self) -> Event:
+        """The answer to the first request of a child."""
+        assert self._child is not None
+        try:
+            *_, found = self._child.answers(max(OPENING, self.limits.seconds))
+        except Ended as ended:
+            self.close()
+            raise Unusable(f"the driver cannot be opened: {ended}") from None
+        if found["event"] == "failed":
+            self.close()
+            raise Unusable(_advice(found))
+        return found
+
+
+def _left(number: int) -> Ran:
+    return Ran(number, end="left", reason=f"left: the driver died {MOST_DEATHS} times in this frame")
+
+
+def _advice(found: Event) -> str:
+    """What to do about a child that cannot open a device."""
+    if found.get("missing") == "vulkan":
+        return "the Python package `vulkan` is not there: pip install 'msaa-lint[confirm]'"
+    if found.get("missing"):
+        return f"the module `{found['missing']}` is not there: {found['reason']}"
+    if found.get("kind") == "memory":
+        return "no memory is left to open a device in"
+    return str(found["reason"])
+
+
+def _own_path(environment: Mapping[str, str] | None) -> dict[str, str]:
+    """Where the child finds this package, however it is installed."""
+    root = os.path.dirname(package.FOLDER)
+    stated = (os.environ if environment is None else environment).get("PYTHONPATH", "")
+    with suppress(ValueError):
+        stated = os.pathsep.join(os.path.abspath(each) for each in stated.split(os.pathsep) if each)
+    return {"PYTHONPATH": root + os.pathsep + stated if stated else root}

@@ -1,0 +1,108 @@
+"""The child process that talks to a driver: `python -m msaa_lint.experiments.confirm.worker`, started by `session` alone.
+
+Requests come as JSON lines on standard input, answers go to a duplicate of standard output that no library knows; what a driver or a layer
+prints goes to standard error, which the parent reads and bounds. Each pass is announced before it is touched, so that the parent knows
+what killed this process.
+"""
+
+from __future__ import annotations
+
+import importlib
+import json
+import os
+import signal
+import sys
+from collections.abc import Callable
+from typing import IO, Any
+
+from .protocol import LONGEST, Event, line
+from .results import Unusable
+
+EXECUTE = "msaa_lint.experiments.confirm.execute"
+
+
+def main(arguments: list[str]) -> int:
+    """Answers requests until there are no more. The one argument is the limits, as JSON: `memory` bytes, `execute` the module that runs
+    plans."""
+    limits = json.loads(arguments[0]) if arguments else {}
+    with os.fdopen(_private(), "wb", buffering=0) as answers:
+        _limit(int(limits.get("memory", 0)))
+        return _serve(sys.stdin.buffer, answers, limits.get("execute") or EXECUTE)
+
+
+def _private() -> int:
+    """A descriptor of what was standard output; standard output itself becomes standard error."""
+    own = os.dup(1)
+    os.dup2(2, 1)
+    os.set_inheritable(own, False)
+    return own
+
+
+def _limit(memory: int) -> None:
+    """No core files, and at most so much address space, where the system can."""
+    try:
+        import resource
+    except ImportError:
+        return
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    if memory:
+        hard = resource.getrlimit(resource.RLIMIT_AS)[1]
+        least = memory if hard == resource.RLIM_INFINITY else min(memory, hard)
+        resource.setrlimit(resource.RLIMIT_AS, (least, hard))
+
+
+def _serve(requests: IO[bytes], answers: IO[bytes], execute: str) -> int:
+    def tell(event: Event) -> None:
+        answers.write(line(event))
+
+    session: Any = None
+    while text := requests.readline(LONGEST):
+        request = json.loads(text)
+        _alarm(request.get("seconds", 0))
+        try:
+            session = _answer(importlib.import_module(execute), session, request, tell)
+        except MemoryError:
+            tell({"event": "failed", "kind": "memory", "reason": "out of memory"})
+        except ImportError as error:
+            tell({"event": "failed", "kind": "environment", "reason": str(error)[:400], "missing": error.name})
+        except Exception as error:
+            kind = "environment" if isinstance(error, Unusable) else "program"
+            reason = str(error) if kind == "environment" else f"{type(error).__name__}: {error}"
+            tell({"event": "failed", "kind": kind, "reason": reason[:2000], "where": _where(error)})
+        _alarm(0)
+    return 0
+
+
+def _answer(module: Any, session: Any, request: dict[str, Any], tell: Callable[[Event], None]) -> Any:
+    """Does what a request asks; the session, opened where it asks for that."""
+    if request["do"] == "devices":
+        tell({"event": "devices", "devices": module.devices()})
+    elif request["do"] == "open":
+        session = module.Session(request["device"], request["validation"], tuple(request["vendors"]))
+        tell({"event": "opened", "device": session.device, "layer": session.layer})
+    else:
+        module.run(session, module.from_json(request["plan"]), request["passes"], module.Want(**request["want"]), tell)
+    return session
+
+
+def _alarm(seconds: float) -> None:
+    """Has the system end this process after so long, should the parent no longer be there to do it; 0 calls it off."""
+    if hasattr(signal, "setitimer"):
+        signal.signal(signal.SIGALRM, signal.SIG_DFL)
+        signal.setitimer(signal.ITIMER_REAL, seconds)
+
+
+def _where(error: BaseException) -> str:
+    import traceback
+
+    return "".join(traceback.format_exception(error))[-4000:]
+
+
+if __name__ == "__main__":
+    # A parent that is gone is no news to anyone.
+    try:
+        code = main(sys.argv[1:])
+    except BrokenPipeError:
+        code = 0
+    # Without Python's own farewell: a driver's threads may hold its locks.
+    os._exit(code)

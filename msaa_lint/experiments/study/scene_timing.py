@@ -1,0 +1,55 @@
+"""The time that a device takes for the triangles of one scene."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from hashlib import sha256
+from types import TracebackType
+from typing import TYPE_CHECKING, Any
+
+from .points import Technique
+from .times import Clock, Cost, Model
+
+if TYPE_CHECKING:
+    from typing import Self
+
+
+class Timed:
+    """A device's clock (study/times.py) over the triangles of a scene: `with Timed(clock, scene, model) as source:`.
+
+    `content` tells scenes of other triangles apart.
+    """
+
+    def __init__(self, clock: Clock, scene: Any, model: Model) -> None:
+        self.clock, self.model, self.name = clock, model, clock.name
+        self._vertices = vertices(scene)
+        self.content = sha256(self._vertices).hexdigest()[:16]
+        self._folder = ""
+
+    def __enter__(self) -> Self:
+        self._folder = self.clock.session.folder("timed")
+        with open(self._path, "xb") as file:
+            file.write(self._vertices)
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+    @property
+    def _path(self) -> str:
+        return os.path.join(self._folder, self.content)
+
+    def of(self, technique: Technique, width: int, height: int) -> Cost:
+        """The device's time, and the model's bytes."""
+        self.clock.model = self.model
+        return self.clock.of(technique, width, height, self._path)
+
+
+def vertices(scene: Any) -> bytes:
+    """The triangles of a scene as the vertex shader takes them (confirm/scene.py)."""
+    import numpy as np
+
+    from .device_coverage import clip
+
+    return bytes(np.ascontiguousarray(clip(scene.triangles, scene.width, scene.height), dtype=np.float32).tobytes())

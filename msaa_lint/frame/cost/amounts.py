@@ -1,0 +1,130 @@
+"""What the cost model gives. MB is 10^6 bytes, MiB 2^20 bytes, a frame is one round of the description's commands.
+
+Every figure stands twice: by plain arithmetic, `width * height * bytes * samples * fps`, and corrected by the device's measured
+compression.
+"""
+
+# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
+from typing import NamedTuple
+
+from msaa_lint.core.text.span import Span
+from msaa_lint.frame.devices.tiles import TileUse
+
+
+class Amount(NamedTuple):
+    """Traffic with external memory, memory that is committed, and the power that the traffic takes."""
+
+    read_mb_per_s: float
+    write_mb_per_s: float
+    memory_mib: float
+    milliwatts: float
+
+    @property
+    def traffic_mb_per_s(self) -> float:
+        """Reads and writes together."""
+        return self.read_mb_per_s + self.write_mb_per_s
+
+
+class Line(NamedTuple):
+    """One cause of traffic: an aspect of an attachment (or of a command's image) that is read or written, once a frame.
+
+    `action` is `load`, `store`, `resolve`, `resolve command`, `copy`, `clear`, `read`, `write` or `input`; `direction` is `read` or
+    `write`. `bytes` are those of a frame by plain arithmetic, exact; `corrected` by the device's compression, None where none is known.
+    `samples` is how many samples a pixel are moved. `place` is where the input states it.
+    """
+
+    attachment: str
+    image: str
+    aspect: str
+    samples: int
+    action: str
+    direction: str
+    bytes: int
+    corrected: float | None
+    place: Span | None
+
+
+class Shading(NamedTuple):
+    """Fragment shader invocations of a pass in a frame, in millions, for one layer of triangles that cover all that it renders to.
+
+    `msaa` is once a pixel, the limit of large triangles. `sample_shading` is once a sample (minSampleShading 1), `super_sampling` that of
+    the smallest grid of k x k single-sampled pixels that has as many samples; `demanded` what the pipelines of the pass state, None where
+    they do not say. `edges` holds, for triangles of 1, 2, 4, ... pixels, by what to multiply `msaa`: (leg in pixels, invocations for each
+    pixel of area), see `shading.invocations_per_area`.
+    """
+
+    pixels: int
+    samples: int
+    msaa: float
+    sample_shading: float
+    super_sampling: float
+    demanded: float | None = None
+    edges: tuple[tuple[int, float], ...] = ()
+
+
+class PassCost(NamedTuple):
+    """One pass, or one command outside of passes (`kind` is `renderPass`, `rendering` or `command`), as often as a frame begins it.
+
+    `memory_mib` of its amounts is that of the images it uses, which other passes may use too. `unknown` says in words what could not be
+    counted, and for the lack of what.
+    """
+
+    name: str
+    path: str
+    kind: str
+    times: int
+    width: int | None
+    height: int | None
+    lines: tuple[Line, ...]
+    amount: Amount
+    corrected: Amount | None
+    shading: Shading | None
+    tile: TileUse | None
+    unknown: tuple[str, ...]
+
+
+class ImageMemory(NamedTuple):
+    """What an image takes: `bytes` in full, `committed` after what a lazily allocated one saves; None where a size is unknown.
+
+    What is committed is told from usage and memory alone, so that the prices of findings add up. `committed_by_use` says that a pass loads
+    or stores an image that is counted as not committed: the driver then has to commit it all the same.
+    """
+
+    name: str
+    bytes: int | None
+    committed: int | None
+    committed_by_use: bool = False
+
+
+class FrameCost(NamedTuple):
+    """A whole frame. `total` counts each image's memory once. `assumed` says in words what was taken for granted (60 fps, a size)."""
+
+    passes: tuple[PassCost, ...]
+    images: tuple[ImageMemory, ...]
+    total: Amount
+    corrected: Amount | None
+    fps: float
+    device: str | None
+    assumed: tuple[str, ...]
+    unknown: tuple[str, ...]
+    milliwatts_per_gbps: float = 100.0
+    budget_milliwatts: float = 2500.0
+
+    @property
+    def budget_share(self) -> float:
+        """How much of the power budget the traffic takes by plain arithmetic: 1 is all of it."""
+        return self.total.milliwatts / self.budget_milliwatts
+
+
+class Terms(NamedTuple):
+    """What a caller may say of how to reckon; None takes the description's, then the device's, then the default.
+
+    `milliwatts_per_gbps` is the power of 10^9 bytes a second (default 100, Arm's figure for LPDDR4-class memory), `budget_milliwatts` what
+    it is set against (default 2500, a phone's sustained budget by the same source).
+    """
+
+    fps: float | None = None
+    width: int | None = None
+    height: int | None = None
+    milliwatts_per_gbps: float | None = None
+    budget_milliwatts: float = 2500.0

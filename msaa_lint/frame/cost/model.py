@@ -1,0 +1,168 @@
+"""The cost of a frame: traffic, memory and power of its passes, once by plain arithmetic and once as the device compresses."""
+
+from __future__ import annotations
+
+from msaa_lint.frame.devices import DeviceProfile
+from msaa_lint.frame.devices.tiles import TileUse
+from msaa_lint.frame.facts.frame import Frame, Pass
+from msaa_lint.frame.facts.subpass import tile_targets
+
+from .amounts import Amount, FrameCost, ImageMemory, Line, PassCost, Terms
+from .memory import images_memory
+from .power import ASSUMED_FPS, MOST, Rates, rates
+from .shading import pass_shading
+from .sizes import Area, Sizes
+from .traffic import MOVING, Lines, command_lines, pass_lines
+
+_ENDS = ("endRenderPass", "endRendering")
+
+
+def frame_cost(frame: Frame, device: DeviceProfile | None, terms: Terms | None = None) -> FrameCost:
+    """What a frame costs: the passes that its commands begin and the commands that move images, in their order.
+
+    Without commands every pass runs once. What an input does not say is not counted, and `unknown` names it. It never raises: the frame may
+    be any that a reader gives.
+    """
+    terms = terms if terms is not None else Terms()
+    reckoned = rates(frame.description, device, terms)
+    sizes = Sizes(frame, terms)
+    images, assumed = images_memory(frame, sizes, device)
+    committed = {image.name: image.committed or 0 for image in images}
+    costs: list[PassCost] = []
+    entries, unknown = _entries(frame, device, sizes, reckoned)
+    read = written = 0
+    corrected: tuple[float, float] | None = (0.0, 0.0) if device is not None and device.compression is not None else None
+    taken: dict[str, None] = {}
+    for name, path, kind, each, area, lines in entries:
+        used = dict.fromkeys(line.image for line in lines.found)
+        if each is not None:
+            used.update(dict.fromkeys(t.name for a in each.attachments if a.used for t in a.targets[:1]))
+        memory = sum(committed.get(image, 0) for image in used)
+        reads, writes = _bytes(lines.found)
+        measured = _corrected(lines.found, device)
+        cost = PassCost(
+            name,
+            path,
+            kind,
+            area.times if area is not None else 1,
+            area.width if area is not None else None,
+            area.height if area is not None else None,
+            tuple(lines.found),
+            reckoned.amount(reads, writes, memory),
+            None if measured is None else reckoned.amount(*measured, memory),
+            pass_shading(each, area, frame) if each is not None and area is not None else None,
+            _tile(each, device) if each is not None else None,
+            tuple(lines.unknown),
+        )
+        costs.append(cost)
+        read, written = read + reads, written + writes
+        corrected = None if corrected is None or measured is None else (corrected[0] + measured[0], corrected[1] + measured[1])
+        unknown += [f"`{name}`: {text}" for text in lines.unknown]
+        taken.update(lines.assumed)
+    everything = sum(committed.values())
+    unknown += [f"`{image.name}`: what it takes of memory" for image in images if image.bytes is None]
+    return FrameCost(
+        tuple(costs),
+        tuple(images),
+        reckoned.amount(read, written, everything),
+        None if corrected is None else reckoned.amount(*corrected, everything),
+        reckoned.fps,
+        device.name if device is not None else None,
+        (*_assumed(frame, device, terms, reckoned), *taken, *assumed),
+        tuple(dict.fromkeys(unknown)),
+        reckoned.milliwatts_per_gbps,
+        terms.budget_milliwatts,
+    )
+
+
+Entry = tuple[str, str, str, Pass | None, Area | None, Lines]
+
+
+def _entries(frame: Frame, device: DeviceProfile | None, sizes: Sizes, reckoned: Rates) -> tuple[list[Entry], list[str]]:
+    """The passes and commands of a frame, with their lines, in the order in which they first come; and the passes that never do."""
+    entries: dict[int, Entry] = {}
+    for each in frame.passes if not frame.has_commands else ():
+        entries[id(each)] = _of_pass(each, device, sizes)
+    begins = {position: each for each in frame.passes for position in each.begun}
+    within: Pass | None = None
+    attached: set[str] = set()
+    for position, command in enumerate(frame.commands):
+        if position in begins:
+            within = begins[position]
+            if id(within) not in entries:
+                entries[id(within)] = _of_pass(within, device, sizes)
+            attached = {target.name for attachment in within.attachments for target in attachment.targets if target.image is not None}
+        elif command.kind in _ENDS:
+            within, attached = None, set()
+        elif command.kind in MOVING:
+            # What a pass has attached it reads on the tile.
+            if within is None:
+                lines = Lines(device)
+                entries[id(command)] = (command.kind, command.path, "command", None, None, lines)
+                command_lines(lines, command, frame, sizes)
+            elif getattr(command.body, "image", None) not in attached:
+                command_lines(entries[id(within)][5], command, frame, sizes)
+    never = [f"`{each.name}`: no command begins it" for each in frame.passes if frame.has_commands and not each.begun]
+    return list(entries.values()), never
+
+
+def _of_pass(each: Pass, device: DeviceProfile | None, sizes: Sizes) -> Entry:
+    area = sizes.area(each)
+    lines = pass_lines(each, area, device)
+    lines.assumed.update(dict.fromkeys(area.assumed))
+    return each.name, each.path, each.kind, each, area, lines
+
+
+def _tile(each: Pass, device: DeviceProfile | None) -> TileUse | None:
+    """The tile of the subpass that takes most of it; None where none is known."""
+    if device is None or device.tile is None:
+        return None
+    from msaa_lint.frame.devices.tiles import tile_use
+
+    uses = []
+    for subpass in each.subpasses:
+        targets = tile_targets(subpass)
+        use = tile_use(device.tile, *targets) if targets is not None else None
+        if use is not None:
+            uses.append(use)
+    return max(uses, key=lambda use: (use.bytes_per_pixel, -use.pixels), default=None)
+
+
+def _bytes(lines: list[Line]) -> tuple[int, int]:
+    return sum(line.bytes for line in lines if line.direction == "read"), sum(line.bytes for line in lines if line.direction == "write")
+
+
+def _corrected(lines: list[Line], device: DeviceProfile | None) -> tuple[float, float] | None:
+    """Read and written bytes as the device compresses; None where that is not known of one of the lines."""
+    if device is None or device.compression is None:
+        return None
+    read = written = 0.0
+    for line in lines:
+        if line.corrected is None:
+            return None
+        if line.direction == "read":
+            read += line.corrected
+        else:
+            written += line.corrected
+    return read, written
+
+
+def _assumed(frame: Frame, device: DeviceProfile | None, terms: Terms, reckoned: Rates) -> list[str]:
+    """What was taken for granted of the frame as a whole."""
+    found = []
+    size = frame.description.frame
+    if terms.fps is None and (size is None or size.fps is None):
+        found.append(f"{ASSUMED_FPS:g} frames a second")
+    if MOST in reckoned:
+        found.append(f"rates above {MOST:g} are taken for that")
+    if device is not None and device.tiler is False:
+        found.append(f"{device.name} renders to memory at once: the traffic is that of a tile-based GPU with the same frame")
+    return found
+
+
+def difference(before: Amount, after: Amount) -> Amount:
+    """What one amount is more than another; negative where it is less."""
+    return Amount(*(one - other for one, other in zip(before, after, strict=True)))
+
+
+__all__ = ["FrameCost", "ImageMemory", "difference", "frame_cost"]

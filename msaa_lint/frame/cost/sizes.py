@@ -1,0 +1,183 @@
+"""How many pixels a pass renders, and how large an image is, from what the description states of either."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from msaa_lint.frame.description.records import BeginRendering, BeginRenderPass, Framebuffer
+from msaa_lint.frame.facts.frame import RENDERING, Attachment, Frame, Pass, Target
+
+from .amounts import Terms
+
+MOST_LAYERS = 2**31
+
+
+class Area(NamedTuple):
+    """What a pass renders in a frame: `pixels` of one layer, `layered` of all its layers, summed over the times that it begins.
+
+    `width` and `height` are those of its first begin. `sized` is false where the size of some begin is unknown, and so not in the sums.
+    """
+
+    times: int
+    pixels: int
+    layered: int
+    width: int | None
+    height: int | None
+    sized: bool
+    assumed: tuple[str, ...]
+
+
+class Sizes:
+    """The sizes of a frame's passes and images.
+
+    A pass is as large as its framebuffer and the smallest of its images say; what neither says is the caller's, then the frame's size. An
+    image without an extent is as large as the first pass that uses it.
+    """
+
+    def __init__(self, frame: Frame, terms: Terms) -> None:
+        self.frame = frame
+        size = frame.description.frame
+        self.width = terms.width if terms.width is not None else size.width if size is not None else None
+        self.height = terms.height if terms.height is not None else size.height if size is not None else None
+        self._of_framebuffer: dict[str, tuple[int | None, int | None, int | None]] = {}
+        self._of_images: dict[str, tuple[int, int]] | None = None
+
+    def area(self, each: Pass) -> Area:
+        """What a pass renders in a frame."""
+        bodies: list[BeginRenderPass | BeginRendering | None]
+        if isinstance(each.record, BeginRendering):
+            bodies = [each.record]
+        else:
+            begun = (self.frame.commands[position].body for position in each.begun)
+            bodies = [body for body in begun if isinstance(body, BeginRenderPass)] if self.frame.has_commands else [None]
+        own = self._own(each)
+        layers_of_images = _least_layers([a.targets[0] for a in each.attachments if a.used and a.targets])
+        pixels = layered = 0
+        first: tuple[int, int] | None = None
+        sized, assumed = True, False
+        for body in bodies:
+            width, height, layers = self._begun(each, body, own)
+            if width is None or height is None:
+                sized = False
+                continue
+            if layers is None:
+                layers = layers_of_images
+                assumed = layers > 1
+            first = first or (width, height)
+            pixels += width * height
+            layered += width * height * layers
+        views = any(subpass.record.viewMask for subpass in each.subpasses)
+        texts = (f"`{each.name}` renders to all {layers_of_images} layers of its images",) if assumed and not views else ()
+        width, height = first if first is not None else (None, None)
+        return Area(len(bodies), pixels, layered, width, height, sized, texts)
+
+    def _begun(
+        self, each: Pass, body: BeginRenderPass | BeginRendering | None, own: tuple[int | None, int | None]
+    ) -> tuple[int | None, int | None, int | None]:
+        """Width, height and layers of one begin."""
+        width, height, layers = *own, None
+        if each.kind == RENDERING:
+            layers = body.layerCount if isinstance(body, BeginRendering) else None
+        else:
+            framebuffer = self._framebuffer(each, body if isinstance(body, BeginRenderPass) else None)
+            if framebuffer is not None:
+                wide, high, layers = self._framebuffer_size(framebuffer)
+                width, height = wide or width, high or height
+        width, height = width or self.width, height or self.height
+        area = body.renderArea if body is not None else None
+        if area is not None:
+            width, height = _clipped(area.x, area.width, width), _clipped(area.y, area.height, height)
+        return width, height, layers
+
+    def _framebuffer(self, each: Pass, body: BeginRenderPass | None) -> Framebuffer | None:
+        """The framebuffer of a begin, the first of several that alternate; the only one of its pass where none is named."""
+        named = body.framebuffer if body is not None else None
+        if named is not None:
+            name = named if isinstance(named, str) else next(iter(named), "")
+            return self.frame.description.framebuffers.get(name)
+        return next(iter(self.frame.framebuffers.get(each.name, ())), None)
+
+    def _framebuffer_size(self, framebuffer: Framebuffer) -> tuple[int | None, int | None, int | None]:
+        found = self._of_framebuffer.get(framebuffer.key)
+        if found is None:
+            targets = [target for target in map(self.frame.target, framebuffer.attachments) if target is not None]
+            # Of a mip level further up the framebuffer alone knows the size.
+            width, height = _least(targets) if framebuffer.width is None or framebuffer.height is None else (None, None)
+            layers = framebuffer.layers
+            found = (framebuffer.width or width, framebuffer.height or height, layers)
+            self._of_framebuffer[framebuffer.key] = found
+        return found
+
+    @staticmethod
+    def _own(each: Pass) -> tuple[int | None, int | None]:
+        """What a pass's images say of its size."""
+        targets = [target for attachment in each.attachments if attachment.used for target in attachment.targets[:1]]
+        if each.kind == RENDERING:
+            targets += [resolve.target_image for resolve in each.subpasses[0].resolves if resolve.target_image is not None]
+        return _least(targets)
+
+    def image(self, target: Target) -> tuple[int, int, int] | None:
+        """Width, height and depth of an image in texels; None where neither it, a pass that uses it, nor the frame says."""
+        extent = target.image.extent if target.image is not None else None
+        width, height, depth = (extent.width, extent.height, extent.depth) if extent is not None else (None, None, None)
+        if width is None or height is None:
+            if self._of_images is None:
+                self._of_images = self._sizes_of_images()
+            bound = self._of_images.get(target.path, (self.width, self.height))
+            width, height = width or bound[0], height or bound[1]
+        return (width, height, depth or 1) if width is not None and height is not None else None
+
+    def _sizes_of_images(self) -> dict[str, tuple[int, int]]:
+        found: dict[str, tuple[int, int]] = {}
+        for each in self.frame.passes:
+            own = self._own(each)
+            if each.kind == RENDERING:
+                framebuffers: list[Framebuffer | None] = [None]
+            else:
+                framebuffers = [*self.frame.framebuffers.get(each.name, ())] or [None]
+            for framebuffer in framebuffers:
+                width, height = own
+                targets = [target for attachment in each.attachments for target in attachment.targets]
+                if framebuffer is not None:
+                    wide, high, _ = self._framebuffer_size(framebuffer)
+                    width, height = wide or width, high or height
+                    targets = [target for target in map(self.frame.target, framebuffer.attachments) if target is not None]
+                elif each.kind == RENDERING:
+                    targets += [r.target_image for r in each.subpasses[0].resolves if r.target_image is not None]
+                width, height = width or self.width, height or self.height
+                if width is not None and height is not None:
+                    for target in targets:
+                        found.setdefault(target.path, (width, height))
+        return found
+
+
+def views_of(each: Pass, attachment: Attachment) -> int:
+    """How many views (VkSubpassDescription2::viewMask) render to an attachment; 0 without multiview."""
+    used = attachment.color | attachment.depth_stencil | attachment.input | attachment.resolve.keys()
+    mask = 0
+    for index in used:
+        mask |= each.subpasses[index].record.viewMask or 0
+    return mask.bit_count()
+
+
+def _least(targets: list[Target]) -> tuple[int | None, int | None]:
+    """The smallest width and height that images state."""
+    extents = [target.image.extent for target in targets if target.image is not None and target.image.extent is not None]
+    widths = [extent.width for extent in extents if extent.width is not None]
+    heights = [extent.height for extent in extents if extent.height is not None]
+    return min(widths, default=None), min(heights, default=None)
+
+
+def _least_layers(targets: list[Target]) -> int:
+    """The fewest layers of images that pass together; 1 where one does not state them."""
+    counts = [target.image.arrayLayers if target.image is not None else None for target in targets]
+    return min((count or 1 for count in counts), default=1)
+
+
+def _clipped(offset: int | None, length: int | None, whole: int | None) -> int | None:
+    """How much of a side of the render area lies in the whole."""
+    start = offset or 0
+    if whole is None:
+        return length
+    end = whole if length is None else min(start + length, whole)
+    return max(end - max(start, 0), 0)

@@ -1,0 +1,219 @@
+"""What a pass or a command moves between the GPU and external memory, by plain arithmetic: exact bytes of one frame.
+
+A tile-based GPU is reckoned with: it reads an attachment where the pass loads it, writes it where the pass stores it, and resolves on the
+tile, so that a resolve writes one sample. Input attachments and vkCmdClearAttachments stay on the tile. An attachment that no subpass uses
+moves nothing, whatever its operations (VkAttachmentDescription).
+"""
+
+from __future__ import annotations
+
+from msaa_lint.core.text.span import Span
+from msaa_lint.frame.description.records import BeginRendering, Command, ReadImage
+from msaa_lint.frame.devices import DeviceProfile
+from msaa_lint.frame.facts.frame import RENDERING, Attachment, Frame, Pass, Target
+from msaa_lint.frame.vulkan.formats import Format
+
+from .amounts import Line
+from .compression import ratio
+from .sizes import Area, Sizes, views_of
+
+_COPIES = {"copyImage": "copy", "blitImage": "copy", "resolveImage": "resolve command"}
+_ONE_IMAGE = {"clearColorImage": "clear", "clearDepthStencilImage": "clear", "writeImage": "write", "readImage": "read"}
+MOVING = frozenset({*_COPIES, *_ONE_IMAGE, "copyImageToBuffer", "copyBufferToImage"})
+"""The commands outside of begin and end that move texels. A present moves none: scanning out is the display's."""
+
+
+def aspect_bytes(format: Format, aspect: str) -> int | None:
+    """What an aspect takes of a texel block: of D32_SFLOAT_S8_UINT 4 and 1, of D24_UNORM_S8_UINT 3 and 1, of X8_D24 4."""
+    if aspect not in format.aspects:
+        return None
+    if aspect == "stencil":
+        return format.stencil_bytes
+    return format.bytes - format.stencil_bytes if aspect == "depth" else format.bytes
+
+
+class Lines:
+    """The lines of one pass or command, and what could not be counted."""
+
+    __slots__ = ("assumed", "device", "found", "unknown")
+
+    def __init__(self, device: DeviceProfile | None) -> None:
+        self.device = device
+        self.found: list[Line] = []
+        self.unknown: dict[str, None] = {}
+        self.assumed: dict[str, None] = {}
+
+    def add(
+        self, attachment: str, image: str, aspect: str, samples: int, kept: int, action: str, direction: str, size: int, place: Span | None
+    ) -> None:
+        """A line; `kept` is how many samples a texel the image has, which decides how it is compressed."""
+        factor = ratio(self.device, kept, direction)
+        corrected = None if factor is None else size * factor
+        self.found.append(Line(attachment, image, aspect, samples, action, direction, size, corrected, place))
+
+    def missing(self, text: str) -> None:
+        """Says of something that it is not counted, and why."""
+        self.unknown[text] = None
+
+
+def pass_lines(each: Pass, area: Area, device: DeviceProfile | None) -> Lines:
+    """What a pass loads, stores and resolves, all the times that a frame begins it."""
+    made = Lines(device)
+    if not area.sized:
+        made.missing("its size: no framebuffer, image or frame states it")
+    if area.times == 0 or area.width is None:
+        return made
+    flags = each.record.flags if isinstance(each.record, BeginRendering) else ()
+    suspends = "SUSPENDING" in flags
+    for attachment in each.attachments:
+        if attachment.used:
+            _attachment(made, each, attachment, area, suspends)
+    if each.kind == RENDERING and not suspends:
+        _rendering_resolves(made, each, area)
+    return made
+
+
+def _attachment(made: Lines, each: Pass, attachment: Attachment, area: Area, suspends: bool) -> None:
+    target = attachment.targets[0] if attachment.targets else None
+    image = target.name if target is not None and target.image is not None else ""
+    pixels = _pixels(each, attachment, area)
+    over: set[str] = set().union(*attachment.resolve.values()) if attachment.resolve else set()
+    record, samples = attachment.record, attachment.samples
+    for aspect in attachment.aspects:
+        name = aspect.name or "color"
+        causes = []
+        if aspect.load == "LOAD":
+            causes.append(("load", "read", record.place(aspect.load_member)))
+        elif aspect.load is None:
+            made.missing(f"whether `{attachment.title}` is loaded: {aspect.load_member} is not stated")
+        if aspect.store == "STORE" and not suspends:
+            causes.append(("resolve" if name in over else "store", "write", record.place(aspect.store_member)))
+        elif aspect.store is None:
+            made.missing(f"whether `{attachment.title}` is stored: {aspect.store_member} is not stated")
+        if attachment.input:
+            if made.device is None or made.device.tiler is None:
+                made.assumed["input attachments are read on the tile"] = None
+            elif made.device.tiler is False:
+                causes.append(("input", "read", record.head))
+        if not causes:
+            continue
+        texel = aspect_bytes(attachment.format, name) if attachment.format is not None else None
+        if texel is None or samples is None:
+            made.missing(f"`{attachment.title}`: its {'format' if texel is None else 'sample count'} is not known")
+            continue
+        for action, direction, place in causes:
+            made.add(attachment.name, image, name, samples, samples, action, direction, pixels * texel * samples, place)
+
+
+def _rendering_resolves(made: Lines, each: Pass, area: Area) -> None:
+    """The resolves at the end of a dynamic rendering: each writes one sample."""
+    for resolve in each.subpasses[0].resolves:
+        target, source = resolve.target_image, resolve.source
+        if resolve.mode == "NONE" or target is None or source is None:
+            continue
+        if resolve.mode is None:
+            made.missing(f"whether `{source.title}` is resolved: resolveMode is not stated")
+            continue
+        format = target.format or source.format
+        texel = aspect_bytes(format, resolve.aspect) if format is not None else None
+        if texel is None:
+            made.missing(f"`{target.title}`: its format is not known")
+            continue
+        size = _pixels(each, source, area) * texel
+        made.add(target.name, target.name, resolve.aspect, 1, 1, "resolve", "write", size, resolve.target_at)
+
+
+def _pixels(each: Pass, attachment: Attachment, area: Area) -> int:
+    views = views_of(each, attachment)
+    return area.pixels * views if views else area.layered
+
+
+def command_lines(made: Lines, command: Command, frame: Frame, sizes: Sizes) -> None:
+    """What a command outside of load and store operations moves: whole images, their first mip level, every layer."""
+    body = command.body
+    if command.kind in _COPIES:
+        source, target = frame.target(getattr(body, "srcImage", None)), frame.target(getattr(body, "dstImage", None))
+        _copy(made, command, source, target, sizes)
+    elif command.kind in ("copyImageToBuffer", "copyBufferToImage"):
+        outward = command.kind == "copyImageToBuffer"
+        moved = frame.target(getattr(body, "srcImage" if outward else "dstImage", None))
+        if moved is None:
+            made.missing("the image: it is not stated")
+        else:
+            _move(made, command, moved, "copy", "read" if outward else "write", sizes)
+            for line in made.found[:]:
+                opposite = "write" if outward else "read"
+                made.found.append(line._replace(attachment="buffer", image="", direction=opposite, corrected=_plain(line)))
+    else:
+        moved = frame.target(getattr(body, "image", None))
+        if moved is None:
+            made.missing(f"what {command.kind} names: the image is not stated")
+        elif isinstance(body, ReadImage):
+            _read(made, command, body, moved, sizes)
+        else:
+            _move(made, command, moved, _ONE_IMAGE[command.kind], "write", sizes)
+
+
+def _plain(line: Line) -> float | None:
+    """A buffer is not compressed; a device of which nothing is known stays unknown."""
+    return None if line.corrected is None else float(line.bytes)
+
+
+def _copy(made: Lines, command: Command, source: Target | None, target: Target | None, sizes: Sizes) -> None:
+    action = _COPIES[command.kind]
+    if source is None or target is None:
+        made.missing("an image: it is not stated")
+        return
+    if command.kind == "blitImage":
+        _move(made, command, source, action, "read", sizes)
+        _move(made, command, target, action, "write", sizes)
+        return
+    # A copy and a resolve take as many texels from one image as they put into the other.
+    common = _common(texels(source, sizes), texels(target, sizes))
+    _move(made, command, source, action, "read", sizes, common)
+    _move(made, command, target, action, "write", sizes, common, 1 if command.kind == "resolveImage" else None)
+
+
+def _common(one: int | None, other: int | None) -> int | None:
+    return min(one, other) if one is not None and other is not None else None
+
+
+def _read(made: Lines, command: Command, body: ReadImage, image: Target, sizes: Sizes) -> None:
+    """A shader reads every texel once: of depth and stencil together depth, of several samples what `samples` states, else all."""
+    if image.samples is not None and image.samples > 1 and body.samples is None:
+        made.assumed[f"the reader of `{image.name}` fetches all {image.samples} samples"] = None
+    _move(made, command, image, "read", "read", sizes, None, 1 if body.samples == 1 else None)
+
+
+def texels(image: Target, sizes: Sizes) -> int | None:
+    """Texel blocks of the first mip level of an image, every layer and slice; None where its size or format is unknown."""
+    size, format = sizes.image(image), image.format
+    if size is None or format is None:
+        return None
+    width, height, depth = (-(-side // block) for side, block in zip(size, format.block, strict=True))
+    layers = image.image.arrayLayers if image.image is not None else None
+    return width * height * depth * (layers or 1)
+
+
+def _move(
+    made: Lines,
+    command: Command,
+    image: Target,
+    action: str,
+    direction: str,
+    sizes: Sizes,
+    blocks: int | None = None,
+    samples: int | None = None,
+) -> None:
+    """Adds what moving an image takes; `blocks` and `samples` where that is less than all of it."""
+    format, kept = image.format, image.samples
+    blocks = texels(image, sizes) if blocks is None else blocks
+    if format is None or kept is None or blocks is None:
+        lacking = "format" if format is None else "sample count" if kept is None else "size"
+        made.missing(f"`{image.title}`: its {lacking} is not known")
+        return
+    aspects = format.aspects[:1] if action == "read" else format.aspects
+    moved = kept if samples is None else samples
+    for aspect in aspects:
+        size = blocks * (aspect_bytes(format, aspect) or 0) * moved
+        made.add(image.name, image.name, aspect, moved, kept, action, direction, size, command.head)

@@ -1,0 +1,75 @@
+"""Spellings that the format has beside Vulkan's enumerants."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from msaa_lint.frame.vulkan.names import nearest, parse_enum, parse_flags
+
+SAMPLE_COUNTS = (1, 2, 4, 8, 16, 32, 64)
+
+ATTACHMENT_UNUSED = 2**32 - 1
+"""VK_ATTACHMENT_UNUSED, and VK_SUBPASS_EXTERNAL."""
+
+EXTERNAL = ("EXTERNAL", "SUBPASS_EXTERNAL", "VK_SUBPASS_EXTERNAL")
+
+UNUSED = ("UNUSED", "ATTACHMENT_UNUSED", "VK_ATTACHMENT_UNUSED")
+
+_COUNT = re.compile(r"(?:(?:VK_)?SAMPLE_COUNT_)?(1|2|4|8|16|32|64)(?:_BIT)?")
+
+
+def sample_count(value: object) -> int | None:
+    """The count that `4`, `"4"`, `SAMPLE_COUNT_4` or `VK_SAMPLE_COUNT_4_BIT` states; None where it is none of Vulkan's."""
+    if isinstance(value, str):
+        match = _COUNT.fullmatch(value)
+        value = int(match[1]) if match else None
+    if isinstance(value, bool) or not isinstance(value, int) or value not in SAMPLE_COUNTS:
+        return None
+    return value
+
+
+def enumerant(enums: str, text: str) -> str | None:
+    """The canonical name in the first of the enums, joined by `|`, that has it; None where none has. `MTL...` are Metal's."""
+    found = _found.get((enums, text))
+    if found is None:
+        if enums.startswith("MTL"):
+            from msaa_lint.frame.metal.names import parse
+
+            return parse(enums, text)
+        found = next((name for enum in enums.split("|") if (name := parse_enum(enum, text)) is not None), None)
+        if found is not None:
+            _found[enums, text] = found
+    return found
+
+
+_found: dict[tuple[str, str], str] = {}
+"""Spellings met: the same few words state most of a frame. What is no name is not kept, so that no input makes this grow."""
+
+
+def flags(enum: str, text: str) -> list[str]:
+    """The canonical names in a text that joins them by `|`, as `names.parse_flags`; ValueError with the part that is unknown."""
+    if enum.startswith("MTL"):
+        from msaa_lint.frame.metal.names import parse_options
+
+        return parse_options(enum, text)
+    return parse_flags(enum, text)
+
+
+def nearest_enumerant(enums: str, text: str) -> str | None:
+    """The enumerant that was most likely meant by a word that is none."""
+    if enums.startswith("MTL"):
+        from msaa_lint.frame.metal.names import nearest_to
+
+        return nearest_to(enums, text)
+    from msaa_lint.frame.vulkan.enums import ENUMS
+
+    return nearest(text, [name for each in enums.split("|") for name in dict.fromkeys(ENUMS[each].values())])
+
+
+def finite(value: float) -> bool:
+    """Whether a number is one that a double can hold: whole numbers may be longer."""
+    try:
+        return math.isfinite(value)
+    except OverflowError:
+        return False

@@ -1,0 +1,98 @@
+"""Devices: what one offers, and the built-in profiles that a description names."""
+
+# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from .builtin_profiles import Row
+    from .tile_models import TileModel
+
+
+class DeviceProfile(NamedTuple):
+    """What a device offers. None is unknown, never "nothing".
+
+    Names are canonical short ones (`SAMPLE_ZERO`, `LAZILY_ALLOCATED`); features and extensions are Vulkan's whole names. `minimum` marks a
+    class of devices: it holds what all of them guarantee, and what it does not list is "not guaranteed" rather than "not offered".
+
+    `tile` is how it sizes its tiles, `compression` what it leaves of the traffic by sample count (of reads, of writes; 1 is what plain
+    arithmetic says), `milliwatts_per_gbps` the power of 10^9 bytes a second of external memory. `source` says where the facts are from. Of
+    built-in profiles, `builtin_profiles.py` says which features and extensions are recorded.
+    """
+
+    name: str
+    vendor: str | None = None
+    tiler: bool | None = None
+    color_samples: tuple[int, ...] | None = None
+    depth_samples: tuple[int, ...] | None = None
+    stencil_samples: tuple[int, ...] | None = None
+    integer_samples: tuple[int, ...] | None = None
+    memory_types: tuple[tuple[str, ...], ...] | None = None
+    depth_resolve_modes: tuple[str, ...] | None = None
+    stencil_resolve_modes: tuple[str, ...] | None = None
+    independent_resolve: bool | None = None
+    independent_resolve_none: bool | None = None
+    features: tuple[str, ...] | None = None
+    extensions: tuple[str, ...] | None = None
+    api_version: str | None = None
+    max_efficient_samples: int | None = None
+    minimum: bool = False
+    source: str = ""
+    tile: "TileModel | None" = None
+    compression: dict[int, tuple[float, float]] | None = None
+    milliwatts_per_gbps: float | None = None
+
+
+def sample_counts(mask: int) -> tuple[int, ...]:
+    """The counts of a VkSampleCountFlags mask, rising: (1, 4, 8) of 13. Unknown bits are left out."""
+    return tuple(count for count in (1, 2, 4, 8, 16, 32, 64) if mask & count)
+
+
+def names() -> tuple[str, ...]:
+    """The names of the built-in profiles."""
+    from .builtin_profiles import PROFILES
+
+    return tuple(PROFILES)
+
+
+def builtin(name: str) -> DeviceProfile | None:
+    """The built-in profile of a name, by case; None where there is none."""
+    from .builtin_profiles import PROFILES
+
+    if name not in _made and name in PROFILES:
+        _made[name] = _profile(PROFILES[name])
+    return _made.get(name)
+
+
+_made: dict[str, DeviceProfile] = {}
+
+
+def _profile(row: "Row") -> DeviceProfile:
+    from msaa_lint.frame.vulkan.names import flag_names
+
+    from .tile_models import MODELS
+
+    color, depth, stencil, integer = row["counts"]
+    depth_modes, stencil_modes, independent, independent_none = row["resolve"]
+    memory = row.get("memory")
+    return DeviceProfile(
+        name=row["name"],
+        vendor=row["vendor"],
+        tiler=row.get("tiler"),
+        color_samples=sample_counts(color),
+        depth_samples=sample_counts(depth),
+        stencil_samples=sample_counts(stencil),
+        integer_samples=None if integer is None else sample_counts(integer),
+        memory_types=None if memory is None else tuple(tuple(flag_names("VkMemoryPropertyFlagBits", mask) or ()) for mask in memory),
+        depth_resolve_modes=tuple(flag_names("VkResolveModeFlagBits", depth_modes) or ()),
+        stencil_resolve_modes=tuple(flag_names("VkResolveModeFlagBits", stencil_modes) or ()),
+        independent_resolve=independent,
+        independent_resolve_none=independent_none,
+        features=("sampleRateShading",) if row.get("sample_rate_shading", True) else (),
+        extensions=row["extensions"],
+        api_version=row["api"],
+        max_efficient_samples=row.get("efficient"),
+        minimum=row.get("minimum", False),
+        source=row["source"],
+        tile=MODELS.get(row.get("tile", "")),
+        compression=row.get("compression"),
+    )

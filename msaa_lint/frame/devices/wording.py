@@ -1,0 +1,178 @@
+"""What a device offers for multisampling, in words and rows. What a class of devices does not list is not guaranteed, never not offered."""
+
+# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from . import DeviceProfile
+from .msaa_features import EXTENSIONS, FEATURES
+from .offer import COUNTS, DEFAULT_EFFICIENT_SAMPLES, Offer, counts_of, lazily_allocated, offered, tiles
+from .shares import ATTRIBUTION, lazily_allocated_share, resolve_mode_share, sample_count_share
+
+COLUMNS = {
+    "color": "colour",
+    "depth": "depth",
+    "stencil": "stencil",
+    "integer": "integer",
+    "no_attachments": "none",
+    "sampled_color": "read colour",
+    "sampled_integer": "read integer",
+    "sampled_depth": "read depth",
+    "sampled_stencil": "read stencil",
+    "storage": "storage",
+}
+"""The table's columns: attachments by aspect (`none`: passes without), then images that shaders read or write."""
+
+PRINCIPAL = (
+    "sampleRateShading", "dynamicRendering", "multisampledRenderToSingleSampled", "shaderStorageImageMultisample",
+    "variableMultisampleRate", "extendedDynamicState3RasterizationSamples", "customResolve",
+)  # fmt: skip
+PRINCIPAL_EXTENSIONS = ("VK_KHR_depth_stencil_resolve", "VK_EXT_sample_locations")
+"""What is worth saying of a device that does not offer it."""
+
+
+class Table(NamedTuple):
+    """Sample counts, a row each, and what the marks mean."""
+
+    heads: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    legend: tuple[str, ...]
+
+
+class Row(NamedTuple):
+    """A fact and what is to be known of it."""
+
+    label: str
+    text: str
+
+
+def title(offer: Offer) -> str:
+    """The device's name, and in brackets what kind of device it is."""
+    profile = offer.profile
+    kinds = {True: "tile-based", False: "not tile-based", None: ""}
+    parts = [profile.vendor or "", kinds[profile.tiler], offer.details.device_type or ""]
+    parts += [f"Vulkan {profile.api_version}" if profile.api_version else ""]
+    parts += ["a minimum: what every such device guarantees" if profile.minimum else ""]
+    known = ", ".join(part for part in parts if part)
+    return f"{profile.name} ({known})" if known else profile.name
+
+
+def table(offer: Offer) -> Table:
+    """Which sample counts are there, for what; the tile of each; how many other devices have it."""
+    profile = offer.profile
+    counts = counts_of(offer)
+    known = [use for use in COLUMNS if counts[use] is not None or use in ("color", "depth", "stencil", "integer")]
+    offers = {count for use in known for count in counts[use] or ()}
+    size = {tile.samples: tile for tile in tiles(profile)}
+    shown = [count for count in COUNTS if count in offers or count <= 16]
+    rows = []
+    for count in shown:
+        cells = [_mark(counts[use], count) for use in known]
+        tile = [("spills" if size[count].spills else f"{size[count].pixels} px") if count in size else ""] if size else []
+        share = [f"{sample_count_share(count)} %", f"{sample_count_share(count, True)} %"]
+        rows.append((f"{count}x", *cells, *tile, *share))
+    heads = tuple(COLUMNS[use] for use in known)
+    missing = "not guaranteed" if profile.minimum else "not offered"
+    legend = [f"- {missing}; ? unknown"]
+    if len(known) > 4:
+        legend.append("read: images that shaders fetch from; storage: images that they write; none: passes without attachments")
+    legend.append(f"of devices, of tilers: how many offer the count for colour; {ATTRIBUTION}")
+    return Table(("samples", *heads, *(["tile, RGBA8"] if size else []), "of devices", "of tilers"), tuple(rows), tuple(legend))
+
+
+def _mark(counts: tuple[int, ...] | None, count: int) -> str:
+    return "?" if counts is None else "yes" if count in counts else "-"
+
+
+def rows(offer: Offer) -> list[Row]:
+    """The facts beside the sample counts."""
+    return [row for row in _rows(offer) if row.text]
+
+
+def _rows(offer: Offer) -> Iterator[Row]:
+    profile, details = offer.profile, offer.details
+    yield Row("depth resolve", _modes(profile, profile.depth_resolve_modes, True))
+    yield Row("stencil resolve", _modes(profile, profile.stencil_resolve_modes, False))
+    yield Row("independent resolve", _independent(profile))
+    yield Row("lazily allocated", _lazily(profile))
+    types = profile.memory_types
+    yield Row("memory types", "; ".join(" | ".join(flags) or "(none)" for flags in types) if types is not None else "")
+    heaps = details.heaps or ()
+    yield Row("memory heaps", "; ".join(f"{size / 2**20:,.0f} MiB{' device-local' if local else ''}" for size, local in heaps))
+    yield Row("efficient samples", _efficient(profile))
+    yield Row("sample locations", _locations(offer))
+    if details.max_framebuffer is not None:
+        yield Row("largest framebuffer", "{} x {} pixels".format(*details.max_framebuffer))
+    for name, meaning in FEATURES.items():
+        if offered(offer, name):
+            yield Row(name, meaning)
+    for name, meaning in EXTENSIONS.items():
+        if offered(offer, name, extension=True):
+            yield Row(name, meaning)
+    yield from _lacking(offer)
+    if profile.tile is not None:
+        yield Row("tiles", f"source: {profile.tile.source}")
+    if profile.compression is not None:
+        yield Row("compression", _compression(profile.compression))
+    yield Row("source", profile.source)
+    for note in offer.report.notes:
+        yield Row("note", note)
+
+
+def _modes(profile: DeviceProfile, modes: tuple[str, ...] | None, depth: bool) -> str:
+    if modes is None:
+        return "not guaranteed" if profile.minimum else "unknown"
+    if not depth:
+        return ", ".join(modes)
+    lacking = [mode for mode in ("AVERAGE", "MIN", "MAX") if mode not in modes]
+    shares = ", ".join(f"{mode} (by {resolve_mode_share(mode, True)} % of tilers)" for mode in lacking)
+    word = "not guaranteed" if profile.minimum else "not offered"
+    return ", ".join(modes) + (f"; {word}: {shares}" if lacking else "")
+
+
+def _independent(profile: DeviceProfile) -> str:
+    if profile.independent_resolve:
+        return "any pair of depth and stencil modes"
+    if profile.independent_resolve_none:
+        return "depth and stencil modes are the same, or one is NONE"
+    if profile.independent_resolve is None or profile.independent_resolve_none is None:
+        return "not guaranteed" if profile.minimum else "unknown"
+    return "depth and stencil modes must be the same"
+
+
+def _lazily(profile: DeviceProfile) -> str:
+    found = lazily_allocated(profile)
+    share = lazily_allocated_share(profile.vendor) if profile.vendor is not None else None
+    others = f" ({share} % of {profile.vendor}'s devices offer it)" if share is not None else ""
+    if found:
+        return "yes: a transient attachment in it takes memory only if it ever has to leave the tile"
+    if found is None:
+        return ("not guaranteed" if profile.minimum else "unknown: no memory types are stated") + others
+    return f"no: a transient attachment takes its whole size{others}"
+
+
+def _efficient(profile: DeviceProfile) -> str:
+    if profile.max_efficient_samples is not None:
+        return f"up to {profile.max_efficient_samples}, as the vendor's guide says"
+    return f"not stated: rules take {DEFAULT_EFFICIENT_SAMPLES}"
+
+
+def _locations(offer: Offer) -> str:
+    details = offer.details
+    words = {True: "standard", False: "not the standard ones", None: ""}[details.standard_sample_locations]
+    own = f"one's own at {', '.join(map(str, details.sample_locations))} samples" if details.sample_locations else ""
+    snap = details.sub_pixel_precision_bits
+    bits = f"vertices snap to 1/{1 << snap} pixel" if snap is not None and snap < 32 else ""
+    return "; ".join(part for part in (words, own, bits) if part)
+
+
+def _lacking(offer: Offer) -> Iterator[Row]:
+    states = [(name, offered(offer, name)) for name in PRINCIPAL] + [(name, offered(offer, name, True)) for name in PRINCIPAL_EXTENSIONS]
+    yield Row("not offered", ", ".join(name for name, state in states if state is False))
+    unknown = "not guaranteed" if offer.profile.minimum else "not known"
+    yield Row(unknown, ", ".join(name for name, state in states if state is None))
+
+
+def _compression(compression: dict[int, tuple[float, float]]) -> str:
+    parts = [f"{count}x reads {read:g}, writes {write:g}" for count, (read, write) in compression.items()]
+    return "; ".join(parts) + " of plain arithmetic"

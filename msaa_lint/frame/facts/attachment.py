@@ -1,0 +1,95 @@
+"""Facts of attachments, of their aspects, and of the pass around them."""
+
+from __future__ import annotations
+
+from msaa_lint.frame.description.records import AttachmentDescription, BeginRendering
+
+from .facts import Facts
+from .frame import RENDERING, Aspect, Attachment, Pass, Resolve
+from .timeline import Timeline
+
+
+def pass_facts(each: Pass) -> Facts:
+    """What holds for all of a pass."""
+    facts = Facts()
+    facts.put("pass.kind", each.kind)
+    facts.put("pass.name", each.name)
+    facts.put("pass.partial_area", each.partial_area)
+    facts.put("pass.custom_resolve", each.custom_resolve)
+    suspends = each.kind == RENDERING and isinstance(each.record, BeginRendering) and "SUSPENDING" in each.record.flags
+    facts.put("pass.suspends", suspends)
+    return facts
+
+
+def attachment_facts(attachment: Attachment, known: bool) -> Facts:
+    """What is known of an attachment in its pass; `known` says whether the pass's subpasses are."""
+    facts = Facts()
+    record = attachment.record
+    target = attachment.target
+    facts.put("attachment.name", attachment.title, record.head)
+    format_at, samples_at = record.head, record.head
+    for name in ("format", "samples"):
+        stated = record if record.states(name) else target.record if target is not None and target.record.states(name) else record
+        at = stated.place(name) if stated.states(name) else record.place("image")
+        format_at, samples_at = (at, samples_at) if name == "format" else (format_at, at)
+    facts.put("attachment.format", attachment.format.name if attachment.format is not None else None, format_at)
+    facts.put("attachment.samples", attachment.samples, samples_at)
+    if known or attachment.used:
+        facts.put("attachment.used", attachment.used)
+    facts.put("attachment.drawn", attachment.drawn)
+    facts.put("attachment.is_resolve_target", bool(attachment.resolve))
+    facts.put("attachment.read_as_input", bool(attachment.input))
+    if isinstance(record, AttachmentDescription):
+        facts.put("attachment.initial_layout", record.initialLayout, record.place("initialLayout"))
+        facts.put("attachment.final_layout", record.finalLayout, record.place("finalLayout"))
+    return facts
+
+
+def resolves_at(each: Pass) -> dict[int, list[Resolve]]:
+    """The resolves of a pass by the attachments, by identity, that they read or write."""
+    found: dict[int, list[Resolve]] = {}
+    for subpass in each.subpasses:
+        for resolve in subpass.resolves:
+            for end in (resolve.source, resolve.target):
+                if end is not None:
+                    found.setdefault(id(end), []).append(resolve)
+    return found
+
+
+def aspect_facts(each: Pass, attachment: Attachment, aspect: Aspect, own: list[Resolve], timeline: Timeline) -> Facts:
+    """What is known of one aspect: its operations, who resolves it (`own` are the attachment's resolves), who reads it later."""
+    facts = Facts()
+    record = attachment.record
+    facts.put("aspect.name", aspect.name, record.head)
+    facts.put("aspect.load", aspect.load, record.place(aspect.load_member))
+    facts.put("aspect.store", aspect.store, record.place(aspect.store_member))
+    stored = aspect.store == "STORE"
+    needs = [op for op, member in ((aspect.store, "STORE"), (aspect.load, "LOAD")) if op == member]
+    facts.put("aspect.memory_operations", needs, record.place(aspect.store_member if stored else aspect.load_member))
+    if isinstance(record, AttachmentDescription):
+        separate = aspect.name == "stencil" and record.stencilInitialLayout is not None
+        layout = record.stencilInitialLayout if separate else record.initialLayout
+        facts.put("aspect.initial_layout", layout, record.place("stencilInitialLayout" if separate else "initialLayout"))
+    resolves = [r for r in own if r.source is attachment and r.aspect == aspect.name]
+    modes = [resolve.mode for resolve in resolves]
+    resolved: bool | None = any(mode not in (None, "NONE") for mode in modes)
+    if not resolved and None in modes:
+        resolved = None
+    facts.put("aspect.resolved", resolved, next((r.target_at for r in resolves if r.mode not in (None, "NONE")), None))
+    over: set[str] = set().union(*attachment.resolve.values())
+    overwritten = True if aspect.name in over else None if "?" in over or (over and aspect.name is None) else False
+    onto = [r for r in own if r.target is attachment and r.aspect == aspect.name and r.mode != "NONE"]
+    facts.put("aspect.resolved_over", overwritten, onto[0].target_at if onto else None)
+    at = {subpass for subpass, aspects in attachment.resolve.items() if aspect.name in aspects}
+    # A resolve comes at the end of its subpass: the same subpass reads what was there before.
+    before = bool(at) and (any(s <= min(at) for s in attachment.input) or any(s < min(at) for s in attachment.depth_stencil))
+    facts.put("aspect.read_before_resolve", before)
+    facts.put("aspect.read_after_resolve", bool(at) and any(s > min(at) for s in attachment.input | attachment.depth_stencil))
+    read_later = timeline.read_later(each, attachment, aspect)
+    facts.put("aspect.read_later", read_later)
+    facts.put("aspect.readers_known", read_later is not None)
+    store = timeline.stored_before(each, attachment, aspect)
+    facts.put("aspect.stored_by", store.by.name if store is not None and store.by is not None else None, store.at if store else None)
+    costly = [op for op, costs in (("LOAD", aspect.load == "LOAD"), ("STORE", stored and read_later is False)) if costs]
+    facts.put("aspect.costly_operations", costly, record.place(aspect.load_member if "LOAD" in costly else aspect.store_member))
+    return facts

@@ -1,0 +1,556 @@
+"""The frame as Vulkan sees it: passes of both kinds in one form, with their attachments, resolves and images joined.
+
+A pass is a VkRenderPass or one vkCmdBeginRendering. What the description does not say stays None here too.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from msaa_lint.core.text.span import Span
+from msaa_lint.frame.description.document import Document, StencilApart
+from msaa_lint.frame.description.record import Record
+from msaa_lint.frame.description.records import (
+    AttachmentDescription,
+    AttachmentReference,
+    BeginRendering,
+    BeginRenderPass,
+    Command,
+    Framebuffer,
+    Image,
+    Pipeline,
+    ReadImage,
+    RenderingAttachment,
+    RenderPass,
+    Subpass,
+)
+from msaa_lint.frame.vulkan.formats import Format, format_of
+
+RENDER_PASS = "renderPass"
+RENDERING = "rendering"
+
+
+class Target:
+    """An image that is rendered to. An attachment that names no image has one of its own, of which only that much is known."""
+
+    __slots__ = ("format", "image", "path", "record", "samples")
+
+    def __init__(self, record: Record, image: Image | None, format: str | None, samples: int | None) -> None:
+        self.record = record
+        self.image = image
+        self.path = record.path
+        self.format: Format | None = format_of(format) if format is not None else None
+        self.samples = samples
+
+    @property
+    def name(self) -> str:
+        return self.record.key
+
+    @property
+    def title(self) -> str:
+        """What messages call it: its name, or the attachment that it stands for."""
+        return f"attachment {self.name}" if self.image is None and self.name.isdecimal() else self.name
+
+
+class Aspect(NamedTuple):
+    """One aspect of an attachment, with its own load and store operation, and the members that state them.
+
+    `name` is None where the format, and with it what `loadOp` means, is unknown.
+    """
+
+    name: str | None
+    load: str | None
+    store: str | None
+    load_member: str
+    store_member: str
+
+
+class Attachment:
+    """One attachment of a pass. The role sets hold the subpasses (0 in dynamic rendering) that use it so."""
+
+    __slots__ = (
+        "aspects",
+        "color",
+        "depth_stencil",
+        "format",
+        "index",
+        "input",
+        "name",
+        "preserve",
+        "record",
+        "resolve",
+        "samples",
+        "targets",
+    )
+
+    def __init__(self, record: AttachmentDescription | RenderingAttachment, name: str, index: int, targets: list[Target]) -> None:
+        self.record = record
+        self.name = name
+        self.index = index
+        self.targets = targets
+        self.format: Format | None = None
+        self.samples: int | None = None
+        self.aspects: list[Aspect] = []
+        self.color: set[int] = set()
+        self.depth_stencil: set[int] = set()
+        self.resolve: dict[int, set[str]] = {}
+        """By subpass: the aspects that a resolve with a source and a mode overwrites here; `?` for one whose mode is unknown."""
+        self.input: set[int] = set()
+        self.preserve: set[int] = set()
+
+    @property
+    def title(self) -> str:
+        """What messages call it: its name; where attachments are a list its image's with its index, or `attachment 2` without one."""
+        if not self.name.isdecimal():
+            return self.name
+        target = self.target
+        named = target is not None and target.image is not None
+        return f"{target.name} (attachment {self.name})" if named and target is not None else f"attachment {self.name}"
+
+    @property
+    def used(self) -> bool:
+        """Whether a subpass refers to it at all."""
+        return bool(self.color or self.depth_stencil or self.resolve or self.input)
+
+    @property
+    def drawn(self) -> bool:
+        """Whether a subpass draws to it."""
+        return bool(self.color or self.depth_stencil)
+
+    @property
+    def target(self) -> Target | None:
+        """Its image, where it is one and the same whenever the pass is begun."""
+        return self.targets[0] if len({id(t.record) for t in self.targets}) == 1 else None
+
+
+class Resolve:
+    """One resolve of one aspect: in a subpass, at the end of a dynamic rendering, or by vkCmdResolveImage.
+
+    `record` states it; `mode` is None where unknown; `places` are (record, member) pairs for mode, source and target.
+    """
+
+    __slots__ = (
+        "aspect", "kind", "mode", "mode_at", "pair", "path", "record", "source", "source_at", "source_image", "subpass",
+        "target", "target_at", "target_image", "within",
+    )  # fmt: skip
+
+    def __init__(self, kind: str, aspect: str, record: Record, path: str) -> None:
+        self.kind = kind
+        self.aspect = aspect
+        self.record = record
+        self.path = path
+        self.within: Pass | None = None
+        self.subpass = 0
+        self.mode: str | None = None
+        self.mode_at: Span = record.head
+        self.source: Attachment | None = None
+        self.source_image: Target | None = None
+        self.source_at: Span = record.head
+        self.target: Attachment | None = None
+        self.target_image: Target | None = None
+        self.target_at: Span = record.head
+        self.pair: Resolve | None = None
+        """The resolve of the other aspect by the same structure, or of the same rendering; without a pass where it states NONE alone."""
+
+
+class PassSubpass:
+    """A subpass; a dynamic rendering has one."""
+
+    __slots__ = ("color", "depth_stencil", "index", "path", "record", "resolves", "single_sampled", "single_sampled_count", "within")
+
+    def __init__(self, within: Pass, record: Subpass | BeginRendering, index: int) -> None:
+        self.within = within
+        self.record = record
+        self.index = index
+        self.path = record.path
+        self.color: list[Attachment | None] = []
+        self.depth_stencil: list[Attachment] = []
+        self.resolves: list[Resolve] = []
+        chained = record.multisampledRenderToSingleSampled
+        self.single_sampled = chained is not None and chained.multisampledRenderToSingleSampledEnable is not False
+        self.single_sampled_count = chained.rasterizationSamples if chained is not None and self.single_sampled else None
+
+
+class Pass:
+    """A render pass or a dynamic rendering. `begun` are the positions in the frame's commands where it begins."""
+
+    __slots__ = ("attachments", "begun", "kind", "name", "partial_area", "path", "record", "subpasses")
+
+    def __init__(self, kind: str, name: str, record: RenderPass | BeginRendering) -> None:
+        self.kind = kind
+        self.name = name
+        self.record = record
+        self.path = record.path
+        self.attachments: list[Attachment] = []
+        self.subpasses: list[PassSubpass] = []
+        self.begun: list[int] = []
+        self.partial_area: bool | None = False
+        """Whether some render area that it is begun with is smaller than what it renders to; None where a size is not stated."""
+
+    @property
+    def custom_resolve(self) -> bool:
+        """Whether a subpass (or the rendering) resolves by its own shader."""
+        flags = [flag for subpass in self.subpasses for flag in subpass.record.flags]
+        return any(flag.startswith(("CUSTOM_RESOLVE", "SHADER_RESOLVE")) for flag in flags)
+
+
+class Frame:
+    """All of a description, joined."""
+
+    __slots__ = (
+        "_columns",
+        "_named",
+        "commands",
+        "description",
+        "document",
+        "framebuffers",
+        "passes",
+        "pipelines",
+        "resolve_commands",
+        "targets",
+    )
+
+    def __init__(self, document: Document) -> None:
+        self.document = document
+        self.description = document.description
+        self.targets: dict[str, Target] = {
+            name: Target(image, image, image.format, image.samples) for name, image in self.description.images.items()
+        }
+        self.commands: tuple[Command, ...] = tuple(c for c in self.description.commands or () if c is not None)
+        self.passes: list[Pass] = []
+        self._named: dict[str, Pass] = {}
+        self._columns: dict[str, list[dict[str, None]]] = {}
+        """By render pass: for each attachment the images that framebuffers bind to it."""
+        self.pipelines: list[tuple[Pipeline, Pass | None]] = []
+        self.resolve_commands: list[tuple[int, Resolve]] = []
+        self.framebuffers = self._used_framebuffers()
+        self._complete_targets()
+        self._render_passes()
+        self._renderings()
+        self._commands()
+        for pipeline in self.description.pipelines.values():
+            self.pipelines.append((pipeline, self.render_pass(pipeline.renderPass)))
+
+    @property
+    def all_targets(self) -> list[Target]:
+        """The images, then those that stand for attachments without one."""
+        implied = [t for p in self.passes for a in p.attachments for t in a.targets if t.image is None]
+        return [*self.targets.values(), *implied]
+
+    @property
+    def has_commands(self) -> bool:
+        """Whether what is recorded is known, and in which order."""
+        return self.description.commands is not None and self.document.ordered
+
+    def render_pass(self, name: str | None) -> Pass | None:
+        return self._named.get(name) if name is not None else None
+
+    def target(self, name: str | None) -> Target | None:
+        return self.targets.get(name) if name is not None else None
+
+    def _complete_targets(self) -> None:
+        """Gives images the format and count that they leave out and an attachment they are bound to states.
+
+        The two must agree (VUID-VkFramebufferCreateInfo-pAttachments-00880, 00881).
+        """
+        for name, record in self.description.renderPasses.items():
+            for index, description in enumerate(record.attachments):
+                bound = self._bound(name, index) or [description.image or ""]
+                for target in (self.targets[each] for each in bound if each in self.targets):
+                    if target.samples is None:
+                        target.samples = description.samples
+                    if target.format is None and description.format is not None:
+                        target.format = format_of(description.format)
+
+    def _render_passes(self) -> None:
+        for name, record in self.description.renderPasses.items():
+            made = Pass(RENDER_PASS, name, record)
+            for index, description in enumerate(record.attachments):
+                made.attachments.append(self._described(name, description, index))
+            named = {a.name: a for a in made.attachments}
+            made.subpasses = [self._subpass(made, subpass, n, named) for n, subpass in enumerate(record.subpasses)]
+            metal = self.document.metal
+            for attachment in made.attachments:
+                # A slot of Metal's says which aspects it is attached for.
+                stated = tuple(metal.attachments.get(id(attachment.record), ())) if metal is not None else ()
+                attachment.aspects = _aspects(attachment, stated)
+            self.passes.append(made)
+            self._named[name] = made
+
+    def _described(self, render_pass: str, description: AttachmentDescription, index: int) -> Attachment:
+        targets = [t for t in (self.targets.get(n) for n in self._bound(render_pass, index)) if t is not None]
+        if not targets and description.image is not None:
+            targets = [t for t in (self.target(description.image),) if t is not None]
+        if not targets:
+            targets = [Target(description, None, description.format, description.samples)]
+        made = Attachment(description, description.key, index, targets)
+        formats, counts = {t.format for t in targets}, {t.samples for t in targets}
+        made.format = format_of(description.format) if description.format is not None else formats.pop() if len(formats) == 1 else None
+        made.samples = description.samples if description.samples is not None else counts.pop() if len(counts) == 1 else None
+        return made
+
+    def _bound(self, render_pass: str, index: int) -> list[str]:
+        """The images that framebuffers bind to an attachment: those the commands begin it with, else the only one for it."""
+        if render_pass not in self._columns:
+            columns: list[dict[str, None]] = []
+            for framebuffer in self.framebuffers.get(render_pass, ()):
+                columns.extend({} for _ in range(len(columns), len(framebuffer.attachments)))
+                for column, name in zip(columns, framebuffer.attachments, strict=False):
+                    if name is not None:
+                        column[name] = None
+            self._columns[render_pass] = columns
+        return list(self._columns[render_pass][index]) if index < len(self._columns[render_pass]) else []
+
+    def _used_framebuffers(self) -> dict[str, list[Framebuffer]]:
+        """By render pass: the framebuffers that the commands begin it with; where they name none, the only one for it."""
+        stated = self.description.framebuffers
+        used: dict[str, list[Framebuffer]] = {}
+        for framebuffer in stated.values():
+            used.setdefault(framebuffer.renderPass or "", []).append(framebuffer)
+        used = {name: own for name, own in used.items() if len(own) == 1}
+        begun: dict[str, list[str]] = {}
+        for command in self.commands:
+            if isinstance(command.body, BeginRenderPass) and command.body.renderPass is not None and command.body.framebuffer is not None:
+                names = command.body.framebuffer
+                begun.setdefault(command.body.renderPass, []).extend([names] if isinstance(names, str) else names)
+        used.update({name: [stated[each] for each in dict.fromkeys(names) if each in stated] for name, names in begun.items()})
+        return used
+
+    def _subpass(self, within: Pass, record: Subpass, index: int, named: dict[str, Attachment]) -> PassSubpass:
+        made = PassSubpass(within, record, index)
+
+        def find(reference: AttachmentReference | None) -> Attachment | None:
+            if reference is None or reference.attachment is None:
+                return None
+            if isinstance(reference.attachment, int):
+                return within.attachments[reference.attachment] if reference.attachment < len(within.attachments) else None
+            return named.get(reference.attachment)
+
+        for reference in record.colorAttachments:
+            attachment = find(reference)
+            made.color.append(attachment)
+            if attachment is not None:
+                attachment.color.add(index)
+        for reference in record.inputAttachments:
+            if (attachment := find(reference)) is not None:
+                attachment.input.add(index)
+        for reference in record.preserveAttachments:
+            if (attachment := find(reference)) is not None:
+                attachment.preserve.add(index)
+        depth_stencil = find(record.depthStencilAttachment)
+        if depth_stencil is not None:
+            made.depth_stencil.append(depth_stencil)
+            depth_stencil.depth_stencil.add(index)
+        for n, reference in enumerate(record.resolveAttachments):
+            target = find(reference)
+            if target is None:
+                continue
+            slots = "resolveAttachments" if self.document.metal is None else "colorAttachments"
+            resolve = Resolve("subpass", "color", record, f"{record.path}.{slots}[{n}]")
+            resolve.source = made.color[n] if n < len(made.color) else None
+            resolve.target = target
+            resolve.mode = "AVERAGE"
+            if resolve.source is not None and resolve.source.format is not None and resolve.source.format.numeric in ("UINT", "SINT"):
+                resolve.mode = "SAMPLE_ZERO"
+            resolve.target_at = resolve.mode_at = reference.node.span if reference.node.kind == "scalar" else reference.head
+            resolve.source_at = record.colorAttachments[n].place("attachment") if n < len(record.colorAttachments) else resolve.target_at
+            target.resolve.setdefault(index, set())
+            if resolve.source is not None:
+                target.resolve[index].add("color")
+            self._joined(made, resolve, index)
+        chained = record.depthStencilResolve
+        if chained is not None and (target := find(chained.attachment)) is not None:
+            self._depth_stencil_resolve(made, depth_stencil, target, index)
+        if self.document.metal is not None and id(record) in self.document.metal.stencils:
+            self._stencil_apart(made, self.document.metal.stencils[id(record)], named, index)
+        return made
+
+    def _stencil_apart(self, made: PassSubpass, apart: StencilApart, named: dict[str, Attachment], index: int) -> None:
+        """Adds the stencil attachment of a Metal pass whose texture is not its depth attachment's, and its resolve."""
+        stencil = named[apart.attachment]
+        made.depth_stencil.append(stencil)
+        stencil.depth_stencil.add(index)
+        if apart.target is None:
+            return
+        resolve = Resolve("subpass", "stencil", apart.record, apart.record.path)
+        resolve.source, resolve.target = stencil, named[apart.target]
+        resolve.mode = "SAMPLE_ZERO" if apart.record.stencilResolveFilter != "depthResolvedSample" else None
+        resolve.mode_at = apart.record.place("stencilResolveFilter", "resolveTexture")
+        resolve.source_at, resolve.target_at = apart.record.place("texture"), apart.record.place("resolveTexture")
+        resolve.target.resolve.setdefault(index, set()).add("stencil" if resolve.mode is not None else "?")
+        self._joined(made, resolve, index)
+
+    def _depth_stencil_resolve(self, made: PassSubpass, source: Attachment | None, target: Attachment, index: int) -> None:
+        record = made.record
+        assert isinstance(record, Subpass) and record.depthStencilResolve is not None
+        chained = record.depthStencilResolve
+        pair: Resolve | None = None
+        target.resolve.setdefault(index, set())
+        # A target may leave an aspect of the source out, not add one (VUID-...-03181, 03182).
+        known = target.format or (source.format if source is not None else None)
+        certain = target.format is not None or (known is not None and len(known.aspects) == 1)
+        for aspect, stated, member in (
+            ("depth", chained.depthResolveMode, "depthResolveMode"),
+            ("stencil", chained.stencilResolveMode, "stencilResolveMode"),
+        ):
+            # A mode for an aspect that the target's format lacks is ignored (VUID-VkSubpassDescriptionDepthStencilResolve-...-03178).
+            if known is not None and aspect not in known.aspects:
+                continue
+            mode = stated if certain or stated == "NONE" else None
+            resolve = Resolve("subpass", aspect, chained, chained.path)
+            resolve.source, resolve.target, resolve.mode = source, target, mode
+            resolve.mode_at = chained.place(member)
+            resolve.target_at = chained.place("attachment")
+            resolve.source_at = record.place("depthStencilAttachment")
+            if mode != "NONE" and source is not None:
+                target.resolve[index].add(aspect if mode is not None else "?")
+            if pair is not None:
+                resolve.pair, pair.pair = pair, resolve
+            pair = resolve
+            self._joined(made, resolve, index)
+
+    @staticmethod
+    def _joined(made: PassSubpass, resolve: Resolve, index: int) -> None:
+        resolve.within = made.within
+        resolve.subpass = index
+        resolve.source_image = resolve.source.target if resolve.source is not None else None
+        resolve.target_image = resolve.target.target if resolve.target is not None else None
+        made.resolves.append(resolve)
+
+    def _renderings(self) -> None:
+        number = 0
+        # One that is written as an alias of another is the same pass, begun again.
+        by_anchor: dict[int, Pass] = {}
+        for position, command in enumerate(self.commands):
+            if isinstance(command.body, BeginRendering):
+                node = command.body.node
+                own = id(node.anchor if node.anchor is not None else node)
+                if own in by_anchor:
+                    by_anchor[own].begun.append(position)
+                    continue
+                made = by_anchor[own] = Pass(RENDERING, f"rendering{number}", command.body)
+                made.begun.append(position)
+                number += 1
+                self._rendering(made, command.body)
+                self.passes.append(made)
+
+    def _rendering(self, made: Pass, record: BeginRendering) -> None:
+        subpass = PassSubpass(made, record, 0)
+        made.subpasses = [subpass]
+        stated = [("color", a) for a in record.colorAttachments]
+        stated += [("depth", record.depthAttachment), ("stencil", record.stencilAttachment)]
+        pair: Resolve | None = None
+        for aspect, info in stated:
+            if info is None or info.image is None:
+                if aspect == "color":
+                    subpass.color.append(None)
+                continue
+            target = self.target(info.image)
+            attachment = Attachment(info, info.image, len(made.attachments), [target] if target is not None else [])
+            if target is not None:
+                attachment.format, attachment.samples = target.format, target.samples
+            attachment.aspects = [Aspect(aspect, info.loadOp, info.storeOp, "loadOp", "storeOp")]
+            made.attachments.append(attachment)
+            (attachment.color if aspect == "color" else attachment.depth_stencil).add(0)
+            if info.imageLayout == "RENDERING_LOCAL_READ":
+                attachment.input.add(0)
+            if aspect == "color":
+                subpass.color.append(attachment)
+            else:
+                subpass.depth_stencil.append(attachment)
+            unresolved = info.resolveImage is None and info.resolveMode in (None, "NONE")
+            if unresolved and (aspect == "color" or info.resolveMode is None):
+                continue
+            resolve = Resolve(RENDERING, aspect, info, info.path)
+            resolve.source, resolve.mode = attachment, info.resolveMode
+            resolve.mode_at = info.place("resolveMode", "resolveImage")
+            resolve.source_at = info.place("image")
+            resolve.target_at = info.place("resolveImage", "resolveMode")
+            if not unresolved:
+                self._joined(subpass, resolve, 0)
+            resolve.target_image = self.target(info.resolveImage)
+            if aspect != "color":
+                if pair is not None:
+                    resolve.pair, pair.pair = pair, resolve
+                pair = resolve
+
+    def _commands(self) -> None:
+        rendering: dict[str, list[Attachment]] = {}
+        begins = {position: each for each in self.passes if each.kind == RENDERING for position in each.begun}
+        for position, command in enumerate(self.commands):
+            body = command.body
+            if command.kind in ("beginRendering", "endRendering"):
+                rendering = {}
+                for attachment in begins[position].attachments if position in begins else ():
+                    rendering.setdefault(attachment.name, []).append(attachment)
+            elif isinstance(body, ReadImage):
+                # Inside a rendering that draws to it: a local read (VK_KHR_dynamic_rendering_local_read).
+                for attachment in rendering.get(body.image or "", ()):
+                    attachment.input.add(0)
+            if isinstance(body, BeginRenderPass):
+                begun = self.render_pass(body.renderPass)
+                if begun is not None:
+                    begun.begun.append(position)
+                    partial = self.partial(body, begun)
+                    begun.partial_area = partial if partial or begun.partial_area is False else begun.partial_area
+            elif command.kind == "resolveImage" and body is not None:
+                self.resolve_commands.append((position, self._resolve_command(command)))
+        for each in self.passes:
+            if each.kind == RENDERING:
+                each.partial_area = self.partial(each.record, each)
+
+    def _resolve_command(self, command: Command) -> Resolve:
+        body = command.body
+        assert isinstance(body, Record)
+        source, target = self.target(getattr(body, "srcImage", None)), self.target(getattr(body, "dstImage", None))
+        aspect = "depth" if source is not None and source.format is not None and "color" not in source.format.aspects else "color"
+        resolve = Resolve("command", aspect, body, command.path)
+        resolve.mode_at = command.head
+        resolve.source_image, resolve.target_image = source, target
+        resolve.source_at, resolve.target_at = body.place("srcImage"), body.place("dstImage")
+        if aspect == "color" and source is not None and source.format is not None and source.format.numeric not in ("UINT", "SINT"):
+            resolve.mode = "AVERAGE"
+        return resolve
+
+    def partial(self, record: Record, begun: Pass) -> bool | None:
+        """Whether a stated render area is smaller than what it renders to; None where that is not known."""
+        area = getattr(record, "renderArea", None)
+        if area is None:
+            return False
+        pairs = list(zip((area.width, area.height), self._size(record, begun), strict=True))
+        if area.x or area.y or any(own is not None and whole is not None and own < whole for own, whole in pairs):
+            return True
+        return None if any(own is not None and whole is None for own, whole in pairs) else False
+
+    def _size(self, record: Record, begun: Pass) -> tuple[int | None, int | None]:
+        if isinstance(record, BeginRenderPass):
+            names = [record.framebuffer] if isinstance(record.framebuffer, str) else list(record.framebuffer or ())
+            for name in names:
+                framebuffer = self.description.framebuffers.get(name)
+                if framebuffer is not None and framebuffer.width is not None:
+                    return framebuffer.width, framebuffer.height
+        for attachment in begun.attachments:
+            for target in attachment.targets:
+                if target.image is not None and target.image.extent is not None:
+                    return target.image.extent.width, target.image.extent.height
+        size = self.description.frame
+        return (size.width, size.height) if size is not None else (None, None)
+
+
+def _aspects(attachment: Attachment, stated: tuple[str, ...] = ()) -> list[Aspect]:
+    """The aspects of a described attachment; where its format is unknown those that are `stated`, or what its use tells of them."""
+    record = attachment.record
+    assert isinstance(record, AttachmentDescription)
+    if attachment.format is not None:
+        names: tuple[str | None, ...] = attachment.format.aspects
+    elif stated:
+        names = stated
+    else:
+        names = ("color",) if attachment.color or any("color" in aspects for aspects in attachment.resolve.values()) else (None,)
+    made = []
+    for name in names:
+        if name == "stencil":
+            made.append(Aspect(name, record.stencilLoadOp, record.stencilStoreOp, "stencilLoadOp", "stencilStoreOp"))
+        else:
+            made.append(Aspect(name, record.loadOp, record.storeOp, "loadOp", "storeOp"))
+    return made

@@ -1,0 +1,226 @@
+"""Facts of images."""
+
+from __future__ import annotations
+
+from msaa_lint.core.text.span import Span
+from msaa_lint.frame.description.records import Image, ReadImage
+from msaa_lint.frame.devices import DeviceProfile
+from msaa_lint.frame.devices.shares import sample_count_share
+
+from .facts import Facts
+from .frame import RENDER_PASS, Attachment, Frame, Target
+from .timeline import READING_USAGES, Timeline
+
+BESIDE_TRANSIENT = frozenset({"TRANSIENT_ATTACHMENT", "COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT", "INPUT_ATTACHMENT"})
+"""VUID-VkImageCreateInfo-usage-00963."""
+
+COMPRESSION_BLOCKERS = {
+    "amd": ("STORAGE", "MUTABLE_FORMAT", "CONCURRENT"),
+    "arm": ("STORAGE", "MUTABLE_FORMAT", "LINEAR"),
+    "nvidia": ("LINEAR",),
+}
+"""What keeps a vendor's GPUs from compressing a render target: the validation layer's advice for AMD and NVIDIA, Arm's for AFBC."""
+
+_ATTACHMENT_USAGES = BESIDE_TRANSIENT - {"TRANSIENT_ATTACHMENT"}
+_RENDER_TARGET_USAGES = frozenset({"COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT"})
+
+
+class Bindings:
+    """What a frame does with its images. Images and those that stand for attachments without one go by their records."""
+
+    __slots__ = ("attachments", "begun", "reads", "resolved")
+
+    def __init__(self, frame: Frame) -> None:
+        self.attachments: dict[int, list[Attachment]] = {}
+        """The attachments that an image is bound to, also by a framebuffer that no command names."""
+        self.begun: set[int] = set()
+        """The images that a pass which the commands begin is bound to."""
+        self.resolved: set[int] = set()
+        """The images that a resolve within a pass writes."""
+        self.reads: dict[str, list[ReadImage]] = {}
+        for each in frame.passes:
+            for attachment in each.attachments:
+                records = {id(target.record) for target in attachment.targets}
+                for record in records:
+                    self.attachments.setdefault(record, []).append(attachment)
+                if each.begun:
+                    self.begun |= records
+            targets = [resolve.target_image for subpass in each.subpasses for resolve in subpass.resolves]
+            self.resolved.update(id(target.record) for target in targets if target is not None)
+        passes = {each.name: each for each in frame.passes if each.kind == RENDER_PASS}
+        for framebuffer in frame.description.framebuffers.values():
+            within = passes.get(framebuffer.renderPass or "")
+            for attachment, name in zip(within.attachments if within is not None else (), framebuffer.attachments, strict=False):
+                target = frame.target(name)
+                if target is not None and target not in attachment.targets:
+                    self.attachments.setdefault(id(target.record), []).append(attachment)
+        for command in frame.commands:
+            if isinstance(command.body, ReadImage) and command.body.image is not None:
+                self.reads.setdefault(command.body.image, []).append(command.body)
+
+
+def image_facts(target: Target, bindings: Bindings, frame: Frame, timeline: Timeline, device: DeviceProfile | None) -> Facts:
+    """What is known of an image by itself, and by what the frame does with it."""
+    facts = Facts()
+    image, record = target.image, target.record
+    bound = bindings.attachments.get(id(record), [])
+    rendered = _rendered(target, bound, bindings)
+    facts.put("image.name", target.title, record.head)
+    facts.put("image.stated", image is not None)
+    facts.put("image.is_data", image is not None and image.encoding == "DATA")
+    facts.put("image.samples", target.samples, record.place("samples"))
+    format = target.format
+    facts.put("image.format", format.name if format is not None else None, record.place("format"))
+    if format is not None:
+        facts.put("image.is_color", "color" in format.aspects, record.place("format"))
+        facts.put("image.numeric", format.numeric or None, record.place("format"))
+        facts.put("image.is_half_float", format.is_float16)
+    supported, whole = supported_samples(target, device)
+    if supported is not None and device is not None:
+        offered = target.samples in supported
+        if whole or not offered:
+            facts.put("image.supported_samples", list(supported))
+        # What a class of devices does not promise, a device of it may offer; framebuffer limits say nothing of what no pass draws to.
+        decided = target.samples is not None and (whole or not offered) and (offered or not device.minimum)
+        if decided and (image is None or image.usage is None or rendered):
+            facts.put("image.supported", offered, record.place("samples"))
+    if target.samples is not None:
+        facts.put("image.share_of_devices", sample_count_share(target.samples, tilers=False))
+        facts.put("image.share_of_tilers", sample_count_share(target.samples, tilers=True))
+    facts.put("image.loaded", _loaded(bound, frame))
+    if image is None:
+        facts.put("image.is_render_target", rendered)
+        return facts
+    facts.put("image.type", image.imageType, image.place("imageType"))
+    facts.put("image.tiling", image.tiling, image.place("tiling"))
+    facts.put("image.mip_levels", image.mipLevels, image.place("mipLevels"))
+    facts.put("image.flags", list(image.flags), image.place("flags"))
+    facts.put("image.sharing_mode", image.sharingMode, image.place("sharingMode"))
+    _put_first(facts, "image.multisampling_conflicts", _multisampling_conflicts(image))
+    facts.put("image.presentable", image.presentable, image.place("presentable"))
+    facts.put("image.encoding", image.encoding, image.place("encoding"))
+    if image.memory is not None:
+        facts.put("image.memory", list(image.memory), image.place("memory"))
+        facts.put("image.lazily_allocated", "LAZILY_ALLOCATED" in image.memory, image.flag_place("memory", ("LAZILY_ALLOCATED",)))
+    if image.usage is not None:
+        at = image.place("usage")
+        facts.put("image.usage", list(image.usage), at)
+        facts.put("image.transient", "TRANSIENT_ATTACHMENT" in image.usage, image.flag_place("usage", ("TRANSIENT_ATTACHMENT",)))
+        facts.put("image.attachment_usage", not _ATTACHMENT_USAGES.isdisjoint(image.usage), at)
+        conflicts = [usage for usage in image.usage if usage not in BESIDE_TRANSIENT]
+        facts.put("image.transient_conflicts", conflicts, image.flag_place("usage", conflicts or ["TRANSIENT_ATTACHMENT"]))
+        facts.put("image.is_render_target", rendered, at)
+    elif rendered:
+        facts.put("image.is_render_target", True)
+    else:
+        facts.places["image.usage"] = record.head
+    blockers = _compression_blockers(image, device)
+    if blockers or None not in (image.usage, image.sharingMode, image.tiling):
+        _put_first(facts, "image.compression_blockers", blockers)
+    facts.put("image.read", _read(target, bindings, frame, timeline))
+    reads = bindings.reads.get(target.name, [])
+    averages = next((body.place("resolves") for body in reads if body.resolves == "AVERAGE"), None)
+    facts.put("image.averaged_by_reader", _averaged(reads, frame), averages)
+    return facts
+
+
+def supported_samples(target: Target, device: DeviceProfile | None) -> tuple[tuple[int, ...] | None, bool]:
+    """The counts that a device offers for the aspects of an image's format, and whether those of every aspect are known.
+
+    None where nothing is known.
+    """
+    format = target.format
+    if device is None or format is None:
+        return None, False
+    lists = []
+    for aspect in format.aspects:
+        if aspect == "color":
+            lists.append(device.integer_samples if format.is_integer else device.color_samples)
+        else:
+            lists.append(device.depth_samples if aspect == "depth" else device.stencil_samples)
+    known = [counts for counts in lists if counts is not None]
+    if not known:
+        return None, False
+    return tuple(count for count in known[0] if all(count in counts for counts in known)), len(known) == len(lists)
+
+
+def _rendered(target: Target, bound: list[Attachment], bindings: Bindings) -> bool:
+    """Whether a pass draws or resolves to it, or its usage allows that."""
+    usage = target.image.usage if target.image is not None else None
+    drawn = any(attachment.drawn or attachment.resolve for attachment in bound) or id(target.record) in bindings.resolved
+    return drawn or not _RENDER_TARGET_USAGES.isdisjoint(usage or ())
+
+
+def _put_first(facts: Facts, name: str, stated: list[tuple[str, Span]]) -> None:
+    """Puts a list, at the place of the first of it."""
+    facts.put(name, [text for text, _ in stated], stated[0][1] if stated else None)
+
+
+def _multisampling_conflicts(image: Image) -> list[tuple[str, Span]]:
+    """VUID-VkImageCreateInfo-samples-02257."""
+    found = []
+    if image.mipLevels is not None and image.mipLevels > 1:
+        found.append((f"mipLevels {image.mipLevels}", image.place("mipLevels")))
+    if image.imageType not in (None, "2D"):
+        found.append((f"imageType {image.imageType}", image.place("imageType")))
+    if "CUBE_COMPATIBLE" in image.flags:
+        found.append(("CUBE_COMPATIBLE", image.flag_place("flags", ("CUBE_COMPATIBLE",))))
+    if image.tiling == "LINEAR":
+        found.append(("LINEAR tiling", image.place("tiling")))
+    return found
+
+
+def _compression_blockers(image: Image, device: DeviceProfile | None) -> list[tuple[str, Span]]:
+    stated = {
+        "STORAGE": ("STORAGE" in (image.usage or ()), image.flag_place("usage", ("STORAGE",))),
+        "MUTABLE_FORMAT": ("MUTABLE_FORMAT" in image.flags, image.flag_place("flags", ("MUTABLE_FORMAT",))),
+        "CONCURRENT": (image.sharingMode == "CONCURRENT", image.place("sharingMode")),
+        "LINEAR": (image.tiling == "LINEAR", image.place("tiling")),
+    }
+    vendor = device.vendor if device is not None else None
+    names = COMPRESSION_BLOCKERS.get(vendor or "", tuple(stated))
+    return [(name, at) for name, (there, at) in stated.items() if there and name in names]
+
+
+def _loaded(bound: list[Attachment], frame: Frame) -> bool | None:
+    """Whether some pass loads an aspect of it; unknown where a load operation is not stated.
+
+    Of a program's file also where no pass of it has the image; of a page's pieces where a pass loads samples of an image that is not known.
+    """
+    if not bound and not frame.document.whole and not frame.document.pieces:
+        return None
+    if not bound and frame.document.pieces:
+        strangers = [
+            a for each in frame.passes for a in each.attachments if a.target is not None and a.target.image is None and a.samples != 1
+        ]
+        if any(aspect.load == "LOAD" for attachment in strangers if attachment.used for aspect in attachment.aspects):
+            return None
+    ops = [aspect.load for attachment in bound if attachment.used for aspect in attachment.aspects]
+    if "LOAD" in ops:
+        return True
+    return None if None in ops else False
+
+
+def _read(target: Target, bindings: Bindings, frame: Frame, timeline: Timeline) -> bool | None:
+    """Whether its samples are read: by commands where the description records them, else as its usage allows.
+
+    Commands say nothing of an image that none of them touches.
+    """
+    image = target.image
+    assert image is not None
+    if any(attachment.input for attachment in bindings.attachments.get(id(image), ())):
+        return True
+    if not timeline.followed:
+        return None
+    uses = timeline.uses.get(target.name, [])
+    if frame.has_commands and (uses or id(image) in bindings.begun):
+        return any(use.kind == "read" and use.aspect is None for use in uses)
+    return None if image.usage is None else not READING_USAGES.isdisjoint(image.usage)
+
+
+def _averaged(reads: list[ReadImage], frame: Frame) -> bool | None:
+    """Whether a reader states that it averages the samples; unknown where a reader does not say."""
+    stated = [body.resolves for body in reads]
+    if "AVERAGE" in stated:
+        return True
+    return None if not frame.has_commands or None in stated else False

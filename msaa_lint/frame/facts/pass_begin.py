@@ -1,0 +1,71 @@
+"""A pass where a command begins it: which images it has there, and whether it writes to all of them."""
+
+from __future__ import annotations
+
+from msaa_lint.frame.description.record import Record
+from msaa_lint.frame.description.records import BeginRenderPass, Framebuffer, Image
+
+from .frame import RENDER_PASS, RENDERING, Attachment, Frame, Pass, Target
+
+MAX_USES = 500_000
+"""How many uses of images by passes are followed. Some thousand passes have some ten thousand; hostile ones attachments times begins."""
+
+
+def uses_at_most(frame: Frame) -> int:
+    """A bound on how often passes use images: every attachment, each time its pass is begun, with every framebuffer."""
+    begins: dict[str | None, int] = {}
+    for command in frame.commands:
+        if isinstance(command.body, BeginRenderPass):
+            alternating = command.body.framebuffer
+            count = len(alternating) if isinstance(alternating, tuple) else 1
+            begins[command.body.renderPass] = begins.get(command.body.renderPass, 0) + max(count, 1)
+    return sum(len(each.attachments) * (1 if each.kind == RENDERING else begins.get(each.name, 1)) for each in frame.passes)
+
+
+def targets_at(frame: Frame, attachment: Attachment, position: int | None) -> list[Target]:
+    """The images of an attachment: several where framebuffers alternate from frame to frame, or where the one is not stated."""
+    body = _body(frame, position)
+    if not isinstance(body, BeginRenderPass) or body.framebuffer is None:
+        return attachment.targets
+    names = [f.attachments[attachment.index] if attachment.index < len(f.attachments) else None for f in _named(frame, body)]
+    targets = [frame.targets[name] for name in dict.fromkeys(names) if name in frame.targets]
+    return targets if targets and None not in names else attachment.targets
+
+
+def one_surface(image: Image | None) -> bool:
+    """Whether an image is stated, and has one mip level and one layer: a command that names no part of it means all of it."""
+    return image is not None and (image.mipLevels or 1) == 1 and (image.arrayLayers or 1) == 1
+
+
+def covers(frame: Frame, each: Pass, position: int | None, target: Target) -> bool:
+    """Whether it writes to all of an image, unless attachments are left out: no size, layer or mip level that is stated denies it."""
+    image = target.image
+    if image is None or (image.mipLevels or 1) > 1 or (image.extent is not None and (image.extent.depth or 1) > 1):
+        return False
+    record = _body(frame, position) or each.record
+    framebuffers = _named(frame, record) or (frame.framebuffers.get(each.name, []) if each.kind == RENDER_PASS else [])
+    if image.arrayLayers is not None and image.arrayLayers > 1:
+        views = [subpass.record.viewMask.bit_count() for subpass in each.subpasses if subpass.record.viewMask]
+        layers: list[int | None] = [*views] or [b.layers for b in framebuffers] or [getattr(record, "layerCount", None)]
+        if any(count is None or count < image.arrayLayers for count in layers):
+            return False
+    area = getattr(record, "renderArea", None)
+    if image.extent is None:
+        return frame.partial(record, each) is False
+    for side in ("width", "height"):
+        whole: int | None = getattr(image.extent, side)
+        drawn: list[int | None] = [getattr(part, side) for part in (*framebuffers, area) if part is not None]
+        if whole is not None and any(part is not None and part < whole for part in drawn):
+            return False
+    return area is None or not (area.x or area.y)
+
+
+def _body(frame: Frame, position: int | None) -> Record | None:
+    body = frame.commands[position].body if position is not None else None
+    return body if isinstance(body, Record) else None
+
+
+def _named(frame: Frame, record: Record) -> list[Framebuffer]:
+    stated = getattr(record, "framebuffer", None)
+    names = [stated] if isinstance(stated, str) else list(stated or ())
+    return [frame.description.framebuffers[name] for name in names if name in frame.description.framebuffers]

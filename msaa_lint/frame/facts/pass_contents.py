@@ -1,0 +1,290 @@
+"""Facts of what a pass records: whether its draws touch an attachment, what it clears before them, whether they have an edge.
+
+A pass in which neither a draw nor a clear is recorded says nothing of what it draws.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from msaa_lint.core.text.span import Span
+from msaa_lint.frame.description.records import BeginRenderPass, ClearAttachment, ClearAttachments, Draw, Pipeline, ReadImage, Rect
+
+from .facts import Facts, known
+from .frame import RENDER_PASS, Aspect, Attachment, Frame, Pass, PassSubpass
+from .moment import ELSEWHERE, LOADED, UNKNOWN
+from .moments import ENDS, Moments, flags_of
+from .pass_begin import MAX_USES, targets_at
+
+_DYNAMIC_MASKS = frozenset({"COLOR_WRITE_MASK_EXT", "COLOR_WRITE_ENABLE_EXT"})
+_DYNAMIC_SAMPLES = frozenset({"SAMPLE_MASK_EXT", "ALPHA_TO_COVERAGE_ENABLE_EXT"})
+_FETCHING = frozenset(
+    {"VK_EXT_shader_tile_image", "VK_ARM_rasterization_order_attachment_access", "VK_EXT_rasterization_order_attachment_access"}
+)
+"""What lets shaders read attachments of which no state tells."""
+_IN_PARTS = frozenset({"SUSPENDING", "RESUMING"})
+_FULL_SCREEN = (3, 6)
+"""Vertices of one triangle that covers the picture, or of two."""
+
+
+class Clear(NamedTuple):
+    """One entry of a recorded vkCmdClearAttachments: in which subpass, after how many draws, and where."""
+
+    subpass: int
+    draws: int
+    cleared: ClearAttachment
+    rects: tuple[Rect, ...]
+
+
+class Instance:
+    """What is recorded between one begin of a pass and its end."""
+
+    __slots__ = ("clears", "drawn", "drawn_at", "draws", "first", "full_screen", "position", "read", "reads_samples")
+
+    def __init__(self, position: int) -> None:
+        self.position = position
+        self.draws = 0
+        self.drawn: dict[int, dict[int, Pipeline | None]] = {}
+        """By subpass: the pipelines of its draws, by identity; None where a draw names none."""
+        self.first: dict[int, int] = {}
+        """By subpass: how many draws came before its first."""
+        self.drawn_at: dict[int, Span] = {}
+        """By subpass: where that is recorded."""
+        self.full_screen: dict[int, bool | None] = {}
+        """By subpass: whether every draw in it covers the picture with a triangle or two, without an edge within."""
+        self.clears: list[Clear] = []
+        self.read: set[str] = set()
+        """The images that shaders read meanwhile."""
+        self.reads_samples = False
+        """Whether one of them has several samples, or may have, which a shader could go through one by one."""
+
+    @property
+    def says(self) -> bool:
+        """Whether anything is recorded of what it draws."""
+        return bool(self.draws or self.clears)
+
+
+Recorded = dict[str, list[Instance]]
+"""By the path of a pass: what is recorded each time that it is begun."""
+
+
+def recorded(frame: Frame) -> Recorded:
+    """What the commands record in passes; renderings of which a part is recorded elsewhere are left out."""
+    found: Recorded = {}
+    begins = {position: each for each in frame.passes for position in each.begun}
+    within: Pass | None = None
+    current: Instance | None = None
+    subpass = 0
+    for position, command in enumerate(frame.commands):
+        body = command.body
+        if position in begins:
+            within, subpass, current = begins[position], 0, None
+            if _IN_PARTS.isdisjoint(flags_of(within)):
+                current = Instance(position)
+                found.setdefault(within.path, []).append(current)
+        elif current is None or within is None:
+            continue
+        elif command.kind in ENDS:
+            current = None
+        elif command.kind == "nextSubpass":
+            subpass += 1
+        elif isinstance(body, Draw):
+            _draw(current, body, within, subpass, frame)
+        elif isinstance(body, ClearAttachments):
+            current.clears += [Clear(subpass, current.draws, cleared, body.rects) for cleared in body.attachments]
+        elif isinstance(body, ReadImage) and body.image is not None:
+            current.read.add(body.image)
+            read = frame.target(body.image)
+            current.reads_samples = current.reads_samples or read is None or read.samples != 1
+    return {each.path: found[each.path] for each in frame.passes if each.path in found and _work(each, found[each.path]) <= MAX_USES}
+
+
+def _work(each: Pass, instances: list[Instance]) -> int:
+    """How much is looked through for the attachments of a pass: it grows faster than the input does."""
+    recorded = sum(1 + len(i.clears) + len(i.read) + sum(len(pipelines) for pipelines in i.drawn.values()) for i in instances)
+    return len(each.attachments) * (recorded + sum(len(subpass.color) + len(subpass.depth_stencil) for subpass in each.subpasses))
+
+
+def _draw(current: Instance, draw: Draw, within: Pass, subpass: int, frame: Frame) -> None:
+    pipeline = frame.description.pipelines.get(draw.pipeline or "")
+    tests = subpass < len(within.subpasses) and bool(within.subpasses[subpass].depth_stencil)
+    current.drawn.setdefault(subpass, {})[id(pipeline)] = pipeline
+    current.first.setdefault(subpass, current.draws)
+    current.drawn_at.setdefault(subpass, draw.head)
+    current.full_screen[subpass] = known(current.full_screen.get(subpass, True), _covers_picture(draw, pipeline, tests))
+    current.draws += 1
+
+
+def touch_facts(facts: Facts, each: Pass, attachment: Attachment, aspect: Aspect, instances: list[Instance], frame: Frame) -> None:
+    """Adds whether anything in the pass touches an aspect, and whether the pass clears it by a command before it draws."""
+    untouched = not attachment.used
+    if attachment.used and instances and facts.values.get("aspect.resolved") is False:
+        untouched = _untouched(each, attachment, aspect, instances, frame)
+    if attachment.used or each.subpasses or frame.document.whole:
+        facts.put("aspect.untouched", untouched)
+    if untouched:
+        needs = aspect.store_member if aspect.store == "STORE" and aspect.load != "LOAD" else aspect.load_member
+        facts.places["aspect.untouched"] = attachment.record.place(needs) if attachment.used else attachment.record.head
+    cleared = [_cleared(each, attachment, aspect, instance, frame) for instance in instances] if attachment.drawn else []
+    first = cleared[0] if cleared and None not in cleared else None
+    facts.put("aspect.clears_in_pass", first is not None)
+    facts.put("aspect.cleared_by_command", first is not None, first)
+    if first is not None:
+        facts.put("aspect.clear_command", "clearAttachments", first)
+
+
+def _untouched(each: Pass, attachment: Attachment, aspect: Aspect, instances: list[Instance], frame: Frame) -> bool:
+    """Whether the draws and clears that are recorded leave an aspect as it was; false where that is not known."""
+    enabled = frame.description.enabled
+    fetches = enabled is not None and not _FETCHING.isdisjoint(enabled.extensions or ())
+    if not instances or attachment.input or attachment.resolve or aspect.name is None or fetches:
+        return False
+    for instance in instances:
+        if not instance.says or not instance.read.isdisjoint(t.name for t in targets_at(frame, attachment, instance.position)):
+            return False
+        if any(_clears(each, clear, attachment, aspect) for clear in instance.clears):
+            return False
+        for index in attachment.color | attachment.depth_stencil:
+            pipelines = instance.drawn.get(index, {}).values()
+            if any(_touches(pipeline, each.subpasses[index], attachment, aspect) is not False for pipeline in pipelines):
+                return False
+    return True
+
+
+def _touches(pipeline: Pipeline | None, subpass: PassSubpass, attachment: Attachment, aspect: Aspect) -> bool | None:
+    """Whether a draw may read or write an aspect by its state; None where that is not stated."""
+    if pipeline is None:
+        return None
+    dynamic, raster = pipeline.dynamicState, pipeline.rasterizationState
+    if raster is not None and raster.rasterizerDiscardEnable and "RASTERIZER_DISCARD_ENABLE" not in dynamic:
+        return False
+    if aspect.name == "color":
+        blend = pipeline.colorBlendState
+        indices = [n for n, own in enumerate(subpass.color) if own is attachment]
+        if blend is None or not _DYNAMIC_MASKS.isdisjoint(dynamic) or any(n >= len(blend.attachments) for n in indices):
+            return None
+        masks = [blend.attachments[n].colorWriteMask for n in indices]
+        return True if any(masks) else None if None in masks else False
+    state = pipeline.depthStencilState
+    if state is None:
+        return None
+    tests = [(state.stencilTestEnable, "STENCIL_TEST_ENABLE")]
+    if aspect.name == "depth":
+        tests = [(state.depthTestEnable, "DEPTH_TEST_ENABLE"), (state.depthBoundsTestEnable, "DEPTH_BOUNDS_TEST_ENABLE")]
+    answers = [None if name in dynamic else enabled for enabled, name in tests]
+    return True if True in answers else None if None in answers else False
+
+
+def _clears(each: Pass, clear: Clear, attachment: Attachment, aspect: Aspect) -> bool:
+    """Whether a clear is of an aspect, or may be."""
+    if clear.subpass >= len(each.subpasses):
+        return False
+    subpass, entry = each.subpasses[clear.subpass], clear.cleared
+    if aspect.name == "color":
+        if "COLOR" not in entry.aspect:
+            return False
+        index = entry.colorAttachment
+        return bool(attachment.color) if index is None else index < len(subpass.color) and subpass.color[index] is attachment
+    return attachment in subpass.depth_stencil and (aspect.name or "depth").upper() in entry.aspect
+
+
+def _cleared(each: Pass, attachment: Attachment, aspect: Aspect, instance: Instance, frame: Frame) -> Span | None:
+    """Where a clear of the whole of an aspect is recorded before any draw in a subpass that uses it; None where there is none."""
+    if not instance.clears:
+        return None
+    uses = attachment.color | attachment.depth_stencil | attachment.input | set(attachment.resolve)
+    earliest = min((instance.first[index] for index in uses if index in instance.first), default=instance.draws)
+    for clear in instance.clears:
+        if clear.draws > earliest:
+            return None
+        if _clears(each, clear, attachment, aspect) and clear.cleared.aspect and _is_whole(each, attachment, clear, instance, frame):
+            return clear.cleared.place("aspect")
+    return None
+
+
+def _is_whole(each: Pass, attachment: Attachment, clear: Clear, instance: Instance, frame: Frame) -> bool:
+    """Whether a clear is certain to cover the render area, in every layer."""
+    if clear.cleared.aspect == ("COLOR",) and clear.cleared.colorAttachment is None:
+        return False
+    area, layers = _area(each, attachment, instance, frame)
+    if area is None or layers != 1:
+        return False
+    left, top, right, bottom = area
+    for rect in clear.rects:
+        if None in (rect.width, rect.height):
+            continue
+        x, y = rect.x or 0, rect.y or 0
+        if x <= left and y <= top and x + (rect.width or 0) >= right and y + (rect.height or 0) >= bottom:
+            return True
+    return False
+
+
+def _area(each: Pass, attachment: Attachment, instance: Instance, frame: Frame) -> tuple[tuple[int, int, int, int] | None, int]:
+    """The render area that a pass is begun with, the whole of what it renders to where none is stated; and its layers."""
+    body = frame.commands[instance.position].body
+    names = body.framebuffer if isinstance(body, BeginRenderPass) else ()
+    stated = [frame.description.framebuffers.get(name) for name in ((names,) if isinstance(names, str) else names or ())]
+    buffers = [buffer for buffer in stated if buffer is not None]
+    if not buffers and each.kind == RENDER_PASS:
+        buffers = frame.framebuffers.get(each.name, [])
+    layers = max([getattr(body, "layerCount", None) or 1, *(buffer.layers or 1 for buffer in buffers)])
+    area = getattr(body, "renderArea", None)
+    if area is not None:
+        if area.width is None or area.height is None:
+            return None, layers
+        return (area.x or 0, area.y or 0, (area.x or 0) + area.width, (area.y or 0) + area.height), layers
+    extents = [target.image.extent for target in attachment.targets if target.image is not None and target.image.extent is not None]
+    for sized in (*buffers, *extents, frame.description.frame):
+        if sized is not None and sized.width is not None and sized.height is not None:
+            return (0, 0, sized.width, sized.height), layers
+    return None, layers
+
+
+def _covers_picture(draw: Draw, pipeline: Pipeline | None, tests: bool) -> bool | None:
+    """Whether a draw is of a triangle or two without vertex data, all of whose samples are the same; None where that is not stated.
+
+    `tests`: there is depth or stencil to test against.
+    """
+    count = draw.vertexCount if draw.vertexCount is not None else draw.indexCount
+    one = draw.instanceCount == 1 if draw.instanceCount is not None else None
+    size = count in _FULL_SCREEN if count is not None else None
+    if pipeline is None:
+        return known(size, one, None)
+    dynamic, state, multisample, vertices = (
+        pipeline.dynamicState,
+        pipeline.depthStencilState,
+        pipeline.multisampleState,
+        pipeline.vertexInputState,
+    )
+    empty = None
+    if vertices is not None and "VERTEX_INPUT_EXT" not in dynamic:
+        empty = not (vertices.vertexBindingDescriptions or vertices.vertexAttributeDescriptions)
+    untested: list[bool | None] = []
+    for member in ("depthTestEnable", "stencilTestEnable") if tests else ():
+        enabled = getattr(state, member, None)
+        name = "DEPTH_TEST_ENABLE" if member == "depthTestEnable" else "STENCIL_TEST_ENABLE"
+        untested.append(None if enabled is None or name in dynamic else not enabled)
+    alike: list[bool | None] = [None]
+    if multisample is not None:
+        alike = [not on if on is not None else None for on in (multisample.sampleShadingEnable, multisample.alphaToCoverageEnable)]
+        alike.append(_whole_mask(multisample.sampleMask, multisample.rasterizationSamples) and _DYNAMIC_SAMPLES.isdisjoint(dynamic))
+    return known(size, one, empty, *untested, *alike)
+
+
+def _whole_mask(mask: tuple[int, ...], samples: int | None) -> bool:
+    """Whether a sample mask lets every sample through, as none does."""
+    return not mask or (samples is not None and samples <= 32 and mask[0] & ((1 << samples) - 1) == (1 << samples) - 1)
+
+
+def screen_facts(facts: Facts, subpass: PassSubpass, instances: list[Instance], moments: Moments) -> None:
+    """Adds whether all that a subpass draws is the whole picture, with nothing before it that had an edge."""
+    whole = bool(instances) and all(each.full_screen.get(subpass.index) is True and not each.reads_samples for each in instances)
+    whole = whole and moments.followed and not subpass.within.custom_resolve
+    reads = whole and all(each.read for each in instances)
+    for attachment in (a for a in subpass.color if a is not None) if whole else ():
+        alone = attachment.color | attachment.depth_stencil | attachment.input == {subpass.index}
+        fresh = all(aspect.load == "DONT_CARE" or (aspect.load == "CLEAR" and reads) for aspect in attachment.aspects)
+        lines = [moments.line(target.name, "color") for target in attachment.targets if target.image is not None]
+        whole = whole and alone and fresh and all(line.kinds.isdisjoint((LOADED, UNKNOWN, ELSEWHERE)) for line in lines)
+    at = instances[0].drawn_at.get(subpass.index) if instances else None
+    facts.put("subpass.full_screen", whole and any(attachment is not None for attachment in subpass.color), at)

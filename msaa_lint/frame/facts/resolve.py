@@ -1,0 +1,218 @@
+"""Facts of resolves: in a subpass, at the end of a rendering, by command."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+
+from msaa_lint.frame.devices import DeviceProfile
+from msaa_lint.frame.devices.shares import resolve_mode_share
+from msaa_lint.frame.vulkan.formats import Format
+
+from .facts import Facts
+from .frame import RENDERING, Frame, Pass, Resolve, Target
+from .pass_begin import MAX_USES, covers, targets_at, uses_at_most
+from .timeline import Timeline
+
+Writers = dict[str, list[tuple[int, Pass | None]]]
+"""By image: the positions of the commands that write to it, and the pass that draws there; None where something else writes."""
+
+_WRITE = {"copyImage": "dstImage", "writeImage": "image", "clearColorImage": "image", "clearDepthStencilImage": "image"}
+# Of the commands that write to a multisampled image; blits and copies from buffers cannot.
+
+
+def resolve_facts(resolve: Resolve, device: DeviceProfile | None) -> Facts:
+    """What is known of a resolve by its structure."""
+    facts = Facts()
+    facts.put("resolve.kind", resolve.kind, resolve.record.head)
+    facts.put("resolve.aspect", resolve.aspect, resolve.record.head)
+    facts.put("resolve.mode", resolve.mode, resolve.mode_at)
+    source, target = resolve.source_image, resolve.target_image
+    facts.put("resolve.has_source", resolve.source is not None or source is not None, resolve.source_at)
+    facts.put("resolve.has_target", resolve.target is not None or target is not None, resolve.target_at)
+    facts.put("resolve.source", resolve.source.title if resolve.source is not None else source.title if source is not None else None)
+    facts.put("resolve.target", resolve.target.title if resolve.target is not None else target.title if target is not None else None)
+    facts.put("resolve.source_samples", _samples(resolve, "source"), resolve.source_at)
+    facts.put("resolve.target_samples", _samples(resolve, "target"), resolve.target_at)
+    from_format, to_format = _format(resolve, "source"), _format(resolve, "target")
+    facts.put("resolve.source_format", from_format.name if from_format is not None else None, resolve.source_at)
+    facts.put("resolve.target_format", to_format.name if to_format is not None else None, resolve.target_at)
+    facts.put("resolve.source_numeric", from_format.numeric if from_format is not None and "color" in from_format.aspects else None)
+    encoding = source.image.encoding if source is not None and source.image is not None else None
+    at = source.image.place("encoding") if source is not None and source.image is not None else None
+    facts.put("resolve.source_encoding", encoding, at)
+    facts.put("resolve.source_is_data", encoding == "DATA")
+    facts.put("resolve.formats_match", formats_match(resolve, from_format, to_format), resolve.target_at)
+    single = resolve.within is not None and any(s.single_sampled for s in resolve.within.subpasses if s.index == resolve.subpass)
+    facts.put("resolve.single_sampled_render", single)
+    _modes(facts, resolve, device)
+    return facts
+
+
+def writers_of(frame: Frame) -> Writers:
+    """Who writes to which images, in the order of the commands."""
+    writers: Writers = {}
+    if uses_at_most(frame) > MAX_USES:
+        return writers
+    if not frame.document.ordered:
+        return _only_writers(frame)
+    begins = {position: each for each in frame.passes for position in each.begun}
+    for position, command in enumerate(frame.commands):
+        if position in begins:
+            each = begins[position]
+            for name in {t.name for a in each.attachments if a.drawn for t in targets_at(frame, a, position)}:
+                writers.setdefault(name, []).append((position, each))
+        written = getattr(command.body, _WRITE.get(command.kind, "-"), None)
+        if isinstance(written, str):
+            writers.setdefault(written, []).append((position, None))
+    return writers
+
+
+def _only_writers(frame: Frame) -> Writers:
+    """Where the order is not known: of the images that one pass alone draws to, that pass, before all else."""
+    drawn: dict[str, list[Pass]] = {}
+    for each in frame.passes:
+        for name in {t.name for a in each.attachments if a.drawn for t in targets_at(frame, a, None)}:
+            drawn.setdefault(name, []).append(each)
+    return {name: [(-1, passes[0])] for name, passes in drawn.items() if len(passes) == 1}
+
+
+def command_facts(facts: Facts, resolve: Resolve, position: int, frame: Frame, writers: Writers) -> None:
+    """What the frame says of a vkCmdResolveImage: whether the pass before it, round the loop, could have resolved."""
+    source, target = resolve.source_image, resolve.target_image
+    written = writers.get(source.name, []) if source is not None else []
+    if source is None or not written:
+        return
+    at, within = written[bisect_left(written, position, key=lambda writer: writer[0]) - 1]
+    if within is None:
+        facts.put("resolve.pass_could_resolve", False)
+        return
+    facts.put("resolve.writer", within.name, within.record.head)
+    drawn = [a for a in within.attachments if source in targets_at(frame, a, at)]
+    modes = [r.mode for s in within.subpasses for r in s.resolves if r.source in drawn and r.mode != "NONE"]
+    could = None if modes == [None] or not covers(frame, within, at, source) or _sizes_differ(source, target) else not modes
+    facts.put("resolve.pass_could_resolve", could)
+
+
+def read_in_vain(frame: Frame, writers: Writers, timeline: Timeline) -> set[str]:
+    """The images that nothing but resolve commands reads, each after a pass that resolved it itself, or threw it away."""
+    in_vain: dict[str, int] = {}
+    for position, resolve in frame.resolve_commands:
+        source = resolve.source_image
+        written = writers.get(source.name, []) if source is not None else []
+        if source is None or not written:
+            continue
+        at, within = written[bisect_left(written, position, key=lambda writer: writer[0]) - 1]
+        drawn = [a for a in within.attachments if source in targets_at(frame, a, at)] if within is not None else []
+        resolved = within is not None and any(
+            r.source in drawn and r.mode not in (None, "NONE") for s in within.subpasses for r in s.resolves
+        )
+        lost = bool(drawn) and all(aspect.store in ("DONT_CARE", "NONE") for a in drawn for aspect in a.aspects)
+        if resolved or lost:
+            in_vain[source.name] = in_vain.get(source.name, 0) + 1
+    if not timeline.followed:
+        return set()
+    reads = {name: [use for use in timeline.uses.get(name, []) if use.kind == "read"] for name in in_vain}
+    return {name for name, count in in_vain.items() if len(reads[name]) == count}
+
+
+def _sizes_differ(source: Target, target: Target | None) -> bool:
+    """Whether two images are known to differ in width or height: attachments of one pass are resolved texel for texel."""
+    one = source.image.extent if source.image is not None else None
+    other = target.image.extent if target is not None and target.image is not None else None
+    return one is not None and other is not None and (one.width, one.height) != (other.width, other.height)
+
+
+def _samples(resolve: Resolve, end: str) -> int | None:
+    attachment = resolve.source if end == "source" else resolve.target
+    image = resolve.source_image if end == "source" else resolve.target_image
+    return attachment.samples if attachment is not None else image.samples if image is not None else None
+
+
+def _format(resolve: Resolve, end: str) -> Format | None:
+    attachment = resolve.source if end == "source" else resolve.target
+    image = resolve.source_image if end == "source" else resolve.target_image
+    return attachment.format if attachment is not None else image.format if image is not None else None
+
+
+def formats_match(resolve: Resolve, source: Format | None, target: Format | None) -> bool | None:
+    """Whether Vulkan allows the two formats together.
+
+    Colour, commands and dynamic rendering want the same format; a depth-stencil resolve in a render pass wants the same bits and type of
+    each aspect that both have (VUID-VkSubpassDescriptionDepthStencilResolve-pDepthStencilResolveAttachment-03181, 03182).
+    """
+    if source is None or target is None:
+        return None
+    if resolve.within is not None and resolve.within.custom_resolve:
+        return True
+    if resolve.kind != "subpass" or resolve.aspect == "color":
+        same = source.name == target.name
+        return None if not same and _other_view(resolve) else same
+    if resolve.aspect not in target.aspects:
+        return True
+    if resolve.aspect == "depth":
+        return (source.depth_bits, source.depth_type) == (target.depth_bits, target.depth_type)
+    return (source.stencil_bits, source.stencil_type) == (target.stencil_bits, target.stencil_type)
+
+
+def _other_view(resolve: Resolve) -> bool:
+    """Whether the formats are those of images of which a view may have another: MUTABLE_FORMAT, and no attachment that states its own."""
+    if resolve.kind == "command":
+        return False
+    ends = ((resolve.source, resolve.source_image), (resolve.target, resolve.target_image))
+    images = [t.image for a, t in ends if t is not None and not (a is not None and a.record.states("format"))]
+    return any(image is not None and "MUTABLE_FORMAT" in image.flags for image in images)
+
+
+def _modes(facts: Facts, resolve: Resolve, device: DeviceProfile | None) -> None:
+    pair = resolve.pair
+    facts.put("resolve.first_of_pair", pair is None or pair.within is None or resolve.aspect == "depth")
+    modes = [resolve.mode] if pair is None else [resolve.mode, pair.mode]
+    facts.put("resolve.all_modes_none", False if any(m not in (None, "NONE") for m in modes) else None if None in modes else True)
+    if resolve.aspect == "color":
+        return
+    if resolve.mode is not None and resolve.mode != "NONE":
+        facts.put("resolve.share_of_tilers", resolve_mode_share(resolve.mode, tilers=True))
+    offered = _offered(resolve, device)
+    if offered is not None:
+        facts.put("resolve.supported_modes", list(offered))
+    # Every device offers SAMPLE_ZERO.
+    certain = (*(offered or ("SAMPLE_ZERO",)), "NONE")
+    if resolve.mode is not None and (resolve.mode in certain or (offered is not None and device is not None and not device.minimum)):
+        facts.put("resolve.mode_supported", resolve.mode in certain, resolve.mode_at)
+    facts.put("resolve.pair_supported", _pair_supported(resolve, pair, device) if pair is not None else True, resolve.mode_at)
+
+
+def _offered(resolve: Resolve, device: DeviceProfile | None) -> tuple[str, ...] | None:
+    if device is None:
+        return None
+    return device.depth_resolve_modes if resolve.aspect == "depth" else device.stencil_resolve_modes
+
+
+def _offers(device: DeviceProfile, resolve: Resolve) -> bool:
+    offered = _offered(resolve, device)
+    return offered is None or resolve.mode in (*offered, "NONE")
+
+
+def _pair_supported(resolve: Resolve, pair: Resolve, device: DeviceProfile | None) -> bool | None:
+    """Modes may differ with independentResolve, or with independentResolveNone where one is NONE (03185, 03186).
+
+    Of a mode that the device does not offer at all, that is what is wrong.
+    """
+    if resolve.mode is None or pair.mode is None:
+        return None
+    if resolve.mode == pair.mode:
+        return True
+    if device is None:
+        return None
+    if device.independent_resolve or not _offers(device, resolve) or not _offers(device, pair):
+        return True
+    if "NONE" in (resolve.mode, pair.mode):
+        answer = device.independent_resolve_none
+        if device.independent_resolve is None and not answer:
+            return None
+    else:
+        answer = device.independent_resolve
+    return None if device.minimum and not answer else answer
+
+
+__all__ = ["RENDERING", "command_facts", "formats_match", "resolve_facts", "writers_of"]

@@ -1,0 +1,162 @@
+"""Facts of subpasses: sample counts together, and the pipelines that draw in them."""
+
+from __future__ import annotations
+
+from msaa_lint.frame.description.records import BeginRendering, Draw, Pipeline, Subpass
+from msaa_lint.frame.devices import DeviceProfile
+from msaa_lint.frame.vulkan.formats import Format
+
+from .facts import Facts
+from .frame import Frame, PassSubpass
+from .global_facts import single_sampled_render
+
+Drawn = dict[int, list[Pipeline | None]]
+"""By the position of a vkCmdBeginRendering: the pipelines of the draws in it, None where a draw names none."""
+
+
+def pipelines_drawn(frame: Frame) -> Drawn:
+    """What the commands draw in each dynamic rendering."""
+    drawn: Drawn = {}
+    within: list[Pipeline | None] = []
+    for position, command in enumerate(frame.commands):
+        if command.kind in ("beginRendering", "beginRenderPass"):
+            within = drawn[position] = []
+        elif isinstance(command.body, Draw):
+            within.append(frame.description.pipelines.get(command.body.pipeline or ""))
+    return drawn
+
+
+def subpass_facts(subpass: PassSubpass, frame: Frame, drawn: Drawn, device: DeviceProfile | None) -> Facts:
+    """What is known of a subpass, or of a dynamic rendering."""
+    facts = Facts()
+    record = subpass.record
+    facts.put("subpass.index", subpass.index, record.head)
+    color = [attachment for attachment in subpass.color if attachment is not None]
+    # Where multisampled rendering goes to single-sampled attachments, those have their own, private samples.
+    private = subpass.single_sampled or single_sampled_render(frame.description)
+    counts = [a.samples for a in color if not (private and a.samples == 1)]
+    below = [a.samples for a in subpass.depth_stencil if not (private and a.samples == 1)]
+    known = sorted({count for count in counts if count is not None})
+    depth = sorted({count for count in below if count is not None})
+    facts.put("subpass.color_samples", known, record.place("colorAttachments"))
+    if depth:
+        facts.put("subpass.depth_stencil_samples", depth[0], record.place("depthStencilAttachment", "depthAttachment", "stencilAttachment"))
+    facts.put("subpass.mixed_color_samples", _decided(len(known) > 1, counts))
+    facts.put("subpass.depth_below_color", _decided(bool(known and depth) and depth[0] < known[-1], [*counts, *below]))
+    facts.put("subpass.depth_above_color", _decided(bool(known and depth) and depth[-1] > known[0], [*counts, *below]))
+    facts.put("subpass.mixed_depth_stencil_samples", _decided(len(depth) > 1, below))
+    _odd(facts, subpass, private)
+    own = subpass.single_sampled_count
+    every = {*known, *depth}
+    odd = subpass.single_sampled and own is not None and any(count != own for count in every)
+    facts.put("subpass.differs_from_single_sampled_count", odd)
+    shared = samples_of(subpass)
+    facts.put("subpass.samples", shared, record.place("colorAttachments", "depthStencilAttachment", "depthAttachment", "stencilAttachment"))
+    _tile(facts, subpass, device)
+    _pipelines(facts, _own_pipelines(subpass, frame, drawn))
+    return facts
+
+
+def samples_of(subpass: PassSubpass) -> int | None:
+    """The count that rasterization in a subpass has; None where it has no attachments, or they are unknown or differ."""
+    if subpass.single_sampled:
+        return subpass.single_sampled_count
+    attachments = [*(a for a in subpass.color if a is not None), *subpass.depth_stencil]
+    counts = {attachment.samples for attachment in attachments}
+    return counts.pop() if len(counts) == 1 else None
+
+
+def tile_targets(subpass: PassSubpass) -> tuple[list[tuple[Format, int]], tuple[Format, int] | None] | None:
+    """Format and samples of what a subpass draws to, as it lies on the tile: colour, and depth-stencil; None where one is unknown.
+
+    Where it renders multisampled to single-sampled attachments, the tile has the samples.
+    """
+    if subpass.single_sampled and subpass.single_sampled_count is None:
+        return None
+    color = [attachment for attachment in subpass.color if attachment is not None]
+    # Dynamic rendering states depth and stencil apart; they are of one image.
+    found: list[tuple[Format, int]] = []
+    for attachment in [*color, *subpass.depth_stencil[:1]]:
+        samples = attachment.samples
+        if subpass.single_sampled_count is not None and samples == 1:
+            samples = subpass.single_sampled_count
+        if attachment.format is None or samples is None:
+            return None
+        found.append((attachment.format, samples))
+    return found[: len(color)], found[-1] if subpass.depth_stencil else None
+
+
+def _tile(facts: Facts, subpass: PassSubpass, device: DeviceProfile | None) -> None:
+    """What the subpass takes of the device's tile."""
+    targets = tile_targets(subpass) if device is not None and device.tile is not None else None
+    use = None
+    if device is not None and device.tile is not None and targets is not None:
+        from msaa_lint.frame.devices.tiles import tile_use
+
+        use = tile_use(device.tile, *targets)
+    facts.put("subpass.tile_known", use is not None)
+    if use is not None:
+        at = subpass.record.place("colorAttachments", "depthStencilAttachment", "depthAttachment", "stencilAttachment")
+        facts.put("subpass.tile_bytes", use.bytes_per_pixel, at)
+        facts.put("subpass.tile_pixels", use.pixels, at)
+        facts.put("subpass.tile_full", use.full, at)
+        facts.put("subpass.tile_spills", use.spills, at)
+
+
+def _odd(facts: Facts, subpass: PassSubpass, private: bool) -> None:
+    """The attachment to point at where counts differ: the first that has not the stated count, or the first one's."""
+    record = subpass.record
+    expected = subpass.single_sampled_count
+    places = {n: reference.place("attachment", "image") for n, reference in enumerate(record.colorAttachments) if reference is not None}
+    drawn = [(a, places.get(n, record.head)) for n, a in enumerate(subpass.color) if a is not None]
+    reference = record.depthStencilAttachment if isinstance(record, Subpass) else None
+    drawn += [(a, reference.place("attachment") if reference is not None else a.record.place("image")) for a in subpass.depth_stencil]
+    for attachment, place in drawn:
+        if attachment.samples is None or (private and attachment.samples == 1):
+            continue
+        if expected is None:
+            expected = attachment.samples
+        elif attachment.samples != expected:
+            facts.put("subpass.odd_attachment", attachment.title, place)
+            facts.put("subpass.odd_samples", attachment.samples, place)
+            facts.put("subpass.expected_samples", expected)
+            return
+
+
+def _decided(answer: bool, counts: list[int | None]) -> bool | None:
+    """A yes stands whatever else comes; a no only where every count is known."""
+    return True if answer else None if None in counts else False
+
+
+def _own_pipelines(subpass: PassSubpass, frame: Frame, drawn: Drawn) -> list[Pipeline | None]:
+    """The pipelines that draw in it: those made for a subpass, those of the draws in a rendering. None where that is not all of them."""
+    within = subpass.within
+    if isinstance(within.record, BeginRendering):
+        elsewhere = any(flag.startswith(("SUSPENDING", "RESUMING", "CONTENTS_SECONDARY")) for flag in within.record.flags)
+        return [] if elsewhere else [pipeline for begun in within.begun for pipeline in drawn.get(begun, [])]
+    if not frame.document.whole:
+        return []
+    unstated = 0 if len(within.subpasses) == 1 else None
+    own: list[Pipeline | None] = []
+    for pipeline in (p for p, w in frame.pipelines if w is within):
+        index = unstated if pipeline.subpass is None else pipeline.subpass
+        if index in (subpass.index, None):
+            own.append(pipeline if index is not None else None)
+    return own
+
+
+def _pipelines(facts: Facts, own: list[Pipeline | None]) -> None:
+    facts.put("subpass.has_pipelines", bool(own), own[0].head if own and own[0] is not None else None)
+    answers = [_covers_in_part(pipeline) if pipeline is not None else None for pipeline in own]
+    if own:
+        facts.put("subpass.partial_coverage", True if True in answers else None if None in answers else False)
+
+
+def _covers_in_part(pipeline: Pipeline) -> bool | None:
+    """Whether a pipeline can cover a pixel in part; None where what decides it is not stated."""
+    raster, state, dynamic = pipeline.rasterizationState, pipeline.multisampleState, pipeline.dynamicState
+    discard = raster.rasterizerDiscardEnable if raster is not None and "RASTERIZER_DISCARD_ENABLE" not in dynamic else None
+    samples = state.rasterizationSamples if state is not None and "RASTERIZATION_SAMPLES_EXT" not in dynamic else None
+    if discard is True or samples == 1:
+        return False
+    return None if discard is None and samples is None else True

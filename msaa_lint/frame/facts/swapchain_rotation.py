@@ -1,0 +1,124 @@
+"""Multisampled images that take turns: as many alike as the swapchain has images, and in each frame one of them."""
+
+from __future__ import annotations
+
+from msaa_lint.frame.description.records import BeginRenderPass, Framebuffer, Image
+
+from .facts import Facts
+from .frame import Frame, Pass, Target
+from .image import Bindings
+
+MAX_TURNS = 16
+"""Of images of a swapchain: more than any has."""
+
+_LOADS = ("LOAD", None)
+
+
+class Turns:
+    """The sets of multisampled images of a frame that take turns with presentable ones. `sure` are those that alternate as it states."""
+
+    def __init__(self, frame: Frame, bindings: Bindings) -> None:
+        self.frame = frame
+        self.of: dict[int, list[str]] = {}
+        """By the identity of the first image of a set: the names of all."""
+        self.sure: set[int] = set()
+        presentable = [name for name, target in frame.targets.items() if target.image is not None and target.image.presentable]
+        many = [target for target in frame.targets.values() if (target.samples or 1) > 1 and target.format is not None]
+        if not 1 < len(presentable) <= MAX_TURNS or len(many) < len(presentable):
+            return
+        self._columns: dict[str, set[tuple[str, int]]] = {}
+        self._buffers: dict[str, set[tuple[int | None, int | None]]] = {}
+        for framebuffer in frame.description.framebuffers.values():
+            for index, name in enumerate(framebuffer.attachments):
+                if name is not None:
+                    self._columns.setdefault(name, set()).add((framebuffer.renderPass or "", index))
+                    self._buffers.setdefault(name, set()).add((framebuffer.width, framebuffer.height))
+        uses = self._uses(len(presentable))
+        if uses is None or not self._one_each([uses.get(name, set()) for name in presentable], len(presentable)):
+            return
+        alike: dict[tuple[object, ...], list[Target]] = {}
+        for target in many:
+            alike.setdefault(self._kind(target), []).append(target)
+        for group in alike.values():
+            turns = [uses.get(target.name, set()) for target in group]
+            if len(group) == len(presentable) and self._one_each(turns, len(group)) and self._begins_anew(group, bindings):
+                self.of[id(group[0].record)] = [target.name for target in group]
+                if all(turns) and frame.has_commands:
+                    self.sure.add(id(group[0].record))
+
+    def put(self, facts: Facts, target: Target) -> None:
+        """Adds what is known of the turns of an image. Of a set its first image speaks."""
+        names = self.of.get(id(target.record), [])
+        facts.put("image.taking_turns", names, target.record.head if names else None)
+        facts.put("image.turns_stated", id(target.record) in self.sure)
+
+    def _kind(self, target: Target) -> tuple[object, ...]:
+        """What images of one set have in common."""
+        image = target.image
+        assert isinstance(image, Image)
+        extent = (image.extent.width, image.extent.height) if image.extent is not None else None
+        usage = frozenset(image.usage) if image.usage is not None else None
+        memory = frozenset(image.memory) if image.memory is not None else None
+        places = frozenset(self._columns.get(target.name, ())), frozenset(self._buffers.get(target.name, ()))
+        return target.format, target.samples, extent, usage, memory, image.arrayLayers, image.mipLevels, places
+
+    def _uses(self, count: int) -> dict[str, set[int]] | None:
+        """In which of as many frames as there are presentable images each image is used: by passes and by commands; None where frames
+        do not come round in that many."""
+        uses: dict[str, set[int]] = {}
+        every = set(range(count))
+        for each in self.frame.passes:
+            buffers = self._alternating(each)
+            if buffers is None or len(buffers) not in (0, 1, count):
+                return None
+            for number, framebuffer in enumerate(buffers):
+                for name in framebuffer.attachments:
+                    if name is not None:
+                        uses.setdefault(name, set()).update({number} if len(buffers) > 1 else every)
+            if not buffers and (each.begun or not self.frame.has_commands):
+                for attachment in each.attachments:
+                    for target in attachment.targets:
+                        uses.setdefault(target.name, set()).update(every)
+                for resolve in (resolve for subpass in each.subpasses for resolve in subpass.resolves):
+                    if resolve.target_image is not None:
+                        uses.setdefault(resolve.target_image.name, set()).update(every)
+        # Which of a swapchain's images is presented differs from frame to frame.
+        for command in (each for each in self.frame.commands if each.kind != "present"):
+            for member in ("image", "srcImage", "dstImage"):
+                name = getattr(command.body, member, None)
+                if isinstance(name, str):
+                    uses.setdefault(name, set()).update(every)
+        return uses
+
+    def _alternating(self, each: Pass) -> list[Framebuffer] | None:
+        """The framebuffers of a pass, in the frames of a turn; None where several in a row are of one frame."""
+        stated = self.frame.description.framebuffers
+        if not self.frame.has_commands:
+            return [framebuffer for framebuffer in stated.values() if framebuffer.renderPass == each.name] if each.name else []
+        named: set[tuple[str, ...]] = set()
+        for position in each.begun:
+            body = self.frame.commands[position].body
+            if isinstance(body, BeginRenderPass) and body.framebuffer is not None:
+                named.add((body.framebuffer,) if isinstance(body.framebuffer, str) else tuple(body.framebuffer))
+        if len(named) > 1:
+            return None
+        return [stated[name] for names in named for name in names if name in stated]
+
+    @staticmethod
+    def _one_each(turns: list[set[int]], count: int) -> bool:
+        """Whether in each frame one is used: each has a frame of its own, or one has them all and the others none."""
+        used = [each for each in turns if each]
+        if len(used) == 1:
+            return len(used[0]) == count
+        return len(used) == count and all(len(each) == 1 for each in used) and len(set().union(*used)) == count
+
+    @staticmethod
+    def _begins_anew(group: list[Target], bindings: Bindings) -> bool:
+        """Whether nothing of one frame is left for another: no pass loads them, and no command reads them."""
+        for target in group:
+            if target.name in bindings.reads:
+                return False
+            for attachment in bindings.attachments.get(id(target.record), ()):
+                if attachment.used and any(aspect.load in _LOADS for aspect in attachment.aspects):
+                    return False
+        return True

@@ -1,0 +1,155 @@
+"""Which device is meant: the one that a description names or describes, what `--profile` and the configuration's `profile` name.
+
+A name is a built-in device's, a class of devices', a vendor's, or the path of a report (`devices/reports`); `phone.json#2` and
+`phone.json#Mali-G715` pick one of several devices in a report. Of reports nothing is imported before one is named.
+"""
+
+# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
+import os
+from typing import TYPE_CHECKING, NamedTuple
+
+from msaa_lint.core.project import inside, project_root
+from msaa_lint.core.text.files import read
+from msaa_lint.core.text.node import Limits
+from msaa_lint.core.text.source import Unreadable, decode
+
+from .devices import DeviceProfile, builtin, names
+from .devices.paths import ENDINGS, is_path, split
+from .facts.table import WORDS
+from .vulkan.names import nearest
+
+if TYPE_CHECKING:
+    from .description.records import Description
+    from .devices.reports import Report
+
+MAX_LISTED = 1000
+"""Files of a folder that are looked at for the name that was meant."""
+
+
+class Problem(NamedTuple):
+    """Why no device can be had: the code of a finding at the place that names it, in words, and what may help."""
+
+    code: str
+    message: str
+    help: str = ""
+
+
+def device_of(name: str | None) -> DeviceProfile | None:
+    """The device that descriptions without one are judged for; None where there is none of that name (`profile_of` says why)."""
+    found = profile_of(name) if name is not None else None
+    return found if isinstance(found, DeviceProfile) else None
+
+
+def profile_of(name: str) -> DeviceProfile | Problem:
+    """The device that `--profile` or a configuration names; of a vendor's only that is known. Paths count from the current folder."""
+    found = builtin(name)
+    if found is not None:
+        return found
+    if name in WORDS["vendor"]:
+        return DeviceProfile(name=name, vendor=name, minimum=True, source="only the vendor is known")
+    if is_path(name):
+        return _reported(name, os.curdir)
+    close = nearest(name, known_profiles())
+    help = f"did you mean `{close}`?" if close else f"there are {', '.join(known_profiles())}, and paths of device reports"
+    return Problem("MSAA904", f"no profile {_quoted(name)}", help)
+
+
+def known_profiles() -> tuple[str, ...]:
+    """Every name that `profile_of` knows, paths aside."""
+    return (*names(), *WORDS["vendor"])
+
+
+def device_for(description: "Description", file: str, default: DeviceProfile | None) -> DeviceProfile | Problem | None:
+    """The device that a description names or describes, or the family of Metal's GPUs that it states, else the given one.
+
+    A path counts from the folder of the description's `file` (a name that is no path, such as `<stdin>`: from the current folder) and must
+    stay in its project with all symbolic links followed: a description may come from a stranger's branch. A Problem is one of the
+    description, at its `device`.
+    """
+    from .description.records import Device
+    from .facts.global_facts import described, of_family
+
+    stated = description.device
+    if stated is None:
+        return of_family(description) or default
+    if isinstance(stated, Device):
+        return described(stated)
+    found = builtin(stated)
+    if found is not None:
+        return found
+    if is_path(stated):
+        folder = os.path.dirname(file) or os.curdir
+        return _reported(stated, folder, project_root(folder))
+    return Problem("MSAA904", f"no device {_quoted(stated)}", f"built-in devices: {', '.join(names())}")
+
+
+def _reported(name: str, folder: str, within: str | None = None) -> DeviceProfile | Problem:
+    """The device of a report that a name is the path of, `within` a folder that it must not leave."""
+    path, which = split(name)
+    full = os.path.join(folder, path)
+    if within is not None and not inside(full, within):
+        return Problem("MSAA903", f"{_quoted(path)} leaves the project", "--profile on the command line can name what lies outside")
+    found = reports(full, path)
+    if isinstance(found, Problem):
+        return found
+    from .devices.reports import pick
+
+    report = pick(found, which)
+    if report is not None:
+        return report.profile
+    there = ", ".join(f"`{path}#{number}` is {each.profile.name}" for number, each in enumerate(found[:8], 1))
+    if which:
+        return Problem("MSAA904", f"no device {_quoted(which)} in {_quoted(path)}", there)
+    return Problem("MSAA903", f"{_quoted(path)} has {len(found)} devices: say which", there)
+
+
+def reports(path: str, called: str) -> "list[Report] | Problem":
+    """The devices of a report's file. `called` is what messages and the profiles' sources call it."""
+    from .devices.reports import EXPECTED, MAX_BYTES, NotAReport
+
+    try:
+        status = os.stat(path)
+        key = (os.path.realpath(path), called, status.st_mtime_ns, status.st_size)
+        if key not in _read:
+            _read[key] = parsed(read(path, Limits(bytes=MAX_BYTES)), called)
+        return _read[key]
+    except FileNotFoundError:
+        return Problem("MSAA904", f"no file {_quoted(called)}", _near(path, called))
+    except Unreadable:
+        reason = f"it is larger than {MAX_BYTES >> 20} MiB"
+    except NotAReport as error:
+        return Problem("MSAA903", f"{_quoted(called)}: {error}", f"expected {EXPECTED}")
+    except (OSError, ValueError) as error:
+        reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
+    return Problem("MSAA903", f"{_quoted(called)} cannot be read: {reason}")
+
+
+_read: "dict[tuple[str, str, int, int], list[Report]]" = {}
+
+
+def parsed(data: bytes, called: str) -> "list[Report]":
+    """The devices of a report's bytes. NotAReport where it is none."""
+    from .devices.reports import NotAReport, read
+
+    try:
+        return read(decode(data), called)
+    except Unreadable as error:
+        raise NotAReport(str(error)) from None
+
+
+def _near(path: str, called: str) -> str:
+    """What may have been meant by the path of a file that is not there."""
+    folder, name = os.path.split(path)
+    try:
+        with os.scandir(folder or os.curdir) as entries:
+            there = [entry.name for entry, _ in zip(entries, range(MAX_LISTED), strict=False) if entry.name.endswith(ENDINGS)]
+    except OSError:
+        return f"the folder {_quoted(os.path.dirname(called))} is not there"
+    close = nearest(name, sorted(there))
+    if close is not None:
+        return f"did you mean `{called[: len(called) - len(name)]}{close}`?"
+    return f"built-in devices: {', '.join(names())}"
+
+
+def _quoted(word: str) -> str:
+    return f"`{word[:120]}…`" if len(word) > 120 else f"`{word}`"

@@ -1,0 +1,160 @@
+"""Follows images: what they are, the memory they are bound to, their views, and swapchains with their presents."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from typing import Any
+
+from msaa_lint.frame.description.records import Image as ImageRecord
+from msaa_lint.frame.vulkan.formats import format_of
+
+from . import values
+from .call import Call
+from .command_buffers import Commands
+from .devices import Devices
+from .frames import Frames
+from .objects import Image, Swapchain, frozen
+from .structures import described
+
+MAX_DISTINCT = 20_000
+"""So many objects that differ are kept; more of them are used, not judged by themselves."""
+
+
+SHARING = ("EXTERNAL_MEMORY_IMAGE_CREATE_INFO", "EXTERNAL_MEMORY_IMAGE_CREATE_INFO_NV", "NATIVE_BUFFER_ANDROID")
+"""Structures chained to a VkImageCreateInfo whose memory others may have."""
+
+
+class Images(Devices):
+    """The images of a capture by their handles, and by those of their views."""
+
+    commands: Commands
+    frames: Frames
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.images: dict[int, Image] = {}
+        self.views: dict[int, Image] = {}
+        self.swapchains: dict[int, Swapchain] = {}
+        self.memory: dict[int, int] = {}
+        """The type of each allocation."""
+        self.multisampled: dict[Hashable, Image] = {}
+        """Multisampled images, one for each of those that were created alike."""
+        self.counts: dict[str, int] = {}
+
+    def number(self, kind: str) -> int:
+        """The number of the next object of a kind."""
+        count = self.counts.get(kind, 0)
+        self.counts[kind] = count + 1
+        return count
+
+    def on_CreateImage(self, call: Call) -> None:
+        info = values.record(call.args.get("pCreateInfo"))
+        handle = values.handle(call.args.get("pImage"))
+        made = self.images[handle] = self._image(call, described(ImageRecord, info))
+        made.shared = any(values.chained(info, kind) is not None for kind in SHARING)
+
+    def _image(self, call: Call, tree: dict[str, Any]) -> Image:
+        format = format_of(tree["format"]) if "format" in tree else None
+        made = Image(call, self.number("image"), tree, format.aspects if format is not None else ())
+        if made.samples > 1 and len(self.multisampled) < MAX_DISTINCT:
+            self.multisampled.setdefault(frozen(tree), made)
+        return made
+
+    def on_DestroyImage(self, call: Call) -> None:
+        self.images.pop(values.handle(call.args.get("image")), None)
+
+    def on_CreateImageView(self, call: Call) -> None:
+        info = values.record(call.args.get("pCreateInfo"))
+        image = self.images.get(values.handle(info.get("image")))
+        if image is not None:
+            self.views[values.handle(call.args.get("pView"))] = image
+
+    def on_DestroyImageView(self, call: Call) -> None:
+        self.views.pop(values.handle(call.args.get("imageView")), None)
+
+    def view(self, value: object) -> Image | None:
+        """The image that a view shows."""
+        return self.views.get(values.handle(value))
+
+    # Memory.
+
+    def on_AllocateMemory(self, call: Call) -> None:
+        info = values.record(call.args.get("pAllocateInfo"))
+        index = values.integer(info.get("memoryTypeIndex"))
+        if index is not None:
+            self.memory[values.handle(call.args.get("pMemory"))] = index
+
+    def on_FreeMemory(self, call: Call) -> None:
+        self.memory.pop(values.handle(call.args.get("memory")), None)
+
+    def on_BindImageMemory(self, call: Call) -> None:
+        self._bind(call.args)
+
+    def on_BindImageMemory2(self, call: Call) -> None:
+        for info in values.items(call.args.get("pBindInfos")):
+            self._bind(values.record(info))
+
+    def _bind(self, info: dict[str, Any]) -> None:
+        image = self.images.get(values.handle(info.get("image")))
+        index = self.memory.get(values.handle(info.get("memory")))
+        if image is not None and index is not None:
+            flags = self.memory_flags(index)
+            if flags is not None:
+                image.tree["memory"] = flags
+
+    # Swapchains.
+
+    def on_CreateSwapchain(self, call: Call) -> None:
+        info = values.record(call.args.get("pCreateInfo"))
+        extent = values.record(info.get("imageExtent"))
+        structure = {
+            "format": info.get("imageFormat"),
+            "samples": 1,
+            "usage": info.get("imageUsage"),
+            "extent": {**extent, "depth": 1} if extent else None,
+            "mipLevels": 1,
+            "arrayLayers": info.get("imageArrayLayers"),
+            "imageType": "2D",
+            "sharingMode": info.get("imageSharingMode"),
+        }
+        tree = described(ImageRecord, structure)
+        handle = values.handle(call.args.get("pSwapchain"))
+        made = Swapchain(call, self.number("swapchain"), {**tree, "presentable": True})
+        self.swapchains[handle] = made
+        self.frames.presents = True
+
+    def on_DestroySwapchain(self, call: Call) -> None:
+        found = self.swapchains.pop(values.handle(call.args.get("swapchain")), None)
+        for image in found.images if found is not None else ():
+            for handle in [handle for handle, known in self.images.items() if known is image]:
+                del self.images[handle]
+
+    def on_GetSwapchainImages(self, call: Call) -> None:
+        swapchain = self.swapchains.get(values.handle(call.args.get("swapchain")))
+        if swapchain is None:
+            return
+        for item in values.items(call.args.get("pSwapchainImages"))[:64]:
+            handle = values.handle(item)
+            known = self.images.get(handle)
+            if known is not None and known.swapchain is swapchain:
+                continue
+            format = format_of(swapchain.tree["format"]) if "format" in swapchain.tree else None
+            made = Image(call, len(swapchain.images), dict(swapchain.tree), format.aspects if format is not None else ())
+            made.by, made.at = swapchain.by, swapchain.at
+            made.swapchain = swapchain
+            swapchain.images.append(made)
+            self.images[handle] = made
+
+    def on_QueuePresent(self, call: Call) -> None:
+        info = values.record(call.args.get("pPresentInfo"))
+        indices = values.items(info.get("pImageIndices"))
+        for swapchain_handle, index in zip(values.items(info.get("pSwapchains")), indices, strict=False):
+            swapchain = self.swapchains.get(values.handle(swapchain_handle))
+            number = values.integer(index)
+            if swapchain is not None and number is not None and 0 <= number < len(swapchain.images):
+                self.frames.submit([self.commands.command("present", swapchain.images[number], call)])
+        self.frames.end()
+
+    def on_FrameBoundaryANDROID(self, call: Call) -> None:
+        if not self.frames.presents:
+            self.frames.end()

@@ -1,0 +1,150 @@
+"""Source code as inputs: which language a file is in, and the documents that its code gives.
+
+A language is a module with `trees(code)`: the code's images, passes and pipelines in the form of a description. Nothing of one is imported
+before code in it is met; the grammars are the extra `source`.
+"""
+
+# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
+import re
+from collections.abc import Iterator
+from importlib import import_module
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from msaa_lint.core.text.source import Source
+    from msaa_lint.core.text.span import Span
+    from msaa_lint.frame.description.document import Document
+
+    from .parsing import Code, Read
+
+LANGUAGES: dict[str, tuple[str, ...]] = {
+    "c": (".c", ".h"),
+    "cpp": (".cc", ".cpp", ".cxx", ".hpp", ".hh", ".hxx", ".inl", ".ipp", ".h++"),
+    "swift": (".swift",),
+    "glsl": (".glsl", ".vert", ".frag", ".comp", ".tesc", ".tese", ".geom", ".mesh", ".task"),
+    "markdown": (".md", ".markdown", ".mdx"),
+}
+"""By the name that `--input-format` takes: the endings of its files. Of Markdown the code in fences is read."""
+
+UNREAD = {
+    ".m": "Objective-C",
+    ".mm": "Objective-C++",
+    ".rs": "Rust",
+    ".go": "Go",
+    ".zig": "Zig",
+    ".cs": "C#",
+    ".java": "Java",
+    ".kt": "Kotlin",
+    ".py": "Python",
+    ".js": "JavaScript",
+    ".ts": "TypeScript",
+    ".hlsl": "HLSL",
+    ".slang": "Slang",
+    ".wgsl": "WGSL",
+    ".metal": "Metal's shading language",
+}
+"""Endings of languages that programs draw with and that are not read."""
+
+MODULES = {"c": "c.description_trees", "cpp": "c.description_trees", "swift": "swift.description_trees", "glsl": "glsl.description_trees"}
+"""The module of this package that reads each language."""
+
+WORDS = ("sample", "attachment", "resolve", "msaa", "2dms", "inputms")
+"""Code with none of these, in any case, has nothing to read."""
+
+_ENDINGS = {ending: language for language, endings in LANGUAGES.items() for ending in endings}
+_DATA = (".yaml", ".yml", ".json", ".jsonl", ".xml", ".foz", ".rdc", ".toml")
+
+_CPP = re.compile(r"::|\b(?:class|namespace|template|constexpr|nullptr|public|private)\b|^[ \t]*using[ \t]", re.MULTILINE)
+"""What a header of C does not have."""
+
+
+class Program(NamedTuple):
+    """What source code is read as: documents, each with lines that say what had to be assumed for it, and the code that they are of."""
+
+    documents: "tuple[Document, ...]"
+    assumed: tuple[tuple[str, ...], ...]
+    codes: "tuple[Code, ...]"
+
+
+def language_of(name: str, head: str) -> str | None:
+    """The language of a file by the ending of its name and the beginning of its text; None where it is no source code.
+
+    Other texts are read as Markdown is where they have code in fences that speaks of Vulkan or Metal.
+    """
+    ending = name[name.rfind(".") :].lower() if "." in name.rpartition("/")[2] else ""
+    language = _ENDINGS.get(ending)
+    if language == "c" and ending == ".h" and _CPP.search(head):
+        return "cpp"
+    if language is not None or ending in _DATA or not ("```" in head or "~~~" in head):
+        return language
+    from .fences import codes
+    from .mentions import speaks
+
+    return "markdown" if any(speaks(code.text) for code in codes(head)) else None
+
+
+def unread(name: str) -> str | None:
+    """A language that is not read, by the ending of a file's name; None where it has no such ending."""
+    base, dot, ending = name.rpartition("/")[2].rpartition(".")
+    return UNREAD.get(f".{ending.lower()}") if base and dot else None
+
+
+def installed() -> bool:
+    """Whether the extra is there."""
+    from importlib.util import find_spec
+
+    from .parsing import GRAMMARS
+
+    return all(find_spec(name) is not None for name in ("tree_sitter", *GRAMMARS.values()))
+
+
+def read(source: "Source", language: str) -> Program:
+    """The documents of source code, in the order of their places. `Missing` where the extra is not installed.
+
+    Nothing raises for what the code holds: what cannot be read of it is left out.
+    """
+    from .parsing import EXTRA, Code, Missing, ascii_only
+
+    if language == "markdown":
+        from .fences import codes
+
+        found = codes(source.text)
+    else:
+        found = (Code(ascii_only(source.text), language),)
+    if found and not installed():
+        raise Missing(EXTRA)
+    from .documents import bound
+
+    by_code = [(code, list(_reads(code))) for code in found]
+    shaders = [code for code, _ in by_code if code.language == "glsl"]
+    if shaders and len(by_code) > 1:
+        from .glsl.description_trees import beside
+
+        by_code = beside(by_code)
+    reads = [each for _, own in by_code for each in own]
+    pieces = any(code.fragments for code in found)
+    documents = tuple(bound(source, each.tree, pieces)._replace(modules=each.modules) for each in reads)
+    return Program(documents, tuple(_said(each.assumed, source) for each in reads), found)
+
+
+def _reads(code: "Code") -> "Iterator[Read]":
+    """What the module of its language reads of code."""
+    from .parsing import Read
+
+    lowered = code.text.lower()
+    if not any(word in lowered for word in WORDS):
+        return
+    module = import_module(f".{MODULES[code.language]}", __package__)
+    for each in module.trees(code):
+        yield each if isinstance(each, Read) else Read(each)
+
+
+MOST_ASSUMED = 3
+"""Assumptions of a document that are told."""
+
+
+def _said(assumed: "tuple[tuple[str, Span, str], ...]", source: "Source") -> tuple[str, ...]:
+    """Assumptions in words, the first of them."""
+    lines = [f"{what} (line {source.position(at.start).line}) is not known here: judged as {value}" for what, at, value in assumed]
+    more = len(lines) - MOST_ASSUMED
+    return (*lines[:MOST_ASSUMED], f"{more} more {'is' if more == 1 else 'are'} assumed") if more > 0 else tuple(lines)

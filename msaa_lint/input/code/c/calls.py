@@ -1,0 +1,217 @@
+"""What calls do: the file's own functions are gone through, and others make what their structures say."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from msaa_lint.core.text.span import Span
+
+from .names import elements, structure
+from .objects import COUNTS, VIEW, Objects
+from .scope import MEMBER, MOST_CALLS, MOST_WAYS, Around
+from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, Function, Parameter, Term
+from .values import MOST, NOTHING, UNKNOWN_VALUE, Alternative, Cell, Closure, Ref, Struct, Symbol, Value, copied, one
+
+_CAST = re.compile(
+    r"(?:std::)?u?int(?:8|16|32|64|ptr)?_t$|(?:std::)?size_t$|(?:unsigned|int|float|bool)$|(?:Vk|vk::)\w+(?:FlagBits2?|Flags2?|Bool32)(?:KHR|EXT)?$"
+)
+"""Types whose name makes a value of theirs of another."""
+
+
+_OWNED = re.compile(r"(?:std::)?make_(?:unique|shared)<([\w:]+)>$")
+
+OTHERS = Cell()
+"""What stands for an object of a class that is not the method's."""
+
+
+class Calls(Objects):
+    """What the calls of one file make. `made` is in the order in which it was met."""
+
+    def call(self, term: Term, around: Around) -> Value:
+        """What a call gives."""
+        function, arguments, place = term[1], term[2], term[3]
+        name, owner = _called(function)
+        if function[0] == LAMBDA:
+            return self.follow(function[1], function[2], around.within, around.scopes, term, around)
+        if owner is None and function[0] == NAME:
+            closure = self.closure(name, around)
+            if closure is not None:
+                return self.follow(closure.parameters, closure.body, around.within, closure.scopes, term, around)
+        own = self.own(name, len(arguments), function, around)
+        me = self.object_of(own, owner, around) if own is not None and own.within else None
+        if own is not None and me is not OTHERS and self.may_follow(own, place, around):
+            return self.of_own(own, term, around, me)
+        if owner is None:
+            if function[0] == NAME and (made := self.object_made(function[1], term, around)) is not None:
+                return made
+            kind = structure(function[1]) if function[0] == NAME else ""
+            if kind:
+                return self.constructed(kind, arguments, place, around, function[1].startswith(("vk::", "VULKAN")))
+            if name == "to_array" and len(arguments) == 1 and arguments[0][0] == BRACES:
+                return self.listed(function[1].partition("<")[2].rstrip(">"), arguments[0][2], place, around)
+            if name in ("make_array", "makeArray") and arguments:
+                return self.listed("", [(None, each) for each in arguments], place, around)
+            if function[0] == NAME and len(arguments) == 1 and _CAST.match(function[1]):
+                return self.run.value(arguments[0], around)
+            inner = elements(function[1]) if function[0] == NAME else None
+            if inner is not None:
+                return self.sized(inner, arguments, place, around)
+        else:
+            found = self.method(owner, name, arguments, place, around)
+            if found is not None:
+                return found
+        if name == "memset" and len(arguments) == 3:
+            return self.zeroed(arguments, around)
+        if name in ("min", "max", "MIN", "MAX") and len(arguments) == 2:
+            return self.least(name.lower(), arguments, place, around)
+        if name in ("size", "ARRAY_SIZE", "countof", "array_size", "ARRAYSIZE", "arraysize") and len(arguments) == 1:
+            return self.counted(one(self.run.value(arguments[0], around)), place)
+        values = [self.run.value(argument, around) for argument in arguments]
+        return self.unknown(term, name, owner, values, around)
+
+    def closure(self, name: str, around: Around) -> Closure | None:
+        for scope in reversed(around.scopes):
+            if name in scope:
+                value = one(scope[name].writes)
+                return value if isinstance(value, Closure) else None
+        return None
+
+    def own(self, name: str, count: int, function: Term, around: Around) -> Function | None:
+        """The one function of the file that such a call can mean: of several the one of the same class."""
+        every = self.run.functions.get(name)
+        if not every:
+            return None
+        fitting = [f for f in every if sum(p.default is None for p in f.parameters) <= count <= len(f.parameters)]
+        if len(fitting) > 1 and not self.run.fragments:
+            scope = str(function[1]).rpartition("::")[0] if function[0] == NAME else ""
+            within = around.within
+            if function[0] == FIELD and function[1][:2] != (NAME, "this"):
+                return None
+            if scope:
+                fitting = [f for f in fitting if f"{f.within or f.space.rstrip(':')}".endswith(scope)]
+            else:
+                fitting = [f for f in fitting if f.within == within] or [f for f in fitting if not f.within and f.space == around.space]
+        fitting = [f for f in fitting if not f.open]
+        return fitting[-1] if len(fitting) == 1 or (fitting and self.run.fragments) else None
+
+    def object_of(self, own: Function, owner: Term | None, around: Around) -> Cell | None:
+        """The object whose method is called: None where that is not known, OTHERS where it is of another class."""
+        if owner is None or owner[:2] == (NAME, "this"):
+            return around.me if own.within == around.within else None
+        cell = self.run.place(owner, around) if owner[0] != CALL else None
+        if cell is None:
+            return None
+        kind = self.run.type_of(cell)
+        short = own.within.rpartition("::")[2]
+        if kind and kind != "auto" and short not in kind and self.run.class_of(kind, around.space) != own.within:
+            return OTHERS
+        known = cell.kind == MEMBER or isinstance(self.run.aimed(one(cell.read(around.guards))), Struct)
+        return cell if known else None
+
+    def object_made(self, kind: str, term: Term, around: Around) -> Value | None:
+        """An object of a class of the file's, by its constructor; None where it is none, or there are several that fit."""
+        inner = _OWNED.match(kind)
+        found = self.run.class_of(inner[1] if inner is not None else kind, around.space)
+        if found is None:
+            return None
+        count = len(term[2])
+        fitting = [
+            each
+            for each in self.run.functions.get(found.rpartition("::")[2], ())
+            if each.within == found and sum(p.default is None for p in each.parameters) <= count <= len(each.parameters)
+        ]
+        if len(fitting) != 1 or not self.may_follow(fitting[0], term[3], around):
+            return None
+        made = Struct("", term[3], False)
+        me = Cell(found, "", (Alternative(made, term[3]),))
+        self.of_own(fitting[0], term, around, me)
+        return (Alternative(made, term[3]),)
+
+    def may_follow(self, own: Function, place: Span, around: Around) -> bool:
+        """Whether a call is followed: not too deep, not in a circle, and not again and again by other ways."""
+        if len(around.calls) >= MOST_CALLS or own.at in around.within_calls:
+            return False
+        self.followed[place] = self.followed.get(place, 0) + 1
+        return self.followed[place] <= MOST_WAYS
+
+    def of_own(self, function: Function, term: Term, around: Around, me: Cell | None = None) -> Value:
+        before = len(self.met)
+        value = self.follow(
+            function.parameters, function.body, function.within or around.within, (), term, around, function.returns, function, me
+        )
+        counts = {a.value for a in value if type(a.value) is int}
+        if (len(value) >= 3 and counts and counts <= {1, 2, 4, 8, 16, 32, 64}) or (COUNTS.search(function.name) and not counts):
+            return (Alternative(Symbol(f"{function.name}()", function.name, True), term[-1]),)
+        if self.run.fragments and len(self.met) == before:
+            made = self.by_types(function, term, around)
+            if made is not None:
+                return made
+        if not value and VIEW.search(function.name):
+            return self.viewed([self.run.value(a, around) for a in term[2]], term, around) or UNKNOWN_VALUE
+        return value
+
+    def follow(
+        self,
+        parameters: Sequence[Parameter],
+        body: Sequence[Term],
+        within: str,
+        scopes: Sequence[dict[str, Cell]],
+        term: Term,
+        around: Around,
+        returns: str = "",
+        own: Function | None = None,
+        me: Cell | None = None,
+    ) -> Value:
+        """Goes through a function with the arguments of a call."""
+        cells: dict[str, Cell] = {}
+        for n, parameter in enumerate(parameters):
+            if n < len(term[2]):
+                cells[parameter.name] = self.bound(parameter, term[2][n], around)
+            elif parameter.default is not None:
+                value = self.run.value(parameter.default, around, parameter.type)
+                cells[parameter.name] = Cell(parameter.type, parameter.name, value, f"default({parameter.name})")
+        inner = Around(within, (*scopes, cells), around.guards, (*around.calls, term[3]))
+        inner.space = around.space if own is None else own.space
+        inner.within_calls = around.within_calls if own is None else (*around.within_calls, own.at)
+        inner.loops = around.loops
+        inner.returns = returns
+        inner.turns = around.turns
+        inner.me = me if own is not None else around.me
+        self.run.block(body, inner)
+        base = around.guards
+        returned = [Alternative(a.value, a.at, a.guards - base) for a in inner.returned]
+        if len(returned) > MOST or not returned or all(a.value is NOTHING for a in returned):
+            return UNKNOWN_VALUE
+        return tuple(returned)
+
+    def bound(self, parameter: Parameter, given: Term, around: Around) -> Cell:
+        """The cell of a parameter: the argument's own, where that is handed over by reference."""
+        if parameter.by_reference and given[0] in (NAME, FIELD, INDEX):
+            cell = self.run.place(given, around)
+            if cell is not None and not isinstance(one(cell.writes), Ref):
+                return cell
+        value = self.run.value(given, around, parameter.type)
+        made = Cell(parameter.type, parameter.name, key=f"argument({parameter.name})")
+        if parameter.by_reference:
+            made.writes = value
+        else:
+            made.writes = tuple(Alternative(copied(a.value), a.at, a.guards) for a in value)
+        if not value:
+            made.writes = (Alternative(NOTHING, given[-1]),)
+        return made
+
+    def least(self, name: str, arguments: Sequence[Term], place: Span, around: Around) -> Value:
+        left, right = (one(self.run.value(a, around)) for a in arguments)
+        if isinstance(left, (int, float)) and isinstance(right, (int, float)):
+            return (Alternative(min(left, right) if name == "min" else max(left, right), place),)
+        return UNKNOWN_VALUE
+
+
+def _called(function: Term) -> tuple[str, Term | None]:
+    """The name of a function, and the object that it is called on."""
+    if function[0] == NAME:
+        return str(function[1]).rpartition("::")[2].partition("<")[0], None
+    if function[0] == FIELD:
+        return str(function[2]), function[1]
+    return "", None

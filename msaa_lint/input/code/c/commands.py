@@ -1,0 +1,95 @@
+"""Dynamic renderings and resolve commands as nodes of a description."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from msaa_lint.core.text.node import Node
+from msaa_lint.core.text.node_builder import mapping, scalar, sequence
+from msaa_lint.core.text.span import Span
+
+from .members import Item, Members, head_of
+from .values import NOTHING, Made, Struct, Symbol, Value, one
+
+
+class Commands(Members):
+    """Renderings and resolves as nodes."""
+
+    def rendering(self, made: Made, attached: dict[int, Made]) -> Node | None:
+        """A dynamic rendering."""
+        info = made.info
+        assert info is not None
+        colors = self.structs(info, "colorAttachments")
+        if colors is None or any(color is None for color in colors) or not (info.zeroed or "colorAttachments" in info.fields):
+            return None
+        nodes = [self.rendered(color, attached) for color in colors if color is not None]
+        head = head_of(made.at)
+        items: list[Item] = []
+        if nodes:
+            items.append(("colorAttachments", head, sequence([node for node in nodes if node is not None], head)))
+        for name in ("depthAttachment", "stencilAttachment"):
+            if self.get(info, name)[0] in (None, 0):
+                continue
+            struct = self.struct(info, name)
+            node = self.rendered(struct, attached) if struct is not None else None
+            if struct is None or node is None:
+                return None
+            items.append((name, head_of(struct.at), node))
+        if not items or None in nodes:
+            return None
+        return mapping([("beginRendering", head, mapping(items, head))], head)
+
+    def rendered(self, struct: Struct, attached: dict[int, Made]) -> Node | None:
+        """An attachment of a rendering; None where it is not known whether it resolves."""
+        head = head_of(struct.at)
+        view, at = self.get(struct, "imageView")
+        if view in (None, 0):
+            return scalar(None, head)
+        items: list[Item] = [("image", at, self.named(view, at, attached))]
+        mode, place = self.get(struct, "resolveMode")
+        if mode is NOTHING:
+            return None
+        target, target_at = self.get(struct, "resolveImageView")
+        if target is not None and target != 0:
+            items.append(("resolveImage", target_at, self.named(target, target_at, attached)))
+        mode = mode if mode is not None else 0
+        node = self.node("resolveMode", mode, place)
+        if node is None:
+            return None
+        items.append(("resolveMode", place, node))
+        for member in ("loadOp", "storeOp"):
+            items += self.item(struct, member)
+        return mapping(items, head)
+
+    def named(self, view: Any, at: Span, attached: dict[int, Made]) -> Node:
+        """The name of the image of a view; an image of which nothing is known has one of its own."""
+        image = self.image_in(view)
+        if image is None:
+            return scalar(self.stranger(view, at), at)
+        attached[id(image)] = image
+        return scalar(self.name(image, "image"), at)
+
+    def stranger(self, value: Any, at: Span) -> str:
+        """The name of an image that the file does not make."""
+        value = self.aimed(value)
+        key = value.key if isinstance(value, Symbol) else f"image of {id(value)}" if isinstance(value, Made) else f"image at {at.start}"
+        if key not in self.strangers:
+            said = value.name if isinstance(value, (Symbol, Made)) else ""
+            name = self.unique(said.rpartition("::")[2].strip("*&") or "image")
+            self.strangers[key] = (name, at, mapping((), at))
+        return self.strangers[key][0]
+
+    def resolve(self, at: Span, ends: tuple[Value, Value], attached: dict[int, Made]) -> Node | None:
+        """A vkCmdResolveImage of an image that the file makes."""
+        head = head_of(at)
+        items: list[Item] = []
+        for name, value in zip(("srcImage", "dstImage"), ends, strict=True):
+            known = self.aimed(one(self.settle(value)))
+            image = self.first(known) if isinstance(known, Made) and known.kind == "image" else None
+            if image is None and name == "srcImage":
+                return None
+            if image is not None:
+                attached[id(image)] = image
+            text = self.name(image, "image") if image is not None else self.stranger(known, at)
+            items.append((name, head, scalar(text, head)))
+        return mapping([("resolveImage", head, mapping(items, head))], head)

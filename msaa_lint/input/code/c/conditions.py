@@ -1,0 +1,162 @@
+"""What conditions come to: decided, or what must hold."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from msaa_lint.core.text.span import Span
+
+from .directives import tested
+from .places import Places
+from .scope import Around
+from .terms import ADDRESS, BINARY, CALL, FIELD, INDEX, LITERAL, NAME, TARGET, UNARY, Term
+from .values import MOST, Guards, Made, Symbol, one
+
+
+def opposite(guards: Guards) -> Guards:
+    """What holds where not all of some conditions do."""
+    if len(guards) == 1:
+        ((text, way),) = guards
+        return frozenset({(text, not way)})
+    return frozenset({(str(sorted(guards)), False)})
+
+
+def clash(left: Guards, right: Guards) -> bool:
+    """Whether two sets of conditions cannot hold together."""
+    return any((text, not way) in right for text, way in left)
+
+
+NO_NAMES: dict[str, str] = {}
+
+
+def worded(term: Term, names: dict[str, str] = NO_NAMES) -> str:
+    """An expression in words that are the same wherever it is the same; `names` has other words for variables."""
+    tag = term[0]
+    if tag == NAME:
+        return names.get(term[1]) or str(term[1]).removeprefix("this->")
+    if tag == LITERAL:
+        return str(term[1])
+    if tag == FIELD:
+        return f"{worded(term[1], names)}.{term[2]}"
+    if tag == INDEX:
+        return f"{worded(term[1], names)}[{worded(term[2], names)}]"
+    if tag == CALL:
+        return f"{worded(term[1], names)}({','.join(worded(each, names) for each in term[2])})"
+    if tag == BINARY:
+        return f"({worded(term[2], names)}{term[1]}{worded(term[3], names)})"
+    if tag in (ADDRESS, TARGET):
+        return worded(term[1], names)
+    return f"?{term[-1][0]}"
+
+
+def compared(sign: str, left: Any, right: Any) -> bool:
+    return bool(
+        {"==": left == right, "!=": left != right}[sign]
+        if sign in ("==", "!=")
+        else {"<": left < right, ">": left > right, "<=": left <= right, ">=": left >= right}[sign]
+    )
+
+
+def key_of(value: Any) -> str:
+    return value.key if isinstance(value, Symbol) else ""
+
+
+class Conditions(Places):
+    """What conditions come to."""
+
+    def preprocessed(self, text: str) -> bool | Guards:
+        bare = text[1:].strip()
+        if bare in ("0", "1"):
+            return bare == "1"
+        return frozenset({tested(bare)})
+
+    def condition(self, term: Term, around: Around) -> bool | Guards:
+        """What a condition comes to: decided, or what must hold."""
+        kind = term[0]
+        if kind == BINARY and term[1] == "&&":
+            left, right = self.condition(term[2], around), self.condition(term[3], around)
+            if left is False or right is False:
+                return False
+            return right if left is True else left if right is True else left | right
+        if kind == BINARY and term[1] == "||":
+            left, right = self.condition(term[2], around), self.condition(term[3], around)
+            if left is True or right is True:
+                return True
+            if left is False or right is False:
+                return right if left is False else left
+            return frozenset({(f"{sorted(left)}||{sorted(right)}", True)})
+        if kind == UNARY and term[1] == "!":
+            inner = self.condition(term[2], around)
+            return not inner if isinstance(inner, bool) else opposite(inner)
+        if kind == BINARY and term[1] in ("==", "!=", ">", "<", ">=", "<="):
+            return self.comparison(term, around)
+        value = self.value(term, around)
+        known = one(value)
+        if isinstance(known, (bool, int, float)):
+            return bool(known)
+        if len(value) == 2 and {a.value for a in value if isinstance(a.value, bool)} == {True, False}:
+            way = next(a for a in value if a.value is True).guards - around.guards
+            if way:
+                return way
+        if known is None and value:
+            return False
+        if isinstance(known, Made):
+            return True
+        return frozenset({(key_of(known) or self.said(term, around), True)})
+
+    def said(self, term: Term, around: Around) -> str:
+        """A condition in words, the same wherever it is the same: numbers that are known stand for their variables."""
+        names: dict[str, str] = {}
+        waiting = [term]
+        while waiting:
+            each = waiting.pop()
+            if each[0] == NAME:
+                known = one(self.value(each, around))
+                if type(known) is int:
+                    names[each[1]] = str(known)
+            else:
+                waiting += [
+                    part
+                    for part in each[1:-1]
+                    if isinstance(part, tuple) and part and isinstance(part[0], int) and not isinstance(part, Span)
+                ]
+                if each[0] == CALL:
+                    waiting += each[2]
+        return worded(term, names)
+
+    def comparison(self, term: Term, around: Around) -> bool | Guards:
+        sign = term[1]
+        if term[3][0] == NAME and term[3][1].endswith(("VK_SUCCESS", "Result::eSuccess")) and sign in ("==", "!="):
+            # What a program does where Vulkan fails is of no interest.
+            self.value(term[2], around)
+            return bool(sign == "==")
+        every = self.value(term[2], around)
+        left, right = one(every), one(self.value(term[3], around))
+        if isinstance(right, (int, float)) and 1 < len(every) <= MOST and all(isinstance(a.value, (int, float)) for a in every):
+            holds = [a for a in every if compared(sign, a.value, right)]
+            if not holds or len(holds) == len(every):
+                return bool(holds)
+            if len(holds) == 1 and holds[0].guards - around.guards:
+                return holds[0].guards - around.guards
+            fails = [a for a in every if a not in holds]
+            if len(fails) == 1 and fails[0].guards - around.guards:
+                return opposite(fails[0].guards - around.guards)
+        if (
+            isinstance(left, (int, float, str))
+            and isinstance(right, type(left))
+            and (isinstance(left, str) is False or sign in ("==", "!="))
+        ):
+            return compared(sign, left, right)
+        if isinstance(left, (int, bool)) and not isinstance(right, int):
+            left, right, sign = right, left, {"<": ">", ">": "<", "<=": ">=", ">=": "<="}.get(sign, sign)
+            term = (BINARY, sign, term[3], term[2], term[-1])
+        subject = key_of(left) or self.said(term[2], around)
+        if isinstance(right, int) and right == 1 and sign in ("!=", ">", "==", "<="):
+            # All ways to ask whether there is multisampling.
+            return frozenset({(f"{subject}>1", sign in ("!=", ">"))})
+        if isinstance(right, int) and right == 2 and sign in (">=", "<"):
+            return frozenset({(f"{subject}>1", sign == ">=")})
+        if isinstance(right, bool):
+            return frozenset({(subject, (sign == "==") is right)})
+        other = key_of(right) or (str(right) if isinstance(right, (int, float, str)) else self.said(term[3], around))
+        return frozenset({(f"{subject}{sign.replace('!', '=')}{other}", sign != "!=")})

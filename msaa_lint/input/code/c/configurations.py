@@ -1,0 +1,247 @@
+"""Where a program renders with one sample or with several: which of its worlds is described."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+from msaa_lint.core.text.node import Node
+from msaa_lint.core.text.span import Span
+
+from .calls import Calls
+from .names import first_version
+from .values import NOTHING, Array, Cell, Made, Ref, Struct, Symbol, Value, one, settled
+
+ASSUMED = 4
+"""The count above 1 that every device offers for colour, depth and stencil (specification, "Required Limits")."""
+
+
+NEEDS = {
+    "AttachmentDescription": ("format", "samples"),
+    "AttachmentReference": ("layout",),
+    "RenderingAttachmentInfo": ("imageView",),
+    "ImageCreateInfo": ("format", "usage"),
+}
+"""What is never zero in a structure that is used: where it is not seen to be stated, what else is zero is not known either."""
+
+COUNTS = {
+    "attachments": "attachmentCount",
+    "subpasses": "subpassCount",
+    "dependencies": "dependencyCount",
+    "resolveAttachments": "colorAttachmentCount",
+    "inputAttachments": "inputAttachmentCount",
+    "colorAttachments": "colorAttachmentCount",
+}
+"""The members that say how many there are of another."""
+
+
+class World:
+    """One of the worlds of a file, as its values are there."""
+
+    def __init__(self, calls: Calls, fragments: bool, barriers: bool) -> None:
+        self.fragments = fragments
+        self.barriers = barriers
+        """Whether the file records barriers, which may stand in for the dependencies of its passes."""
+        self.met = list(calls.met.values())
+        self.resolves = calls.resolves
+        self.world: dict[str, bool] = {}
+        self.multisampled: set[str] = set()
+        self.assumed: dict[str, tuple[str, Span, str]] = {}
+        self.names: dict[int, str] = {}
+        self.taken: set[str] = set()
+        self.bound: dict[int, list[Made | None]] = {}
+        self.alike: dict[tuple[Any, ...], Made] = {}
+        self.strangers: dict[str, tuple[str, Span, Node]] = {}
+
+    def choose(self) -> None:
+        """Chooses the conditions under which there are several samples to a pixel."""
+        slots = list(self.sample_slots())
+        for value in slots:
+            # Of several counts the one that every device has, else the least.
+            several = [each for each in value if type(each.value) is int and each.value > 1]
+            for each in sorted(several, key=lambda a: (a.value != ASSUMED, a.value)):
+                self.take(each.guards)
+        for value in slots:
+            for each in value:
+                if isinstance(each.value, Symbol) and each.value.chosen:
+                    self.several(each.value, each.guards)
+        for subpass in self.every_subpass():
+            for write in subpass.fields["resolveAttachments"].writes if "resolveAttachments" in subpass.fields else ():
+                if isinstance(write.value, (Ref, Array)):
+                    self.take(write.guards)
+        for value in self.resolved_slots():
+            for each in value:
+                if isinstance(each.value, Symbol):
+                    self.several(each.value, each.guards)
+
+    def every_subpass(self) -> Iterator[Struct]:
+        for made in self.met:
+            if made.kind == "renderPass" and made.info is not None:
+                yield from (each for each in self.structs(made.info, "subpasses") or () if each is not None)
+
+    def several(self, symbol: Symbol, guards: Iterable[tuple[str, bool]]) -> None:
+        if self.take(guards):
+            self.multisampled.add(symbol.key)
+            self.world.setdefault(f"{symbol.key}>1", True)
+
+    def take(self, guards: Iterable[tuple[str, bool]]) -> bool:
+        """Adds conditions to the world, where they do not contradict it."""
+        guards = list(guards)
+        if any(self.world.get(text, way) is not way for text, way in guards):
+            return False
+        for text, way in guards:
+            self.world[text] = way
+            key, _, number = text.rpartition("=")
+            if way and key and number.isdecimal():
+                for other in range(12):
+                    self.world.setdefault(f"{key}={other}", str(other) == number)
+                self.world.setdefault(f"{key}>1", True)
+                self.world.setdefault(f"{key.rpartition('::')[2]}>1", True)
+        return True
+
+    def sample_slots(self) -> Iterator[Value]:
+        for made in self.met:
+            if made.info is None:
+                continue
+            for name in ("samples", "rasterizationSamples"):
+                if name in made.info.fields:
+                    yield made.info.fields[name].writes
+            if made.kind == "renderPass" and "attachments" in made.info.fields:
+                for attachment in _inner(made.info.fields["attachments"], 0):
+                    if "samples" in attachment.fields:
+                        yield attachment.fields["samples"].writes
+            state = self.struct(made.info, "multisampleState")
+            if state is not None and "rasterizationSamples" in state.fields:
+                yield state.fields["rasterizationSamples"].writes
+
+    def resolved_slots(self) -> Iterator[Value]:
+        """The counts of attachments that are resolved: a program that may do that has several samples there."""
+        for made in self.met:
+            if made.kind == "renderPass" and made.info is not None:
+                attachments = self.structs(made.info, "attachments") or []
+                for subpass in self.structs(made.info, "subpasses") or ():
+                    colors = self.structs(subpass, "colorAttachments") if subpass is not None else None
+                    targets = self.structs(subpass, "resolveAttachments") if subpass is not None else None
+                    for color, target in zip(colors or (), targets or (), strict=False):
+                        index = self.known(color, "attachment") if color is not None and target is not None else None
+                        if type(index) is int and 0 <= index < len(attachments):
+                            source = attachments[index]
+                            if source is not None and "samples" in source.fields:
+                                yield source.fields["samples"].writes
+            if made.kind == "rendering" and made.info is not None:
+                for attachment in self.structs(made.info, "colorAttachments") or ():
+                    if attachment is None or self.known(attachment, "resolveMode") in (None, 0, "VK_RESOLVE_MODE_NONE", "NONE"):
+                        continue
+                    image = self.image_of(attachment, "imageView")
+                    if image is not None and image.info is not None and "samples" in image.info.fields:
+                        yield image.info.fields["samples"].writes
+
+    def excluded(self, made: Made) -> bool:
+        """Whether something is only made in another world."""
+        return any(self.world.get(text, way) is not way for text, way in made.within)
+
+    def settle(self, value: Value) -> Value:
+        return settled(value, self.world)
+
+    def get(self, struct: Struct, name: str) -> tuple[Any, Span]:
+        """A member and its place; NOTHING where it is not known. What nobody set in a zeroed structure is None."""
+        cell = struct.fields.get(name)
+        if cell is None or not cell.writes:
+            # A structure without what it cannot do without was filled in in some way that is not understood.
+            needs = NEEDS.get(first_version(struct.kind), ())
+            told = struct.zeroed and cell is None and all(need in struct.fields for need in needs)
+            return (None if told else NOTHING), struct.at
+        value = self.settle(cell.writes)
+        if struct.zeroed and value and all(a.guards for a in value):
+            return NOTHING, struct.at
+        known = one(value)
+        return known, value[-1].at if value else struct.at
+
+    def known(self, struct: Struct, name: str) -> Any:
+        value = self.get(struct, name)[0]
+        return None if value is NOTHING else value
+
+    def aimed(self, value: Any) -> Any:
+        for _ in range(4):
+            if not isinstance(value, Ref):
+                return value
+            value = one(self.settle(value.cell.writes))
+        return NOTHING
+
+    def struct(self, struct: Struct, name: str) -> Struct | None:
+        value = self.aimed(self.get(struct, name)[0])
+        if isinstance(value, Array) and value.items:
+            value = self.aimed(one(self.settle(value.items[0].writes)))
+        return value if isinstance(value, Struct) else None
+
+    def structs(self, struct: Struct, name: str) -> list[Struct | None] | None:
+        """The structures that a member lists or points to: empty where it is null, None where they are not known. An element of which
+        nothing is known is None."""
+        value = self.aimed(self.get(struct, name)[0])
+        if value is None or (value == 0 and type(value) is int):
+            return []
+        if isinstance(value, Struct):
+            return [value]
+        if not isinstance(value, Array) or not value.whole:
+            return None
+        made: list[Struct | None] = []
+        for cell in value.items:
+            writes = self.settle(cell.writes)
+            if cell.writes and not writes:
+                # Only there in another world.
+                continue
+            if writes and all(each.guards for each in writes):
+                return None
+            item = self.aimed(one(writes))
+            made.append(item if isinstance(item, Struct) else None)
+        counted = COUNTS.get(name, "")
+        count = self.known(struct, counted)
+        if type(count) is int and 0 <= count <= len(made):
+            return made[:count]
+        stated = struct.fields.get(counted)
+        # How many there are hangs on something else.
+        return None if stated is not None and len(self.settle(stated.writes)) > 1 else made
+
+    def count_of(self, value: Any, at: Span) -> int | None:
+        """A sample count; an unknown one that is several is taken for the count that every device has."""
+        if type(value) is int:
+            return value
+        if isinstance(value, Symbol) and value.key in self.multisampled:
+            self.assumed.setdefault(value.key, (value.name, at, str(ASSUMED)))
+            return ASSUMED
+        return None
+
+    def samples(self, struct: Struct, name: str = "samples") -> tuple[int | None, Span]:
+        cell = struct.fields.get(name)
+        if cell is None or not cell.writes:
+            return None, struct.at
+        counts = {(self.count_of(a.value, a.at), a.at) for a in self.settle(cell.writes)}
+        found = {count for count, _ in counts}
+        return (found.pop() if len(found) == 1 else None), max(at for _, at in counts) if counts else struct.at
+
+    def image_of(self, struct: Struct, name: str) -> Made | None:
+        """The image of a view that a member names."""
+        return self.image_in(self.get(struct, name)[0])
+
+    def image_in(self, view: Any) -> Made | None:
+        view = self.aimed(view)
+        if isinstance(view, Made) and view.kind == "view" and view.info is not None:
+            image = self.aimed(self.get(view.info, "image")[0])
+            return self.first(image) if isinstance(image, Made) and image.kind == "image" and not self.excluded(image) else None
+        return None
+
+    def first(self, made: Made) -> Made:
+        """The first of the objects that one call makes alike, wherever the function around it is called."""
+        return self.alike.setdefault((made.name, made.signature()), made)
+
+
+def _inner(cell: Cell, depth: int) -> Iterator[Struct]:
+    """The structures that a member lists or points to, in any world."""
+    for write in cell.writes if depth < 6 else ():
+        if isinstance(write.value, Struct):
+            yield write.value
+        elif isinstance(write.value, Ref):
+            yield from _inner(write.value.cell, depth + 1)
+        elif isinstance(write.value, Array):
+            for item in write.value.items:
+                yield from _inner(item, depth + 1)

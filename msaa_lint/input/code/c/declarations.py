@@ -1,0 +1,145 @@
+"""C and C++ declarations to terms."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from msaa_lint.core.text.span import Span
+
+from .expressions import Expressions
+from .kinds import BLANKS, DEEPEST, NAMES, NUMBER, number, without_comments
+from .terms import BRACES, CALL, DECLARE, LITERAL, NAME, Parameter, Term
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
+
+
+class Declarations(Expressions):
+    """Declarations of one text."""
+
+    def parameters(self, listed: Node | None) -> tuple[Parameter, ...]:
+        found = []
+        for node in listed.named_children if listed is not None else ():
+            if node.type not in ("parameter_declaration", "optional_parameter_declaration", "variadic_parameter_declaration"):
+                continue
+            kind, declarator = node.child_by_field_name("type"), node.child_by_field_name("declarator")
+            default = node.child_by_field_name("default_value")
+            name, _, by_reference = self.declarator(declarator)
+            text = self.type_text(kind) if kind is not None else ""
+            fixed = any(c.type == "type_qualifier" and self.of(c) == "const" for c in node.named_children)
+            found.append(Parameter(text, name, by_reference, self.expression(default, 0) if default is not None else None, fixed))
+        if len(found) == 1 and found[0].type == "void" and not found[0].name:
+            found.clear()
+        return tuple(found)
+
+    def declarator(self, node: Node | None) -> tuple[str, Node | None, bool]:
+        """The name that a declarator gives, the array's size, and whether it is a reference or a pointer."""
+        size: Node | None = None
+        indirect = False
+        for _ in range(DEEPEST):
+            if node is None:
+                return "", size, indirect
+            if node.type in ("reference_declarator", "pointer_declarator", "abstract_reference_declarator", "abstract_pointer_declarator"):
+                indirect = True
+            elif node.type in ("array_declarator", "abstract_array_declarator"):
+                size = node.child_by_field_name("size") or node
+            elif node.type in NAMES:
+                return self.of(node), size, indirect
+            inner = node.child_by_field_name("declarator")
+            node = inner if inner is not None else next((c for c in node.named_children if c.type != "type_qualifier"), None)
+        return "", size, indirect
+
+    def declared(self, node: Node, depth: int = 0) -> list[Term]:
+        """The variables that a declaration declares."""
+        kind = node.child_by_field_name("type")
+        text = self.type_text(kind) if kind is not None else ""
+        fixed = any(c.type == "type_qualifier" and self.of(c) in ("const", "constexpr") for c in node.named_children)
+        made: list[Term] = []
+        children = node.children
+        for n, child in enumerate(children):
+            field = node.field_name_for_child(n)
+            if field == "default_value" and made:
+                made[-1] = (*made[-1][:3], self.value(child, made[-1][1], depth), *made[-1][4:])
+            if field != "declarator":
+                continue
+            value: Term | None = None
+            target: Node | None = child
+            given: Node | None = None
+            if child.type == "init_declarator":
+                target = child.child_by_field_name("declarator")
+                given = child.child_by_field_name("value")
+            elif child.type == "function_declarator":
+                if node.type != "declaration" or not self.constructs(child):
+                    continue
+                target = child.child_by_field_name("declarator")
+                listed = child.child_by_field_name("parameters")
+                at = Span(child.start_byte, child.end_byte)
+                names = [self.expression(c.named_children[0], depth) for c in (listed.named_children if listed is not None else ())]
+                value = (CALL, (NAME, text, at), tuple(names), at)
+            if target is not None and target.type in ("structured_binding_declarator",):
+                continue
+            name, size, indirect = self.declarator(target)
+            if not name:
+                continue
+            shown = target if target is not None else child
+            at = Span(shown.start_byte, shown.end_byte)
+            said = BLANKS.sub("", self.of(size)) if size is not None and size.type in ("number_literal", "identifier") else ""
+            whole = f"{text}[{said}]" if size is not None else text
+            value = self.value(given, whole, depth) if given is not None else value
+            made.append((DECLARE, whole, name, value, indirect, fixed, at))
+        return made
+
+    def constructs(self, node: Node) -> bool:
+        """Whether what looks like the declaration of a function is an object made with arguments: `Image image(device, info);`"""
+        listed = node.child_by_field_name("parameters")
+        children = listed.named_children if listed is not None else []
+        return bool(children) and all(
+            c.type == "parameter_declaration"
+            and c.named_child_count == 1
+            and c.named_children[0].type in ("type_identifier", "qualified_identifier")
+            for c in children
+        )
+
+    def defined(self, node: Node) -> list[Term]:
+        """A macro that stands for a value, as a constant."""
+        name, value = node.child_by_field_name("name"), node.child_by_field_name("value")
+        if name is None or value is None:
+            return []
+        text = self.of(value).partition("//")[0].strip()
+        while text[:1] == "(" and text[-1:] == ")":
+            text = text[1:-1].strip()
+        at = Span(value.start_byte, value.end_byte)
+        if re.fullmatch(r"[A-Za-z_][\w:]*", text):
+            term: Term = (NAME, text, at)
+        elif NUMBER.fullmatch(text):
+            term = (LITERAL, number(text), at)
+        else:
+            return []
+        return [(DECLARE, "auto", self.of(name), term, False, True, at)]
+
+    def enumerated(self, node: Node) -> list[Term]:
+        """The enumerators of an enum, as constants by their own name and by the enum's."""
+        listed, owner = node.child_by_field_name("body"), node.child_by_field_name("name")
+        made: list[Term] = []
+        following = 0
+        for each in listed.named_children if listed is not None else ():
+            name, given = each.child_by_field_name("name"), each.child_by_field_name("value")
+            if each.type != "enumerator" or name is None:
+                continue
+            at = Span(name.start_byte, name.end_byte)
+            term: Term = (LITERAL, following, at)
+            if given is not None:
+                term = self.expression(given, 0)
+            following = term[1] + 1 if term[0] == LITERAL and isinstance(term[1], int) else -(2**31)
+            prefixes = ("", f"{self.of(owner)}::") if owner is not None else ("",)
+            made += [(DECLARE, "int", prefix + self.of(name), term, False, True, at) for prefix in prefixes]
+        return made
+
+    def value(self, node: Node, kind: str, depth: int) -> Term:
+        """What a declaration is given: braces and parentheses make an object of its type."""
+        at = Span(node.start_byte, node.end_byte)
+        if node.type == "argument_list":
+            return (CALL, (NAME, kind, at), tuple(self.expression(c, depth + 1) for c in without_comments(node)), at)
+        term = self.expression(node, depth)
+        return (BRACES, kind, *term[2:]) if term[0] == BRACES and not term[1] else term

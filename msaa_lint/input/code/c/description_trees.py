@@ -1,0 +1,42 @@
+"""C and C++ that fills in Vulkan's structures, as trees in the form of a description."""
+
+from __future__ import annotations
+
+import re
+
+from msaa_lint.core.text.node_builder import mapping
+from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.parsing import Code, Read, tree
+from msaa_lint.input.code.sample_counts.choices import choices
+
+from .directives import lists_cleared
+from .run import Run
+from .syntax import unit
+from .tree_writer import Writer
+
+_WAITS = re.compile(r"ipelineBarrier|Queue(?:Submit|Present)[^}]{0,1500}WaitIdle")
+"""What may stand in for the dependencies of a pass, frame by frame."""
+
+_FRAMES = re.compile(r"cquireNextImage")
+"""Where the frames of a program follow each other."""
+
+
+def trees(code: Code) -> list[Read]:
+    """What a file, or the pieces of a page, makes: one tree, or none. Missing where the grammar is not installed."""
+    root = tree(code).root_node
+    text, sections = lists_cleared(code.text, root)
+    if sections:
+        code = code._replace(text=text)
+        root = tree(code).root_node
+    run = Run(unit(code, root, sections), code.fragments, code.language == "cpp")
+    run.through()
+    read = Writer(run.calls, code.fragments, _WAITS.search(code.text) is not None or _FRAMES.search(code.text) is None).read()
+    # Masks of sample counts have such a name, wherever they come from.
+    chosen = choices(root, code) if "ampleCounts" in code.text else []
+    if not chosen:
+        return [read] if read is not None else []
+    start = Span(chosen[0][1].start, chosen[0][1].start)
+    made = read.tree if read is not None else mapping([], Span(0, 0))
+    items = [(key, made.keys[key].span, value) for key, value in made.value.items()]
+    items.append(("sampleCountChoices", start, mapping(chosen, start)))
+    return [Read(mapping(items, Span(0, 0)), read.assumed if read is not None else ())]

@@ -1,0 +1,248 @@
+"""What expressions may be."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from msaa_lint.core.text.span import Span
+
+from .conditions import Conditions, clash, opposite
+from .names import constant
+from .places import an_element
+from .scope import MEMBER, Around
+from .terms import ADDRESS, ASSIGN, BINARY, BRACES, CALL, CHOICE, FIELD, INDEX, LAMBDA, LITERAL, NAME, TARGET, UNARY, Term, at
+from .values import MOST, NOTHING, UNKNOWN_VALUE, Alternative, Array, Cell, Closure, Flags, Ref, Struct, Symbol, Value, one
+
+
+class Values(Conditions):
+    """What expressions may be."""
+
+    def value(self, term: Term, around: Around, kind: str = "") -> Value:
+        """What an expression may be. `kind` is the type that it is for, where braces need one."""
+        self.step()
+        tag = term[0]
+        place = term[-1]
+        if tag == LITERAL:
+            return (Alternative(term[1], place),)
+        if tag == NAME:
+            known = constant(term[1])
+            if known is not None:
+                return (Alternative(known, place),)
+            if term[1] == "this":
+                return UNKNOWN_VALUE
+            return self.read(term, around)
+        if tag in (FIELD, INDEX):
+            return self.read(term, around)
+        if tag == ADDRESS:
+            return self.address(term[1], around, place)
+        if tag == TARGET:
+            value = self.value(term[1], around)
+            return tuple(b for a in value for b in (a.value.cell.read(around.guards) if isinstance(a.value, Ref) else (a,)))
+        if tag == BINARY:
+            return self.binary(term, around)
+        if tag == UNARY:
+            return self.unary(term, around)
+        if tag == ASSIGN:
+            return self.assign(term, around)
+        if tag == CHOICE:
+            return self.choice(term, around, kind)
+        if tag == CALL:
+            made = self.calls.call(term, around)
+            if an_element(term):
+                # A reference, which counts as what it refers to.
+                made = tuple(b for a in made for b in (a.value.cell.read(around.guards) if isinstance(a.value, Ref) else (a,)))
+            return made
+        if tag == BRACES:
+            return self.calls.braces(term, around, kind)
+        if tag == LAMBDA:
+            return (Alternative(Closure(term[1], term[2], around.scopes), place),)
+        return UNKNOWN_VALUE
+
+    def read(self, term: Term, around: Around) -> Value:
+        cell = self.place(term, around)
+        if cell is None:
+            return UNKNOWN_VALUE
+        value = cell.read(around.guards)
+        if not value and cell.kind == MEMBER:
+            value = self.gathered(cell.name, term[-1])
+        if not value:
+            return (Alternative(Symbol(cell.key, cell.name.rpartition("::")[2]), term[-1]),) if cell.key else UNKNOWN_VALUE
+        if cell.key and cell.kind != MEMBER:
+            # A parameter: what it was called with stands where it was called.
+            return value
+        return tuple(a._replace(at=term[-1]) if not isinstance(a.value, (Struct, Array)) else a for a in value)
+
+    def address(self, of: Term, around: Around, place: Span) -> Value:
+        if of[0] == INDEX:
+            rest = self.moved(self.value(of[1], around), self.value(of[2], around), place)
+            if rest is not None:
+                # A pointer: what is written through it is written to the list.
+                return (Alternative(Ref(Cell(writes=rest)), place),)
+        cell = self.place(of, around)
+        if cell is not None:
+            if self.fragments and cell.kind == MEMBER and not cell.writes:
+                # Of a structure that a page does not show there is the name.
+                found = self.gathered(cell.name, place) or (Alternative(Struct("", place, False, cell.name.rpartition("::")[2]), place),)
+                cell = Cell(MEMBER, cell.name, found, cell.key)
+            return (Alternative(Ref(cell), place),)
+        value = self.value(of, around)
+        return tuple(Alternative(Ref(Cell(writes=(a,))), place, a.guards) for a in value)
+
+    def binary(self, term: Term, around: Around) -> Value:
+        sign = term[1]
+        if sign in ("&&", "||", "==", "!=", "<", ">", "<=", ">="):
+            found = self.condition(term, around)
+            if isinstance(found, bool):
+                return (Alternative(found, term[-1]),)
+            return (Alternative(True, term[-1], found), Alternative(False, term[-1], opposite(found)))
+        left, right = self.value(term[2], around), self.value(term[3], around)
+        if sign == "+" and (moved := self.moved(left, right, term[-1])) is not None:
+            return moved
+        made = []
+        for a in left:
+            for b in right:
+                result = _calculated(sign, a, b, term[-1])
+                if result is not NOTHING and not clash(a.guards, b.guards):
+                    made.append(Alternative(result, term[-1], a.guards | b.guards))
+                elif result is NOTHING:
+                    made.append(Alternative(NOTHING, term[-1], a.guards | b.guards))
+        return tuple(made) if 0 < len(made) <= MOST else UNKNOWN_VALUE
+
+    def moved(self, left: Value, right: Value, place: Span) -> Value | None:
+        """A pointer into a list, some elements further."""
+        array, count = self.aimed(one(left)), one(right)
+        if not isinstance(array, Array) or type(count) is not int or not 0 <= count < len(array.items):
+            return None
+        rest = Array(array.kind, array.at, array.whole)
+        rest.items = array.items[count:]
+        return (Alternative(rest, place),)
+
+    def unary(self, term: Term, around: Around) -> Value:
+        sign = term[1]
+        if sign == "!":
+            found = self.condition(term, around)
+            if isinstance(found, bool):
+                return (Alternative(found, term[-1]),)
+            return (Alternative(True, term[-1], found), Alternative(False, term[-1], opposite(found)))
+        if sign in ("++", "--", "post++", "post--"):
+            cell = self.place(term[2], around)
+            before = one(cell.read(around.guards)) if cell is not None else NOTHING
+            if cell is None:
+                return UNKNOWN_VALUE
+            if isinstance(before, Ref) and sign.endswith("++") and not around.loops:
+                return self.next(cell, before, sign, term[-1], around)
+            if type(before) is not int or around.loops:
+                cell.writes = (Alternative(NOTHING, term[-1]),)
+                return UNKNOWN_VALUE
+            after = before + (1 if sign.endswith("++") else -1)
+            cell.write((Alternative(after, term[-1]),), term[-1], around.guards)
+            return (Alternative(before if sign.startswith("post") else after, term[-1]),)
+        value = self.value(term[2], around)
+        known = one(value)
+        if sign == "-" and isinstance(known, (int, float)):
+            return (Alternative(-known, term[-1]),)
+        if sign == "~" and known == 0:
+            return (Alternative(2**32 - 1, term[-1]),)
+        return value if sign == "+" else UNKNOWN_VALUE
+
+    def next(self, cell: Cell, before: Ref, sign: str, place: Span, around: Around) -> Value:
+        """A pointer into a list, one element further."""
+        array = self.aimed(before)
+        after: Any = NOTHING
+        if isinstance(array, Array) and len(array.items) > 1:
+            rest = Array(array.kind, array.at, array.whole)
+            rest.items = array.items[1:]
+            after = Ref(Cell(writes=(Alternative(rest, place),)))
+        cell.write((Alternative(after, place),), place, around.guards)
+        return (Alternative(before if sign.startswith("post") else after, place),)
+
+    def choice(self, term: Term, around: Around, kind: str) -> Value:
+        condition = self.condition(term[1], around)
+        if isinstance(condition, bool):
+            return self.value(term[2] if condition else term[3], around, kind)
+        known = dict(around.guards)
+        made: list[Alternative] = []
+        for guards, each in ((condition, term[2]), (opposite(condition), term[3])):
+            if any(known.get(text) is (not way) for text, way in guards):
+                continue
+            value = self.value(each, around, kind) or (Alternative(NOTHING, at(each)),)
+            made += [Alternative(a.value, a.at, a.guards | guards) for a in value if not clash(a.guards, guards)]
+        return tuple(made) if len(made) <= MOST else UNKNOWN_VALUE
+
+    def assign(self, term: Term, around: Around) -> Value:
+        _, sign, target, given, place = term
+        cell = self.place(target, around)
+        kind = cell.kind if cell is not None else ""
+        if given[0] == CALL and given[1][:2] == (NAME, "") and cell is not None:
+            # A member that a constructor makes before its body.
+            made = self.calls.object_made(self.type_of(cell), given, around)
+            if made is not None:
+                self.store(cell, made, place, around)
+                return made
+        value = self.value(given, around, kind)
+        value = self.by_pointer(_name_of(target), value, given, around)
+        if cell is None:
+            self.calls.lost(target, around)
+            return value
+        held = one(cell.writes)
+        if isinstance(held, Ref) and not any(isinstance(a.value, Ref) or a.value is None for a in value) and not cell.kind.endswith("*"):
+            cell = held.cell
+        if sign != "=":
+            before = cell.read(around.guards)
+            combined = [
+                Alternative(_calculated(sign[:-1], a, b, place), place, a.guards | b.guards)
+                for a in before
+                for b in value
+                if not clash(a.guards, b.guards)
+            ]
+            value = tuple(combined) if 0 < len(combined) <= MOST and not around.loops else UNKNOWN_VALUE
+        stored = tuple(Alternative(self.taken(a.value, cell.kind, _name_of(target)), a.at, a.guards) for a in value)
+        self.store(cell, stored, place, around)
+        return value
+
+    def by_pointer(self, name: str, value: Value, given: Term, around: Around) -> Value:
+        """A list that is given to a member which is a pointer: what is written to the list later counts as well."""
+        if name[:1] != "p" or not name[1:2].isupper() or given[0] not in (NAME, FIELD, INDEX):
+            return value
+        if not isinstance(one(value), Array):
+            return value
+        cell = self.place(given, around)
+        return value if cell is None else (Alternative(Ref(cell), given[-1]),)
+
+    def store(self, cell: Cell, value: Value, place: Span, around: Around) -> None:
+        """Writes to a cell. A structure that goes to a member goes to the members of that."""
+        known = one(value)
+        if cell.kind == MEMBER and isinstance(known, Struct) and not known.kind:
+            for name, inner in known.fields.items():
+                self.store(self.path(f"{cell.name}.{name}"), inner.read(around.guards), place, around)
+            return
+        cell.write(value, place, around.guards)
+        self.calls.called_by(value, cell.name, around)
+
+
+def _name_of(term: Term) -> str:
+    return str(term[1]).rpartition("::")[2] if term[0] == NAME else str(term[2]) if term[0] == FIELD else ""
+
+
+def _bits(value: Any, place: Span) -> tuple[tuple[str, Span], ...] | None:
+    if isinstance(value, Flags):
+        return value.bits
+    if isinstance(value, str):
+        return ((value, place),)
+    return () if value == 0 and not isinstance(value, (bool, float)) else None
+
+
+def _calculated(sign: str, left: Alternative, right: Alternative, place: Span) -> Any:
+    a, b = left.value, right.value
+    if sign == "|":
+        first, second = _bits(a, left.at), _bits(b, right.at)
+        if first is not None and second is not None and not (isinstance(a, int) and isinstance(b, int)):
+            return Flags((*first, *second))
+    if type(a) is int and type(b) is int and abs(a) < 2**40 and abs(b) < 2**40:
+        if sign == "<<":
+            return a << b if 0 <= b < 40 else NOTHING
+        results = {"+": a + b, "-": a - b, "*": a * b, "|": a | b, "&": a & b}
+        return results.get(sign, a // b if sign == "/" and b else NOTHING)
+    if isinstance(a, (int, float)) and isinstance(b, (int, float)) and not isinstance(a, bool):
+        return {"+": a + b, "-": a - b, "*": a * b}.get(sign, NOTHING)
+    return NOTHING

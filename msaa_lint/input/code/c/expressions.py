@@ -1,0 +1,230 @@
+"""C and C++ expressions to terms."""
+
+from __future__ import annotations
+
+import re
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from msaa_lint.core.text.span import Span
+
+from .directives import Section
+from .kinds import BLANKS, CLASSES, DEEPEST, NAMES, WORD, number, without_comments
+from .terms import (
+    ADDRESS,
+    ASSIGN,
+    BINARY,
+    BRACES,
+    CALL,
+    CHOICE,
+    FIELD,
+    INDEX,
+    LAMBDA,
+    LITERAL,
+    NAME,
+    SOME,
+    TARGET,
+    UNARY,
+    UNKNOWN,
+    Parameter,
+    Term,
+)
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
+
+
+WRAPPERS = frozenset({"parenthesized_expression", "cast_expression", "condition_clause", "co_await_expression"})
+
+CASTS = frozenset({"static_cast", "reinterpret_cast", "const_cast", "bit_cast"})
+
+
+class Expressions(ABC):
+    """Expressions of one text."""
+
+    text: str
+    current: str
+    aliases: dict[str, str]
+    """By name, what a file calls otherwise."""
+    called_names: set[str]
+    sections: tuple[Section, ...]
+
+    @abstractmethod
+    def parameters(self, listed: Node | None) -> tuple[Parameter, ...]:
+        """The parameters of a function."""
+
+    @abstractmethod
+    def block(self, node: Node, depth: int) -> list[Term]:
+        """The statements of a block."""
+
+    def of(self, node: Node) -> str:
+        return self.text[node.start_byte : node.end_byte]
+
+    def type_text(self, node: Node) -> str:
+        """A type as it is written, without blanks, `const`, `struct`."""
+        if node.type in CLASSES or node.type == "enum_specifier":
+            name = node.child_by_field_name("name")
+            return self.of(name) if name is not None else ""
+        return self.meant(BLANKS.sub("", re.sub(r"\b(?:const|struct|typename|class)\b", " ", self.of(node))))
+
+    def meant(self, name: str) -> str:
+        """A name with what an alias stands for in the alias's place: of `namespace v = vk;` and `using Samples = ...;`."""
+        if not self.aliases:
+            return name
+        return WORD.sub(lambda match: self.aliases.get(match[0], match[0]), name)
+
+    def expression(self, node: Node | None, depth: int) -> Term:
+        """An expression's term."""
+        if node is None or depth > DEEPEST:
+            return (UNKNOWN, "", Span(node.start_byte, node.end_byte) if node is not None else Span(0, 0))
+        kind = node.type
+        at = Span(node.start_byte, node.end_byte)
+        deeper = depth + 1
+        if kind in NAMES:
+            name = self.of(node)
+            return (LITERAL, None, at) if name == "VK_NULL_HANDLE" else (NAME, self.meant(BLANKS.sub("", name)), at)
+        if kind == "field_expression":
+            member, of = node.child_by_field_name("field"), node.child_by_field_name("argument")
+            if member is None:
+                return (UNKNOWN, self.of(node), at)
+            return (
+                FIELD,
+                self.expression(of, deeper),
+                self.of(member).partition("<")[0].rpartition("::")[2],
+                Span(member.start_byte, member.end_byte),
+            )
+        if kind == "call_expression":
+            return self.call(node, deeper, at)
+        if kind == "initializer_list":
+            return (BRACES, "", tuple(self.items(node, deeper)), at)
+        if kind == "compound_literal_expression":
+            typed, given = node.child_by_field_name("type"), node.child_by_field_name("value")
+            items = tuple(self.items(given, deeper)) if given is not None else ()
+            return (BRACES, self.type_text(typed) if typed is not None else "", items, at)
+        if kind in WRAPPERS:
+            inner = node.child_by_field_name("value") or (node.named_children[-1] if node.named_child_count else None)
+            term = self.expression(inner, deeper)
+            if kind == "cast_expression" and term[0] in (NAME, LITERAL, BRACES):
+                typed = node.child_by_field_name("type")
+                if term[0] == BRACES and typed is not None:
+                    return (BRACES, self.type_text(typed), *term[2:])
+            return term
+        if kind == "binary_expression":
+            left, right, sign = (node.child_by_field_name(name) for name in ("left", "right", "operator"))
+            return (BINARY, self.of(sign) if sign is not None else "", self.expression(left, deeper), self.expression(right, deeper), at)
+        if kind == "assignment_expression":
+            left, right, sign = (node.child_by_field_name(name) for name in ("left", "right", "operator"))
+            return (ASSIGN, self.of(sign) if sign is not None else "=", self.expression(left, deeper), self.expression(right, deeper), at)
+        if kind == "conditional_expression":
+            test, then, other = (node.child_by_field_name(name) for name in ("condition", "consequence", "alternative"))
+            return (CHOICE, self.expression(test, deeper), self.expression(then, deeper), self.expression(other, deeper), at)
+        if kind == "pointer_expression":
+            sign, of = node.child_by_field_name("operator"), node.child_by_field_name("argument")
+            address = sign is not None and self.of(sign) == "&"
+            return (ADDRESS if address else TARGET, self.expression(of, deeper), at)
+        if kind == "unary_expression":
+            sign, of = node.child_by_field_name("operator"), node.child_by_field_name("argument")
+            return (UNARY, self.of(sign) if sign is not None else "", self.expression(of, deeper), at)
+        if kind == "subscript_expression":
+            of = node.child_by_field_name("argument")
+            listed = node.child_by_field_name("indices") or node.child_by_field_name("index")
+            index = (
+                listed.named_children[0]
+                if listed is not None and listed.type == "subscript_argument_list" and listed.named_child_count
+                else listed
+            )
+            return (INDEX, self.expression(of, deeper), self.expression(index, deeper), at)
+        if kind == "number_literal":
+            counted = number(self.of(node))
+            return (LITERAL, counted, at) if counted is not None else (UNKNOWN, self.of(node)[:40], at)
+        if kind in ("true", "false"):
+            return (LITERAL, kind == "true", at)
+        if kind == "null":
+            return (LITERAL, None, at)
+        if kind == "lambda_expression":
+            declarator, body = node.child_by_field_name("declarator"), node.child_by_field_name("body")
+            listed = declarator.child_by_field_name("parameters") if declarator is not None else None
+            return (LAMBDA, self.parameters(listed), tuple(self.block(body, deeper)) if body is not None else (), at)
+        if kind == "update_expression":
+            sign, of = node.child_by_field_name("operator"), node.child_by_field_name("argument")
+            after = sign is not None and of is not None and of.start_byte < sign.start_byte
+            return (UNARY, ("post" if after else "") + (self.of(sign) if sign is not None else ""), self.expression(of, deeper), at)
+        if kind in ("comma_expression", "ERROR") and node.named_child_count:
+            return self.expression(node.named_children[-1], deeper)
+        if kind == "new_expression":
+            typed, given = node.child_by_field_name("type"), node.child_by_field_name("arguments")
+            if typed is not None:
+                items = tuple(self.expression(c, deeper) for c in (without_comments(given) if given is not None else ()))
+                return (CALL, (NAME, self.type_text(typed), at), items, at)
+        return (UNKNOWN, self.of(node) if node.end_byte - node.start_byte < 200 else "", at)
+
+    def call(self, node: Node, depth: int, at: Span) -> Term:
+        function, listed = node.child_by_field_name("function"), node.child_by_field_name("arguments")
+        said = without_comments(listed) if listed is not None else []
+        if function is not None and function.type == "template_function":
+            name = function.child_by_field_name("name")
+            if name is not None and self.of(name).rpartition("::")[2] in CASTS and len(said) == 1:
+                return self.expression(said[0], depth)
+        if (
+            function is not None
+            and function.type == "qualified_identifier"
+            and len(said) == 1
+            and self.of(function) in ("std::move", "std::as_const")
+        ):
+            return self.expression(said[0], depth)
+        arguments = tuple(self.in_order(said, (self.expression(child, depth) for child in said)))
+        called = self.expression(function, depth)
+        named = called[1] if called[0] == NAME else called[2] if called[0] == FIELD else ""
+        short = str(named).rpartition("::")[2].partition("<")[0]
+        if short != self.current:
+            self.called_names.add(short)
+        return (CALL, called, arguments, at)
+
+    def items(self, node: Node, depth: int) -> Iterator[tuple[tuple[str | int, ...] | None, Term]]:
+        """The items of braces: the members that a designator names, or None, and what stands there."""
+        nodes = node.named_children
+        if self.torn(nodes):
+            # What the preprocessor makes of them is not known.
+            at = Span(node.start_byte, node.end_byte)
+            yield None, (SOME, "#", True, (UNKNOWN, "", at), at)
+            return
+        for child in nodes:
+            if child.type == "comment" or depth > DEEPEST:
+                continue
+            if child.type != "initializer_pair":
+                yield None, self.in_sections(child, self.expression(child, depth))
+                continue
+            path: list[str | int] = []
+            given = child.child_by_field_name("value")
+            for part in child.children_by_field_name("designator"):
+                inner = part.named_children[0] if part.named_child_count else None
+                if inner is None:
+                    continue
+                if part.type == "subscript_designator":
+                    index = self.expression(inner, depth)
+                    path.append(index[1] if index[0] == LITERAL and isinstance(index[1], int) else f"[{self.of(inner)}")
+                else:
+                    path.append(self.of(inner))
+            yield tuple(path), self.in_sections(child, self.expression(given, depth))
+
+    def torn(self, nodes: list[Node]) -> bool:
+        """Whether a directive of the preprocessor is left between the items of a list."""
+        return any(child.is_error and self.text.startswith("#", child.start_byte) for child in nodes)
+
+    def in_sections(self, node: Node, term: Term) -> Term:
+        """An item of a list with the conditions that it is there under; of one that is half of it under some, nothing is known."""
+        for section in self.sections:
+            if node.start_byte < section.start < node.end_byte and term[0] not in (BRACES, CALL, LAMBDA):
+                return (UNKNOWN, "", term[-1])
+            if section.start <= node.start_byte < section.end:
+                term = (SOME, section.text, section.way, term, term[-1])
+        return term
+
+    def in_order(self, nodes: list[Node], terms: Iterator[Term]) -> Iterator[Term]:
+        """Arguments; none is known from the first on that is there only under a condition."""
+        shifted = self.torn(nodes)
+        for node, term in zip(nodes, terms, strict=True):
+            given = self.in_sections(node, term)
+            shifted = shifted or given[0] == SOME
+            yield (UNKNOWN, "", term[-1]) if shifted else given

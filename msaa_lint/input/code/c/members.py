@@ -1,0 +1,97 @@
+"""Members of structures as nodes of a description."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from msaa_lint.core.text.node import Node
+from msaa_lint.core.text.node_builder import scalar, sequence
+from msaa_lint.core.text.span import Span
+from msaa_lint.frame.vulkan.names import parse_enum, parse_flags
+
+from .configurations import World
+from .values import Array, Flags, Made, Struct
+
+Item = tuple[str, Span, Node]
+
+ENUMS = {
+    "format": "VkFormat", "loadOp": "VkAttachmentLoadOp", "storeOp": "VkAttachmentStoreOp", "stencilLoadOp": "VkAttachmentLoadOp",
+    "stencilStoreOp": "VkAttachmentStoreOp", "initialLayout": "VkImageLayout", "finalLayout": "VkImageLayout", "imageType": "VkImageType",
+    "tiling": "VkImageTiling", "sharingMode": "VkSharingMode", "depthResolveMode": "VkResolveModeFlagBits",
+    "stencilResolveMode": "VkResolveModeFlagBits", "resolveMode": "VkResolveModeFlagBits",
+}  # fmt: skip
+
+FLAGS = {
+    "usage": "VkImageUsageFlagBits", "srcStageMask": "VkPipelineStageFlagBits2", "dstStageMask": "VkPipelineStageFlagBits2",
+    "srcAccessMask": "VkAccessFlagBits2", "dstAccessMask": "VkAccessFlagBits2", "memory": "VkMemoryPropertyFlagBits",
+}  # fmt: skip
+
+ZERO = {
+    "loadOp": "LOAD", "storeOp": "STORE", "stencilLoadOp": "LOAD", "stencilStoreOp": "STORE", "initialLayout": "UNDEFINED",
+    "imageType": "1D", "tiling": "OPTIMAL", "sharingMode": "EXCLUSIVE", "depthResolveMode": "NONE", "stencilResolveMode": "NONE",
+    "resolveMode": "NONE", "sampleShadingEnable": False, "alphaToCoverageEnable": False, "alphaToOneEnable": False, "minSampleShading": 0.0,
+    "srcAccessMask": (), "dstAccessMask": (), "blendEnable": False,
+}  # fmt: skip
+"""What zero is, where it says something."""
+
+
+class Members(World):
+    """Members of structures as nodes."""
+
+    def item(self, struct: Struct, name: str) -> Iterator[Item]:
+        """A member that is an enumerant, flags, a truth value or a number, where it is known."""
+        value, at = self.get(struct, name)
+        if value is None and name in ZERO:
+            value = ZERO[name]
+        node = self.node(name, value, at)
+        if node is not None:
+            yield name, at, node
+
+    def node(self, name: str, value: Any, at: Span) -> Node | None:
+        if name in FLAGS:
+            return flags_of(FLAGS[name], value, at)
+        if name in ENUMS:
+            if value == 0 and type(value) is int and name in ZERO:
+                value = ZERO[name]
+            short = parse_enum(ENUMS[name], value) if isinstance(value, str) else None
+            # A format that is undefined is one that nobody knows.
+            return scalar(short, at) if short is not None and (short != "UNDEFINED" or name != "format") else None
+        if isinstance(value, bool) or (isinstance(value, (int, float)) and name == "minSampleShading"):
+            return scalar(value, at)
+        if type(value) is int and name.endswith("Enable"):
+            return scalar(bool(value), at)
+        return None
+
+    def name(self, made: Made, otherwise: str) -> str:
+        """A name that no other object of the tree has."""
+        if id(made) not in self.names:
+            self.names[id(made)] = self.unique(made.name.rpartition("::")[2].strip("*&") or otherwise)
+        return self.names[id(made)]
+
+    def unique(self, base: str) -> str:
+        name, n = base, 2
+        while name in self.taken:
+            name, n = f"{base} ({n})", n + 1
+        self.taken.add(name)
+        return name
+
+
+def flags_of(enum: str, value: Any, at: Span) -> Node | None:
+    """A list of flags; None where one of them is not known."""
+    if value == () or (type(value) is int and value == 0) or (isinstance(value, Array) and value.whole and not value.items):
+        return sequence([], at)
+    bits = value.bits if isinstance(value, Flags) else ((value, at),) if isinstance(value, str) else ()
+    nodes = []
+    for text, place in bits:
+        try:
+            names = list(parse_flags(enum, text))
+        except ValueError:
+            return None
+        nodes += [scalar(name, place) for name in names]
+    return sequence(nodes, at) if nodes or bits else None
+
+
+def head_of(at: Span) -> Span:
+    """Where something long begins."""
+    return at if at.end - at.start <= 80 else Span(at.start, at.start + 1)

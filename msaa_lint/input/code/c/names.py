@@ -1,0 +1,210 @@
+"""Vulkan's names as C and C++ spell them: `VK_ATTACHMENT_STORE_OP_STORE`, `vk::AttachmentStoreOp::eStore`, `VkImageCreateInfo`,
+`vk::ImageCreateInfo`, `pAttachments`, `setAttachments`.
+
+The order of members is the registry's (vk.xml); a test holds it to that.
+"""
+
+from __future__ import annotations
+
+import re
+
+from msaa_lint.frame.vulkan.enums import VALUES
+
+MEMBERS: dict[str, tuple[str, ...]] = {
+    "AttachmentDescription": (
+        "flags", "format", "samples", "loadOp", "storeOp", "stencilLoadOp", "stencilStoreOp", "initialLayout", "finalLayout",
+    ),
+    "AttachmentReference": ("attachment", "layout"),
+    "AttachmentReference2": ("attachment", "layout", "aspectMask"),
+    "SubpassDescription": (
+        "flags", "pipelineBindPoint", "inputAttachmentCount", "pInputAttachments", "colorAttachmentCount", "pColorAttachments",
+        "pResolveAttachments", "pDepthStencilAttachment", "preserveAttachmentCount", "pPreserveAttachments",
+    ),
+    "SubpassDescription2": (
+        "flags", "pipelineBindPoint", "viewMask", "inputAttachmentCount", "pInputAttachments", "colorAttachmentCount", "pColorAttachments",
+        "pResolveAttachments", "pDepthStencilAttachment", "preserveAttachmentCount", "pPreserveAttachments",
+    ),
+    "SubpassDescriptionDepthStencilResolve": ("depthResolveMode", "stencilResolveMode", "pDepthStencilResolveAttachment"),
+    "SubpassDependency": (
+        "srcSubpass", "dstSubpass", "srcStageMask", "dstStageMask", "srcAccessMask", "dstAccessMask", "dependencyFlags",
+    ),
+    "SubpassDependency2": (
+        "srcSubpass", "dstSubpass", "srcStageMask", "dstStageMask", "srcAccessMask", "dstAccessMask", "dependencyFlags", "viewOffset",
+    ),
+    "RenderPassCreateInfo": (
+        "flags", "attachmentCount", "pAttachments", "subpassCount", "pSubpasses", "dependencyCount", "pDependencies",
+    ),
+    "RenderPassCreateInfo2": (
+        "flags", "attachmentCount", "pAttachments", "subpassCount", "pSubpasses", "dependencyCount", "pDependencies",
+        "correlatedViewMaskCount", "pCorrelatedViewMasks",
+    ),
+    "FramebufferCreateInfo": ("flags", "renderPass", "attachmentCount", "pAttachments", "width", "height", "layers"),
+    "ImageCreateInfo": (
+        "flags", "imageType", "format", "extent", "mipLevels", "arrayLayers", "samples", "tiling", "usage", "sharingMode",
+        "queueFamilyIndexCount", "pQueueFamilyIndices", "initialLayout",
+    ),
+    "ImageViewCreateInfo": ("flags", "image", "viewType", "format", "components", "subresourceRange"),
+    "RenderingAttachmentInfo": (
+        "imageView", "imageLayout", "resolveMode", "resolveImageView", "resolveImageLayout", "loadOp", "storeOp", "clearValue",
+    ),
+    "RenderingInfo": (
+        "flags", "renderArea", "layerCount", "viewMask", "colorAttachmentCount", "pColorAttachments", "pDepthAttachment",
+        "pStencilAttachment",
+    ),
+    "PipelineMultisampleStateCreateInfo": (
+        "flags", "rasterizationSamples", "sampleShadingEnable", "minSampleShading", "pSampleMask", "alphaToCoverageEnable",
+        "alphaToOneEnable",
+    ),
+    "PipelineColorBlendAttachmentState": (
+        "blendEnable", "srcColorBlendFactor", "dstColorBlendFactor", "colorBlendOp", "srcAlphaBlendFactor", "dstAlphaBlendFactor",
+        "alphaBlendOp", "colorWriteMask",
+    ),
+    "PipelineColorBlendStateCreateInfo": (
+        "flags", "logicOpEnable", "logicOp", "attachmentCount", "pAttachments", "blendConstants",
+    ),
+    "PipelineDynamicStateCreateInfo": ("flags", "dynamicStateCount", "pDynamicStates"),
+    "PipelineRasterizationStateCreateInfo": ("flags", "depthClampEnable", "rasterizerDiscardEnable"),
+    "PipelineRenderingCreateInfo": (
+        "viewMask", "colorAttachmentCount", "pColorAttachmentFormats", "depthAttachmentFormat", "stencilAttachmentFormat",
+    ),
+    "GraphicsPipelineCreateInfo": (
+        "flags", "stageCount", "pStages", "pVertexInputState", "pInputAssemblyState", "pTessellationState", "pViewportState",
+        "pRasterizationState", "pMultisampleState", "pDepthStencilState", "pColorBlendState", "pDynamicState", "layout", "renderPass",
+        "subpass", "basePipelineHandle", "basePipelineIndex",
+    ),
+    "MultisampledRenderToSingleSampledInfo": ("multisampledRenderToSingleSampledEnable", "rasterizationSamples"),
+    "DeviceCreateInfo": (
+        "flags", "queueCreateInfoCount", "pQueueCreateInfos", "enabledLayerCount", "ppEnabledLayerNames", "enabledExtensionCount",
+        "ppEnabledExtensionNames", "pEnabledFeatures",
+    ),
+    "PhysicalDeviceFeatures": (
+        "robustBufferAccess", "fullDrawIndexUint32", "imageCubeArray", "independentBlend", "geometryShader", "tessellationShader",
+        "sampleRateShading",
+    ),
+    "PhysicalDeviceFeatures2": ("features",),
+    "MemoryAllocateInfo": ("allocationSize", "memoryTypeIndex"),
+    "Extent3D": ("width", "height", "depth"),
+    "Extent2D": ("width", "height"),
+}  # fmt: skip
+"""The members of structures in their order, without sType and pNext."""
+
+WITHOUT_TYPE = frozenset(
+    {
+        "AttachmentDescription",
+        "AttachmentReference",
+        "SubpassDescription",
+        "SubpassDependency",
+        "PipelineColorBlendAttachmentState",
+        "PhysicalDeviceFeatures",
+        "Extent3D",
+        "Extent2D",
+    }
+)
+"""Those that have no sType and no pNext."""
+
+VERSIONED = {
+    "AttachmentDescription2": "AttachmentDescription",
+    "RenderPassCreateInfo2": "RenderPassCreateInfo",
+    "SubpassDescription2": "SubpassDescription",
+    "SubpassDependency2": "SubpassDependency",
+    "AttachmentReference2": "AttachmentReference",
+}
+"""Second versions and the first, which says the same to a rule."""
+
+MEMBERS["AttachmentDescription2"] = MEMBERS["AttachmentDescription"]
+
+_SCALAR = re.compile(r"(?:FlagBits2?|Flags2?|Format|Layout|Op|Mode|Bool32|Tiling|Type|DeviceSize)(?:KHR|EXT)?$")
+_SUFFIX = re.compile(r"(?:KHR|EXT)$")
+_STRUCTURE = re.compile(r"(?:::)?(?:Vk|vk::|VULKAN_HPP_NAMESPACE::)([A-Za-z0-9]+)$")
+_LISTED = re.compile(
+    r"(?:std::|eastl::|absl::)?(?:array|vector|span|inlined_vector|InlinedVector|small_vector|initializer_list|SmallVector|Array|Vector)<([^,<>]+)[,>]"
+)
+_FIXED = re.compile(r"(?:std::|eastl::)?array<[^,<>]+,([^<>]+)>$")
+_COUNT = re.compile(r"VK_SAMPLE_COUNT_(1|2|4|8|16|32|64)_BIT$")
+_SCOPED = re.compile(r"(?:.*::)?([A-Z][A-Za-z0-9]+)::e([A-Z0-9][A-Za-z0-9]*)$")
+
+_TABLES = {
+    "VkPipelineStageFlagBits": "VkPipelineStageFlagBits2",
+    "VkAccessFlagBits": "VkAccessFlagBits2",
+    "VkResolveModeFlagBitsKHR": "VkResolveModeFlagBits",
+}
+
+
+def structure(type_text: str) -> str:
+    """The structure that a type is, without `Vk` and a vendor's suffix; empty where it is none that we read."""
+    match = _STRUCTURE.match(type_text.removeprefix("VULKAN_HPP_NAMESPACE::"))
+    if match is None:
+        return ""
+    name = _SUFFIX.sub("", match[1])
+    return name if name in MEMBERS else ""
+
+
+def is_scalar(type_text: str) -> bool:
+    """Whether a type of Vulkan's is an enum, flags or a number, whose braces hold nothing but a value."""
+    return _SCALAR.search(type_text) is not None or not type_text.startswith(("Vk", "vk::", "VULKAN"))
+
+
+def elements(type_text: str) -> str | None:
+    """The type of an array's elements; None where a type is no array or list."""
+    if type_text.endswith("]"):
+        return type_text.partition("[")[0]
+    match = _LISTED.match(type_text)
+    return match[1] if match is not None else None
+
+
+def extent(type_text: str) -> str:
+    """How many elements an array has, as it is written; empty where its type does not say."""
+    if type_text.endswith("]"):
+        return type_text.partition("[")[2].rstrip("]")
+    match = _FIXED.match(type_text)
+    return match[1] if match is not None else ""
+
+
+def first_version(kind: str) -> str:
+    """A structure's name without the 2 of its second version."""
+    return VERSIONED.get(kind, kind)
+
+
+def constant(name: str) -> int | str | bool | None:
+    """What a name of Vulkan's stands for: a sample count as a number, a truth value, or an enumerant by a name that a description takes;
+    None where it is no such name."""
+    if name.startswith("VK_"):
+        count = _COUNT.match(name)
+        if count is not None:
+            return int(count[1])
+        if name in ("VK_TRUE", "VK_FALSE"):
+            return name == "VK_TRUE"
+        if name == "VK_SUCCESS":
+            return 0
+        return None if name in ("VK_NULL_HANDLE", "VK_CHECK") else name
+    if name.endswith("Result::eSuccess"):
+        return 0
+    match = _SCOPED.match(name)
+    if match is None:
+        return "VK_SUBPASS_EXTERNAL" if name.endswith("::SubpassExternal") else 2**32 - 1 if name.endswith("::AttachmentUnused") else None
+    enum = f"Vk{match[1]}"
+    if enum == "VkSampleCountFlagBits":
+        return int(match[2]) if match[2].isdecimal() else None
+    enum = _TABLES.get(enum, enum)
+    if enum not in VALUES:
+        return None
+    squashed = _squashed.get(enum)
+    if squashed is None:
+        squashed = _squashed[enum] = {value.replace("_", "").lower(): value for value in VALUES[enum]}
+    return squashed.get(match[2].lower())
+
+
+_squashed: dict[str, dict[str, str]] = {}
+
+
+def member(name: str) -> str:
+    """A member's name without the `p` of a pointer: what descriptions call it. `pNext` is `next`."""
+    return name[1].lower() + name[2:] if len(name) > 1 and name[0] == "p" and name[1].isupper() else name
+
+
+def set_by(method: str) -> str | None:
+    """The member that a setter of vulkan.hpp sets, by the name above; None where it is none."""
+    if len(method) < 4 or not method.startswith("set") or not method[3].isupper():
+        return None
+    name = method[3].lower() + method[4:]
+    return member(name)

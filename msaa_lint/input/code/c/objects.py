@@ -1,0 +1,407 @@
+"""What calls do: the file's own functions, constructors and setters, lists, and Vulkan's functions that make an object.
+
+A call makes what its structure says, whatever the function is called: vkCreateImage, a dispatch table's, vmaCreateImage, vulkan.hpp's
+`createImage` and vk::raii::Image all take a VkImageCreateInfo. The structure is copied as it is at that moment.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import Any
+
+from msaa_lint.core.text.span import Span
+from msaa_lint.frame.vulkan.enums import VALUES
+
+from .conditions import worded
+from .lists import Lists
+from .names import first_version, structure
+from .scope import Around
+from .terms import ADDRESS, CALL, FIELD, INDEX, NAME, Function, Term
+from .values import (
+    ALWAYS,
+    NOTHING,
+    UNKNOWN_VALUE,
+    Alternative,
+    Array,
+    Cell,
+    Closure,
+    Flags,
+    Made,
+    Ref,
+    Struct,
+    Symbol,
+    Value,
+    copied,
+    one,
+    settled,
+)
+
+MAKES = {
+    "ImageCreateInfo": "image",
+    "ImageViewCreateInfo": "view",
+    "RenderPassCreateInfo": "renderPass",
+    "FramebufferCreateInfo": "framebuffer",
+    "GraphicsPipelineCreateInfo": "pipeline",
+    "RenderingInfo": "rendering",
+    "MemoryAllocateInfo": "memory",
+    "DeviceCreateInfo": "device",
+}
+"""What is made with a structure, by its name."""
+
+ALONE = ("PipelineMultisampleStateCreateInfo",)
+"""Structures that say something even where no call is seen to take them."""
+
+_LOOKS = re.compile(r"[gG]et|Requirement|[pP]ropert|[fF]ind|[lL]og|[pP]rint|assert|Supported|[hH]ash|validate|setDebug|Name$")
+
+COUNTS = re.compile(
+    r"max.*sample|sample.*max|usable.*sample|supported.*sample|best.*sample|sample.*support|choose.*sample|pick.*sample|select.*sample",
+    re.IGNORECASE,
+)
+
+_HARMLESS = re.compile(
+    r"[dD]estroy|[dD]elete|[fF]ree|[rR]elease|[nN]ame|[lL]og|[pP]rint|[aA]ssert|[cC]heck|CHECK|[mM]emory|[rR]equire|push_back|emplace"
+)
+"""What is done with an object there, and does not use it."""
+
+_MEMORY = re.compile(r"mem.*(?:type|index)", re.IGNORECASE)
+
+VIEW = re.compile(r"view", re.IGNORECASE)
+
+_MOVES = frozenset({"swap", "exchange", "tie", "iter_swap", "forward"})
+
+_IMAGE = re.compile(r"(?:Vk|vk::|vk::raii::)Image[&*]*$")
+
+_TYPED = {
+    "SampleCountFlagBits": "samples",
+    "ImageUsageFlags": "usage",
+    "Format": "format",
+    "ImageTiling": "tiling",
+    "MemoryPropertyFlags": "memory",
+    "ImageUsageFlagBits": "usage",
+    "SampleCountFlags": "samples",
+}
+
+_MEMORY_BITS = VALUES["VkMemoryPropertyFlagBits"]
+
+
+class Objects(Lists):
+    """Objects of one file."""
+
+    def unknown(self, term: Term, name: str, owner: Term | None, values: Sequence[Value], around: Around) -> Value:
+        """A function that is not the file's: what it makes, by the structures that it takes."""
+        place = term[3]
+        if name in ("vkCmdResolveImage", "resolveImage", "vkCmdResolveImage2", "vkCmdResolveImage2KHR", "resolveImage2"):
+            self.resolving(name, values, place)
+            return UNKNOWN_VALUE
+        if name in ("vkBindImageMemory", "bindImageMemory", "bindMemory"):
+            self.binding(values, owner, around)
+            return UNKNOWN_VALUE
+        if not _LOOKS.search(name):
+            for n, value in enumerate(values):
+                known = self.run.aimed(one(value))
+                if isinstance(known, Array) and len(known.items) == 1:
+                    known = self.run.aimed(one(known.items[0].writes))
+                if isinstance(known, Struct) and first_version(known.kind) in MAKES:
+                    return self.makes(known, n, term, name, values, around)
+        if _MEMORY.search(name):
+            for value in values:
+                if value and all(_of_memory(a.value) for a in value):
+                    return value
+        if VIEW.search(name):
+            viewed = self.viewed(values, term, around)
+            if viewed is not None:
+                return viewed
+        for given in term[2]:
+            if given[0] == ADDRESS:
+                cell = self.run.place(given[1], around)
+                held = self.run.aimed(one(cell.read(around.guards))) if cell is not None else None
+                if isinstance(held, Struct):
+                    # What only asks Vulkan fills the structure in.
+                    kept = name.startswith(("vk", "vma")) and not name.startswith(("vkGet", "vkEnumerate"))
+                    if not kept and not self.keeps(name, given, term):
+                        held.zeroed = False
+                        held.fields.clear()
+                elif cell is not None and not isinstance(held, (Array, Made)):
+                    # The function gives it a value that is not known here.
+                    cell.write((Alternative(NOTHING, place),), place, around.guards)
+            elif not name.startswith(("vk", "vma")):
+                self.handed(name, given, term, around)
+        if name and not name.startswith(("vk", "vma")) and not name.isupper() and not _HARMLESS.search(name):
+            for value in values:
+                for each in value:
+                    self.leaves(each.value)
+        if not name or (name[0].isupper() and owner is None and structure(name)):
+            return UNKNOWN_VALUE
+        helped = self.initialised(term, name, values, place)
+        if helped is not None:
+            return helped
+        return (Alternative(Symbol(worded(term), name, bool(COUNTS.search(name))), place),)
+
+    def keeps(self, name: str, given: Term, term: Term) -> bool:
+        """Whether a function is declared not to change what an argument points to."""
+        stated = self.run.unit.prototypes.get(name, ())
+        position = term[2].index(given)
+        return bool(position < len(stated) and stated[position].fixed)
+
+    def handed(self, name: str, given: Term, term: Term, around: Around) -> None:
+        """A list, or a structure, that is handed to somebody else's function, which may change it if it takes a reference."""
+        for known in [each.value for each in self.run.value(given, around)]:
+            if isinstance(known, Closure):
+                self.captured(known)
+                continue
+            value = self.run.aimed(known)
+            if not isinstance(value, (Array, Struct)) or self.keeps(name, given, term):
+                continue
+            stated = self.run.unit.prototypes.get(name, ())
+            position = term[2].index(given)
+            if isinstance(known, Struct) and name not in _MOVES:
+                # C++ may take a reference where nothing looks like it, and a macro may do anything.
+                by_reference = stated[position].by_reference if position < len(stated) else self.run.plus or name.isupper()
+                if not by_reference:
+                    continue
+            self.unknown_now(value)
+
+    def leaves(self, value: Any, depth: int = 0) -> None:
+        """Notes that an object goes where nobody can follow it, and the image of a view with it."""
+        if isinstance(value, Made):
+            value.gone = True
+            if value.kind == "view" and value.info is not None and "image" in value.info.fields:
+                for write in value.info.fields["image"].writes:
+                    self.leaves(write.value, depth + 1)
+            return
+        cells: Sequence[Cell] = ()
+        if isinstance(value, Struct) and not value.kind:
+            cells = list(value.fields.values())
+        elif isinstance(value, Array):
+            cells = value.items
+        elif isinstance(value, Ref):
+            cells = [value.cell]
+        for cell in cells if depth < 4 else ():
+            for write in cell.writes:
+                self.leaves(write.value, depth + 1)
+
+    def captured(self, closure: Closure) -> None:
+        """A lambda that is handed to somebody else's function: what it names it may change."""
+        names: set[str] = set()
+        waiting: list[Any] = list(closure.body)
+        while waiting:
+            term = waiting.pop()
+            if isinstance(term, tuple) and term and not isinstance(term, Span):
+                if term[0] == NAME and len(term) == 3 and isinstance(term[1], str):
+                    names.add(term[1])
+                else:
+                    waiting.extend(term)
+        for scope in closure.scopes:
+            for name in names & scope.keys():
+                for write in scope[name].writes:
+                    self.unknown_now(self.run.aimed(write.value))
+
+    @staticmethod
+    def unknown_now(value: Any) -> None:
+        """Forgets what is known of a structure or a list."""
+        if isinstance(value, Array):
+            value.whole = False
+        for each in (
+            [value] if isinstance(value, Struct) else [one(cell.writes) for cell in value.items] if isinstance(value, Array) else []
+        ):
+            if isinstance(each, Struct):
+                each.zeroed = False
+                each.fields.clear()
+
+    def initialised(self, term: Term, name: str, values: Sequence[Value], place: Span) -> Value | None:
+        """The helpers of Sascha Willems's examples, which many samples use: a structure by its name, zeroed but for its arguments."""
+        function = term[1]
+        if function[0] != NAME or "initializers::" not in function[1]:
+            return None
+        kind = structure("Vk" + name[0].upper() + name[1:])
+        if not kind:
+            return None
+        made = Struct(kind, place, function[1].startswith("vks::") and not values)
+        if kind == "PipelineMultisampleStateCreateInfo" and values:
+            made.cell("rasterizationSamples").writes = values[0]
+        return (Alternative(made, place),)
+
+    def makes(self, info: Struct, n: int, term: Term, name: str, values: Sequence[Value], around: Around) -> Value:
+        kind = MAKES[first_version(info.kind)]
+        made = self.make(kind, info, term, around)
+        plain = (name.startswith(("vk", "vma")) and name[2:3].isupper()) or name.startswith("vma")
+        result: Value = (Alternative(made, term[3]),)
+        for position, given in enumerate(term[2]):
+            if position <= n:
+                continue
+            target = given[1] if given[0] == ADDRESS else given if plain and given[0] in (NAME, FIELD, INDEX) else None
+            if target is None:
+                continue
+            held = self.run.aimed(one(values[position]))
+            if isinstance(held, Struct) and (held.kind or "requiredFlags" in held.fields or "usage" in held.fields):
+                if kind == "image":
+                    made.memory = made.memory or self.allocated(held)
+                continue
+            cell = self.run.place(target, around)
+            pointed = one(cell.writes) if cell is not None else None
+            if cell is not None and given[0] != ADDRESS and isinstance(pointed, Ref):
+                cell = pointed.cell
+            if cell is not None:
+                self.run.store(cell, result, term[3], around)
+        # What the function itself gives is a VkResult.
+        return (Alternative(0, term[3]),) if plain else result
+
+    def make(self, kind: str, info: Struct, term: Term, around: Around) -> Made:
+        """The object that a call makes."""
+        key = (kind, term[3], around.calls, around.turns)
+        made = self.made.get(key)
+        if made is None:
+            made = self.made[key] = Made(kind, key, term[3])
+        self.mark(info, 0)
+        made.info = _seen(copied(info, through=True), dict(around.guards), 0)
+        made.within = around.guards
+        made.memory = ()
+        made.deep = 99
+        self.met[key] = made
+        return made
+
+    def mark(self, value: Any, depth: int) -> None:
+        """Notes that a structure was used, and those that it points to."""
+        if depth > 8:
+            return
+        if isinstance(value, Struct):
+            self.used.add(id(value))
+            cells = list(value.fields.values())
+        elif isinstance(value, Array):
+            cells = value.items
+        elif isinstance(value, Ref):
+            cells = [value.cell]
+        else:
+            return
+        for cell in cells:
+            for write in cell.writes:
+                self.mark(write.value, depth + 1)
+
+    def allocated(self, info: Struct) -> Value:
+        """The memory that VMA is asked for (VmaAllocationCreateInfo)."""
+        usage = one(info.fields["usage"].writes) if "usage" in info.fields else None
+        if isinstance(usage, Symbol) and usage.name == "VMA_MEMORY_USAGE_GPU_LAZILY_ALLOCATED":
+            return (Alternative("LAZILY_ALLOCATED", info.fields["usage"].writes[-1].at),)
+        for name in ("requiredFlags", "preferredFlags"):
+            if name in info.fields and all(_of_memory(a.value) for a in info.fields[name].writes):
+                return info.fields[name].writes
+        return ()
+
+    def binding(self, values: Sequence[Value], owner: Term | None, around: Around) -> None:
+        every = [*values, self.run.value(owner, around)] if owner is not None else list(values)
+        known = [self.run.aimed(one(value)) for value in every]
+        image = next((v for v in known if isinstance(v, Made) and v.kind == "image"), None)
+        memory = next((v for v in known if isinstance(v, Made) and v.kind == "memory"), None)
+        if image is not None and memory is not None and memory.info is not None and "memoryTypeIndex" in memory.info.fields:
+            index = memory.info.fields["memoryTypeIndex"].writes
+            image.memory = index if index and all(_of_memory(a.value) for a in index) else ()
+
+    def viewed(self, values: Sequence[Value], term: Term, around: Around) -> Value | None:
+        """A view of the one image among some arguments."""
+        images = [v for v in values if any(isinstance(a.value, Made) and a.value.kind == "image" for a in v)]
+        if len(images) != 1:
+            return None
+        info = Struct("ImageViewCreateInfo", term[3], False)
+        info.cell("image").writes = images[0]
+        return (Alternative(self.make("view", info, term, around), term[3]),)
+
+    def resolving(self, name: str, values: Sequence[Value], place: Span) -> None:
+        if name.endswith(("2", "2KHR")):
+            info = next((v for v in (self.run.aimed(one(value)) for value in values) if isinstance(v, Struct)), None)
+            if info is not None:
+                self.resolves[place] = (info.cell("srcImage").writes, info.cell("dstImage").writes)
+            return
+        given = values[1:] if name.startswith("vk") else values
+        if len(given) >= 3:
+            self.resolves[place] = (given[0], given[2])
+
+    @staticmethod
+    def called_by(value: Value, name: str, around: Around) -> None:
+        """Names what a call made after the variable that it goes to: the outermost function's."""
+        for alternative in value:
+            made = alternative.value
+            if isinstance(made, Made) and name and len(around.calls) < made.deep:
+                made.name, made.deep = name, len(around.calls)
+
+    def ended(self, around: Around) -> None:
+        """At the end of a beginning: structures that no call was seen to take."""
+        for info, guards in self.born:
+            kind = first_version(info.kind)
+            if id(info) in self.used or not info.fields or not (kind in ALONE or (self.run.fragments and kind in MAKES)):
+                continue
+            self.used.add(id(info))
+            term = (CALL, (NAME, "", info.at), (), info.at)
+            around.guards = guards
+            made = self.make(MAKES.get(kind, "state"), info, term, around)
+            made.name = made.name or info.name
+        self.born.clear()
+
+    def pieces(self, overlay: dict[str, Cell]) -> None:
+        """Of a page's pieces: structures that none of them declares, told by a member that only they have."""
+        known = {key for key in (*self.run.summary, *overlay) if key.count(".") == 1}
+        for key in sorted(known):
+            owner, _, name = key.partition(".")
+            kind = {"rasterizationSamples": "PipelineMultisampleStateCreateInfo", "attachments": "FramebufferCreateInfo"}.get(name)
+            cell = self.run.path(key)
+            if kind is None or not cell.writes:
+                continue
+            at = cell.writes[0].at
+            found = self.run.gathered(owner, at)
+            if found and (kind in ALONE or self.of_views(cell)):
+                info = found[0].value
+                info.kind = kind
+                made = self.make(MAKES.get(kind, "state"), info, (CALL, (NAME, "", at), (), at), Around("", ({},), ALWAYS, ()))
+                made.name = owner.rpartition("::")[2]
+
+    def of_views(self, cell: Cell) -> bool:
+        array = self.run.aimed(one(cell.writes))
+        items = [one(item.writes) for item in array.items] if isinstance(array, Array) else []
+        return any(isinstance(item, Made) and item.kind == "view" for item in items)
+
+    def by_types(self, function: Function, term: Term, around: Around) -> Value | None:
+        """An image that a function makes whose body a page leaves out: its parameters' types say what they are."""
+        info, out = Struct("ImageCreateInfo", term[3], False), None
+        memory: Value = ()
+        for parameter, given in zip(function.parameters, term[2], strict=False):
+            kind = parameter.type.removeprefix("Vk").removeprefix("vk::")
+            said = _TYPED.get(kind)
+            if said == "memory":
+                memory = self.run.value(given, around)
+            elif said is not None:
+                info.cell(said).writes = self.run.value(given, around)
+            elif parameter.by_reference and _IMAGE.search(parameter.type):
+                out = given[1] if given[0] == ADDRESS else given
+        if out is None or "usage" not in info.fields:
+            return None
+        made = self.make("image", info, term, around)
+        made.memory = memory
+        cell = self.run.place(out, around)
+        if cell is not None:
+            cell.write((Alternative(made, term[3]),), term[3], around.guards)
+            self.called_by((Alternative(made, term[3]),), cell.name, around)
+        return UNKNOWN_VALUE
+
+
+def _seen(value: Any, world: dict[str, bool], depth: int) -> Any:
+    """What a call was handed, without the conditions that held where it was made."""
+    if depth > 10:
+        return value
+    cells: Sequence[Cell] = ()
+    if isinstance(value, Struct):
+        cells = list(value.fields.values())
+    elif isinstance(value, Array):
+        cells = value.items
+    elif isinstance(value, Ref):
+        cells = [value.cell]
+    for cell in cells:
+        cell.writes = settled(cell.writes, world) if world else cell.writes
+        for write in cell.writes:
+            _seen(write.value, world, depth + 1)
+    return value
+
+
+def _of_memory(value: Any) -> bool:
+    if isinstance(value, Flags):
+        return bool(value.bits) and all(_of_memory(bit) for bit, _ in value.bits)
+    return isinstance(value, str) and (value.startswith("VK_MEMORY_PROPERTY_") or value in _MEMORY_BITS)

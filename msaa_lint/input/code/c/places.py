@@ -1,0 +1,228 @@
+"""The variables and members that expressions name."""
+
+from __future__ import annotations
+
+from msaa_lint.core.text.span import Span
+from msaa_lint.frame.vulkan.names import parse_enum
+
+from .machine import Machine
+from .names import constant, elements, member, structure
+from .scope import MEMBER, Around
+from .terms import ADDRESS, CALL, FIELD, INDEX, NAME, TARGET, Term, at
+from .values import ALWAYS, UNKNOWN_VALUE, Alternative, Array, Cell, Flags, Ref, Struct, Value, one
+
+
+def _lasts(value: object) -> bool:
+    """Whether a value that a variable begins with is taken for the one that it has: a format, a count above one, an object."""
+    if isinstance(value, str):
+        return parse_enum("VkFormat", value) not in (None, "UNDEFINED")
+    return value is not None and not isinstance(value, (bool, float, Flags)) and (not isinstance(value, int) or value > 1)
+
+
+def an_element(term: Term) -> bool:
+    """Whether an expression calls a method that gives a reference to an element of a list."""
+    return bool(term[0] == CALL and term[1][0] == FIELD and term[1][2] in ("front", "back", "at"))
+
+
+class Places(Machine):
+    """What expressions name."""
+
+    def place(self, term: Term, around: Around) -> Cell | None:
+        """The cell that an expression names; None where it names none that can be told."""
+        self.step()
+        kind = term[0]
+        if kind == NAME:
+            return self.named(term[1], around)
+        if kind == FIELD:
+            return self.field(term[1], term[2], around)
+        if kind == INDEX:
+            return self.indexed(term, around)
+        if kind == TARGET:
+            value = one(self.value(term[1], around))
+            array = self.aimed(value)
+            if isinstance(array, Array) and array.items:
+                return array.items[0]
+            return value.cell if isinstance(value, Ref) else self.place(term[1], around)
+        if kind == ADDRESS:
+            return None
+        if kind == CALL:
+            value = one(self.calls.call(term, around))
+            return value.cell if isinstance(value, Ref) else None
+        return None
+
+    def named(self, name: str, around: Around) -> Cell | None:
+        name = name.removeprefix("this->")
+        for scope in reversed(around.scopes):
+            if name in scope:
+                return scope[name]
+        if constant(name) is not None:
+            return None
+        if around.me is not None and name in self.members.get(around.within, ()):
+            return self.mine(name, around.me, around)
+        return self.path(self.member_key(name, around))
+
+    def mine(self, name: str, me: Cell, around: Around) -> Cell:
+        """A member of the object whose method is gone through."""
+        value = self.aimed(one(me.read(around.guards)))
+        if isinstance(value, Struct):
+            return value.cell(name)
+        if me.kind == MEMBER:
+            return self.path(f"{self.pointed(me.name) or me.name + '.'}{name}")
+        return self.path(f"{around.within}::{name}")
+
+    def type_of(self, cell: Cell) -> str:
+        """The type that a variable or member is declared with; empty where that is not known."""
+        if cell.kind != MEMBER:
+            return cell.kind
+        within, _, name = cell.name.rpartition("::")
+        term = self.members.get(within, {}).get(name) if within else self.globals.get(name)
+        return str(term[1]) if term is not None else ""
+
+    def member_key(self, name: str, around: Around) -> str:
+        """What a name that no function declares is called: a member of the class, or a variable outside."""
+        space = around.space
+        while True:
+            if space + name in self.globals and name not in self.members.get(around.within, ()):
+                return f"::{space}{name}"
+            if not space:
+                break
+            space = space[:-2].rpartition("::")[0]
+            space += "::" if space else ""
+        short = name.rpartition("::")[2]
+        return f"{around.within}::{short}" if around.within and not self.fragments else f"::{short}"
+
+    def path(self, key: str) -> Cell:
+        """The cell of a member of some object, by the words that lead to it."""
+        cell = self.overlay.get(key)
+        if cell is None:
+            cell = self.overlay[key] = Cell(MEMBER, key, (), key)
+            owner, _, name = key.rpartition(".")
+            if owner and "[" not in name:
+                self.parts.setdefault(owner, {})[name] = None
+            writes = self.summary.get(key) or self.declared(key)
+            if len(writes) > 1:
+                writes = tuple(Alternative(w.value, w.at, w.guards | {(f"{key}={n}", True)}) for n, w in enumerate(writes))
+            cell.writes = self.initial[key] = writes
+        return cell
+
+    def gathered(self, key: str, place: Span) -> Value:
+        """A structure that nobody declares here, from the members that are written to."""
+        names = self.parts.get(key)
+        if not names:
+            return UNKNOWN_VALUE
+        made = Struct("", place, False, key.rpartition("::")[2])
+        for name in names:
+            made.fields[name] = self.path(f"{key}.{name}")
+        return (Alternative(made, place),)
+
+    def declared(self, key: str) -> Value:
+        """What a member or a variable outside is given where it is declared."""
+        if key in self.known:
+            return self.known[key]
+        self.known[key] = UNKNOWN_VALUE
+        if key.startswith("::"):
+            within, term = "", self.globals.get(key[2:])
+        else:
+            within, _, name = key.rpartition("::")
+            term = self.members.get(within, {}).get(name)
+        if (
+            term is not None
+            and term[3] is None
+            and not term[4]
+            and within == ""
+            and (structure(term[1]) or structure(elements(term[1]) or ""))
+        ):
+            # What stands outside of functions is zero from the beginning.
+            made = self.bare(term[1], term[2].rpartition("::")[2], term[-1], False, Around("", ({},), ALWAYS, ()))
+            for each in made:
+                for value in [each.value] if isinstance(each.value, Struct) else [one(cell.writes) for cell in each.value.items]:
+                    if isinstance(value, Struct):
+                        value.zeroed = True
+                if isinstance(each.value, Array):
+                    each.value.zeroed = True
+            self.known[key] = tuple(Alternative(self.taken(a.value, term[1], term[2].rpartition("::")[2]), a.at) for a in made)
+        elif term is not None and term[3] is not None:
+            name = term[2].rpartition("::")[2]
+            around = Around(within, ({},), ALWAYS, ())
+            around.space = key[2:].rpartition("::")[0] if not within else within.rpartition("::")[0]
+            around.space += "::" if around.space else ""
+            value = self.value(term[3], around, term[1])
+            given = [a for a in value if not (isinstance(a.value, Struct) and not a.value.kind and not a.value.fields)]
+            if not term[5]:
+                # Who may change it elsewhere changes what it is until then: one sample, nothing, no, an operation.
+                given = [a for a in given if _lasts(a.value)]
+            self.known[key] = tuple(Alternative(self.taken(a.value, term[1], name), a.at, a.guards) for a in given)
+        return self.known[key]
+
+    def field(self, of: Term, name: str, around: Around) -> Cell | None:
+        name = member(name)
+        if of[0] == NAME and of[1] in ("this", "self"):
+            if around.me is not None:
+                return self.mine(name, around.me, around)
+            return self.path(self.member_key(name, around))
+        cell = self.place(of, around)
+        if cell is None:
+            value = self.aimed(one(self.value(of, around)))
+            return value.cell(name) if isinstance(value, Struct) else None
+        value = self.aimed(one(cell.read(around.guards)))
+        if isinstance(value, Array) and value.items:
+            # A pointer to the first of a list.
+            value = self.aimed(one(value.items[0].writes))
+        if isinstance(value, Struct):
+            return value.cell(name)
+        if cell.kind == MEMBER:
+            return self.path(f"{self.pointed(cell.name) or cell.name + '.'}{name}")
+        if not cell.writes:
+            if cell.key or cell.kind.endswith("*"):
+                if structure(cell.kind):
+                    made = Struct(structure(cell.kind), Span(0, 0), False, cell.name)
+                    cell.writes = (Alternative(made, made.at),)
+                    return made.cell(name)
+                kind = cell.kind.rstrip("*&")
+                return self.path(f"{self.class_of(kind, around.space) or kind}::{name}")
+            made = Struct(structure(cell.kind), at(of), False, cell.name)
+            cell.writes = (Alternative(made, made.at),)
+            return made.cell(name)
+        return None
+
+    def class_of(self, kind: str, space: str) -> str | None:
+        """The class of the file that a type is; None where it is none."""
+        if f"{space}{kind}" in self.members:
+            return f"{space}{kind}"
+        if kind in self.members:
+            return kind
+        short = kind.rpartition("::")[2]
+        found = [name for name in self.members if name.rpartition("::")[2] == short]
+        return found[0] if len(found) == 1 else None
+
+    def pointed(self, key: str) -> str:
+        """Of a member that points to an object of a class of the file's: the class, with `::`, as no one knows which object it is."""
+        within, _, name = key.rpartition("::")
+        term = self.members.get(within, {}).get(name)
+        if term is None or not term[4]:
+            return ""
+        found = self.class_of(term[1], within.rpartition("::")[0])
+        return f"{found}::" if found is not None else ""
+
+    def indexed(self, term: Term, around: Around) -> Cell | None:
+        cell = self.place(term[1], around)
+        index = one(self.value(term[2], around))
+        if cell is None:
+            return None
+        value = self.aimed(one(cell.read(around.guards)))
+        if isinstance(value, Array):
+            if type(index) is not int or not 0 <= index < 64:
+                value.whole = False
+                return Cell()
+            while len(value.items) <= index:
+                kind = structure(value.kind)
+                fresh = Cell(value.kind)
+                if kind:
+                    fresh.writes = (Alternative(Struct(kind, term[-1], value.zeroed), term[-1]),)
+                value.items.append(fresh)
+            return value.items[index]
+        if cell.kind == MEMBER:
+            return self.path(f"{cell.name}[{index}]" if type(index) is int else f"{cell.name}[]")
+        if isinstance(value, Struct) and index == 0:
+            return cell
+        return None

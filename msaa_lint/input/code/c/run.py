@@ -1,0 +1,299 @@
+"""C and C++ functions gone through from top to bottom, as far as they fill in structures of Vulkan's.
+
+Every function that none of the file calls is a beginning; a call of the file's own functions is followed with its arguments. Conditions
+are not decided, but kept with what was written under them. What members hold is the union of what all functions write to them: the file is
+gone through again with what the first time found. A value that is not known stays so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from msaa_lint.core.text.span import Span
+
+from .calls import Calls
+from .conditions import clash, opposite
+from .evaluate import Values
+from .names import elements, extent, structure
+from .places import an_element
+from .scope import MOST_PASSES, MOST_TURNS, Around, Stop
+from .terms import BINARY, BLOCK, DECLARE, DO, FIELD, IF, INDEX, LEAVE, LOOP, NAME, RETURN, SOME, UNARY, Function, Term, Unit, at
+from .values import ALWAYS, MOST, NOTHING, UNKNOWN_VALUE, Alternative, Array, Cell, Closure, Guards, Made, Ref, Struct, Symbol, Value, one
+
+
+class Run(Values):
+    """One file while it is gone through."""
+
+    def __init__(self, unit: Unit, fragments: bool, plus: bool = True) -> None:
+        self.plus = plus
+        self.unit = unit
+        self.fragments = fragments
+        self.functions: dict[str, list[Function]] = {}
+        for function in unit.functions:
+            self.functions.setdefault(function.name, []).append(function)
+        self.globals: dict[str, Term] = {}
+        for term in unit.outside:
+            if term[0] == DECLARE:
+                # Of two, under different conditions of the preprocessor for one, neither is known.
+                before = self.globals.get(term[2])
+                again = before is not None and before[3] is not None and term[3] is not None and before[3][:-1] != term[3][:-1]
+                self.globals[term[2]] = (*term[:3], None, *term[4:]) if again and not fragments else term
+        self.members = {name: {term[2]: term for term in terms if term[0] == DECLARE} for name, terms in unit.members.items()}
+        self.summary: dict[str, Value] = {}
+        self.overlay: dict[str, Cell] = {}
+        self.initial: dict[str, Value] = {}
+        """What the members of the overlay held when the function began."""
+        self.known: dict[str, Value] = {}
+        self.parts: dict[str, dict[str, None]] = {}
+        self.steps = 0
+        self.called: set[str] = set()
+        self.calls = Calls(self)
+
+    def through(self) -> None:
+        """Goes through the file until what members hold is the same as before."""
+        roots = self.roots()
+        try:
+            for _ in range(MOST_PASSES):
+                self.calls.begin()
+                found: dict[str, dict[tuple[Any, ...], Alternative]] = {}
+                for function in roots:
+                    self.overlay, self.initial = {}, {}
+                    self.root(function)
+                    for key, cell in self.overlay.items():
+                        before = {id(write) for write in self.initial.get(key, ())}
+                        for write in cell.writes:
+                            if id(write) in before:
+                                continue
+                            if write.value is NOTHING:
+                                write = Alternative(Symbol(key, key.rpartition("::")[2]), write.at, write.guards)
+                            found.setdefault(key, {}).setdefault(_mark(write), write)
+                if self.fragments:
+                    self.calls.pieces(self.overlay)
+                last, self.summary = self.summary, {key: _joined(list(writes.values())) for key, writes in found.items()}
+                if _marks(last) == _marks(self.summary):
+                    break
+        except (Stop, RecursionError):
+            return
+
+    def roots(self) -> list[Function]:
+        # A constructor runs where the object is made: as a member, it has no call of its own.
+        types = {term[1] for terms in self.members.values() for term in terms.values()}
+        made = {f.name for f in self.unit.functions if f.within.rpartition("::")[2] == f.name and f.parameters and f.name in types}
+        roots = [f for f in self.unit.functions if f.name not in self.unit.called and f.name not in made]
+        return [*roots, Function("", "", "", (), self.unit.outside, Span(0, 0))] if self.fragments else roots
+
+    def root(self, function: Function) -> None:
+        around = Around(function.within, ({},), ALWAYS, ())
+        around.space = function.space
+        for parameter in function.parameters:
+            cell = Cell(parameter.type, parameter.name, (), f"{function.name}({parameter.name})")
+            if parameter.name:
+                around.scopes[-1][parameter.name] = cell
+        self.block(function.body, around)
+        for returned in around.returned:
+            self.calls.leaves(returned.value)
+        self.calls.ended(around)
+
+    def block(self, statements: Sequence[Term], around: Around) -> None:
+        for statement in statements:
+            if around.gone:
+                return
+            self.statement(statement, around)
+
+    def within_block(self, statements: Sequence[Term], around: Around, guards: Guards, own: bool = True) -> bool:
+        """Goes through a block under conditions, with variables of its own; whether it leaves what is around it."""
+        outer, scopes = around.guards, around.scopes
+        around.guards = outer | guards
+        around.scopes = (*scopes, {}) if own else scopes
+        self.block(statements, around)
+        around.guards, around.scopes = outer, scopes
+        left, around.gone = around.gone, False
+        return left
+
+    def statement(self, term: Term, around: Around) -> None:
+        self.step()
+        kind = term[0]
+        if kind == DECLARE:
+            self.declare(term, around)
+        elif kind == DO:
+            self.value(term[1], around)
+        elif kind == RETURN:
+            if term[1] is not None:
+                value = self.value(term[1], around, around.returns)
+                base = around.guards
+                around.returned += [Alternative(a.value, a.at, a.guards | base) for a in value] or [Alternative(NOTHING, term[-1], base)]
+            around.gone = True
+        elif kind == LEAVE:
+            around.gone = True
+        elif kind == IF:
+            self.test(self.condition(term[1], around), term, around)
+        elif kind == SOME:
+            self.test(self.preprocessed(term[1]), term, around)
+        elif kind == LOOP:
+            self.loop(term, around)
+        elif kind == BLOCK:
+            around.gone = self.within_block(term[1], around, ALWAYS)
+
+    def test(self, condition: bool | Guards, term: Term, around: Around) -> None:
+        then, otherwise = term[2], term[3]
+        # What the preprocessor leaves stands where it stood.
+        own = term[0] == IF
+        if isinstance(condition, bool):
+            around.gone = self.within_block(then if condition else otherwise, around, ALWAYS, own)
+            return
+        known = dict(around.guards)
+        if any(known.get(text) is (not way) for text, way in condition):
+            around.gone = self.within_block(otherwise, around, ALWAYS, own)
+            return
+        if all(known.get(text) is way for text, way in condition):
+            around.gone = self.within_block(then, around, ALWAYS, own)
+            return
+        against = opposite(condition)
+        left = self.within_block(then, around, condition, own)
+        leaves = self.within_block(otherwise, around, against, own) if otherwise else False
+        if left and leaves:
+            around.gone = True
+        elif left:
+            around.guards |= against
+        elif leaves:
+            around.guards |= condition
+
+    def loop(self, term: Term, around: Around) -> None:
+        declared, over, body = term[1], term[2], term[3]
+        scopes = around.scopes
+        around.scopes = (*scopes, {})
+        if over is not None:
+            items = self.elements(over, around)
+            if items is not None and declared and len(items) <= MOST_TURNS:
+                before = around.turns
+                for turn, item in enumerate(items):
+                    around.scopes[-1][declared[0][2]] = item
+                    around.turns = (*before, turn)
+                    self.within_block(body, around, ALWAYS)
+                around.scopes, around.turns = scopes, before
+                return
+        turns = self.turns(declared, body, around) if over is None else None
+        for statement in declared:
+            self.declare(statement, around)
+        if turns is not None:
+            cell = around.scopes[-1][declared[0][2]]
+            before = around.turns
+            for turn in range(*turns):
+                cell.writes = (Alternative(turn, at(declared[0])),)
+                around.turns = (*before, turn)
+                self.within_block(body, around, ALWAYS)
+            around.turns = before
+        else:
+            for statement in declared:
+                around.scopes[-1][statement[2]] = Cell(statement[1], statement[2])
+            around.loops += 1
+            self.within_block(body, around, ALWAYS)
+            around.loops -= 1
+        around.scopes = scopes
+
+    def turns(self, declared: Sequence[Term], body: Sequence[Term], around: Around) -> tuple[int, int] | None:
+        """From where to where a counter goes, where that is known and short."""
+        if len(declared) != 1 or declared[0][3] is None or not body or body[0][0] != DO:
+            return None
+        test, name = body[0][1], declared[0][2]
+        update: Term = body[-1][1] if body[-1][0] == DO else body[-1]
+        if update[0] != UNARY or update[1] not in ("++", "post++") or update[2][:2] != (NAME, name):
+            return None
+        if test[0] != BINARY or test[1] not in ("<", "!=", "<=") or test[2][:2] != (NAME, name):
+            return None
+        first, last = one(self.value(declared[0][3], around)), one(self.value(test[3], around))
+        if type(first) is not int or type(last) is not int:
+            return None
+        last += test[1] == "<="
+        return (first, last) if 0 <= last - first <= MOST_TURNS else None
+
+    def elements(self, over: Term, around: Around) -> list[Cell] | None:
+        """The elements of a list that is known whole."""
+        value = self.aimed(one(self.value(over, around)))
+        return value.items if isinstance(value, Array) and value.whole else None
+
+    def declare(self, term: Term, around: Around) -> None:
+        _, kind, name, given, indirect, _, place = term
+        if self.fragments and len(around.scopes) == 1 and not around.calls and f"::{name}" in self.summary:
+            # A page's other pieces give it a value.
+            around.scopes[-1][name] = self.path(f"::{name}")
+            return
+        if indirect and given is not None:
+            named = given[0] in (NAME, FIELD, INDEX) or an_element(given)
+            cell = self.place(given, around) if named and not kind.endswith("*") else None
+            if cell is not None and not isinstance(one(cell.read(around.guards)), Ref):
+                around.scopes[-1][name] = cell
+                return
+        cell = self.declared_elsewhere(name, kind, around) or Cell(kind, name)
+        around.scopes[-1][name] = cell
+        if given is None:
+            value = self.bare(kind, name, place, indirect, around)
+        else:
+            value = self.value(given, around, kind)
+            value = tuple(Alternative(self.taken(a.value, kind, name), a.at, a.guards) for a in value)
+        cell.write(value, place, around.guards)
+        self.calls.called_by(value, name, around)
+        self.calls.born += [(a.value, around.guards) for a in value if isinstance(a.value, Struct) and a.value.kind]
+
+    @staticmethod
+    def declared_elsewhere(name: str, kind: str, around: Around) -> Cell | None:
+        """A variable that the preprocessor has declared in the other branch of an #if."""
+        before = around.scopes[-1].get(name)
+        if before is None or before.kind.partition("[")[0] != kind.partition("[")[0] or not around.guards or not before.writes:
+            return None
+        return before if all(clash(write.guards, around.guards) for write in before.writes) else None
+
+    def filled(self, array: Array, kind: str, around: Around) -> None:
+        """Gives an array as many elements as its type has."""
+        said = extent(kind)
+        count = (int(said) if said.isdecimal() else one(self.value((NAME, said, array.at), around))) if said else 0
+        if not said:
+            return
+        if type(count) is not int or not 0 <= count <= 64:
+            array.whole = False
+            return
+        found = structure(array.kind)
+        while len(array.items) < count:
+            item = Cell(array.kind)
+            if found:
+                item.writes = (Alternative(Struct(found, array.at, array.zeroed), array.at),)
+            array.items.append(item)
+
+    def bare(self, kind: str, name: str, place: Span, indirect: bool, around: Around) -> Value:
+        """A variable without a value. vulkan.hpp's structures are as their constructors leave them."""
+        if indirect:
+            return UNKNOWN_VALUE
+        found = structure(kind)
+        if found:
+            made = Struct(found, place, kind.startswith("vk::"), name)
+            return (Alternative(made, place),)
+        inner = elements(kind)
+        if inner is not None:
+            array = Array(inner, place)
+            array.name = name
+            self.filled(array, kind, around)
+            return (Alternative(array, place),)
+        if kind[:1].isupper() and not kind.startswith(("Vk", "VK", "PFN")):
+            return (Alternative(Struct("", place, False, name), place),)
+        return UNKNOWN_VALUE
+
+
+def _mark(write: Alternative) -> tuple[Any, ...]:
+    value = write.value
+    if isinstance(value, Made):
+        return (value.signature(), write.guards)
+    return (id(value) if isinstance(value, (Struct, Array, Closure)) else repr(value), write.at, write.guards)
+
+
+def _joined(writes: list[Alternative]) -> Value:
+    """What all functions write to a member: that it is null until then, and again in the end, is no news."""
+    made = [write for write in writes if isinstance(write.value, (Made, Struct, Array))]
+    return tuple(made or writes)[:MOST]
+
+
+def _marks(summary: dict[str, Value]) -> dict[str, list[tuple[Any, ...]]]:
+    return {
+        key: [(type(w.value).__name__, w.value if isinstance(w.value, (int, str, float, Symbol)) else None, w.at) for w in writes]
+        for key, writes in summary.items()
+    }

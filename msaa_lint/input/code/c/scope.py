@@ -1,0 +1,62 @@
+"""What functions are gone through in, and how far."""
+
+from __future__ import annotations
+
+from msaa_lint.core.text.span import Span
+
+from .values import Alternative, Cell, Guards
+
+MOST_STEPS = 80_000
+"""Terms that are evaluated in one file: with more, the rest of it is not followed."""
+
+
+MOST_TURNS = 16
+"""Turns of a loop over a list, or with a counter, that are gone through one by one."""
+
+
+MOST_PASSES = 3
+"""Times that a file is gone through: what a member holds may come from another, which holds what a third does."""
+
+
+MEMBER = "member"
+"""The kind of a cell that is a member of some object, or a variable outside of functions."""
+
+
+Scopes = tuple[dict[str, Cell], ...]
+
+
+MOST_CALLS = 5
+"""How deep calls of the file's own functions are followed."""
+
+
+MOST_WAYS = 4
+"""How often one call is followed, by whatever other calls it is come to."""
+
+
+class Stop(Exception):
+    """There is too much of it."""
+
+
+class Around:
+    """What a function is gone through in: its variables, its class, the calls that lead to it."""
+
+    __slots__ = ("calls", "gone", "guards", "loops", "me", "returned", "returns", "scopes", "space", "turns", "within", "within_calls")
+
+    def __init__(self, within: str, scopes: Scopes, guards: Guards, calls: tuple[Span, ...]) -> None:
+        self.within = within
+        self.scopes = scopes
+        self.guards = guards
+        self.calls = calls
+        self.returned: list[Alternative] = []
+        self.returns = ""
+        self.space = ""
+        """The namespace, with `::` at its end."""
+        self.gone = False
+        """Whether what follows is not reached."""
+        self.loops = 0
+        self.turns: tuple[int, ...] = ()
+        """Which turns of loops it is in, of those that are gone through one by one."""
+        self.me: Cell | None = None
+        """The object whose method it is, where that is known."""
+        self.within_calls: tuple[Span, ...] = ()
+        """The functions that are being gone through."""

@@ -1,0 +1,146 @@
+"""C and C++ statements to terms."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from msaa_lint.core.text.span import Span
+
+from .declarations import Declarations
+from .kinds import CHAIN_TESTS, DEEPEST, without_comments
+from .terms import BINARY, BLOCK, DECLARE, DO, IF, LEAVE, LOOP, RETURN, SOME, UNKNOWN, Term
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
+
+
+class Statements(Declarations):
+    """Statements of one text."""
+
+    def block(self, node: Node, depth: int) -> list[Term]:
+        made: list[Term] = []
+        if depth < DEEPEST:
+            for child in node.named_children:
+                made += self.statement(child, depth + 1)
+        return made
+
+    def statement(self, node: Node, depth: int) -> list[Term]:
+        kind = node.type
+        at = Span(node.start_byte, node.end_byte)
+        if kind == "expression_statement":
+            child = node.named_children[0] if node.named_child_count else None
+            return [(DO, self.expression(child, depth), at)] if child is not None else []
+        if kind == "declaration":
+            return self.declared(node, depth)
+        if kind == "return_statement" or kind == "co_return_statement":
+            said = without_comments(node)
+            return [(RETURN, self.expression(said[0], depth) if said else None, at)]
+        if kind in ("break_statement", "continue_statement", "throw_statement", "goto_statement"):
+            return [(LEAVE, at)]
+        if kind == "if_statement":
+            return self.chain(node, depth)
+        if kind in ("for_statement", "while_statement", "do_statement"):
+            first = node.child_by_field_name("initializer")
+            body = node.child_by_field_name("body")
+            test = node.child_by_field_name("condition")
+            made = self.declared(first, depth) if first is not None and first.type == "declaration" else []
+            inside = self.inside(body, depth)
+            update = node.child_by_field_name("update")
+            if update is not None:
+                inside.append((DO, self.expression(update, depth), at))
+            if test is not None:
+                inside = [(DO, self.expression(test, depth), at), *inside]
+            if kind == "do_statement":
+                return inside
+            return [(LOOP, tuple(made), None, tuple(inside), at)]
+        if kind == "for_range_loop":
+            over, body = node.child_by_field_name("right"), node.child_by_field_name("body")
+            name, _, indirect = self.declarator(node.child_by_field_name("declarator"))
+            typed = node.child_by_field_name("type")
+            made = [(DECLARE, self.type_text(typed) if typed is not None else "", name, None, indirect, False, at)] if name else []
+            return [(LOOP, tuple(made), self.expression(over, depth) if over is not None else None, tuple(self.inside(body, depth)), at)]
+        if kind in CHAIN_TESTS:
+            return self.conditional(node, depth)
+        if kind == "switch_statement":
+            return self.cases(node, depth)
+        if kind == "preproc_def":
+            return self.defined(node)
+        if kind == "function_definition":
+            # Within a function: what a macro made of the text, or a lambda's remains.
+            body = node.child_by_field_name("body")
+            return self.block(body, depth) if body is not None and depth < DEEPEST else []
+        if kind in (
+            "compound_statement",
+            "try_statement",
+            "catch_clause",
+            "labeled_statement",
+            "else_clause",
+            "ERROR",
+            "preproc_else",
+            "init_statement",
+        ):
+            return [(BLOCK, tuple(self.block(node, depth)), at)]
+        return []
+
+    def inside(self, node: Node | None, depth: int) -> list[Term]:
+        return self.statement(node, depth + 1) if node is not None and depth < DEEPEST else []
+
+    def chain(self, node: Node, depth: int) -> list[Term]:
+        """An if with all its else ifs, which nest in the tree and not in the text."""
+        links: list[tuple[Term, tuple[Term, ...], list[Term], Span]] = []
+        otherwise: list[Term] = []
+        current: Node | None = node
+        while current is not None:
+            test, then, other = (current.child_by_field_name(name) for name in ("condition", "consequence", "alternative"))
+            at = Span(current.start_byte, current.end_byte)
+            first: list[Term] = []
+            if test is not None and test.type == "condition_clause":
+                start = test.child_by_field_name("initializer")
+                first = self.block(start, depth) if start is not None else []
+                test = test.child_by_field_name("value") or test
+            condition = self.expression(test, depth) if test is not None else (UNKNOWN, "", at)
+            links.append((condition, tuple(self.inside(then, depth)), first, at))
+            current = None
+            if other is not None:
+                following = other.named_children[-1] if other.type == "else_clause" and other.named_child_count else other
+                if following.type == "if_statement" and len(links) < 200:
+                    current = following
+                else:
+                    otherwise = self.inside(following, depth)
+        for condition, inside, first, at in reversed(links):
+            otherwise = [*first, (IF, condition, inside, tuple(otherwise), at)]
+        return otherwise
+
+    def conditional(self, node: Node, depth: int) -> list[Term]:
+        """A block of the preprocessor within a function."""
+        test = node.child_by_field_name("condition") or node.child_by_field_name("name")
+        other = node.child_by_field_name("alternative")
+        negated = node.type == "preproc_ifdef" and self.text.startswith("#ifndef", node.start_byte)
+        then: list[Term] = []
+        for child in node.named_children:
+            if depth < DEEPEST and child not in (test, other):
+                then += self.statement(child, depth + 1)
+        otherwise = self.inside(other, depth) if other is not None else []
+        at = Span(node.start_byte, node.end_byte)
+        text = "#" + (self.of(test).strip() if test is not None else "")
+        if negated:
+            then, otherwise = otherwise, then
+        return [(SOME, text, tuple(then), tuple(otherwise), at)]
+
+    def cases(self, node: Node, depth: int) -> list[Term]:
+        """A switch, as blocks each under the condition that the value is the case's."""
+        test, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
+        value = self.expression(test, depth) if test is not None else (UNKNOWN, "", Span(0, 0))
+        made: list[Term] = []
+        for child in body.named_children if body is not None and depth < DEEPEST else ():
+            if child.type != "case_statement":
+                continue
+            at = Span(child.start_byte, child.end_byte)
+            given = child.child_by_field_name("value")
+            condition: Term = (BINARY, "==", value, self.expression(given, depth), at) if given is not None else (UNKNOWN, "default", at)
+            inside: list[Term] = []
+            for inner in child.named_children:
+                if inner != given and inner.type != "break_statement":
+                    inside += self.statement(inner, depth + 1)
+            made.append((IF, condition, tuple(inside), (), at))
+        return made

@@ -1,0 +1,247 @@
+"""Structures and lists that expressions make."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from msaa_lint.core.text.span import Span
+
+from .calling import Calling
+from .names import MEMBERS, WITHOUT_TYPE, elements, first_version, is_scalar, member, structure
+from .scope import Around
+from .terms import ADDRESS, BRACES, CALL, FIELD, INDEX, LITERAL, NAME, SOME, UNKNOWN, Term
+from .values import ALWAYS, NOTHING, UNKNOWN_VALUE, Alternative, Array, Cell, Guards, Struct, Value, copied, one
+
+
+def member_type(kind: str, name: str) -> str:
+    """The type of a member, where braces may give it."""
+    return MEMBER_TYPES.get(member(name), "") if kind else ""
+
+
+MEMBER_TYPES = {
+    "attachments": "",
+    "extent": "VkExtent3D",
+    "subpasses": "std::vector<VkSubpassDescription>",
+    "dependencies": "std::vector<VkSubpassDependency>",
+    "colorAttachments": "",
+    "depthStencilAttachment": "VkAttachmentReference",
+}
+
+
+def _hpp_defaults(made: Struct) -> None:
+    """Sample counts of vulkan.hpp's structures are 1 from the beginning, not 0."""
+    if made.kind in ("AttachmentDescription", "AttachmentDescription2", "ImageCreateInfo"):
+        made.cell("samples").writes = (Alternative(1, made.at),)
+    elif made.kind == "PipelineMultisampleStateCreateInfo":
+        made.cell("rasterizationSamples").writes = (Alternative(1, made.at),)
+
+
+class Structures(Calling):
+    """Structures of one file."""
+
+    def constructed(self, kind: str, arguments: Sequence[Term], place: Span, around: Around, hpp: bool) -> Value:
+        """A structure made with arguments in the order of its members. vulkan.hpp takes lists for a count and a pointer."""
+        made = Struct(kind, place, True)
+        if hpp:
+            _hpp_defaults(made)
+        if len(arguments) == 1 and arguments[0][0] in (NAME, FIELD):
+            value = self.run.aimed(one(self.run.value(arguments[0], around)))
+            if isinstance(value, Struct) and first_version(value.kind) == first_version(kind):
+                return (Alternative(copied(value), place),)
+        self.positional(made, [(None, a) for a in arguments], around, hpp)
+        return (Alternative(made, place),)
+
+    def positional(self, made: Struct, items: Sequence[tuple[Any, Term]], around: Around, hpp: bool) -> None:
+        names = list(MEMBERS[made.kind])
+        if not hpp and made.kind not in WITHOUT_TYPE:
+            names = ["sType", "pNext", *names]
+        elif hpp and made.kind not in WITHOUT_TYPE:
+            names.append("pNext")
+        n = 0
+        for path, given in items:
+            if path:
+                self.designated(made, path, given, around)
+                name = str(path[0])
+                n = names.index(name) + 1 if name in names else n
+                continue
+            if n >= len(names):
+                return
+            if given[0] == SOME:
+                # Which member is which hangs on a condition.
+                for name in names[n:]:
+                    made.cell(member(name)).write(UNKNOWN_VALUE, given[-1], ALWAYS)
+                return
+            name = names[n]
+            value = self.run.by_pointer(name, self.run.value(given, around, member_type(made.kind, name)), given, around)
+            known = self.run.aimed(one(value))
+            if name.endswith("Count") and hpp and (isinstance(known, (Array, Struct)) or given[0] == BRACES):
+                n += 1
+                name = names[n] if n < len(names) else name
+            made.cell(member(name)).write(tuple(Alternative(copied(a.value), a.at, a.guards) for a in value), given[-1], ALWAYS)
+            n += 1
+
+    def designated(self, made: Struct, path: Sequence[str | int], given: Term, around: Around) -> None:
+        """`.extent.width = 4`."""
+        guards = ALWAYS
+        if given[0] == SOME:
+            guards, given = self.sometimes(given)
+        target: Struct = made
+        for part in path[:-1]:
+            cell = target.cell(member(str(part)))
+            value = one(cell.writes)
+            if not isinstance(value, Struct):
+                value = Struct("", given[-1], True)
+                cell.writes = (Alternative(value, given[-1]),)
+            target = value
+        name = str(path[-1])
+        value = self.run.by_pointer(name, self.run.value(given, around, member_type(target.kind, name)), given, around)
+        target.cell(member(name)).write(tuple(Alternative(copied(a.value), a.at, a.guards) for a in value), given[-1], guards)
+
+    def sometimes(self, term: Term) -> tuple[Guards, Term]:
+        """The conditions of an item of braces, and the item."""
+        guards = ALWAYS
+        for _ in range(8):
+            if term[0] != SOME:
+                break
+            guards, term = guards | {(term[1], term[2])}, term[3]
+        return guards, term
+
+    def braces(self, term: Term, around: Around, kind: str) -> Value:
+        """What braces make, by the type that they are for."""
+        kind, items, place = term[1] or kind, term[2], term[3]
+        found = structure(kind)
+        hpp = kind.startswith(("vk::", "VULKAN"))
+        if found:
+            made = Struct(found, place, True)
+            if hpp:
+                _hpp_defaults(made)
+            if len(items) == 1 and items[0][0] is None and items[0][1][0] in (NAME, FIELD):
+                value = self.run.aimed(one(self.run.value(items[0][1], around)))
+                if isinstance(value, Struct):
+                    return (Alternative(copied(value), place),)
+            self.positional(made, [i for i in items if i[0] is not None or i[1][:2] != (LITERAL, 0) or len(items) > 1], around, hpp)
+            return (Alternative(made, place),)
+        inner = elements(kind)
+        if items and all(path for path, _ in items) and isinstance(items[0][0][0], str) and inner is None:
+            made = Struct("", place, True)
+            for path, given in items:
+                self.designated(made, path, given, around)
+            return (Alternative(made, place),)
+        if not items and kind in ("", "auto") and not found:
+            # `{}` for flags is none of them.
+            return (Alternative(Array("", place), place),)
+        if inner is None and kind and kind != "auto":
+            if len(items) == 1 and items[0][0] is None and is_scalar(kind) and self.run.class_of(kind, around.space) is None:
+                return self.run.value(items[0][1], around, kind)
+            if not items and kind.startswith(("Vk", "vk::", "bool", "int", "uint", "float", "PFN")):
+                return UNKNOWN_VALUE
+            if not items or not is_scalar(kind) or self.run.class_of(kind, around.space) is not None:
+                return self.of_class(kind, items, place, around)
+        made_list = self.listed(inner or "", items, place, around)
+        if inner is not None:
+            self.run.filled(made_list[0].value, kind, around)
+        return made_list
+
+    def listed(self, kind: str, items: Sequence[tuple[Any, Term]], place: Span, around: Around) -> Value:
+        array = Array(kind, place)
+        if len(items) == 1 and items[0][0] is None and items[0][1][0] == BRACES and not items[0][1][1]:
+            inner = items[0][1][2]
+            # The second pair of braces of a std::array, unless it is the one element itself.
+            if (
+                inner
+                and (inner[0][1][0] in (BRACES, CALL, NAME, FIELD, INDEX) and not inner[0][0])
+                and (not structure(kind) or self.of_kind(inner[0][1], kind, around))
+            ):
+                items = inner
+        array.zeroed = True
+        for path, given in items:
+            if given[:2] == (LITERAL, 0) and len(items) == 1 and structure(kind):
+                continue
+            guards, given = self.sometimes(given)
+            value = self.run.value(given, around, kind)
+            cell = Cell(kind)
+            cell.writes = tuple(Alternative(copied(a.value), a.at, a.guards | guards) for a in value) or (
+                Alternative(NOTHING, given[-1], guards),
+            )
+            index = path[0] if path else len(array.items)
+            if isinstance(index, str):
+                index = one(self.run.value((NAME, index.removeprefix("["), given[-1]), around))
+            if not isinstance(index, int) or index > 64:
+                array.whole = False
+                continue
+            while len(array.items) < index:
+                array.items.append(Cell(kind))
+            if index < len(array.items):
+                array.items[index] = cell
+            else:
+                array.items.append(cell)
+            made = one(cell.writes)
+            if isinstance(made, Struct) and not made.name and given[0] in (NAME, FIELD):
+                made.name = str(given[1] if given[0] == NAME else given[2])
+        return (Alternative(array, place),)
+
+    def sized(self, kind: str, arguments: Sequence[Term], place: Span, around: Around) -> Value:
+        """`std::vector<T> list(3)`, and `(3, value)`."""
+        array = Array(kind, place)
+        count = one(self.run.value(arguments[0], around)) if arguments else 0
+        if type(count) is not int or not 0 <= count <= 64 or len(arguments) > 2:
+            value = self.run.aimed(count)
+            if isinstance(value, Array) and all(value is self.run.aimed(one(self.run.value(a, around))) for a in arguments[1:]):
+                return (Alternative(copied(value), place),)
+            array.whole = False
+            return (Alternative(array, place),)
+        for _ in range(count):
+            item = Cell(kind)
+            if len(arguments) == 2:
+                item.writes = tuple(Alternative(copied(a.value), a.at, a.guards) for a in self.run.value(arguments[1], around, kind))
+            elif structure(kind):
+                item.writes = (Alternative(Struct(structure(kind), place, True), place),)
+            array.items.append(item)
+        return (Alternative(array, place),)
+
+    def of_class(self, kind: str, items: Sequence[tuple[Any, Term]], place: Span, around: Around) -> Value:
+        """An object of a class of the file's, by its constructor or given its members in their order."""
+        arguments = tuple(given for _, given in items)
+        built = self.object_made(kind, (CALL, (NAME, kind, place), arguments, place), around)
+        if built is not None:
+            return built
+        made = Struct("", place, False)
+        names = list(self.run.members.get(self.run.class_of(kind, around.space) or "", ()))
+        for name, (path, given) in zip(names, items, strict=False):
+            if not path:
+                value = self.run.value(given, around)
+                made.cell(member(name)).writes = tuple(Alternative(copied(a.value), a.at, a.guards) for a in value)
+        return (Alternative(made, place),)
+
+    def of_kind(self, term: Term, kind: str, around: Around) -> bool:
+        if term[0] == BRACES:
+            return True
+        value = self.run.aimed(one(self.run.value(term, around)))
+        return isinstance(value, Struct) and first_version(value.kind) == first_version(structure(kind))
+
+    def counted(self, value: Any, place: Span) -> Value:
+        value = self.run.aimed(value)
+        return (Alternative(len(value.items), place),) if isinstance(value, Array) and value.whole else UNKNOWN_VALUE
+
+    def zeroed(self, arguments: Sequence[Term], around: Around) -> Value:
+        """`memset(&x, 0, sizeof x)`."""
+        if one(self.run.value(arguments[1], around)) == 0:
+            value = self.run.aimed(one(self.run.value(arguments[0], around)))
+            first = arguments[0]
+            if isinstance(value, Array) and first[0] == ADDRESS and first[1][0] == INDEX:
+                size = arguments[2][1] if arguments[2][0] == UNKNOWN else ""
+                if "[" in size or "sizeof(Vk" in size.replace("struct", "").replace(" ", ""):
+                    value = self.run.aimed(one(value.items[0].writes)) if value.items else None
+                elif not size.startswith("sizeof"):
+                    for cell in value.items:
+                        cell.writes = (Alternative(NOTHING, first[-1]),)
+                    return UNKNOWN_VALUE
+            for each in [value] if isinstance(value, Struct) else [one(c.writes) for c in value.items] if isinstance(value, Array) else []:
+                if isinstance(each, Struct):
+                    each.zeroed = True
+                    each.fields.clear()
+            if isinstance(value, Array) and structure(value.kind):
+                # Elements that come later are zero as well.
+                value.zeroed = True
+        return UNKNOWN_VALUE

@@ -1,0 +1,80 @@
+"""What C and C++ say, in a dozen kinds of terms: syntax trees of both, without what no question of ours depends on.
+
+A term is a tuple whose first item is its kind and whose last is its place. Expressions:
+
+    (NAME, text, at)                      a name, qualified as it stands: `vk::Format::eUndefined`, `samples`
+    (LITERAL, value, at)                  a number, a truth value, None for a null pointer
+    (FIELD, object, name, at)             `object.name` and `object->name`; the place is the name's
+    (INDEX, object, index, at)
+    (ADDRESS, of, at), (TARGET, of, at)   `&of` and `*of`
+    (UNARY, operator, of, at), (BINARY, operator, left, right, at), (ASSIGN, operator, target, value, at)
+    (CHOICE, condition, then, otherwise, at)
+    (CALL, function, arguments, at)       constructors and casts by a type's name as well
+    (BRACES, type or "", items, at)       items are (path of members or None, expression); `type` is the one that stands before
+    (LAMBDA, parameters, body, at)
+    (SOME, text, way, expression, at)     in braces: there if a condition of the preprocessor holds, or does not
+    (UNKNOWN, text, at)
+
+Statements:
+
+    (DECLARE, type, name, value or None, reference, fixed, at)     `fixed`: it is const, or stands for a value of a macro or an enum
+    (DO, expression, at), (RETURN, expression or None, at), (LEAVE, at)
+    (IF, condition, then, otherwise, at)
+    (LOOP, declared, over or None, body, at)     `over` is what a range-based loop goes through
+    (SOME, text, then, otherwise, at)            blocks of the preprocessor
+    (BLOCK, statements, at)
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from msaa_lint.core.text.span import Span
+
+Term = tuple[Any, ...]
+
+NAME, LITERAL, FIELD, INDEX, ADDRESS, TARGET, UNARY, BINARY, ASSIGN, CHOICE, CALL, BRACES, LAMBDA, UNKNOWN = range(14)
+DECLARE, DO, RETURN, LEAVE, IF, LOOP, SOME, BLOCK = range(20, 28)
+
+
+class Parameter(NamedTuple):
+    """A parameter: its type without `const`, `&` and `*`; `name` is empty where it has none; `default` a term."""
+
+    type: str
+    name: str
+    by_reference: bool
+    default: Term | None
+    fixed: bool = False
+    """What it refers to is const."""
+
+
+class Function(NamedTuple):
+    """A function with a body. `within` is the class that it belongs to, or empty; `returns` its type, or empty."""
+
+    name: str
+    within: str
+    returns: str
+    parameters: tuple[Parameter, ...]
+    body: tuple[Term, ...]
+    at: Span
+    space: str = ""
+    """The namespace that it is in, with `::` at its end."""
+    open: bool = False
+    """Whether a derived class may have another in its place."""
+
+
+class Unit(NamedTuple):
+    """All of a file: functions in their order; by class the members that it declares; what stands outside of functions; by name the
+    parameters of functions that are declared; the names of the functions that others call."""
+
+    functions: tuple[Function, ...]
+    members: dict[str, tuple[Term, ...]]
+    outside: tuple[Term, ...]
+    prototypes: dict[str, tuple[Parameter, ...]]
+    called: frozenset[str]
+
+
+def at(term: Term) -> Span:
+    """The place of a term."""
+    place: Span = term[-1]
+    return place

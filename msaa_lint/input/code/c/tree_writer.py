@@ -1,0 +1,209 @@
+"""What a program makes, as a tree in the form of a description.
+
+Where a program renders with one sample or with several, by a setting, the world with several is described: the one in which what is said
+of multisampling matters. Everything under other conditions that this does not settle stays unknown, unless it is the same either way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from msaa_lint.core.text.node import Node
+from msaa_lint.core.text.node_builder import mapping, scalar, sequence
+from msaa_lint.core.text.span import Span
+from msaa_lint.frame.vulkan.names import parse_enum
+from msaa_lint.input.code.parsing import Read
+
+from .commands import Commands
+from .members import FLAGS, Item, flags_of, head_of
+from .names import first_version
+from .passes import Passes
+from .values import NOTHING, Array, Flags, Made, Struct, Symbol, one
+
+
+class Writer(Passes, Commands):
+    """The tree of one file while it is written."""
+
+    def read(self) -> Read | None:
+        """The tree; None where the file makes nothing that can be described."""
+        self.choose()
+        self.met = [made for made in self.met if not self.excluded(made)]
+        passes = [made for made in self.met if made.kind == "renderPass" and made.info is not None]
+        self.bind(passes)
+        rendered: list[Item] = []
+        attached: dict[int, Made] = {}
+        kept: dict[int, str] = {}
+        for made in passes:
+            item = self.render_pass(made, attached)
+            if item is not None:
+                kept[id(made)] = item[0]
+                rendered.append(item)
+        recorded = [self.rendering(made, attached) for made in self.met if made.kind == "rendering" and made.info is not None]
+        recorded += [self.resolve(at, ends, attached) for at, ends in self.resolves.items()]
+        commands = _different([node for node in recorded if node is not None])
+        images = list({id(each): each for made in self.met if made.kind == "image" for each in (self.first(made),)}.values())
+        shown = [self.image(made) for made in images if id(made) in attached or self.many(made)]
+        shown += self.strangers.values()
+        pipelines = [item for made in self.met if made.kind in ("pipeline", "state") for item in self.pipeline(made, kept)]
+        sections = []
+        for name, every in (("images", shown), ("renderPasses", rendered), ("pipelines", pipelines)):
+            items = _distinct(every)
+            if items:
+                at = items[0][1]
+                sections.append((name, Span(at.start, at.start), mapping(items, Span(at.start, at.start))))
+        sections += self.enabled()
+        if commands:
+            at = Span(commands[0].start, commands[0].start)
+            sections.append(("commands", at, sequence(commands, at)))
+        if not sections:
+            return None
+        return Read(mapping(sections, Span(0, 0)), tuple(self.assumed.values()))
+
+    def many(self, made: Made) -> bool:
+        return made.info is not None and (self.samples(made.info)[0] or 1) > 1
+
+    def image(self, made: Made) -> Item:
+        info = made.info
+        assert info is not None
+        items: list[Item] = []
+        for name in ("format", "imageType", "tiling", "sharingMode", "usage"):
+            if name == "usage" and made.gone and not self.transient(info):
+                # Other code may use it as it likes.
+                continue
+            if name == "imageType" and info.zeroed and name not in info.fields:
+                continue
+            items += self.item(info, name)
+        count, at = self.samples(info)
+        if count is not None:
+            items.insert(min(1, len(items)), ("samples", at, scalar(count, at)))
+        for name in ("mipLevels", "arrayLayers"):
+            value, place = self.get(info, name)
+            if type(value) is int and value > 0:
+                items.append((name, place, scalar(value, place)))
+        memory = flags_of(FLAGS["memory"], one(self.settle(made.memory)), made.memory[-1].at) if made.memory else None
+        if memory is not None:
+            items.append(("memory", memory.span, memory))
+        head = head_of(info.at)
+        return self.name(made, "image"), head, mapping(items, head)
+
+    def transient(self, info: Struct) -> bool:
+        value = self.get(info, "usage")[0]
+        bits = [bit for bit, _ in value.bits] if isinstance(value, Flags) else [value]
+        return any(isinstance(bit, str) and "TRANSIENT" in bit for bit in bits)
+
+    def pipeline(self, made: Made, passes: dict[int, str]) -> Iterator[Item]:
+        info = made.info
+        assert info is not None
+        state = info if made.kind == "state" else self.struct(info, "multisampleState")
+        if state is None or first_version(state.kind) not in ("PipelineMultisampleStateCreateInfo", ""):
+            return
+        items: list[Item] = []
+        count, at = self.samples(state, "rasterizationSamples")
+        if count is not None:
+            items.append(("rasterizationSamples", at, scalar(count, at)))
+        for name in ("sampleShadingEnable", "minSampleShading", "alphaToCoverageEnable", "alphaToOneEnable"):
+            # What some fraction of a count comes to is not known where the count is not.
+            if name != "minSampleShading" or not self.supposed(state) or self.known(state, name) in (None, 0, 1):
+                items += self.item(state, name)
+        items += self.mask(state)
+        if not items:
+            return
+        head = head_of(state.at)
+        members: list[Item] = []
+        if made.kind == "pipeline":
+            target = self.aimed(self.get(info, "renderPass")[0])
+            # Of a page the listings come one after the other, and need not be of one program.
+            if isinstance(target, Made) and id(target) in passes and not self.fragments:
+                at = self.get(info, "renderPass")[1]
+                members.append(("renderPass", at, scalar(passes[id(target)], at)))
+                subpass, place = self.get(info, "subpass")
+                if subpass is None or type(subpass) is int:
+                    members.append(("subpass", place, scalar(subpass or 0, place)))
+            dynamic = self.dynamic(info)
+            if dynamic is None:
+                return
+            members += dynamic
+            members += self.blending(info)
+        members.append(("multisampleState", head, mapping(items, head)))
+        yield self.name(made, state.name or "pipeline"), head, mapping(members, head)
+
+    def supposed(self, state: Struct) -> bool:
+        """Whether the count of a pipeline is only taken for what it is."""
+        cell = state.fields.get("rasterizationSamples")
+        return cell is not None and any(isinstance(each.value, Symbol) for each in self.settle(cell.writes))
+
+    def mask(self, state: Struct) -> Iterator[Item]:
+        """The sample mask, where all its words are known."""
+        value, at = self.get(state, "sampleMask")
+        known = self.aimed(value)
+        words = [one(self.settle(cell.writes)) for cell in known.items] if isinstance(known, Array) and known.whole else [known]
+        if words and all(type(word) is int and 0 <= word < 2**32 for word in words) and value not in (None, 0):
+            yield "sampleMask", at, sequence([scalar(word, at) for word in words], at)
+
+    def enabled(self) -> Iterator[Item]:
+        """What the file's one device is created with: of its features only whether sample shading is among them."""
+        devices = [made for made in self.met if made.kind == "device" and made.info is not None]
+        if len(devices) != 1 or devices[0].info is None:
+            return
+        info = devices[0].info
+        features = self.struct(info, "enabledFeatures")
+        chained = self.aimed(self.get(info, "next")[0]) if "next" in info.fields else None
+        if features is None and isinstance(chained, Struct) and chained.kind == "PhysicalDeviceFeatures2":
+            features = self.struct(chained, "features")
+        elif chained is not None and chained != 0:
+            # Some other structure of the chain may enable it.
+            return
+        if features is None:
+            return
+        value, at = self.get(features, "sampleRateShading")
+        if value is None or isinstance(value, (bool, int)):
+            names = [scalar("sampleRateShading", at)] if value else []
+            yield "enabled", head_of(info.at), mapping([("features", at, sequence(names, at))], head_of(info.at))
+
+    def dynamic(self, info: Struct) -> list[Item] | None:
+        """Dynamic states; None where they are not known, as the sample count may be one."""
+        value, at = self.get(info, "dynamicState")
+        if value is None:
+            return []
+        state = self.aimed(value)
+        listed = self.aimed(self.get(state, "dynamicStates")[0]) if isinstance(state, Struct) else NOTHING
+        if not isinstance(listed, Array) or not listed.whole:
+            return None
+        names = [parse_enum("VkDynamicState", str(one(self.settle(cell.writes)))) for cell in listed.items]
+        found = [scalar(name, at) for name in names if name is not None]
+        return [("dynamicState", at, sequence(found, at))] if found else []
+
+    def blending(self, info: Struct) -> Iterator[Item]:
+        state = self.struct(info, "colorBlendState")
+        attachments = self.structs(state, "attachments") if state is not None else None
+        if not attachments or any(each is None for each in attachments):
+            return
+        nodes = []
+        for each in attachments:
+            assert each is not None
+            nodes.append(mapping(self.item(each, "blendEnable"), head_of(each.at)))
+        assert state is not None
+        head = head_of(state.at)
+        yield "colorBlendState", head, mapping([("attachments", head, sequence(nodes, head))], head)
+
+
+def _distinct(items: Sequence[Item]) -> list[Item]:
+    """Of items that say the same from the same places the first: a function that is called twice makes one thing twice."""
+    kept: dict[str, Item] = {}
+    for item in items:
+        kept.setdefault(f"{item[1]} {_signature(item[2])}", item)
+    return list(kept.values())
+
+
+def _different(nodes: Sequence[Node]) -> list[Node]:
+    return list({_signature(node): node for node in nodes}.values())
+
+
+def _signature(node: Node) -> str:
+    if node.kind == "mapping":
+        inner = ",".join(f"{key}:{_signature(value)}" for key, value in node.value.items())
+    elif node.kind == "sequence":
+        inner = ",".join(_signature(value) for value in node.value)
+    else:
+        inner = node.text
+    return f"{node.start}-{node.end}({inner})"

@@ -1,0 +1,226 @@
+"""What C and C++ expressions come to, as far as a file says.
+
+A value is a tuple of alternatives, empty where nothing is known. Each has the conditions under which it is the value. A world is a choice
+of conditions; in one world a value may come down to one alternative.
+"""
+
+# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from msaa_lint.core.text.span import Span
+
+Guards = frozenset[tuple[str, bool]]
+"""Conditions that all hold: their texts, and which way."""
+
+ALWAYS: Guards = frozenset()
+
+MOST = 12
+"""Alternatives of a value that are followed; with more, nothing is known."""
+
+
+class Symbol(NamedTuple):
+    """A value that is not known, and is the same wherever it stands. `chosen`: it comes from a function that looks for a sample count."""
+
+    key: str
+    name: str
+    chosen: bool = False
+
+
+class Flags(NamedTuple):
+    """Bits, each with its place."""
+
+    bits: tuple[tuple[str, Span], ...]
+
+
+class Alternative(NamedTuple):
+    """One of the values that an expression may have: what it is, where that stands, and when it is so."""
+
+    value: Any
+    at: Span
+    guards: Guards = ALWAYS
+
+
+Value = tuple[Alternative, ...]
+
+UNKNOWN_VALUE: Value = ()
+
+
+class Cell:
+    """A variable or member: what was written to it, in order."""
+
+    __slots__ = ("key", "kind", "name", "writes")
+
+    def __init__(self, kind: str = "", name: str = "", writes: Value = (), key: str = "") -> None:
+        self.kind = kind
+        self.name = name
+        self.writes = writes
+        self.key = key
+        """What a value in it is known by that is not known itself: a parameter's, a member's."""
+
+    def write(self, value: Value, at: Span, guards: Guards) -> None:
+        """A write under conditions, which ends what was there wherever they hold."""
+        fresh = tuple(Alternative(a.value, a.at, a.guards | guards) for a in value) or (Alternative(NOTHING, at, guards),)
+        before = tuple(w for w in self.writes if not guards <= w.guards) if guards else ()
+        self.writes = (*before, *fresh)[-MOST:]
+
+    def read(self, guards: Guards) -> Value:
+        """What may be in it where some conditions hold."""
+        return settled(self.writes, dict(guards)) if self.writes else UNKNOWN_VALUE
+
+
+class Nothing:
+    """What is known of a value of which nothing is known; it stands beside others that are."""
+
+    def __repr__(self) -> str:
+        return "NOTHING"
+
+
+NOTHING = Nothing()
+
+
+def settled(writes: Value, world: Mapping[str, bool]) -> Value:
+    """The writes that may be seen in a world: from the last one back to the first that certainly happened."""
+    if len(writes) == 1 and not writes[0].guards:
+        return writes
+    seen: list[Alternative] = []
+    for write in reversed(writes):
+        rest = []
+        for guard in write.guards:
+            known = world.get(guard[0])
+            if known is None:
+                rest.append(guard)
+            elif known is not guard[1]:
+                break
+        else:
+            seen.append(Alternative(write.value, write.at, frozenset(rest)) if len(rest) < len(write.guards) else write)
+            if not rest:
+                break
+    return tuple(reversed(seen))
+
+
+class Struct:
+    """A structure, Vulkan's or the program's. `zeroed`: what no one set is zero. `name` is the variable's that it was first in."""
+
+    __slots__ = ("at", "fields", "kind", "name", "zeroed")
+
+    def __init__(self, kind: str, at: Span, zeroed: bool = False, name: str = "") -> None:
+        self.kind = kind
+        self.at = at
+        self.zeroed = zeroed
+        self.name = name
+        self.fields: dict[str, Cell] = {}
+
+    def cell(self, name: str) -> Cell:
+        """The member's cell."""
+        if name not in self.fields:
+            self.fields[name] = Cell(name=name)
+        return self.fields[name]
+
+
+class Array:
+    """A list. `whole`: these are all its elements, in their places. `zeroed`: further structures in it are zero."""
+
+    __slots__ = ("at", "items", "kind", "name", "whole", "zeroed")
+
+    def __init__(self, kind: str, at: Span, whole: bool = True) -> None:
+        self.kind = kind
+        self.at = at
+        self.items: list[Cell] = []
+        self.whole = whole
+        self.zeroed = False
+        self.name = ""
+
+
+class Ref(NamedTuple):
+    """A pointer or reference to a cell."""
+
+    cell: Cell
+
+
+class Made:
+    """An object of Vulkan's that a call made: an image, a view, a render pass. `info` is what it was made with, copied at the call."""
+
+    __slots__ = ("at", "deep", "gone", "info", "key", "kind", "memory", "name", "within")
+
+    def __init__(self, kind: str, key: tuple[Any, ...], at: Span) -> None:
+        self.kind = kind
+        self.key = key
+        self.at = at
+        self.name = ""
+        self.deep = 99
+        """How many calls deep it was named."""
+        self.gone = False
+        """Whether it is handed to code that is not the file's."""
+        self.info: Struct | None = None
+        self.memory: Value = ()
+        self.within: Guards = ALWAYS
+
+    def signature(self) -> tuple[Any, ...]:
+        """What it has in common with what the same call makes again alike."""
+        fields = self.info.fields if self.info is not None else {}
+        said = [(name, tuple(_said(write.value) for write in cell.writes)) for name, cell in fields.items()]
+        return (self.kind, self.at, tuple(sorted(said)))
+
+
+def _said(value: Any) -> str:
+    if isinstance(value, Made):
+        return f"{value.kind} at {value.at}"
+    return f"at {value.at}" if isinstance(value, (Struct, Array)) else "reference" if isinstance(value, (Ref, Closure)) else repr(value)
+
+
+class Closure(NamedTuple):
+    """A lambda, and the variables around it."""
+
+    parameters: tuple[Any, ...]
+    body: tuple[Any, ...]
+    scopes: tuple[dict[str, Cell], ...]
+
+
+DEEPEST = 10
+
+
+def copied(value: Any, depth: int = 0, through: bool = False) -> Any:
+    """A copy of what is in a value. `through` follows pointers as well: what a call is handed, as it is at that moment."""
+    if depth > DEEPEST:
+        return NOTHING
+    if isinstance(value, Struct):
+        made = Struct(value.kind, value.at, value.zeroed, value.name)
+        for name, cell in value.fields.items():
+            made.fields[name] = copied_cell(cell, depth, through)
+        return made
+    if isinstance(value, Array):
+        array = Array(value.kind, value.at, value.whole)
+        array.zeroed, array.name = value.zeroed, value.name
+        array.items = [copied_cell(cell, depth, through) for cell in value.items]
+        return array
+    if isinstance(value, Ref) and through:
+        return Ref(copied_cell(value.cell, depth, through))
+    return value
+
+
+def copied_cell(cell: Cell, depth: int = 0, through: bool = False) -> Cell:
+    made = Cell(cell.kind, cell.name)
+    made.writes = tuple(
+        Alternative(copied(a.value, depth + 1, through), a.at, a.guards) if isinstance(a.value, (Struct, Array, Ref)) else a
+        for a in cell.writes
+    )
+    return made
+
+
+def one(value: Value) -> Any:
+    """What a value is, where it is one thing alone; NOTHING otherwise."""
+    if len(value) == 1:
+        return value[0].value
+    if value and all(same(a.value, value[0].value) for a in value):
+        return value[0].value
+    return NOTHING
+
+
+def same(left: Any, right: Any) -> bool:
+    """Whether two values are alike for sure."""
+    if isinstance(left, Flags) and isinstance(right, Flags):
+        return {bit for bit, _ in left.bits} == {bit for bit, _ in right.bits}
+    if isinstance(left, (Struct, Array, Nothing)):
+        return left is right and left is not NOTHING
+    return type(left) is type(right) and bool(left == right)

@@ -1,0 +1,173 @@
+"""SPIR-V in the making: ids, types, constants, sections. As much of it as `msaa_lint.frame.spirv` reads; it is not for a driver."""
+
+from __future__ import annotations
+
+import array
+import struct
+from collections.abc import Sequence
+
+from msaa_lint.frame.spirv import numbers as op
+
+from .types import BOOL, DOUBLE, FLOAT, INT, UINT, VOID, Type
+
+_MAGIC, _VERSION = 0x07230203, 0x00010000
+_DECORATE_MEMBER = op.MEMBER_DECORATE
+
+
+class Assembly:
+    """A module. `code` is what is being written of the current function, `variables` what its first block begins with."""
+
+    def __init__(self) -> None:
+        self.bound = 1
+        self.capabilities: set[int] = set()
+        self.modes: list[int] = []
+        self.decorations: list[int] = []
+        self.declared: list[int] = []
+        self.functions: list[int] = []
+        self.code: list[int] = []
+        self.variables: list[int] = []
+        self.interface: list[int] = []
+        self._types: dict[object, int] = {}
+        self._constants: dict[object, int] = {}
+        self.extended = self.id()
+
+    def id(self) -> int:
+        """A number that nothing has."""
+        self.bound += 1
+        return self.bound - 1
+
+    def declare(self, number: int, *operands: int) -> None:
+        """An instruction outside of functions."""
+        self.declared += (len(operands) + 1 << 16 | number, *operands)
+
+    def do(self, number: int, *operands: int) -> None:
+        """An instruction of the current function."""
+        self.code += (len(operands) + 1 << 16 | number, *operands)
+
+    def made(self, number: int, kind: Type, *operands: int) -> int:
+        """The result of an instruction."""
+        result = self.id()
+        self.do(number, self.type(kind), result, *operands)
+        return result
+
+    def decorate(self, target: int, number: int, *operands: int) -> None:
+        self.decorations += (len(operands) + 3 << 16 | op.DECORATE, target, number, *operands)
+
+    def decorate_member(self, target: int, member: int, number: int, *operands: int) -> None:
+        self.decorations += (len(operands) + 4 << 16 | _DECORATE_MEMBER, target, member, number, *operands)
+
+    def type(self, kind: Type) -> int:
+        """The id of a type."""
+        found = self._types.get(kind)
+        if found is not None:
+            return found
+        operands: Sequence[int]
+        if kind[0] == "vec":
+            number, operands = op.TYPE_VECTOR, (self.type(_inner(kind[1])), _count(kind[2]))
+        elif kind[0] == "mat":
+            number, operands = op.TYPE_MATRIX, (self.type(("vec", FLOAT, kind[2])), _count(kind[1]))
+        elif kind[0] == "array":
+            number, operands = op.TYPE_ARRAY, (self.type(_inner(kind[1])), self.number(UINT, _count(kind[2])))
+            if not kind[2]:
+                number, operands = 29, operands[:1]
+        elif kind[0] == "struct":
+            members = kind[2]
+            assert isinstance(members, tuple)
+            number, operands = op.TYPE_STRUCT, [self.type(each) for _, each in members]
+        elif kind[0] == "opaque":
+            number, operands = op.TYPE_IMAGE, (self.type(FLOAT), 1, 0, 0, int("MS" in str(kind[1])), 1, 0)
+        else:
+            number, operands = _SCALARS[kind]
+        found = self._types[kind] = self.id()
+        self.declare(number, found, *operands)
+        return found
+
+    def pointer(self, storage: int, kind: Type) -> int:
+        """The id of the type of pointers to a type."""
+        key = ("pointer", storage, kind)
+        if key not in self._types:
+            holds = self.type(kind)
+            self._types[key] = self.id()
+            self.declare(op.TYPE_POINTER, self._types[key], storage, holds)
+        return self._types[key]
+
+    def number(self, kind: Type, value: float | bool, specialisation: int | None = None) -> int:
+        """The id of a constant; of a specialisation constant with its number a new one."""
+        key = (kind, type(value), value)
+        if specialisation is None and key in self._constants:
+            return self._constants[key]
+        type_id, found = self.type(kind), self.id()
+        special = 0 if specialisation is None else op.SPEC_CONSTANT_TRUE - op.CONSTANT_TRUE
+        if kind == BOOL:
+            self.declare((op.CONSTANT_TRUE if value else op.CONSTANT_FALSE) + special, type_id, found)
+        elif kind == DOUBLE:
+            low, high = struct.unpack("<II", struct.pack("<d", value))
+            self.declare(op.CONSTANT + special, type_id, found, low, high)
+        elif kind == FLOAT:
+            self.declare(op.CONSTANT + special, type_id, found, struct.unpack("<I", struct.pack("<f", value))[0])
+        else:
+            self.declare(op.CONSTANT + special, type_id, found, int(value) & 0xFFFFFFFF)
+        if specialisation is None:
+            self._constants[key] = found
+        else:
+            self.decorate(found, op.SPEC_ID, specialisation)
+        return found
+
+    def variable(self, storage: int, kind: Type) -> int:
+        """A variable: outside of functions, or of the current one."""
+        pointer, found = self.pointer(storage, kind), self.id()
+        words = (4 << 16 | op.VARIABLE, pointer, found, storage)
+        if storage == op.FUNCTION_LOCAL:
+            self.variables += words
+        else:
+            self.declared += words
+            if storage in (op.INPUT, op.OUTPUT):
+                self.interface.append(found)
+        return found
+
+    def begin(self) -> None:
+        """Begins the body of a function."""
+        self.code, self.variables = [], []
+
+    def end(self, identity: int, returns: Type, parameters: Sequence[tuple[int, int]]) -> None:
+        """Ends a function: its parameters are pairs of types and ids."""
+        result = self.type(returns)
+        self.functions += (5 << 16 | op.FUNCTION, result, identity, 0, result)
+        for kind, parameter in parameters:
+            self.functions += (3 << 16 | op.FUNCTION_PARAMETER, kind, parameter)
+        self.functions += (2 << 16 | op.LABEL, self.id(), *self.variables, *self.code, 1 << 16 | op.FUNCTION_END)
+
+    def module(self, model: int, main: int, name: str) -> bytes:
+        """The module with its one entry point."""
+        text = name.encode() + b"\0" * (4 - len(name) % 4)
+        named = struct.unpack(f"<{len(text) // 4}I", text)
+        words = [_MAGIC, _VERSION, 0, self.bound, 0]
+        for each in sorted(self.capabilities):
+            words += (2 << 16 | op.CAPABILITY, each)
+        library = struct.unpack("<4I", b"GLSL.std.450\0\0\0\0")
+        words += (6 << 16 | op.EXT_INST_IMPORT, self.extended, *library)
+        words += (3 + len(named) + len(self.interface) << 16 | op.ENTRY_POINT, model, main, *named, *self.interface)
+        for mode in self.modes:
+            words += (3 << 16 | op.EXECUTION_MODE, main, mode)
+        made = array.array("I", [word & 0xFFFFFFFF for part in (words, self.decorations, self.declared, self.functions) for word in part])
+        return made.tobytes()
+
+
+_SCALARS: dict[Type, tuple[int, tuple[int, ...]]] = {
+    VOID: (op.TYPE_VOID, ()),
+    BOOL: (op.TYPE_BOOL, ()),
+    INT: (op.TYPE_INT, (32, 1)),
+    UINT: (op.TYPE_INT, (32, 0)),
+    FLOAT: (op.TYPE_FLOAT, (32,)),
+    DOUBLE: (op.TYPE_FLOAT, (64,)),
+}
+
+
+def _inner(kind: object) -> Type:
+    assert isinstance(kind, tuple)
+    return kind
+
+
+def _count(count: object) -> int:
+    assert isinstance(count, int)
+    return count

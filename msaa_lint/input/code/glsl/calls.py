@@ -1,0 +1,198 @@
+"""Calls of GLSL as SPIR-V: constructors, fetches of samples, built-in functions, the shader's own."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from msaa_lint.frame.spirv import numbers as op
+
+from .expressions import FETCHES, Expressions
+from .text import NotRead
+from .types import EXTREMES, FLOAT, FUSED, INT, VOID, Type, multisampled, result, scalar_of, size_of, texel, vector
+from .values import Function, Place, Value
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
+
+_QUERIES = ("textureSamples", "imageSamples")
+_WRITES = ("atomic", "imageAtomic", "imageStore")
+_OUT = {"modf": 1, "frexp": 1}
+"""Functions that write to an argument: its index."""
+
+
+def called(to: Expressions, node: Node, depth: int) -> Value:
+    """What a call gives."""
+    function, listed = node.child_by_field_name("function"), node.child_by_field_name("arguments")
+    if function is None or listed is None:
+        raise to.no(node, "is not followed")
+    given = [child for child in listed.named_children if child.type != "comment"]
+    if function.type == "subscript_expression":
+        return _array(to, function, given, depth)
+    if function.type == "field_expression":
+        return _length(to, function, depth)
+    name = to.of(function)
+    kind = to.kind(name)
+    if kind is not None and (kind[0] != "opaque" or name.startswith(("sampler", "isampler", "usampler"))):
+        return _constructed(to, kind, given, depth)
+    if name in to.functions:
+        return _own(to, node, name, given, depth)
+    if name in FETCHES or name in _QUERIES:
+        image = _image(to, given, depth)
+        if image is not None and multisampled(image.type):
+            return _of_samples(to, node, name, given, image, depth)
+    return _built_in(to, node, name, given, depth)
+
+
+def _constructed(to: Expressions, kind: Type, given: list[Node], depth: int) -> Value:
+    if kind[0] == "opaque":
+        # A texture and a sampler of Vulkan's put together: the texture is the image.
+        return to.value(given[0], depth) if given else to.opaque("sampler", kind, ())
+    values = [to.value(each, depth) for each in given]
+    if size_of(kind):
+        return to.constructed(kind, values)
+    if kind[0] == "struct":
+        members = kind[2]
+        assert isinstance(members, tuple)
+        if len(members) != len(values):
+            raise NotRead("a structure is made of too little")
+        made = [to.as_type(v, t) if size_of(t) else v for v, (_, t) in zip(values, members, strict=True)]
+        return Value(to.out.made(op.COMPOSITE_CONSTRUCT, kind, *(each.id for each in made)), kind)
+    return to.opaque("construct", kind, values)
+
+
+def _array(to: Expressions, function: Node, given: list[Node], depth: int) -> Value:
+    """`float[4](...)`."""
+    named = function.child_by_field_name("argument")
+    inner = to.kind(to.of(named)) if named is not None else None
+    if inner is None or not given:
+        raise to.no(function, "is not followed")
+    values = [to.value(each, depth) for each in given]
+    kind: Type = ("array", inner, len(values))
+    made = [to.as_type(each, inner) if size_of(inner) else each for each in values]
+    return Value(to.out.made(op.COMPOSITE_CONSTRUCT, kind, *(each.id for each in made)), kind)
+
+
+def _length(to: Expressions, function: Node, depth: int) -> Value:
+    """`array.length()`."""
+    argument, field = function.child_by_field_name("argument"), function.child_by_field_name("field")
+    if argument is None or field is None or to.of(field) != "length":
+        raise to.no(function, "is not followed")
+    place = to.place(argument, depth)
+    kind = place.type if place is not None else to.value(argument, depth).type
+    size = size_of(kind) or (kind[2] if kind[0] == "array" else 0)
+    if not isinstance(size, int) or not size:
+        return to.opaque("length", INT, ())
+    return Value(to.out.number(INT, size), INT)
+
+
+def _image(to: Expressions, given: list[Node], depth: int) -> Place | Value | None:
+    """The image that a function takes first."""
+    if not given:
+        return None
+    place = to.place(given[0], depth)
+    return place if place is not None else to.value(given[0], depth)
+
+
+def _of_samples(to: Expressions, node: Node, name: str, given: list[Node], image: Place | Value, depth: int) -> Value:
+    """A fetch of a sample, or a query for how many there are."""
+    loaded = to.loaded(image) if isinstance(image, Place) else image
+    if name in _QUERIES:
+        return Value(to.out.made(op.IMAGE_QUERY_SAMPLES, INT, loaded.id), INT)
+    if name == "subpassLoad":
+        sample = to.value(given[1], depth) if len(given) == 2 else None
+        at = to.splat(Value(to.out.number(INT, 0), INT), 2)
+    else:
+        at = to.value(given[1], depth) if len(given) == 3 else to.opaque("", INT, ())
+        sample = to.value(given[2], depth) if len(given) == 3 else None
+    if sample is None:
+        raise to.no(node, "is not followed")
+    to.fetches.append((to.of(given[0]), node.start_byte, node.end_byte))
+    kind = texel(image.type)
+    number = op.IMAGE_FETCH if name.startswith("texel") else op.IMAGE_READ
+    return Value(to.out.made(number, kind, loaded.id, at.id, op.SAMPLE_OPERAND, to.as_type(sample, INT).id), kind)
+
+
+def _built_in(to: Expressions, node: Node, name: str, given: list[Node], depth: int) -> Value:
+    values = [to.value(each, depth) for each in given]
+    kind = result(name, [each.type for each in values])
+    if name in EXTREMES and len(values) == 2:
+        one, other = to.alike(*values)
+        size = max(size_of(one.type), size_of(other.type))
+        one, other = (to.splat(each, size) if size_of(each.type) == 1 else each for each in (one, other))
+        number = EXTREMES[name].get(str(scalar_of(one.type)[0]))
+        if number is not None and size:
+            return Value(to.out.made(op.EXT_INST, one.type, to.out.extended, number, one.id, other.id), one.type)
+    if name == "fma" and len(values) == 3:
+        ids = [to.as_type(each, values[0].type).id for each in values]
+        return Value(to.out.made(op.EXT_INST, values[0].type, to.out.extended, FUSED, *ids), values[0].type)
+    if name in _OUT:
+        target = to.place(given[1], depth)
+        if target is None:
+            raise to.no(node, "is not followed")
+        to.stored(target, to.opaque(name, target.type, values[:1]))
+        return to.opaque(f"{name} whole", vector(FLOAT, size_of(values[0].type)), values[:1])
+    if kind is None:
+        raise to.no(node, "is not defined in it")
+    if kind == VOID or name.startswith(_WRITES):
+        # What is stored to an image is used, and the result is nothing that is the same again.
+        for each in values:
+            to.opaque("used", each.type if size_of(each.type) else INT, (each,))
+        made = to.out.variable(op.FUNCTION_LOCAL, INT if kind == VOID else kind)
+        return to.loaded(Place(made, INT if kind == VOID else kind, op.FUNCTION_LOCAL))
+    return to.opaque(name, kind, values)
+
+
+def _own(to: Expressions, node: Node, name: str, given: list[Node], depth: int) -> Value:
+    """A call of a function of the shader's own."""
+    kinds: list[tuple[Place | None, Value | None]] = []
+    for each in given:
+        place = to.place(each, depth)
+        kinds.append((place, None if place is not None else to.value(each, depth)))
+    types = [_type(place, value) for place, value in kinds]
+    function = _fitting(to.functions[name], types)
+    if function is None:
+        raise to.no(node, "fits no function of it")
+    if function not in to.called:
+        to.called.append(function)
+    passed: list[int] = []
+    back: list[tuple[Place, Place]] = []
+    for (place, value), (kind, written, _) in zip(kinds, function.parameters, strict=True):
+        if kind[0] == "opaque" or (kind[0] == "array" and isinstance(kind[1], tuple) and kind[1][0] == "opaque"):
+            if place is None:
+                raise to.no(node, "is not followed")
+            passed.append(place.pointer)
+            continue
+        if value is None:
+            assert place is not None
+            value = to.loaded(place)
+        if not written:
+            passed.append((to.as_type(value, kind) if size_of(kind) else value).id)
+            continue
+        if place is None:
+            raise to.no(node, "is not followed")
+        kept = Place(to.out.variable(op.FUNCTION_LOCAL, kind), kind, op.FUNCTION_LOCAL)
+        to.stored(kept, to.as_type(value, kind) if size_of(kind) else value)
+        passed.append(kept.pointer)
+        back.append((place, kept))
+    made = to.out.made(op.FUNCTION_CALL, function.returns, function.id, *passed)
+    for place, kept in back:
+        whole = to.loaded(kept)
+        to.stored(place, whole)
+    return Value(made, function.returns)
+
+
+def _type(place: Place | None, value: Value | None) -> Type:
+    if place is not None:
+        return vector(scalar_of(place.type), len(place.parts)) if place.parts else place.type
+    assert value is not None
+    return value.type
+
+
+def _fitting(functions: list[Function], types: list[Type]) -> Function | None:
+    """The function for arguments of some types: the one that has them, or that they can be made into."""
+    same = [each for each in functions if [kind for kind, _, _ in each.parameters] == types]
+    if same:
+        return same[0]
+    sizes = [size_of(kind) for kind in types]
+    near = [each for each in functions if [size_of(kind) for kind, _, _ in each.parameters] == sizes]
+    return near[0] if len(near) == 1 else None

@@ -1,0 +1,301 @@
+"""Declarations of GLSL as SPIR-V: variables, blocks, structures, constants, the heads of functions."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from msaa_lint.frame.spirv import numbers as op
+from msaa_lint.input.code.parsing import Code, tree
+from msaa_lint.input.code.sample_counts.arithmetic import whole
+
+from .expressions import Expressions
+from .text import Text
+from .types import BOOL, FLOAT, INPUTS, INT, OUTPUTS, UINT, VOID, Type, multisampled, vector
+from .values import Function, Place, Value
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
+
+MOST_PARTS = 1000
+"""Types that a structure is made of, those of its members included."""
+
+_WORD = re.compile(r"\w+")
+_ENTRY = re.compile(r"(\w+)(?:\s*=\s*(\w+))?")
+_STORAGE = {"in": op.INPUT, "varying": op.INPUT, "out": op.OUTPUT, "uniform": op.UNIFORM_CONSTANT, "buffer": 12, "shared": 4}
+_DECORATED = {"location": op.LOCATION, "component": op.COMPONENT, "index": op.INDEX, "binding": op.BINDING, "set": op.DESCRIPTOR_SET,
+              "input_attachment_index": op.INPUT_ATTACHMENT_INDEX}  # fmt: skip
+_SAMPLE_BUILT_INS = ("gl_SampleID", "gl_SamplePosition")
+
+
+class Declarations(Expressions):
+    """The declarations of one shader."""
+
+    def __init__(self, source: Text) -> None:
+        super().__init__(source.text)
+        self.source = source
+        self.built_in = self.of_language
+        self.root = tree(Code(source.text, "glsl")).root_node
+        self.starts: list[tuple[Place, Node]] = []
+        """Variables outside of functions with what they begin with."""
+        self.images: dict[str, tuple[int, int]] = {}
+        self.bindings: dict[str, tuple[int, int | None]] = {}
+        self.counts: dict[int, tuple[int, int]] = {}
+        """Where each whole number that a constant has stands first."""
+        self.weights: dict[str, int] = {}
+        self.unplaced: list[int] = []
+        self.plain: dict[int, int] = {}
+        """The whole numbers that constants are, by their ids."""
+        self.specialised = False
+
+    def outer(self, node: Node, depth: int = 0) -> None:
+        """What stands outside of functions."""
+        kind = node.type
+        if kind == "function_definition":
+            self.declared_function(node)
+        elif kind == "struct_specifier":
+            self.structure(node)
+        elif kind == "declaration":
+            self.declaration(node)
+        elif kind == "ERROR" or kind.endswith("statement"):
+            raise self.no(node, "is not understood")
+
+    def structure(self, node: Node) -> Type | None:
+        name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
+        if name is None or body is None:
+            return None
+        members = tuple((member, kind) for member, kind, _ in self.members(body))
+        self.weights[self.of(name)] = sum(map(self.weight, (kind for _, kind in members)), 1)
+        if self.weights[self.of(name)] > MOST_PARTS:
+            raise self.no(name, "has too many parts")
+        made = ("struct", self.of(name), members)
+        self.structs[self.of(name)] = made
+        return made
+
+    def weight(self, kind: Type) -> int:
+        """How many types a type is made of."""
+        while kind[0] == "array" and isinstance(kind[1], tuple):
+            kind = kind[1]
+        return self.weights.get(str(kind[1]), 1) if kind[0] == "struct" else 1
+
+    def members(self, body: Node) -> list[tuple[str, Type, set[str]]]:
+        """The members of a structure or block: name, type, qualifiers."""
+        found: list[tuple[str, Type, set[str]]] = []
+        for field in body.named_children:
+            if field.type != "field_declaration":
+                continue
+            typed = field.child_by_field_name("type")
+            kind = self.kind(self.of(typed)) if typed is not None else None
+            if typed is None or kind is None:
+                raise self.no(field, "is not understood")
+            words = set(_WORD.findall(self.text[field.start_byte : typed.start_byte]))
+            for declarator in field.children_by_field_name("declarator"):
+                name, own = self.declarator(declarator, kind)
+                found.append((name, own, words))
+        return found
+
+    def declarator(self, node: Node, kind: Type) -> tuple[str, Type]:
+        """The name that a declarator gives, and the type with its arrays."""
+        sizes: list[int] = []
+        while node.type == "array_declarator":
+            given, inner = node.child_by_field_name("size"), node.child_by_field_name("declarator")
+            sizes.append(self.size(given) if given is not None else 0)
+            if inner is None or len(sizes) > 4:
+                raise self.no(node, "is not understood")
+            node = inner
+        for size in sizes:
+            kind = ("array", kind, size)
+        return self.of(node), kind
+
+    def size(self, node: Node) -> int:
+        """The size of an array, as far as it is a plain number or a constant that is one."""
+        number = whole(self.of(node))
+        if number is None:
+            found = self.look(self.of(node)) if node.type == "identifier" else None
+            number = self.plain.get(found.id) if isinstance(found, Value) else None
+        if number is None or not 0 < number <= 65536:
+            raise self.no(node, "is no size that is understood")
+        return number
+
+    def qualifiers(self, node: Node, end: int) -> tuple[set[str], dict[str, int | None]]:
+        """What stands before a type: words, and the entries of `layout`."""
+        layouts = [child for child in node.children if child.type == "layout_specification"]
+        text = self.text[node.start_byte : end]
+        for each in reversed(layouts):
+            text = text[: each.start_byte - node.start_byte] + " " + text[each.end_byte - node.start_byte :]
+        entries: dict[str, int | None] = {}
+        for each in layouts:
+            for name, value in _ENTRY.findall(self.of(each).partition("(")[2]):
+                entries[name] = whole(value) if value else None
+                if value and entries[name] is None:
+                    found = self.look(value)
+                    entries[name] = self.plain.get(found.id) if isinstance(found, Value) else None
+        return set(_WORD.findall(text)), entries
+
+    def declaration(self, node: Node) -> None:
+        if any(child.type == "ERROR" for child in node.children):
+            raise self.no(node, "is not understood")
+        body = next((child for child in node.named_children if child.type == "field_declaration_list"), None)
+        typed = node.child_by_field_name("type")
+        if body is not None and typed is None:
+            self.block(node, body)
+            return
+        if typed is None:
+            return
+        kind = self.structure(typed) if typed.type == "struct_specifier" else self.kind(self.of(typed))
+        words, layout = self.qualifiers(node, typed.start_byte)
+        for declarator in node.children_by_field_name("declarator"):
+            if declarator.type == "function_declarator" or kind is None:
+                continue
+            self.declared(declarator, kind, words, layout)
+        if kind is None and self.of(typed) not in ("precision",):
+            raise self.no(node, "is of no type that is known")
+
+    def declared(self, node: Node, kind: Type, words: set[str], layout: dict[str, int | None]) -> None:
+        """A variable outside of functions."""
+        given = node.child_by_field_name("value") if node.type == "init_declarator" else None
+        target = node.child_by_field_name("declarator") if node.type == "init_declarator" else node
+        if target is None:
+            raise self.no(node, "is not understood")
+        if given is not None and is_unsized(target):
+            kind = self.of_list(given, kind)
+            target = target.child_by_field_name("declarator") or target
+        name, kind = self.declarator(target, kind)
+        if "const" in words or given is not None:
+            self.constant(name, kind, given, layout, node, "const" in words)
+            return
+        storage = next((_STORAGE[word] for word in ("in", "varying", "out", "uniform", "buffer", "shared") if word in words), op.PRIVATE)
+        made = Place(self.out.variable(storage, kind), kind, storage)
+        self.scopes[0][name] = made
+        inner = kind[1] if kind[0] == "array" else kind
+        samples = isinstance(inner, tuple) and multisampled(inner)
+        if samples:
+            layout = self.bound(name, layout)
+            self.images[name] = (target.start_byte, target.end_byte)
+        self.decorated(made.pointer, layout, storage)
+        if "sample" in words and storage == op.INPUT:
+            self.out.decorate(made.pointer, op.SAMPLE)
+            self.out.capabilities.add(op.SAMPLE_RATE_SHADING)
+
+    def bound(self, name: str, layout: dict[str, int | None]) -> dict[str, int | None]:
+        """The layout of a multisampled image; one that has no binding, as OpenGL's, gets one that tells it from others."""
+        if layout.get("binding") is None:
+            layout = {**layout, "binding": 1000 + len(self.bindings)}
+        self.bindings[name] = (layout.get("set") or 0, layout.get("binding"))
+        return layout
+
+    def of_list(self, given: Node, kind: Type) -> Type:
+        """The type of an array whose size its values say."""
+        listed = given.child_by_field_name("arguments") or given
+        return ("array", kind, sum(child.type != "comment" for child in listed.named_children))
+
+    def decorated(self, target: int, layout: dict[str, int | None], storage: int) -> None:
+        for name, number in _DECORATED.items():
+            value = layout.get(name)
+            if value is not None:
+                self.out.decorate(target, number, value)
+        if storage == op.UNIFORM_CONSTANT and layout.get("binding") is not None and layout.get("set") is None:
+            self.out.decorate(target, op.DESCRIPTOR_SET, 0)
+        if storage == op.OUTPUT and layout.get("location") is None:
+            self.unplaced.append(target)
+
+    def constant(self, name: str, kind: Type, given: Node | None, layout: dict[str, int | None], node: Node, fixed: bool) -> None:
+        """A constant, or a variable that begins with something."""
+        if given is None:
+            raise self.no(node, "is not understood")
+        special = layout.get("constant_id")
+        negative = given.type == "unary_expression" and self.of(given)[:1] == "-"
+        literal = given.child_by_field_name("argument") if negative else given
+        while literal is not None and literal.type == "parenthesized_expression" and literal.named_child_count == 1:
+            literal = literal.named_children[0]
+        scalar = kind in (BOOL, INT, UINT, FLOAT)
+        if fixed and scalar and literal is not None and literal.type in ("number_literal", "true", "false"):
+            text = self.of(literal)
+            number = whole(text)
+            value: float | bool = text == "true"
+            if kind in (INT, UINT) and number is None:
+                raise self.no(node, "is not understood")
+            if kind != BOOL:
+                value = float(number) if number is not None else self.real(literal)
+                value = -value if negative else value
+            made = self.out.number(kind, value, special)
+            self.scopes[0][name] = Value(made, kind)
+            if kind in (INT, UINT) and number is not None:
+                self.plain[made] = number
+                self.counts.setdefault(number, (literal.start_byte, literal.end_byte))
+            self.specialised = self.specialised or special is not None
+            return
+        if special is not None:
+            raise self.no(node, "is not understood")
+        made_place = Place(self.out.variable(op.PRIVATE, kind), kind, op.PRIVATE)
+        self.scopes[0][name] = made_place
+        self.starts.append((made_place, given))
+
+    def block(self, node: Node, body: Node) -> None:
+        """A block of inputs, outputs, uniforms or a buffer."""
+        children = node.named_children
+        at = children.index(body)
+        named = children[at - 1] if at and children[at - 1].type in ("identifier", "type_identifier") else None
+        words, layout = self.qualifiers(node, named.start_byte if named is not None else body.start_byte)
+        storage = next((_STORAGE[word] for word in ("in", "out", "uniform", "buffer", "shared") if word in words), op.UNIFORM)
+        storage = op.PUSH_CONSTANT if "push_constant" in layout else op.UNIFORM if storage == op.UNIFORM_CONSTANT else storage
+        members = self.members(body)
+        label = self.of(named) if named is not None else f"block {node.start_byte}"
+        kind: Type = ("struct", f"{label} {node.start_byte}", tuple((name, own) for name, own, _ in members))
+        instance = next((child for child in children[at + 1 :] if child.type in ("identifier", "array_declarator")), None)
+        name, whole_kind = self.declarator(instance, kind) if instance is not None else ("", kind)
+        made = Place(self.out.variable(storage, whole_kind), whole_kind, storage)
+        self.decorated(made.pointer, {key: value for key, value in layout.items() if key != "location" or storage == op.INPUT}, storage)
+        type_id = self.out.type(kind)
+        for n, (member, _, own) in enumerate(members):
+            if "sample" in own | words and storage == op.INPUT:
+                self.out.decorate_member(type_id, n, op.SAMPLE)
+                self.out.capabilities.add(op.SAMPLE_RATE_SHADING)
+            if not name:
+                self.scopes[0][member] = (made, n)
+        if name:
+            self.scopes[0][name] = made
+
+    def of_language(self, name: str) -> Place | None:
+        """A built-in variable, declared where it is first used."""
+        storage = op.INPUT if name in INPUTS else op.OUTPUT
+        found = INPUTS.get(name) or OUTPUTS.get(name)
+        if name == "gl_FragColor":
+            made = Place(self.out.variable(op.OUTPUT, vector(FLOAT, 4)), vector(FLOAT, 4), op.OUTPUT)
+            self.out.decorate(made.pointer, op.LOCATION, 0)
+        elif found is None:
+            return None
+        else:
+            kind, number = found
+            made = Place(self.out.variable(storage, kind), kind, storage)
+            self.out.decorate(made.pointer, op.BUILT_IN, number)
+            if name in _SAMPLE_BUILT_INS:
+                self.out.capabilities.add(op.SAMPLE_RATE_SHADING)
+        self.scopes[0][name] = made
+        return made
+
+    def declared_function(self, node: Node) -> None:
+        declarator, typed = node.child_by_field_name("declarator"), node.child_by_field_name("type")
+        name = declarator.child_by_field_name("declarator") if declarator is not None else None
+        listed = declarator.child_by_field_name("parameters") if declarator is not None else None
+        returns = self.kind(self.of(typed)) if typed is not None else None
+        if name is None or listed is None or returns is None:
+            raise self.no(node, "is not understood")
+        parameters: list[tuple[Type, bool, str]] = []
+        for each in listed.named_children:
+            own, target = each.child_by_field_name("type"), each.child_by_field_name("declarator")
+            kind = self.kind(self.of(own)) if own is not None else None
+            if each.type != "parameter_declaration" or own is None or kind is None:
+                raise self.no(each, "is not understood")
+            if kind == VOID:
+                continue
+            words = set(_WORD.findall(self.text[each.start_byte : own.start_byte]))
+            called, kind = self.declarator(target, kind) if target is not None else ("", kind)
+            parameters.append((kind, bool(words & {"out", "inout"}), called))
+        function = Function(node, returns, tuple(parameters), self.out.id())
+        self.functions.setdefault(self.of(name), []).append(function)
+
+
+def is_unsized(node: Node) -> bool:
+    """Whether a declarator is of an array whose size its values say."""
+    return node.type == "array_declarator" and node.child_by_field_name("size") is None

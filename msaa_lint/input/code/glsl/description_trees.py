@@ -1,0 +1,180 @@
+"""GLSL that reads multisampled images, as trees in the form of a description: the images, a pipeline with the shader, the reads of a frame.
+
+What the shader does with the samples is asked of it as of a module of SPIR-V: `shader`. Of images nothing is known
+but that they are read; where a page shows code that makes them too, their sample count may be.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from msaa_lint.core.text.node import Node
+from msaa_lint.core.text.node_builder import mapping, scalar, sequence
+from msaa_lint.core.text.span import Span
+from msaa_lint.frame.spirv.reflect import Multisampled, Reflected, reflect
+from msaa_lint.frame.spirv.words import SpirvError
+from msaa_lint.input.code.parsing import Code, Read
+
+from .shader import Shader, shader
+from .text import NotRead, blanked
+
+RELEVANT = re.compile(r"\b[iu]?(?:sampler2DMS|texture2DMS|image2DMS|subpassInputMS)")
+
+NO_COLOUR = re.compile(r"depth|stencil|normal|position|velocity|motion|shadow|(?:^|_)ids?(?:_|$)", re.IGNORECASE)
+"""Names of images whose samples are not to be averaged, or whose average is no resolve of a colour."""
+
+MOST_SHADERS = 50
+"""Shaders of one page that are read."""
+
+_APART = re.compile(r"(?:[ \t\r]*\n){3,}")
+_MAIN = re.compile(r"\bvoid\s+main\s*\(")
+_VERSION = re.compile(r"^\s*#\s*version\b", re.MULTILINE)
+
+
+def trees(code: Code) -> list[Read]:
+    """What each shader reads, where it reads multisampled images. Missing where the grammar is not installed."""
+    if RELEVANT.search(code.text) is None:
+        return []
+    found: list[Read] = []
+    for start, end in _shaders(code):
+        text = blanked(code.text[:start]) + code.text[start:end]
+        try:
+            made = shader(text, code.fragments)
+            said = reflect(made.code)
+        except (NotRead, SpirvError):
+            continue
+        number = f"-{len(found) + 1}" if found else ""
+        name = f"{made.entry[:40]}{number}.{'comp' if made.stage == 'COMPUTE' else 'frag'}"
+        tree = _tree(made, said, name)
+        if tree is not None:
+            text = code.text[start:end].rstrip() + "\n"
+            text = text[len(text) - len(text.lstrip()) :]
+            found.append(Read(tree, (), {name: text.encode()} if made.stage == "FRAGMENT" else {}))
+    return found
+
+
+def _shaders(code: Code) -> Iterator[tuple[int, int]]:
+    """Where each shader stands: a file is one; those of a page are told by `#version`, by `main`, and by what is between its blocks."""
+    if not code.fragments:
+        yield 0, len(code.text)
+        return
+    text, count = code.text, 0
+    start = at = 0
+    for match in [*_APART.finditer(text), None]:
+        end = match.start() if match is not None else len(text)
+        block = text[at:end]
+        if _VERSION.search(block) is not None and text[start:at].strip():
+            if RELEVANT.search(text, start, at):
+                count += 1
+                yield start, at
+            start = at
+        if _MAIN.search(block) is not None or match is None:
+            if RELEVANT.search(text, start, end):
+                count += 1
+                yield start, end
+            start = end
+        if count >= MOST_SHADERS:
+            return
+        at = match.end() if match is not None else end
+
+
+def _tree(made: Shader, said: Reflected, module: str) -> Node | None:
+    """A shader as the frame that it is of: images that it reads, the reads, and the draw that does them."""
+    named = [(name, image) for name, image in _images(made, said) if NO_COLOUR.search(name) is None]
+    if not named or len(named) != len(said.images):
+        return None
+    places = {name: _fetched(made, name) for name, _ in named}
+    at = next(iter(places.values()))
+    images = [(name, Span(*made.images.get(name, at)), mapping([], places[name])) for name, _ in named]
+    reads = []
+    for name, image in named:
+        place = places[name]
+        members = [("image", place, scalar(name, place)), ("stage", place, scalar(made.stage, place))]
+        if made.stage == "COMPUTE" and image.resolves is not None:
+            members += [("samples", place, scalar("ALL", place)), ("resolves", place, scalar(image.resolves, place))]
+        reads.append(mapping([("readImage", place, mapping(members, place))], place))
+    sections = [("images", at, mapping(images, at))]
+    if made.stage == "FRAGMENT":
+        count = next((image.total for _, image in named), None)
+        bound = Span(*made.constants[count]) if count is not None and count in made.constants else at
+        stage = [
+            ("stage", at, scalar("FRAGMENT", at)),
+            ("module", at, scalar(module, at)),
+            ("specialization", bound, mapping([], bound)),
+        ]
+        stages = sequence([mapping(stage, at)], at)
+        pipeline = mapping([(made.entry, at, mapping([("stages", at, stages)], at))], at)
+        sections.append(("pipelines", at, pipeline))
+        draw = mapping([("pipeline", at, scalar(made.entry, at))], at)
+        reads.append(mapping([("draw", at, draw)], at))
+    sections.append(("commands", at, sequence(reads, at)))
+    return mapping(sections, Span(0, 0))
+
+
+def _images(made: Shader, said: Reflected) -> list[tuple[str, Multisampled]]:
+    """The images that are fetched from, by their names; none where it is not known which is which, or they are input attachments."""
+    if any(image.image.input_attachment is not None or image.image.element is not None for image in said.images):
+        return []
+    if len(said.images) == 1 and len(made.images) == 1:
+        return [(next(iter(made.images)), said.images[0])]
+    by_place = {(each, binding): name for name, (each, binding) in made.bindings.items()}
+    found = [(by_place.get((image.image.descriptor_set or 0, image.image.binding), ""), image) for image in said.images]
+    return found if all(name for name, _ in found) and len({name for name, _ in found}) == len(found) else []
+
+
+def _fetched(made: Shader, name: str) -> Span:
+    """Where an image is first fetched from: by its own name, else by any."""
+    found = next((fetch for fetch in made.fetches if fetch.image == name), made.fetches[0])
+    return Span(found.start, found.end)
+
+
+# Beside other code
+
+
+def beside(by_code: list[tuple[Code, list[Read]]]) -> list[tuple[Code, list[Read]]]:
+    """What is read of a page: images of its shaders with the sample count that all multisampled ones which its other code makes have.
+
+    Where that code sets specialisation constants, the shaders' own values of them are not known to count.
+    """
+    others = [(code, each) for code, own in by_code if code.language != "glsl" for each in own]
+    counts: dict[int, Span] = {}
+    for _, each in others:
+        counts = {**_counts(each.tree), **counts}
+    if len(counts) != 1 or 0 in counts or any("Specialization" in code.text for code, _ in others):
+        return by_code
+    ((count, at),) = counts.items()
+    return [
+        (code, [each._replace(tree=_with_count(each.tree, count, at)) for each in own] if code.language == "glsl" else own)
+        for code, own in by_code
+    ]
+
+
+def _counts(tree: Node) -> dict[int, Span]:
+    """The sample counts above one of a tree's images, attachments and pipelines, and where each is stated; 0 for one that is unknown."""
+    found: dict[int, Span] = {}
+    waiting = [tree.value[name] for name in ("images", "renderPasses", "pipelines") if tree.kind == "mapping" and name in tree.value]
+    while waiting:
+        node = waiting.pop()
+        for key, value in node.value.items() if node.kind == "mapping" else ():
+            if key in ("samples", "rasterizationSamples") and value.kind == "scalar":
+                from msaa_lint.frame.description.scalars import sample_count
+
+                count = sample_count(value.value)
+                if count is None:
+                    found.setdefault(0, value.span)
+                elif count > 1:
+                    found.setdefault(count, value.span)
+            else:
+                waiting.append(value)
+        if node.kind == "sequence":
+            waiting += node.value
+    return found
+
+
+def _with_count(tree: Node, count: int, at: Span) -> Node:
+    """A shader's tree whose images have a sample count."""
+    images = tree.value["images"]
+    known = [(name, images.keys[name].span, mapping([("samples", at, scalar(count, at))], at)) for name in images.value]
+    sections = [(key, tree.keys[key].span, value) for key, value in tree.value.items() if key != "images"]
+    return mapping([("images", images.span, mapping(known, images.span)), *sections], tree.span)

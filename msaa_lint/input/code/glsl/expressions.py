@@ -1,0 +1,224 @@
+"""Expressions of GLSL as SPIR-V: what glslang makes of them, where that matters to samples."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from msaa_lint.frame.spirv import numbers as op
+from msaa_lint.input.code.sample_counts.arithmetic import whole
+
+from .text import NotRead
+from .types import BOOL, DOUBLE, FLOAT, INT, UINT, scalar_of, size_of, vector
+from .values import DEEPEST, LOGICAL_AND, LOGICAL_NOT, LOGICAL_NOT_EQUAL, LOGICAL_OR, SELECT, SIGNS, Place, Value, Values, like
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
+
+FETCHES = ("texelFetch", "texelFetchOffset", "imageLoad", "subpassLoad")
+_REAL = re.compile(r"[-+]?(?:\d+\.\d*|\.\d+|\d+)(?:[eE][+-]?\d+)?")
+
+
+class Expressions(Values):
+    """The expressions of one shader."""
+
+    def value(self, node: Node, depth: int = 0) -> Value:
+        """What an expression gives."""
+        if depth > DEEPEST:
+            raise NotRead("its expressions are too deep")
+        kind, deeper = node.type, depth + 1
+        if kind == "number_literal":
+            return self.literal(node)
+        if kind in ("true", "false"):
+            return Value(self.out.number(BOOL, kind == "true"), BOOL)
+        if kind == "parenthesized_expression" and node.named_child_count == 1:
+            return self.value(node.named_children[0], deeper)
+        if kind == "identifier":
+            found = self.look(self.of(node))
+            if isinstance(found, Value):
+                return found
+        if kind in ("identifier", "field_expression", "subscript_expression"):
+            place = self.place(node, depth)
+            return self.loaded(place) if place is not None else self.taken(node, deeper)
+        if kind == "call_expression":
+            from .calls import called
+
+            return called(self, node, deeper)
+        if kind == "binary_expression":
+            return self.binary(node, deeper)
+        if kind == "assignment_expression":
+            return self.assigned(node, deeper)
+        if kind in ("unary_expression", "update_expression"):
+            return self.unary(node, deeper)
+        if kind == "conditional_expression":
+            return self.chosen(node, deeper)
+        if kind == "comma_expression":
+            for child in node.named_children[:-1]:
+                self.value(child, deeper)
+            return self.value(node.named_children[-1], deeper)
+        raise self.no(node, "is not followed")
+
+    def taken(self, node: Node, depth: int) -> Value:
+        """A part of a value."""
+        argument = node.child_by_field_name("argument")
+        if argument is None:
+            raise self.no(node, "is not followed")
+        base = self.value(argument, depth)
+        if node.type == "subscript_expression":
+            given = node.child_by_field_name("index")
+            kind = self.element(base.type, node)
+            index = self.value(given, depth) if given is not None else None
+            if index is None:
+                raise self.no(node, "is not followed")
+            if base.type[0] == "array":
+                variable = Place(self.out.variable(op.FUNCTION_LOCAL, base.type), base.type, op.FUNCTION_LOCAL)
+                self.stored(variable, base)
+                return self.loaded(self.chained(variable, kind, index.id))
+            return Value(self.out.made(77, kind, base.id, index.id), kind)
+        field = node.child_by_field_name("field")
+        name = self.of(field) if field is not None else ""
+        if base.type[0] != "struct":
+            return self.swizzled(base, self.letters(name, base.type, node))
+        members = base.type[2]
+        assert isinstance(members, tuple)
+        n = self.index(base.type, name, node)
+        return Value(self.out.made(op.COMPOSITE_EXTRACT, members[n][1], base.id, n), members[n][1])
+
+    def binary(self, node: Node, depth: int) -> Value:
+        left, right, sign = (node.child_by_field_name(each) for each in ("left", "right", "operator"))
+        if left is None or right is None or sign is None:
+            raise self.no(node, "is not followed")
+        operator = self.of(sign)
+        one = self.value(left, depth)
+        if operator in ("&&", "||"):
+            if self.has_effects(right):
+                return self.guarded(one, operator, right, depth)
+            other = self.value(right, depth)
+            return Value(self.out.made(LOGICAL_AND if operator == "&&" else LOGICAL_OR, BOOL, one.id, other.id), BOOL)
+        other = self.value(right, depth)
+        if operator == "^^":
+            return Value(self.out.made(LOGICAL_NOT_EQUAL, BOOL, one.id, other.id), BOOL)
+        if operator not in SIGNS:
+            raise self.no(node, "is not followed")
+        return self.arithmetic(operator, one, other)
+
+    def has_effects(self, node: Node) -> bool:
+        """Whether it matters that an expression is worked out: something is called or assigned in it."""
+        waiting = [node]
+        while waiting:
+            each = waiting.pop()
+            if each.type in ("assignment_expression", "update_expression"):
+                return True
+            if each.type == "call_expression":
+                function = each.child_by_field_name("function")
+                name = self.of(function) if function is not None else ""
+                if name in self.functions or name in FETCHES:
+                    return True
+            waiting += each.named_children
+        return False
+
+    def guarded(self, one: Value, operator: str, right: Node, depth: int) -> Value:
+        """`&&` and `||` whose second part is worked out only where it decides."""
+        kept = Place(self.out.variable(op.FUNCTION_LOCAL, BOOL), BOOL, op.FUNCTION_LOCAL)
+        self.stored(kept, one)
+        condition = one.id if operator == "&&" else self.out.made(LOGICAL_NOT, BOOL, one.id)
+        self.branch(condition, lambda: self.stored(kept, self.value(right, depth)), None)
+        return self.loaded(kept)
+
+    def branch(self, condition: int, then: Callable[[], None], other: Callable[[], None] | None) -> None:
+        """What is done where a condition holds, and where it does not."""
+        out = self.out
+        yes, no, merge = out.id(), out.id(), out.id()
+        out.do(op.SELECTION_MERGE, merge, 0)
+        out.do(op.BRANCH_CONDITIONAL, condition, yes, no if other is not None else merge)
+        out.do(op.LABEL, yes)
+        then()
+        out.do(op.BRANCH, merge)
+        if other is not None:
+            out.do(op.LABEL, no)
+            other()
+            out.do(op.BRANCH, merge)
+        out.do(op.LABEL, merge)
+
+    def chosen(self, node: Node, depth: int) -> Value:
+        test, then, other = (node.child_by_field_name(each) for each in ("condition", "consequence", "alternative"))
+        if test is None or then is None or other is None:
+            raise self.no(node, "is not followed")
+        condition = self.value(test, depth)
+        if not self.has_effects(then) and not self.has_effects(other):
+            one, two = self.value(then, depth), self.value(other, depth)
+            one, two = self.alike(one, two)
+            return Value(self.out.made(SELECT, one.type, condition.id, one.id, two.id), one.type)
+        kept: list[Place] = []
+
+        def keep(part: Node) -> None:
+            value = self.value(part, depth)
+            if not kept:
+                kept.append(Place(self.out.variable(op.FUNCTION_LOCAL, value.type), value.type, op.FUNCTION_LOCAL))
+            self.stored(kept[0], value)
+
+        self.branch(condition.id, lambda: keep(then), lambda: keep(other))
+        return self.loaded(kept[0])
+
+    def assigned(self, node: Node, depth: int) -> Value:
+        left, right, sign = (node.child_by_field_name(each) for each in ("left", "right", "operator"))
+        if left is None or right is None or sign is None:
+            raise self.no(node, "is not followed")
+        operator = self.of(sign)
+        value = self.value(right, depth)
+        place = self.place(left, depth)
+        if place is None:
+            raise self.no(left, "cannot be assigned to")
+        kind = vector(scalar_of(place.type), len(place.parts)) if place.parts else place.type
+        if operator != "=":
+            value = self.arithmetic(operator[:-1], self.loaded(place), value)
+        if value.type != kind:
+            value = self.as_type(value, kind)
+        self.stored(place, value)
+        return value
+
+    def unary(self, node: Node, depth: int) -> Value:
+        inner, sign = node.child_by_field_name("argument"), node.child_by_field_name("operator")
+        if inner is None or sign is None:
+            raise self.no(node, "is not followed")
+        operator = self.of(sign)
+        if operator in ("++", "--"):
+            place = self.place(inner, depth)
+            if place is None:
+                raise self.no(node, "is not followed")
+            before = self.loaded(place)
+            one = Value(self.out.number(scalar_of(before.type), like(scalar_of(before.type), 1)), scalar_of(before.type))
+            after = self.arithmetic(operator[0], before, one)
+            self.stored(place, after)
+            return after if sign.start_byte < inner.start_byte else before
+        value = self.value(inner, depth)
+        if operator == "+":
+            return value
+        if operator == "!":
+            return Value(self.out.made(LOGICAL_NOT, BOOL, value.id), BOOL)
+        if not size_of(value.type):
+            return self.opaque(operator, value.type, (value,))
+        if operator == "~":
+            return Value(self.out.made(200, value.type, value.id), value.type)
+        return Value(self.out.made(127 if scalar_of(value.type) in (FLOAT, DOUBLE) else 126, value.type, value.id), value.type)
+
+    def literal(self, node: Node) -> Value:
+        text = self.of(node)
+        number = whole(text)
+        if number is not None:
+            kind = UINT if text[-1] in "uU" else INT
+            return Value(self.out.number(kind, number), kind)
+        kind = DOUBLE if text.endswith(("lf", "LF")) else FLOAT
+        return Value(self.out.number(kind, self.real(node)), kind)
+
+    def real(self, node: Node) -> float:
+        """The number that a literal is."""
+        text = self.of(node)
+        match = _REAL.match(text)
+        if match is None or text[match.end() :] not in ("", "f", "F", "lf", "LF", "hf", "HF", "u", "U"):
+            raise self.no(node, "is no number")
+        real = float(match[0])
+        if abs(real) > 3e38:
+            raise self.no(node, "is too large a number")
+        return real

@@ -1,0 +1,131 @@
+"""A shader's text as SPIR-V: declarations, functions, statements. What is asked of it is then asked as of a module (`frame.spirv`).
+
+It is read as glslang reads it without options. What is not understood ends the reading: nothing is said of such a shader.
+"""
+
+# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
+import re
+from typing import NamedTuple
+
+from msaa_lint.frame.spirv import numbers as op
+from msaa_lint.input.code.parsing import ascii_only
+
+from .statements import Statements
+from .text import NotRead, prepared
+from .types import VOID, multisampled, size_of
+from .values import Place, Value
+
+_WORD = re.compile(r"\w+")
+_MODES = {
+    "pixel_interlock_ordered": 5366, "pixel_interlock_unordered": 5367,
+    "sample_interlock_ordered": 5368, "sample_interlock_unordered": 5369,
+}  # fmt: skip
+_FRAGMENT, _COMPUTE = 4, 5
+
+
+class Fetch(NamedTuple):
+    """Where samples are fetched: the image as it is named there, and the place of the call in the original text."""
+
+    image: str
+    start: int
+    end: int
+
+
+class Shader(NamedTuple):
+    """A shader: its module, its stage, the name of what was taken for its entry point, and where it fetches samples.
+
+    `images` are its multisampled images and where they are declared, `bindings` their descriptor sets and bindings; `constants` has where
+    the constants of a value stand, by that value; `specialised` says that some are specialisation constants.
+    """
+
+    code: bytes
+    stage: str
+    entry: str
+    fetches: tuple[Fetch, ...]
+    images: dict[str, tuple[int, int]]
+    bindings: dict[str, tuple[int, int | None]]
+    constants: dict[int, tuple[int, int]]
+    specialised: bool
+
+
+def shader(text: str, part: bool = False) -> Shader:
+    """A shader's text as a module. `part` says that it may lack `main`: then the function that fetches samples is its entry point.
+
+    NotRead where it cannot be followed; `parsing.Missing` where the extra is not installed.
+    """
+    return _Lowering(prepared(ascii_only(text))).shader(part)
+
+
+class _Lowering(Statements):
+    """One shader while it is read."""
+
+    @property
+    def compute(self) -> bool:
+        return "local_size_x" in " ".join(self.source.layouts)
+
+    def shader(self, part: bool) -> Shader:
+        for node in self.root.named_children:
+            self.outer(node)
+        entry = self.functions.get("main", [None])[0]
+        name = "main"
+        if entry is None or entry.node.child_by_field_name("body") is None:
+            entry = None
+        if entry is None and not part:
+            raise NotRead("it has no function `main`")
+        main = self.out.id()
+        self.out.begin()
+        for place, node in self.starts:
+            value = self.value(node)
+            self.stored(place, self.as_type(value, place.type) if size_of(place.type) else value)
+        if entry is not None:
+            self.called.append(entry)
+            self.out.do(op.FUNCTION_CALL, self.out.type(VOID), self.out.id(), entry.id)
+        else:
+            name = self.alone()
+        self.out.do(op.RETURN)
+        self.out.end(main, VOID, ())
+        done = 0
+        while done < len(self.called):
+            self.function(self.called[done])
+            done += 1
+        if len(self.unplaced) > 1:
+            raise NotRead("several of its outputs have no location")
+        for each in self.unplaced:
+            self.out.decorate(each, op.LOCATION, 0)
+        for layout in self.source.layouts:
+            self.out.modes += (_MODES[word] for word in _WORD.findall(layout) if word in _MODES)
+        at = self.source.place
+        fetches = tuple(Fetch(image, at(start), at(end - 1) + 1) for image, start, end in self.fetches)
+        code = self.out.module(_COMPUTE if self.compute else _FRAGMENT, main, "main")
+        images = {image: (at(start), at(end - 1) + 1) for image, (start, end) in self.images.items()}
+        constants = {count: (at(start), at(end - 1) + 1) for count, (start, end) in self.counts.items()}
+        stage = "COMPUTE" if self.compute else "FRAGMENT"
+        return Shader(code, stage, name, fetches, images, self.bindings, constants, self.specialised)
+
+    def alone(self) -> str:
+        """Calls the functions of a part of a shader that nothing in it calls, each with images and values of its own; the first's name."""
+        texts = {name: self.of(each.node) for name, found in self.functions.items() for each in found}
+        found = ""
+        for name, functions in self.functions.items():
+            function = functions[0]
+            if not any(multisampled(kind) for kind, _, _ in function.parameters) and "texelFetch" not in texts[name]:
+                continue
+            if any(re.search(rf"\b{name}\s*\(", text) for other, text in texts.items() if other != name):
+                continue
+            passed: list[int] = []
+            for kind, written, parameter in function.parameters:
+                storage = op.UNIFORM_CONSTANT if kind[0] == "opaque" else op.FUNCTION_LOCAL if written else op.INPUT
+                made = Place(self.out.variable(storage, kind), kind, storage)
+                if multisampled(kind):
+                    self.decorated(made.pointer, self.bound(parameter, {}), storage)
+                    self.images.setdefault(parameter, (function.node.start_byte, function.node.start_byte))
+                passed.append(made.pointer if written or kind[0] == "opaque" else self.loaded(made).id)
+            self.called.append(function)
+            result = self.out.made(op.FUNCTION_CALL, function.returns, function.id, *passed)
+            if function.returns != VOID:
+                output = Place(self.out.variable(op.OUTPUT, function.returns), function.returns, op.OUTPUT)
+                self.stored(output, Value(result, function.returns))
+            found = found or name
+        if not found:
+            raise NotRead("nothing in it fetches samples")
+        return found

@@ -1,0 +1,257 @@
+"""Statements of GLSL as SPIR-V, in the structured form in which glslang writes them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from msaa_lint.frame.spirv import numbers as op
+from msaa_lint.input.code.sample_counts.arithmetic import whole
+
+from .declarations import Declarations, is_unsized
+from .text import NotRead, Text
+from .types import BOOL, VOID, Type, size_of
+from .values import Function, Place, Value
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
+
+DEEPEST = 60
+"""Levels of blocks that are read."""
+
+
+class Statements(Declarations):
+    """The functions of one shader."""
+
+    def __init__(self, source: Text) -> None:
+        super().__init__(source)
+        self.leaves: list[tuple[int, int]] = []
+        """Of the loops and switches around: where `break` and `continue` lead."""
+        self.returns: Type = VOID
+        self.ended = False
+
+    def function(self, function: Function) -> None:
+        """The body of a function."""
+        body = function.node.child_by_field_name("body")
+        if body is None:
+            raise self.no(function.node, "has no body")
+        self.out.begin()
+        self.returns, self.ended, self.leaves = function.returns, False, []
+        passed: list[tuple[int, int]] = []
+        self.scopes.append({})
+        for kind, written, name in function.parameters:
+            given = self.out.id()
+            image = kind[0] == "opaque" or (kind[0] == "array" and isinstance(kind[1], tuple) and kind[1][0] == "opaque")
+            if image or written:
+                storage = op.UNIFORM_CONSTANT if image else op.FUNCTION_LOCAL
+                passed.append((self.out.pointer(storage, kind), given))
+                self.scopes[-1][name] = Place(given, kind, storage)
+                continue
+            passed.append((self.out.type(kind), given))
+            own = Place(self.out.variable(op.FUNCTION_LOCAL, kind), kind, op.FUNCTION_LOCAL)
+            self.out.do(op.STORE, own.pointer, given)
+            self.scopes[-1][name] = own
+        self.statements(body, 0)
+        self.scopes.pop()
+        if not self.ended:
+            if function.returns == VOID:
+                self.out.do(op.RETURN)
+            else:
+                self.out.do(op.UNREACHABLE)
+        self.out.end(function.id, function.returns, passed)
+
+    def go(self, number: int, *operands: int) -> None:
+        """Ends a block, unless it has ended."""
+        if not self.ended:
+            self.out.do(number, *operands)
+        self.ended = True
+
+    def label(self, label: int) -> None:
+        """Begins a block; the one before leads to it, unless it has ended."""
+        if not self.ended:
+            self.out.do(op.BRANCH, label)
+        self.out.do(op.LABEL, label)
+        self.ended = False
+
+    def live(self) -> None:
+        """What follows an end is a block that nothing leads to."""
+        if self.ended:
+            self.out.do(op.LABEL, self.out.id())
+            self.ended = False
+
+    def statements(self, node: Node, depth: int) -> None:
+        if depth > DEEPEST:
+            raise NotRead("its blocks are too deep")
+        if node.type == "compound_statement":
+            self.scopes.append({})
+            for child in node.named_children:
+                self.statement(child, depth + 1)
+            self.scopes.pop()
+        else:
+            self.statement(node, depth + 1)
+
+    def statement(self, node: Node, depth: int) -> None:
+        kind = node.type
+        if kind in ("comment", ";"):
+            return
+        self.live()
+        if kind == "compound_statement":
+            self.statements(node, depth)
+        elif kind == "declaration":
+            self.local(node)
+        elif kind == "expression_statement":
+            self.expression(node)
+        elif kind == "return_statement":
+            given = next((child for child in node.named_children if child.type != "comment"), None)
+            if given is None:
+                self.go(op.RETURN)
+            else:
+                value = self.value(given)
+                value = self.as_type(value, self.returns) if size_of(self.returns) else value
+                self.go(op.RETURN_VALUE, value.id)
+        elif kind == "if_statement":
+            self.conditional(node, depth)
+        elif kind in ("for_statement", "while_statement", "do_statement"):
+            self.loop(node, depth)
+        elif kind == "switch_statement":
+            self.switch(node, depth)
+        elif kind in ("break_statement", "continue_statement"):
+            if not self.leaves:
+                raise self.no(node, "is not understood")
+            ways = [way[kind == "continue_statement"] for way in self.leaves if way[kind == "continue_statement"]]
+            if not ways:
+                raise self.no(node, "is not understood")
+            self.go(op.BRANCH, ways[-1])
+        else:
+            raise self.no(node, "is not understood")
+
+    def expression(self, node: Node) -> None:
+        child = next((each for each in node.named_children if each.type != "comment"), None)
+        if child is None:
+            return
+        if child.type == "identifier" and self.of(child) in ("discard", "terminateInvocation"):
+            self.go(op.KILL)
+        elif child.type == "identifier" and self.of(child) == "demote":
+            self.out.do(op.DEMOTE)
+        else:
+            self.value(child)
+
+    def local(self, node: Node) -> None:
+        """Variables of a function."""
+        typed = node.child_by_field_name("type")
+        kind = self.kind(self.of(typed)) if typed is not None else None
+        if kind is None or kind[0] == "opaque":
+            raise self.no(node, "is of no type that is known")
+        for declarator in node.children_by_field_name("declarator"):
+            given = declarator.child_by_field_name("value") if declarator.type == "init_declarator" else None
+            target = declarator.child_by_field_name("declarator") if declarator.type == "init_declarator" else declarator
+            own = kind
+            if given is not None and target is not None and is_unsized(target):
+                own, target = self.of_list(given, kind), target.child_by_field_name("declarator")
+            if target is None:
+                raise self.no(node, "is not understood")
+            name, own = self.declarator(target, own)
+            value = self.value(given) if given is not None and given.type != "initializer_list" else None
+            place = Place(self.out.variable(op.FUNCTION_LOCAL, own), own, op.FUNCTION_LOCAL)
+            self.scopes[-1][name] = place
+            if value is not None:
+                self.stored(place, self.as_type(value, own) if size_of(own) else value)
+            elif given is not None:
+                raise self.no(given, "is not followed")
+
+    def truth(self, node: Node | None) -> int:
+        """The id of a condition."""
+        if node is None:
+            return self.out.number(BOOL, True)
+        value = self.value(node)
+        if value.type != BOOL:
+            raise self.no(node, "is no condition")
+        return value.id
+
+    def conditional(self, node: Node, depth: int) -> None:
+        then, other = node.child_by_field_name("consequence"), node.child_by_field_name("alternative")
+        condition = self.truth(node.child_by_field_name("condition"))
+        yes, no, merge = self.out.id(), self.out.id(), self.out.id()
+        self.out.do(op.SELECTION_MERGE, merge, 0)
+        self.go(op.BRANCH_CONDITIONAL, condition, yes, no if other is not None else merge)
+        self.label(yes)
+        if then is not None:
+            self.statements(then, depth)
+        self.go(op.BRANCH, merge)
+        if other is not None:
+            self.label(no)
+            inner = next((child for child in other.named_children if child.type != "comment"), None)
+            if inner is not None:
+                self.statements(inner if other.type == "else_clause" else other, depth)
+            self.go(op.BRANCH, merge)
+        self.label(merge)
+
+    def loop(self, node: Node, depth: int) -> None:
+        out = self.out
+        self.scopes.append({})
+        first = node.child_by_field_name("initializer")
+        if first is not None:
+            if first.type == "declaration":
+                self.local(first)
+            else:
+                self.value(first)
+        condition, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
+        header, test, begin, again, merge = out.id(), out.id(), out.id(), out.id(), out.id()
+        self.label(header)
+        out.do(op.LOOP_MERGE, merge, again, 0)
+        after = node.type == "do_statement"
+        self.go(op.BRANCH, begin if after else test)
+        if not after:
+            self.label(test)
+            self.go(op.BRANCH_CONDITIONAL, self.truth(condition), begin, merge)
+        self.label(begin)
+        self.leaves.append((merge, again))
+        if body is not None:
+            self.statements(body, depth)
+        self.leaves.pop()
+        self.go(op.BRANCH, again)
+        self.label(again)
+        update = node.child_by_field_name("update")
+        if update is not None:
+            self.value(update)
+        if after:
+            self.go(op.BRANCH_CONDITIONAL, self.truth(condition), header, merge)
+        else:
+            self.go(op.BRANCH, header)
+        self.label(merge)
+        self.scopes.pop()
+
+    def switch(self, node: Node, depth: int) -> None:
+        out = self.out
+        condition, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
+        if condition is None or body is None:
+            raise self.no(node, "is not understood")
+        selector = self.value(condition)
+        cases = [child for child in body.named_children if child.type == "case_statement"]
+        merge = out.id()
+        labels = [out.id() for _ in cases]
+        pairs: list[int] = []
+        default = merge
+        for case, label in zip(cases, labels, strict=True):
+            given = case.child_by_field_name("value")
+            if given is None:
+                default = label
+                continue
+            number = whole(self.of(given))
+            found = self.look(self.of(given)) if number is None and given.type == "identifier" else None
+            number = self.plain.get(found.id) if isinstance(found, Value) else number
+            if number is None:
+                raise self.no(case, "is not followed")
+            pairs += (number, label)
+        out.do(op.SELECTION_MERGE, merge, 0)
+        self.go(op.SWITCH, selector.id, default, *pairs)
+        self.leaves.append((merge, 0))
+        self.scopes.append({})
+        for case, label in zip(cases, labels, strict=True):
+            self.label(label)
+            given = case.child_by_field_name("value")
+            for child in case.named_children:
+                if child != given:
+                    self.statement(child, depth)
+        self.scopes.pop()
+        self.leaves.pop()
+        self.label(merge)

@@ -1,0 +1,231 @@
+"""GLSL before it is parsed: comments and directives blanked, conditions decided, macros expanded (GLSL 4.60, 3.3).
+
+What the file does not define is not defined: as for glslang without options.
+"""
+
+# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
+import re
+from bisect import bisect_right
+from typing import NamedTuple
+
+MOST_TEXT = 1 << 20
+"""Characters of a shader, and of what its macros make of it."""
+
+MOST_EXPANDED = 1 << 17
+"""Characters of what one macro stands for."""
+
+MOST_NESTED = 16
+"""Macros within macros."""
+
+MOST_MACROS = 500
+
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)", re.DOTALL)
+_VISIBLE = re.compile(r"[^\n]")
+_DIRECTIVE = re.compile(r"[ \t]*#[ \t]*(\w*)[ \t]*(.*)", re.DOTALL)
+_DEFINE = re.compile(r"(\w+)(\([^()]*\))?[ \t]*(.*)", re.DOTALL)
+_TOKEN = re.compile(r"[A-Za-z_]\w*|\.?[0-9](?:[eE][+-]|[\w.])*|\s+|.", re.DOTALL)
+_DEFINED = re.compile(r"\bdefined\s*(?:\(\s*(\w+)\s*\)|(\w+))")
+_ALONE = re.compile(
+    r"\blayout\s*\(([^()]*)\)\s*(?:in|out)\s*;|\bprecision\s+\w+\s+\w+\s*;|\b(?:invariant|precise)\s+[\w,\s]+;(?=\s*(?:\n|$))"
+)
+
+
+class NotRead(Exception):
+    """The shader cannot be followed: why, in words."""
+
+
+class Macro(NamedTuple):
+    """What stands for a name; `parameters` is None where it takes none."""
+
+    parameters: tuple[str, ...] | None
+    body: str
+
+
+class Text(NamedTuple):
+    """What is parsed: the text, where its pieces stand in the original (their offsets in both), and what `layout(...) in;` says."""
+
+    text: str
+    pieces: tuple[tuple[int, int], ...]
+    layouts: tuple[str, ...]
+
+    def place(self, offset: int) -> int:
+        """Where an offset stands in the original."""
+        index = bisect_right(self.pieces, (offset, 1 << 60)) - 1
+        start, original = self.pieces[index] if index >= 0 else (0, 0)
+        following = self.pieces[index + 1][1] if index + 1 < len(self.pieces) else 1 << 60
+        return min(original + offset - start, max(following - 1, original))
+
+
+def blanked(text: str) -> str:
+    """A text with a blank for each character but line ends."""
+    return _VISIBLE.sub(" ", text)
+
+
+def prepared(text: str) -> Text:
+    """A shader as it is parsed. NotRead where a directive is not understood."""
+    if len(text) > MOST_TEXT:
+        raise NotRead("it is too long")
+    text = _COMMENT.sub(lambda match: blanked(match[0]), text.replace("\r", " "))
+    out: list[str] = []
+    pieces: list[tuple[int, int]] = []
+    made = at = 0
+    macros: dict[str, Macro] = {"GL_core_profile": Macro(None, "1"), "VULKAN": Macro(None, "100"), "__VERSION__": Macro(None, "450")}
+    taken: list[tuple[bool, bool]] = []
+    """Of each condition around: whether this part is taken, and whether one of it was."""
+    lines = re.findall(r"(?:[^\n\\]|\\\n|\\)*(?:\n|\Z)", text)
+    for line in lines:
+        directive = _DIRECTIVE.match(line) if "#" in line else None
+        part = line
+        if directive is not None:
+            _follow(directive[1], directive[2].replace("\\\n", "").strip(), macros, taken)
+            part = blanked(line)
+        elif taken and not all(each for each, _ in taken):
+            part = blanked(line)
+        else:
+            made, part = _expanded(line, at, made, macros, pieces, out)
+        if part:
+            pieces.append((made, at))
+            out.append(part)
+            made += len(part)
+        at += len(line)
+        if made > MOST_TEXT:
+            raise NotRead("its macros make too much of it")
+    layouts: list[str] = []
+
+    def noted(match: re.Match[str]) -> str:
+        layouts.append(match[1] or "")
+        return blanked(match[0])
+
+    whole = _ALONE.sub(noted, "".join(out))
+    return Text(whole, tuple(pieces), tuple(layouts))
+
+
+def _follow(name: str, rest: str, macros: dict[str, Macro], taken: list[tuple[bool, bool]]) -> None:
+    """A directive."""
+    live = all(each for each, _ in taken)
+    if name in ("ifdef", "ifndef"):
+        word = rest.split()[0] if rest.split() else ""
+        holds = (word in macros) == (name == "ifdef")
+        taken.append((holds, holds))
+    elif name == "if":
+        holds = live and _holds(rest, macros)
+        taken.append((holds, holds))
+    elif name in ("else", "elif") and taken:
+        _, before = taken.pop()
+        outer = all(each for each, _ in taken)
+        holds = not before and (name == "else" or (outer and _holds(rest, macros)))
+        taken.append((holds, before or holds))
+    elif name == "endif" and taken:
+        taken.pop()
+    elif name == "define" and live:
+        match = _DEFINE.fullmatch(rest)
+        if match is not None:
+            parameters = tuple(word.strip() for word in match[2][1:-1].split(",") if word.strip()) if match[2] else None
+            macros[match[1]] = Macro(parameters, match[3].strip())
+            if len(macros) > MOST_MACROS:
+                raise NotRead("it has too many macros")
+    elif name == "undef" and live:
+        macros.pop(rest, None)
+    # What `include` has may be anything; what is missing then ends the reading where it is used.
+
+
+def _holds(condition: str, macros: dict[str, Macro]) -> bool:
+    """Whether a condition of `#if` holds; NotRead where that is not plain."""
+    text = _DEFINED.sub(lambda match: "1" if (match[1] or match[2]) in macros else "0", condition)
+    text = _all(text, macros, 0)
+    text = re.sub(r"\b[A-Za-z_]\w*\b", "0", text)
+    from msaa_lint.input.code.sample_counts.arithmetic import condition_holds
+
+    answer = condition_holds(text)
+    if answer is None:
+        raise NotRead(f"`#if {condition[:40]}` is not understood")
+    return answer
+
+
+def _expanded(line: str, at: int, made: int, macros: dict[str, Macro], pieces: list[tuple[int, int]], out: list[str]) -> tuple[int, str]:
+    """Puts out the pieces of a line up to its last macro; gives how much was put out, and the rest, blanked where it is done."""
+    if not any(name in line for name in macros):
+        return made, line
+    position = 0
+    tokens = [(match[0], match.start(), match.end()) for match in _TOKEN.finditer(line)]
+    index = 0
+    while index < len(tokens):
+        word, start, end = tokens[index]
+        macro = macros.get(word)
+        index += 1
+        if macro is None:
+            continue
+        given: list[str] | None = None
+        if macro.parameters is not None:
+            found = _arguments(tokens, index)
+            if found is None:
+                continue
+            given, index = found
+            end = tokens[index - 1][2]
+        body = _all(_filled(macro, given), {name: each for name, each in macros.items() if name != word}, 0)
+        for text, original in ((line[position:start], at + position), (body, at + start)):
+            if text:
+                pieces.append((made, original))
+                out.append(text)
+                made += len(text)
+        position = end
+    if position:
+        rest = line[position:]
+        if rest:
+            pieces.append((made, at + position))
+            out.append(rest)
+        return made + len(rest), ""
+    return made, line
+
+
+def _arguments(tokens: list[tuple[str, int, int]], index: int) -> tuple[list[str], int] | None:
+    """The arguments of a macro in parentheses, and the token after them."""
+    while index < len(tokens) and tokens[index][0].isspace():
+        index += 1
+    if index >= len(tokens) or tokens[index][0] != "(":
+        return None
+    depth, given = 0, [""]
+    for n in range(index, len(tokens)):
+        word = tokens[n][0]
+        depth += (word == "(") - (word == ")")
+        if depth == 0:
+            return [each.strip() for each in given], n + 1
+        if word == "," and depth == 1:
+            given.append("")
+        elif n > index:
+            given[-1] += word
+    return None
+
+
+def _filled(macro: Macro, given: list[str] | None) -> str:
+    if not macro.parameters or given is None:
+        return macro.body
+    values = dict(zip(macro.parameters, given, strict=False))
+    return "".join(values.get(match[0], match[0]) for match in _TOKEN.finditer(macro.body))
+
+
+def _all(text: str, macros: dict[str, Macro], depth: int) -> str:
+    """A text with its macros expanded."""
+    if len(text) > MOST_EXPANDED:
+        raise NotRead("its macros make too much of it")
+    tokens = [(match[0], match.start(), match.end()) for match in _TOKEN.finditer(text)]
+    if depth > MOST_NESTED or not any(word in macros for word, _, _ in tokens):
+        return text
+    out: list[str] = []
+    index = size = 0
+    while index < len(tokens):
+        word = tokens[index][0]
+        macro = macros.get(word)
+        index += 1
+        if macro is not None and macro.parameters is None:
+            word = _all(macro.body, {name: each for name, each in macros.items() if name != word}, depth + 1)
+        elif macro is not None:
+            found = _arguments(tokens, index)
+            if found is not None:
+                body = _filled(macro, found[0])
+                word, index = _all(body, {name: each for name, each in macros.items() if name != word}, depth + 1), found[1]
+        out.append(word)
+        size += len(word)
+        if size > MOST_EXPANDED:
+            raise NotRead("its macros make too much of it")
+    return "".join(out)

@@ -1,0 +1,317 @@
+"""Values and places of GLSL as SPIR-V: what is loaded and stored, conversions, constructors, arithmetic."""
+
+# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
+import zlib
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+from msaa_lint.frame.spirv import numbers as op
+
+from .assembly import Assembly
+from .text import NotRead
+from .types import BOOL, DOUBLE, FLOAT, INT, UINT, Type, named, scalar_of, size_of, vector
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
+
+DEEPEST = 80
+"""Levels of an expression that are read."""
+
+SIGNS: dict[str, tuple[int, int, int]] = {
+    "+": (128, 128, 129), "-": (130, 130, 131), "*": (132, 132, 133), "/": (135, 134, 136), "%": (139, 137, 141),
+    "<": (177, 176, 184), ">": (173, 172, 186), "<=": (179, 178, 188), ">=": (175, 174, 190), "==": (170, 170, 180), "!=": (171, 171, 182),
+    "<<": (196, 196, 196), ">>": (195, 194, 194), "&": (199, 199, 199), "|": (197, 197, 197), "^": (198, 198, 198),
+}  # fmt: skip
+"""The instructions of an operator for int, uint and float."""
+
+_COMPARES = ("<", ">", "<=", ">=", "==", "!=")
+_LETTERS = {letter: n % 4 for n, letter in enumerate("xyzwrgbastpq")}
+LOGICAL_OR, LOGICAL_AND, LOGICAL_NOT, LOGICAL_EQUAL, LOGICAL_NOT_EQUAL, SELECT = 166, 167, 168, 164, 165, 169
+
+
+class Value(NamedTuple):
+    """A value and its type."""
+
+    id: int
+    type: Type
+
+
+class Place(NamedTuple):
+    """What a pointer points to, of which only some components may be meant."""
+
+    pointer: int
+    type: Type
+    storage: int
+    parts: tuple[int, ...] = ()
+
+
+class Function(NamedTuple):
+    """A function of the shader: its syntax, its type, and for each parameter the type, whether it is written back, and its name."""
+
+    node: "Node"
+    returns: Type
+    parameters: tuple[tuple[Type, bool, str], ...]
+    id: int
+
+
+Named = Place | Value | tuple[Place, int]
+"""What a name stands for: a variable, a constant, a member of a block."""
+
+
+class Values:
+    """The values of one shader. `scopes` are the names that are known, the innermost last."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.out = Assembly()
+        self.scopes: list[dict[str, Named]] = [{}]
+        self.structs: dict[str, Type] = {}
+        self.functions: dict[str, list[Function]] = {}
+        self.called: list[Function] = []
+        """Functions in the order in which they were first called."""
+        self.fetches: list[tuple[str, int, int]] = []
+        """Where samples are fetched: the name of the image, and the place of the call."""
+        self.built_in: Callable[[str], Place | None] = lambda name: None
+
+    def of(self, node: "Node") -> str:
+        return self.text[node.start_byte : node.end_byte]
+
+    def no(self, node: "Node", why: str) -> NotRead:
+        return NotRead(f"`{' '.join(self.of(node)[:40].split())}` {why}")
+
+    def kind(self, name: str) -> Type | None:
+        """The type of a name."""
+        return self.structs.get(name) or named(name)
+
+    def look(self, name: str) -> Named | None:
+        for scope in reversed(self.scopes):
+            if name in scope:
+                return scope[name]
+        return self.built_in(name)
+
+    def value(self, node: "Node", depth: int = 0) -> Value:
+        """What an expression gives."""
+        raise NotImplementedError
+
+    # Places
+
+    def place(self, node: "Node", depth: int = 0) -> Place | None:
+        """What can be assigned to, or loaded; None where it is a value alone."""
+        if depth > DEEPEST:
+            raise NotRead("its expressions are too deep")
+        if node.type == "parenthesized_expression" and node.named_child_count == 1:
+            return self.place(node.named_children[0], depth + 1)
+        if node.type == "identifier":
+            found = self.look(self.of(node))
+            if found is None:
+                raise self.no(node, "is not declared in it")
+            if isinstance(found, Place):
+                return found
+            if isinstance(found, Value):
+                return None
+            block, index = found
+            return self.member(block, index)
+        if node.type not in ("field_expression", "subscript_expression"):
+            return None
+        argument = node.child_by_field_name("argument")
+        base = self.place(argument, depth + 1) if argument is not None else None
+        if base is None:
+            return None
+        if node.type == "subscript_expression":
+            index_node = node.child_by_field_name("index")
+            if index_node is None or base.parts:
+                return None
+            return self.chained(base, self.element(base.type, node), self.value(index_node, depth + 1).id)
+        field = node.child_by_field_name("field")
+        name = self.of(field) if field is not None else ""
+        if base.type[0] == "struct":
+            return self.member(base, self.index(base.type, name, node))
+        parts = self.letters(name, base.type, node)
+        return base._replace(parts=tuple(base.parts[each] for each in parts) if base.parts else parts)
+
+    def member(self, base: Place, index: int) -> Place:
+        members = base.type[2]
+        assert isinstance(members, tuple)
+        return self.chained(base, members[index][1], self.out.number(INT, index))
+
+    def chained(self, base: Place, kind: Type, index: int) -> Place:
+        pointer = self.out.id()
+        self.out.do(op.ACCESS_CHAIN, self.out.pointer(base.storage, kind), pointer, base.pointer, index)
+        return Place(pointer, kind, base.storage)
+
+    def element(self, kind: Type, node: "Node") -> Type:
+        """The type of what an index takes."""
+        if kind[0] in ("array", "vec"):
+            inner = kind[1]
+            assert isinstance(inner, tuple)
+            return inner
+        if kind[0] == "mat":
+            return ("vec", FLOAT, kind[2])
+        raise self.no(node, "is not followed")
+
+    def index(self, kind: Type, name: str, node: "Node") -> int:
+        """The number of a structure's member."""
+        members = kind[2]
+        assert isinstance(members, tuple)
+        for n, (member, _) in enumerate(members):
+            if member == name:
+                return n
+        raise self.no(node, "names no member")
+
+    def letters(self, name: str, kind: Type, node: "Node") -> tuple[int, ...]:
+        """The components that a swizzle takes."""
+        size = size_of(kind)
+        parts = tuple(_LETTERS.get(letter, 9) for letter in name)
+        if not 0 < len(parts) <= 4 or any(part >= size for part in parts):
+            raise self.no(node, "is not followed")
+        return parts
+
+    def loaded(self, place: Place) -> Value:
+        whole = Value(self.out.made(op.LOAD, place.type, place.pointer), place.type)
+        return self.swizzled(whole, place.parts) if place.parts else whole
+
+    def swizzled(self, value: Value, parts: tuple[int, ...]) -> Value:
+        if size_of(value.type) == 1:
+            return self.constructed(vector(value.type, len(parts)), [value]) if len(parts) > 1 else value
+        kind = vector(scalar_of(value.type), len(parts))
+        if len(parts) == 1:
+            return Value(self.out.made(op.COMPOSITE_EXTRACT, kind, value.id, parts[0]), kind)
+        return Value(self.out.made(op.VECTOR_SHUFFLE, kind, value.id, value.id, *parts), kind)
+
+    def stored(self, place: Place, value: Value) -> None:
+        out = self.out
+        if not place.parts:
+            out.do(op.STORE, place.pointer, self.as_type(value, place.type).id)
+            return
+        scalar = scalar_of(place.type)
+        value = self.as_type(value, vector(scalar, len(place.parts)))
+        if len(place.parts) == 1 and size_of(place.type) > 1:
+            part = self.chained(place, scalar, out.number(INT, place.parts[0]))
+            out.do(op.STORE, part.pointer, value.id)
+            return
+        if size_of(place.type) == 1:
+            out.do(op.STORE, place.pointer, value.id)
+            return
+        before = self.loaded(place._replace(parts=()))
+        size = size_of(place.type)
+        order = [size + place.parts.index(n) if n in place.parts else n for n in range(size)]
+        out.do(op.STORE, place.pointer, out.made(op.VECTOR_SHUFFLE, place.type, before.id, value.id, *order))
+
+    # Values
+
+    def as_type(self, value: Value, kind: Type) -> Value:
+        """A value by GLSL's conversions, or a constructor's, of scalars and vectors of one size."""
+        if value.type == kind:
+            return value
+        one, other = scalar_of(value.type), scalar_of(kind)
+        size = size_of(kind)
+        if not size or size_of(value.type) != size:
+            raise NotRead(f"a {shown(value.type)} is made a {shown(kind)}, which is not followed")
+        if one == BOOL:
+            yes, no = (self.splat(Value(self.out.number(other, like(other, n)), other), size).id for n in (1, 0))
+            return Value(self.out.made(SELECT, kind, value.id, yes, no), kind)
+        if other == BOOL:
+            zero = self.splat(Value(self.out.number(one, like(one, 0)), one), size)
+            return Value(self.out.made(SIGNS["!="][column(one)], kind, value.id, zero.id), kind)
+        real, made_real = one in (FLOAT, DOUBLE), other in (FLOAT, DOUBLE)
+        number = 115 if real and made_real else 111 if one == INT and made_real else 112 if made_real else 110 if other == INT else 109
+        if not real and not made_real:
+            number = 124
+        return Value(self.out.made(number, kind, value.id), kind)
+
+    def splat(self, value: Value, size: int) -> Value:
+        if size == 1:
+            return value
+        kind = vector(value.type, size)
+        return Value(self.out.made(op.COMPOSITE_CONSTRUCT, kind, *[value.id] * size), kind)
+
+    def constructed(self, kind: Type, given: Sequence[Value]) -> Value:
+        """What a constructor of a scalar or vector makes."""
+        size, scalar = size_of(kind), scalar_of(kind)
+        if not given or any(not size_of(each.type) for each in given):
+            return self.opaque("construct", kind, given)
+        if len(given) == 1 and size_of(given[0].type) == 1:
+            return self.splat(self.as_type(given[0], scalar), size)
+        if len(given) == 1 and size_of(given[0].type) >= size:
+            whole = given[0] if size_of(given[0].type) == size else self.swizzled(given[0], tuple(range(size)))
+            return self.as_type(whole, kind)
+        parts = [self.as_type(each, vector(scalar, size_of(each.type))) for each in given]
+        if sum(size_of(each.type) for each in parts) != size:
+            single = [self.swizzled(each, (n,)) for each in parts for n in range(size_of(each.type))]
+            parts = single[:size]
+            if len(parts) < size:
+                raise NotRead(f"a {shown(kind)} is made of too little")
+        return Value(self.out.made(op.COMPOSITE_CONSTRUCT, kind, *(each.id for each in parts)), kind)
+
+    def opaque(self, name: str, kind: Type, given: Sequence[Value]) -> Value:
+        """What is made of values in a way that is not followed, the same of the same."""
+        # Not one of the numbers that mean something to those who follow.
+        number = 1000 + zlib.crc32(name.encode()) % 1_000_000
+        if len(given) > 64:
+            raise NotRead("a function has too many arguments")
+        return Value(self.out.made(op.EXT_INST, kind, self.out.extended, number, *(each.id for each in given)), kind)
+
+    def arithmetic(self, sign: str, one: Value, other: Value) -> Value:
+        """What an operator gives."""
+        out = self.out
+        if "mat" in (one.type[0], other.type[0]):
+            return self.opaque(sign, _of_matrix(sign, one.type, other.type), (one, other))
+        if not size_of(one.type) or not size_of(other.type):
+            if sign in ("==", "!="):
+                return self.opaque(sign, BOOL, (one, other))
+            raise NotRead(f"`{sign}` of a {shown(one.type)} is not followed")
+        kinds = [scalar_of(each.type) for each in (one, other)]
+        scalar: Type = next((kind for kind in (DOUBLE, FLOAT, UINT, INT) if kind in kinds), BOOL)
+        size = max(size_of(one.type), size_of(other.type))
+        if BOOL in kinds and sign not in ("==", "!="):
+            raise NotRead(f"`{sign}` of a bool is not followed")
+        if sign in ("<<", ">>"):
+            scalar = kinds[0]
+        one, other = (self.as_type(each, vector(scalar, size_of(each.type))) for each in (one, other))
+        if sign == "*" and scalar == FLOAT and size_of(one.type) != size_of(other.type):
+            wide, narrow = (one, other) if size_of(one.type) > 1 else (other, one)
+            return Value(out.made(142, wide.type, wide.id, narrow.id), wide.type)
+        one, other = (self.splat(each, size) if size_of(each.type) == 1 else each for each in (one, other))
+        if size_of(one.type) != size_of(other.type):
+            raise NotRead(f"`{sign}` of vectors of different sizes")
+        if sign in _COMPARES:
+            number = SIGNS[sign][column(scalar)] if scalar != BOOL else LOGICAL_EQUAL if sign == "==" else LOGICAL_NOT_EQUAL
+            made = Value(out.made(number, vector(BOOL, size), one.id, other.id), vector(BOOL, size))
+            return made if size == 1 else Value(out.made(155 if sign == "==" else 154, BOOL, made.id), BOOL)
+        kind = vector(scalar, size)
+        return Value(out.made(SIGNS[sign][column(scalar)], kind, one.id, other.id), kind)
+
+    def alike(self, one: Value, other: Value) -> tuple[Value, Value]:
+        """Two values made of one type."""
+        if one.type == other.type or not size_of(one.type):
+            return one, other
+        kinds = [scalar_of(each.type) for each in (one, other)]
+        scalar = next((kind for kind in (DOUBLE, FLOAT, UINT, INT) if kind in kinds), BOOL)
+        first, second = (self.as_type(each, vector(scalar, size_of(each.type))) for each in (one, other))
+        return first, second
+
+
+def column(scalar: Type) -> int:
+    return 2 if scalar in (FLOAT, DOUBLE) else 1 if scalar == UINT else 0
+
+
+def like(scalar: Type, number: int) -> float | bool:
+    return bool(number) if scalar == BOOL else float(number) if scalar in (FLOAT, DOUBLE) else number
+
+
+def _of_matrix(sign: str, one: Type, other: Type) -> Type:
+    """The type of what an operator makes of a matrix and something."""
+    if sign in ("==", "!="):
+        return BOOL
+    if sign == "*" and one[0] == "mat" and other[0] == "vec":
+        return ("vec", FLOAT, one[2])
+    if sign == "*" and one[0] == "vec" and other[0] == "mat":
+        return ("vec", FLOAT, other[1])
+    if sign == "*" and one[0] == other[0] == "mat":
+        return ("mat", other[1], one[2])
+    return one if one[0] == "mat" else other
+
+
+def shown(kind: Type) -> str:
+    """A type in words."""
+    return f"{kind[1][0] if isinstance(kind[1], tuple) else kind[1]} {kind[0]}" if len(kind) > 1 else str(kind[0])

@@ -1,0 +1,119 @@
+"""How C and C++ find their sample count in the masks of VkPhysicalDeviceLimits, as the section `sampleCountChoices` of a description.
+
+Masks are followed through variables, functions and members; the bits that are tested through chains of `if`, conditional expressions and
+loops over counts that are known. What hangs on anything else, a setting for one, gives no count.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from msaa_lint.core.text.node import Node
+from msaa_lint.core.text.node_builder import mapping, scalar, sequence
+from msaa_lint.core.text.span import Span
+
+from .chains import Chain
+from .masks import Known, Mask
+from .reading import Found, Owner, Reading
+from .uses import Uses
+
+if TYPE_CHECKING:
+    from tree_sitter import Node as Syntax
+
+    from msaa_lint.input.code.parsing import Code
+
+RELEVANT = re.compile(r"[sS]ampleCount|SAMPLE_COUNT")
+
+NOBODY = Owner("", None, "")
+"""Of statements outside of all functions."""
+
+
+def choices(root: Syntax, code: Code) -> list[tuple[str, Span, Node]]:
+    """The choices of a sample count that a syntax tree of C or C++ holds: what each is called, where it stands, and its entry."""
+    if RELEVANT.search(code.text) is None:
+        return []
+    functions, outside = _parts(root)
+    taken = [node for node in functions if RELEVANT.search(code.text, node.start_byte, node.end_byte)]
+    before = Reading(code.text)
+    for reading in (before, Reading(code.text)):
+        if reading is not before:
+            # What functions return and members hold is known by now.
+            reading.expressions.members |= before.expressions.members
+            reading.expressions.returns |= before.expressions.returns
+        known: Known = {}
+        chains: dict[str, Chain] = {}
+        for node in outside:
+            reading.statement(node, known, NOBODY, chains, 0)
+        for target, chain in chains.items():
+            reading.finish(target, chain, NOBODY)
+        for node in taken:
+            reading.function(node)
+    uses = Uses(root, reading.expressions) if reading.found else None
+    made = [(each.name, each.at, _entry(each, uses)) for each in reading.found if uses is not None]
+    covered = {each.mask.at for each in reading.found}
+    made += [(name, mask.at, _alone(mask)) for at, (name, mask) in reading.combined.items() if at not in covered]
+    return _named(made)
+
+
+def _parts(root: Syntax) -> tuple[list[Syntax], list[Syntax]]:
+    """The functions of a file, and the statements outside of them all."""
+    functions: list[Syntax] = []
+    outside: list[Syntax] = []
+    waiting = [root]
+    while waiting:
+        node = waiting.pop()
+        if node.type == "function_definition":
+            functions.append(node)
+        elif node.type.endswith("statement") or node.type in ("declaration", "for_range_loop"):
+            outside.append(node)
+            if node.type == "declaration":
+                waiting += [child for child in node.named_children if child.type.endswith("_specifier")]
+        else:
+            waiting += reversed(node.named_children)
+    return functions, outside
+
+
+def _entry(found: Found, uses: Uses) -> Node:
+    """A choice as an entry of the section."""
+    members = list(_of_mask(found.mask))
+    cap = uses.cap(found.name)
+    most = found.at_most if cap is None else min(cap, found.at_most or cap) if cap else None
+    if most is not None:
+        chosen = "MAXIMUM" if most >= 16 else "ATMOST"
+        members += [("chosen", found.at, scalar(chosen, found.at)), ("atMost", found.at, scalar(most, found.at))]
+    if found.tests:
+        tests = [
+            mapping([("tests", test.at, scalar(test.bit, test.at)), ("gives", test.at, scalar(test.gives, test.at))], test.at)
+            for test in found.tests
+        ]
+        members.append(("tests", found.tests[0].at, sequence(tests, found.tests[0].at)))
+    formats = uses.formats(found.name)
+    if formats:
+        at = next(iter(formats.values()))
+        members.append(("formats", at, sequence([scalar(name, span) for name, span in formats.items()], at)))
+    return mapping(members, found.at)
+
+
+def _of_mask(mask: Mask) -> Iterator[tuple[str, Span, Node]]:
+    if mask.known:
+        at = mask.limits[0][1] if mask.limits else mask.at
+        yield "limits", at, sequence([scalar(name, span) for name, span in mask.limits], at)
+        yield "combined", mask.at, scalar(mask.combined, mask.at)
+
+
+def _alone(mask: Mask) -> Node:
+    """Masks that are combined, of which no count is seen to be taken."""
+    return mapping(list(_of_mask(mask)), mask.at)
+
+
+def _named(made: list[tuple[str, Span, Node]]) -> list[tuple[str, Span, Node]]:
+    """The entries in order, each by a name of its own."""
+    named: dict[str, tuple[str, Span, Node]] = {}
+    for name, at, node in sorted(made, key=lambda each: each[1]):
+        own, n = name or "samples", 2
+        while own in named:
+            own, n = f"{name or 'samples'} {n}", n + 1
+        named[own] = (own, at, node)
+    return list(named.values())

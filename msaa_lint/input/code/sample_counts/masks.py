@@ -1,0 +1,297 @@
+"""What expressions of C and C++ say of masks of sample counts: which limits they are taken from, and how they are combined."""
+
+# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
+import re
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, NamedTuple
+
+from msaa_lint.core.text.span import Span
+
+from .arithmetic import arithmetic, whole
+from .statements import DEEPEST, unwrapped
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
+
+LIMITS = frozenset(
+    {
+        "framebufferColorSampleCounts",
+        "framebufferDepthSampleCounts",
+        "framebufferStencilSampleCounts",
+        "framebufferNoAttachmentsSampleCounts",
+        "framebufferIntegerColorSampleCounts",
+        "sampledImageColorSampleCounts",
+        "sampledImageIntegerSampleCounts",
+        "sampledImageDepthSampleCounts",
+        "sampledImageStencilSampleCounts",
+        "storageImageSampleCounts",
+    }
+)
+"""The members of VkPhysicalDeviceLimits, and of VkPhysicalDeviceVulkan12Properties, that are masks of counts."""
+
+COUNTS = (64, 32, 16, 8, 4, 2, 1)
+EVERY = 127
+"""The mask with every count."""
+
+RANK = ("NONE", "AND", "LOGICAL_AND", "LOGICAL_OR", "OR", "MAX", "MIN")
+"""How masks are combined, what is more wrong after what is less."""
+
+_ENUMERANT = re.compile(r"VK_SAMPLE_COUNT_(\d{1,2})_BIT")
+_HPP = re.compile(r"(?:(?:vk::)?SampleCountFlagBits::)?e(1|2|4|8|16|32|64)")
+_TYPE = re.compile(r"SampleCountFlag|^(?:u?int(?:8|16|32|64)?(?:_t)?|unsigned|size_t|VkFlags|u32|Uint32|uint|to_underlying|move)$")
+_CASTS = frozenset({"static_cast", "reinterpret_cast", "const_cast", "bit_cast"})
+_LESSER = frozenset({"min", "MIN", "Min", "qMin", "fmin", "SDL_min", "ImMin"})
+_GREATER = frozenset({"max", "MAX", "Max", "qMax", "fmax", "SDL_max", "ImMax"})
+_FLOORS = frozenset({"bit_floor", "highestBitValue", "highest_one_bit", "prevPowerOfTwo"})
+_ZEROS = frozenset({"__builtin_clz", "__builtin_clzl", "countl_zero", "__lzcnt", "_lzcnt_u32", "clz"})
+_HIGHEST = frozenset({"findMSB", "log2", "ilog2", "log2i", "log2f", "floor"})
+_POWERS = frozenset({"pow", "exp2", "ldexp"})
+
+
+class Mask(NamedTuple):
+    """A mask of counts: the limits that it is taken from, each where it stands; how they are combined, and where; the counts that it may
+    have. `known` says that those limits are all."""
+
+    limits: tuple[tuple[str, Span], ...]
+    combined: str
+    at: Span
+    allowed: int = EVERY
+    known: bool = True
+
+    @property
+    def bit(self) -> int | None:
+        """The count that is asked, where all but one bit are masked out."""
+        return self.allowed if self.allowed.bit_count() == 1 else None
+
+
+class Highest(NamedTuple):
+    """Of a mask the highest bit (COUNT), its index (INDEX), that plus one (WIDTH), or the zeros before it (ZEROS)."""
+
+    mask: Mask
+    form: str
+
+
+class Order(NamedTuple):
+    """Counts one after the other: a list, an array."""
+
+    counts: tuple[int, ...]
+
+
+Value = Mask | Highest | Order | int
+Known = dict[str, Value | None]
+"""What names stand for; None where that is not known."""
+
+
+def united(masks: Iterable[Mask], how: str, at: Span) -> Mask:
+    """Several masks combined."""
+    every = list(masks)
+    limits: dict[str, Span] = {}
+    allowed = EVERY if how == "AND" else 0
+    worst, place = how, at
+    for mask in every:
+        for name, span in mask.limits:
+            limits.setdefault(name, span)
+        allowed = allowed & mask.allowed if how == "AND" else allowed | mask.allowed
+        if RANK.index(mask.combined) > RANK.index(worst):
+            worst, place = mask.combined, mask.at
+    return Mask(tuple(limits.items()), worst, place, allowed, all(mask.known for mask in every))
+
+
+class Expressions:
+    """The values of expressions of one file. `returns` has what functions return, `members` what is kept beyond a function."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.returns: Known = {}
+        self.members: Known = {}
+
+    def of(self, node: "Node") -> str:
+        return self.text[node.start_byte : node.end_byte]
+
+    def name(self, node: "Node | None") -> str:
+        """The last part of a name, without its object, scope or template arguments."""
+        while node is not None and node.type in ("field_expression", "template_function", "qualified_identifier", "template_method"):
+            node = node.child_by_field_name("field") or node.child_by_field_name("name")
+        return self.of(node) if node is not None and node.end_byte - node.start_byte < 200 else ""
+
+    def value(self, node: "Node | None", known: Known, depth: int = 0) -> Value | None:
+        """What an expression gives; None where that is not known."""
+        if node is None or depth > DEEPEST:
+            return None
+        kind, deeper = node.type, depth + 1
+        if kind == "number_literal":
+            return whole(self.of(node))
+        if kind in ("identifier", "qualified_identifier", "field_expression", "field_identifier"):
+            return self._named(node, known)
+        inner = unwrapped(node)
+        if inner is not None and inner != node:
+            return self.value(inner, known, deeper)
+        if kind == "assignment_expression":
+            return self.value(node.child_by_field_name("right"), known, deeper)
+        if kind == "binary_expression":
+            return self._binary(node, known, deeper)
+        if kind == "unary_expression":
+            return self._unary(node, known, deeper)
+        if kind == "conditional_expression":
+            return self._choice(node, known, deeper)
+        if kind == "subscript_expression":
+            return self._item(node, known, deeper)
+        if kind in ("initializer_list", "compound_literal_expression"):
+            return self._list(node, known, deeper)
+        return self._call(node, known, deeper) if kind == "call_expression" else None
+
+    def _named(self, node: "Node", known: Known) -> Value | None:
+        text = self.of(node)
+        if len(text) < 60:
+            match = _ENUMERANT.fullmatch(text) or _HPP.fullmatch(text)
+            if match is not None and int(match[1]) in COUNTS and text not in known:
+                return int(match[1])
+        name = self.name(node)
+        if name in known and node.type != "field_expression":
+            return known[name]
+        if name in LIMITS:
+            at = Span(node.start_byte, node.end_byte)
+            return Mask(((name, at),), "NONE", at)
+        found = known[name] if name in known else self.members.get(name)
+        if found is None and name == "sampleCounts" and node.type == "field_expression":
+            return Mask((), "NONE", Span(node.start_byte, node.end_byte), known=False)
+        return found
+
+    def _binary(self, node: "Node", known: Known, depth: int) -> Value | None:
+        sign = node.child_by_field_name("operator")
+        operator = self.of(sign) if sign is not None else ""
+        left, right = (self.value(node.child_by_field_name(side), known, depth) for side in ("left", "right"))
+        if sign is None or left is None or right is None:
+            return None
+        if isinstance(left, int) and isinstance(right, int):
+            return arithmetic(operator, left, right)
+        at = Span(sign.start_byte, sign.end_byte)
+        if isinstance(left, Mask) and isinstance(right, Mask):
+            if operator in ("&", "bitand"):
+                return united((left, right), "AND", at)
+            if operator in ("|", "bitor"):
+                return united((left, right), "OR", at)
+            if operator in ("&&", "and", "||", "or"):
+                if operator in ("&&", "and") and left.bit is not None and left.bit == right.bit:
+                    return united((left, right), "AND", at)
+                how = "LOGICAL_AND" if operator in ("&&", "and") else "LOGICAL_OR"
+                return united((left, right), how, at) if left.bit is None and right.bit is None else None
+            return None
+        if isinstance(left, int) and isinstance(right, Mask) and operator in ("&", "bitand", "==", "!="):
+            left, right = right, left
+        if isinstance(left, Mask) and isinstance(right, int):
+            if operator in ("&", "bitand"):
+                return left._replace(allowed=left.allowed & right)
+            same = (operator in ("!=", ">", "not_eq") and right == 0) or (operator == "==" and left.bit == right)
+            return left if same else None
+        return _of_highest(operator, left, right)
+
+    def _unary(self, node: "Node", known: Known, depth: int) -> Value | None:
+        inner = node.child_by_field_name("argument")
+        operator = self.of(node)[:1]
+        if operator == "!" and inner is not None and inner.type == "unary_expression" and self.of(inner)[:1] == "!":
+            return self.value(inner.child_by_field_name("argument"), known, depth)
+        value = self.value(inner, known, depth)
+        if operator == "!" and isinstance(value, int):
+            return int(not value)
+        return EVERY & ~value if operator == "~" and isinstance(value, int) else None
+
+    def compared(self, node: "Node | None", known: Known, depth: int = 0) -> tuple[Mask, Mask, bool, Span] | None:
+        """Two masks that a condition compares as numbers: both, whether it holds where the first is less, and where it does so."""
+        node = unwrapped(node)
+        if node is None or node.type != "binary_expression":
+            return None
+        sign = node.child_by_field_name("operator")
+        operator = self.of(sign) if sign is not None else ""
+        if operator not in ("<", ">", "<=", ">="):
+            return None
+        left, right = (self.value(node.child_by_field_name(side), known, depth + 1) for side in ("left", "right"))
+        if not (isinstance(left, Mask) and isinstance(right, Mask)):
+            return None
+        return left, right, operator[0] == "<", Span(node.start_byte, node.end_byte)
+
+    def lesser(self, compared: tuple[Mask, Mask, bool, Span], then: Value | None, other: Value | None) -> Mask | None:
+        """The lesser or the greater of two masks, by what is taken where the one or the other is less."""
+        left, right, less, at = compared
+        if not (isinstance(then, Mask) and isinstance(other, Mask)):
+            return None
+        names = [[name for name, _ in mask.limits] for mask in (left, right, then, other)]
+        if names[0] == names[1] or not (names[2:] == names[:2] or names[2:] == names[1::-1]):
+            return None
+        return united((left, right), "MIN" if (names[2] == names[0]) == less else "MAX", at)
+
+    def _choice(self, node: "Node", known: Known, depth: int) -> Value | None:
+        then, other = (self.value(node.child_by_field_name(side), known, depth) for side in ("consequence", "alternative"))
+        if not (isinstance(then, Mask) and isinstance(other, Mask)):
+            return None
+        compared = self.compared(node.child_by_field_name("condition"), known, depth)
+        if compared is not None:
+            return self.lesser(compared, then, other)
+        more = then if len(then.limits) >= len(other.limits) else other
+        both = united((then, other), more.combined, more.at)
+        return both._replace(allowed=then.allowed | other.allowed)
+
+    def _item(self, node: "Node", known: Known, depth: int) -> Value | None:
+        listed = node.child_by_field_name("indices") or node.child_by_field_name("index")
+        if listed is not None and listed.type == "subscript_argument_list":
+            listed = listed.named_children[0] if listed.named_child_count else None
+        order, index = self.value(node.child_by_field_name("argument"), known, depth), self.value(listed, known, depth)
+        if isinstance(order, Order) and isinstance(index, int) and 0 <= index < len(order.counts):
+            return order.counts[index]
+        return None
+
+    def _list(self, node: "Node", known: Known, depth: int) -> Value | None:
+        if node.type == "compound_literal_expression":
+            return self.value(node.child_by_field_name("value"), known, depth)
+        items = [child for child in node.named_children if child.type != "comment"]
+        if len(items) > 64:
+            return None
+        values = [self.value(item, known, depth) for item in items]
+        if len(values) == 1 and not isinstance(values[0], int):
+            return values[0]
+        counts = tuple(value for value in values if isinstance(value, int))
+        return Order(counts) if counts and len(counts) == len(values) else None
+
+    def _call(self, node: "Node", known: Known, depth: int) -> Value | None:
+        function, listed = node.child_by_field_name("function"), node.child_by_field_name("arguments")
+        name = self.name(function)
+        given = [child for child in listed.named_children if child.type != "comment"] if listed is not None else []
+        if len(given) == 1 and given[0].type == "initializer_list" and name in _LESSER | _GREATER:
+            given = [child for child in given[0].named_children if child.type != "comment"]
+        if function is None or len(given) > 8:
+            return None
+        values = [self.value(each, known, depth) for each in given]
+        if len(given) == 1 and (name in _CASTS or _TYPE.search(name) is not None):
+            return values[0]
+        if name in _LESSER or name in _GREATER:
+            masks = [value for value in values if isinstance(value, Mask)]
+            at = Span(function.start_byte, function.end_byte)
+            return united(masks, "MIN" if name in _LESSER else "MAX", at) if len(masks) == len(values) > 1 else None
+        if name in _POWERS and isinstance(values[-1] if values else None, Highest) and values[:-1] in ([], [2], [1]):
+            found = values[-1]
+            return found._replace(form="COUNT") if isinstance(found, Highest) and found.form == "INDEX" else None
+        first = values[0] if len(values) == 1 else None
+        if isinstance(first, Mask):
+            form = next((f for names, f in _FORMS if name in names), None)
+            if form is not None:
+                return Highest(first, form)
+        if isinstance(first, Highest) and name == "floor":
+            return first
+        return self.returns.get(name) if function.type in ("identifier", "field_expression", "qualified_identifier") else None
+
+
+_FORMS = ((_FLOORS, "COUNT"), (_ZEROS, "ZEROS"), (_HIGHEST - {"floor"}, "INDEX"), (frozenset({"bit_width"}), "WIDTH"))
+
+
+def _of_highest(operator: str, left: Value, right: Value) -> Value | None:
+    """Arithmetic on the place of a mask's highest bit."""
+    if isinstance(right, Highest) and isinstance(left, int):
+        if operator == "<<" and left == 1 and right.form == "INDEX":
+            return Highest(right.mask, "COUNT")
+        if operator in ("-", "^") and left in (31, 63) and right.form == "ZEROS":
+            return Highest(right.mask, "INDEX")
+        if operator == "-" and left in (32, 64) and right.form == "ZEROS":
+            return Highest(right.mask, "WIDTH")
+    if isinstance(left, Highest) and operator == "-" and right == 1 and left.form == "WIDTH":
+        return Highest(left.mask, "INDEX")
+    return None

@@ -1,0 +1,306 @@
+"""How C and C++ find their sample count in the masks of VkPhysicalDeviceLimits: the functions of a file, read statement by statement.
+
+Masks are followed through variables, functions and members; the bits that are tested through chains of `if`, conditional expressions and
+loops over counts that are known. What hangs on anything else, a setting for one, gives no count.
+"""
+
+# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
+import re
+from typing import TYPE_CHECKING, NamedTuple
+
+from msaa_lint.core.text.span import Span
+
+from .chains import MOST_TESTS, Chain, Test, greatest
+from .loops import rounds, waits
+from .masks import COUNTS, Expressions, Highest, Known, Mask, Value, united
+from .statements import links, span, statements, unwrapped
+
+if TYPE_CHECKING:
+    from tree_sitter import Node as Syntax
+
+DEEPEST = 40
+"""Levels of blocks that are read."""
+
+RETURN = ""
+"""What a chain gives its count to: a variable's name, or this."""
+
+_MASK_TYPE = re.compile(r"SampleCountFlags\b")
+_SPELLED = re.compile(r"SAMPLE_COUNT_\d|SampleCountFlagBits|\be(?:2|4|8|16|32|64)\b")
+
+
+class Owner(NamedTuple):
+    """The function or lambda that statements are of, its name's place, and what it returns; nameless outside of all."""
+
+    name: str
+    at: Span | None
+    returns: str
+
+
+class Found(NamedTuple):
+    """A choice: who makes it and where, the mask, the tests, the greatest count that it gives (None: not known), and what holds it."""
+
+    name: str
+    at: Span
+    mask: Mask
+    tests: tuple[Test, ...]
+    at_most: int | None
+    returned: bool
+
+
+class Reading:
+    """The functions of a file while they are read."""
+
+    def __init__(self, text: str) -> None:
+        self.expressions = Expressions(text)
+        self.found: list[Found] = []
+        self.combined: dict[Span, tuple[str, Mask]] = {}
+        """Masks that are combined in a way that is none, by the place of it: what holds them."""
+
+    def function(self, node: "Syntax") -> None:
+        """A function's definition."""
+        declarator = node.child_by_field_name("declarator")
+        while declarator is not None and declarator.type != "function_declarator":
+            declarator = declarator.child_by_field_name("declarator") or next(
+                (c for c in declarator.named_children if c.type.endswith("declarator")), None
+            )
+        body, of = node.child_by_field_name("body"), self.expressions.of
+        name = declarator.child_by_field_name("declarator") if declarator is not None else None
+        if declarator is None or name is None or body is None:
+            return
+        kind = node.child_by_field_name("type")
+        owner = Owner(self.expressions.name(name), Span(name.start_byte, name.end_byte), of(kind) if kind is not None else "")
+        self.block(body, self.parameters(declarator), owner, 0)
+
+    def parameters(self, declarator: "Syntax") -> Known:
+        """Parameters whose type says that they are masks."""
+        known: Known = {}
+        listed = declarator.child_by_field_name("parameters")
+        for each in listed.named_children if listed is not None else ():
+            kind, name = each.child_by_field_name("type"), each.child_by_field_name("declarator")
+            if kind is not None and name is not None and name.type == "identifier":
+                mask = _MASK_TYPE.search(self.expressions.of(kind)) is not None
+                known[self.expressions.of(name)] = Mask((), "NONE", span(name), known=False) if mask else None
+        return known
+
+    def block(self, node: "Syntax", known: Known, owner: Owner, depth: int) -> None:
+        """Statements, one after the other."""
+        chains: dict[str, Chain] = {}
+        if depth < DEEPEST:
+            for child in statements(node):
+                self.statement(child, known, owner, chains, depth + 1)
+        for target, chain in chains.items():
+            self.finish(target, chain, owner)
+
+    def statement(self, node: "Syntax", known: Known, owner: Owner, chains: dict[str, Chain], depth: int) -> None:
+        kind = node.type
+        if kind == "if_statement":
+            self.branches(node, known, owner, chains, depth)
+        elif kind in ("for_statement", "for_range_loop", "while_statement"):
+            body = node.child_by_field_name("body")
+            if not self.loop(node, known, chains) and body is not None:
+                self.block(body, dict(known), owner, depth)
+        elif kind in ("compound_statement", "switch_statement", "try_statement", "do_statement", "else_clause", "labeled_statement"):
+            inner = node if kind in ("compound_statement", "else_clause") else node.child_by_field_name("body")
+            if inner is not None and kind != "switch_statement":
+                self.block(inner, known, owner, depth)
+        elif kind in ("declaration", "expression_statement", "return_statement", "field_declaration", "init_declarator"):
+            self.plain(node, known, owner, chains)
+            self.lambdas(node, known, owner, depth)
+
+    def plain(self, node: "Syntax", known: Known, owner: Owner, chains: dict[str, Chain]) -> None:
+        """A declaration, an assignment, a return."""
+        of = self.expressions.of
+        if node.type == "return_statement":
+            given = next((child for child in node.named_children if child.type != "comment"), None)
+            self.given(RETURN, given, owner.returns, known, owner, chains)
+        elif node.type == "expression_statement":
+            child = node.named_children[0] if node.named_child_count else None
+            if child is not None and child.type == "assignment_expression":
+                target, sign = child.child_by_field_name("left"), child.child_by_field_name("operator")
+                name = self.expressions.name(target)
+                masking = sign is not None and of(sign) == "&="
+                value = self.expressions.value(child.child_by_field_name("right"), known)
+                if masking and name:
+                    known[name] = _masked(known.get(name, self.expressions.members.get(name)), value, span(sign or child))
+                elif sign is not None and of(sign) == "=":
+                    self.given(name, child.child_by_field_name("right"), "", known, owner, chains)
+        else:
+            kind = node.child_by_field_name("type")
+            typed = of(kind) if kind is not None else ""
+            for child in node.children_by_field_name("declarator"):
+                stated = child.child_by_field_name("value")
+                target = child.child_by_field_name("declarator") if child.type == "init_declarator" else child
+                while target is not None and target.type.endswith("_declarator"):
+                    inner = target.child_by_field_name("declarator")
+                    target = inner if inner is not None else next(iter(target.named_children), None)
+                name = self.expressions.name(target)
+                if name and stated is not None:
+                    known[name] = None
+                    self.given(name, stated, typed, known, owner, chains)
+                elif name:
+                    known[name] = Mask((), "NONE", span(child), known=False) if _MASK_TYPE.search(typed) else None
+
+    def given(self, target: str, node: "Syntax | None", typed: str, known: Known, owner: Owner, chains: dict[str, Chain]) -> None:
+        """What an expression gives to a variable, or returns."""
+        value = self.expressions.value(node, known)
+        if value is None and node is not None and _MASK_TYPE.search(typed) and target:
+            value = Mask((), "NONE", span(node), known=False)
+        if isinstance(value, Mask):
+            logical = value.combined.startswith("LOGICAL") and not re.search(r"SampleCount|int|VkFlags", typed)
+            if value.combined not in ("NONE", "AND", "OR") and not logical:
+                self.combined.setdefault(value.at, (target or owner.name, value))
+        if isinstance(value, Highest) and value.form == "COUNT":
+            at = owner.at if target == RETURN and owner.at is not None else span(node) if node is not None else value.mask.at
+            most = 1 << (value.mask.allowed.bit_length() - 1) if value.mask.allowed else None
+            self.found.append(Found(target or owner.name, at, value.mask, (), most, target == RETURN))
+        elif target == RETURN and owner.name:
+            returns = self.expressions.returns
+            returns[owner.name] = value if isinstance(value, Mask) and returns.get(owner.name, value) == value else None
+        elif target:
+            if target not in known:
+                members = self.expressions.members
+                members[target] = value if members.get(target, value) == value else None
+            known[target] = value
+        self.conditional(target, node, known, chains)
+
+    def conditional(self, target: str, node: "Syntax | None", known: Known, chains: dict[str, Chain]) -> None:
+        """A chain of conditional expressions."""
+        made: list[Test] = []
+        for _ in range(MOST_TESTS):
+            node = unwrapped(node)
+            if node is None or node.type != "conditional_expression":
+                break
+            test, then = node.child_by_field_name("condition"), node.child_by_field_name("consequence")
+            mask, count = self.expressions.value(test, known), self.expressions.value(then, known)
+            if test is None or not isinstance(mask, Mask) or mask.bit is None or not isinstance(count, int) or count not in COUNTS:
+                break
+            made.append(Test(mask, mask.bit, count, span(test), 0, True, _SPELLED.search(self.expressions.of(node)[:4000]) is not None))
+            node = node.child_by_field_name("alternative")
+        if made and (node is None or node.type != "conditional_expression"):
+            chain = chains.setdefault(target, Chain())
+            chain.groups += 1
+            chain.tests += made
+
+    def lambdas(self, node: "Syntax", known: Known, owner: Owner, depth: int) -> None:
+        """Functions within an expression."""
+        waiting = [(node, "")]
+        while waiting:
+            each, name = waiting.pop()
+            if each.type == "lambda_expression":
+                body, declarator = each.child_by_field_name("body"), each.child_by_field_name("declarator")
+                inner = {**known, **(self.parameters(declarator) if declarator is not None else {})}
+                called = each.parent.child_by_field_name("declarator") if each.parent is not None else None
+                at = span(called) if called is not None else None
+                own = Owner(self.expressions.name(called), at, self.expressions.of(declarator) if declarator is not None else "")
+                if body is not None and depth < DEEPEST:
+                    self.block(body, inner, own, depth + 1)
+                continue
+            waiting += [(child, name) for child in each.named_children]
+
+    def branches(self, node: "Syntax", known: Known, owner: Owner, chains: dict[str, Chain], depth: int) -> None:
+        """An `if` with its `else if`s: tests of a chain, and the blocks behind them."""
+        self.tested(node, known, chains)
+        for condition, then in links(node):
+            if condition is None or then.type != "else_clause":
+                self.compared(condition, then, node, known, owner)
+            self.block(then, known, owner, depth)
+
+    def compared(self, condition: "Syntax | None", then: "Syntax", node: "Syntax", known: Known, owner: Owner) -> None:
+        """`if (a < b) counts = a; else counts = b;`, and the same with returns."""
+        compared = self.expressions.compared(condition, known) if condition is not None else None
+        other = node.child_by_field_name("alternative")
+        if compared is None:
+            return
+        first, second = self.assigned(then), self.assigned(other) if other is not None else self.assigned(node.next_named_sibling)
+        if first is None or second is None or first[0] != second[0]:
+            return
+        lesser = self.expressions.lesser(compared, self.expressions.value(first[1], known), self.expressions.value(second[1], known))
+        if lesser is not None:
+            self.combined.setdefault(lesser.at, (first[0] or owner.name, lesser))
+
+    def assigned(self, node: "Syntax | None") -> "tuple[str, Syntax] | None":
+        """What a branch gives to what: the target and the expression."""
+        for child in statements(node) if node is not None else ():
+            if child.type == "return_statement" and child.named_child_count:
+                return RETURN, child.named_children[0]
+            inner = child.named_children[0] if child.type == "expression_statement" and child.named_child_count else None
+            value = inner.child_by_field_name("right") if inner is not None and inner.type == "assignment_expression" else None
+            if inner is not None and value is not None and _plainly(inner, self.expressions):
+                return self.expressions.name(inner.child_by_field_name("left")), value
+        return None
+
+    def tested(self, node: "Syntax", known: Known, chains: dict[str, Chain]) -> bool:
+        """The tests of an `if`; whether it gives a count at all."""
+        gave = False
+        touched: set[str] = set()
+        for condition, then in links(node):
+            given = self.assigned(then)
+            if condition is None or given is None:
+                continue
+            target, expression = given
+            count, mask = self.expressions.value(expression, known), self.expressions.value(condition, known)
+            if not isinstance(count, int) or count not in COUNTS:
+                if isinstance(mask, Mask) and mask.bit is not None and target in chains:
+                    chains[target].pure = False
+                continue
+            chain = chains.setdefault(target, Chain())
+            gave = True
+            if isinstance(mask, Mask) and mask.bit is not None and len(chain.tests) < MOST_TESTS:
+                if target not in touched:
+                    chain.groups += 1
+                touched.add(target)
+                leaves = target == RETURN or any(c.type in ("break_statement", "return_statement") for c in statements(then))
+                spelled = _SPELLED.search(self.expressions.of(then)[:4000]) is not None
+                at = span(unwrapped(condition) or condition)
+                chain.tests.append(Test(mask, mask.bit, count, at, chain.groups, leaves, spelled))
+            elif count > 1:
+                chain.pure = False
+        return gave
+
+    def loop(self, node: "Syntax", known: Known, chains: dict[str, Chain]) -> bool:
+        """A loop over counts that are known, gone through; whether it is one."""
+        found = False
+        waited = waits(node, self.expressions, known)
+        if waited is not None:
+            name, tests = waited
+            chain = chains.setdefault(name, Chain())
+            chain.groups += 1
+            chain.tests += [Test(mask, mask.bit or 1, count, at, chain.groups, True, True) for mask, count, at in tests]
+            return True
+        body = node.child_by_field_name("body")
+        spelled = _SPELLED.search(self.expressions.of(node)[:4000]) is not None
+        for inner in rounds(node, self.expressions, known):
+            for child in statements(body) if body is not None else ():
+                before = {name: len(chain.tests) for name, chain in chains.items()}
+                found |= child.type == "if_statement" and self.tested(child, inner, chains)
+                for name, chain in chains.items():
+                    new = chain.tests[before.get(name, 0) :]
+                    chain.tests[before.get(name, 0) :] = [test._replace(spelled=spelled) for test in new]
+        return found
+
+    def finish(self, target: str, chain: Chain, owner: Owner) -> None:
+        """A chain of a block that has ended."""
+        tests = chain.ordered()
+        if not tests or not (tests[0].mask.known or all(test.spelled for test in tests)):
+            return
+        mask = tests[0].mask
+        if len({(tuple(name for name, _ in test.mask.limits), test.mask.combined) for test in tests}) > 1:
+            # The variable was given another mask in between.
+            return
+        at = owner.at if target == RETURN and owner.at is not None else tests[0].at
+        # The greatest of a mask that comes from elsewhere is the device's only if that is the device's.
+        most = greatest(tests) if chain.pure and mask.limits else None
+        self.found.append(Found(target or owner.name or "samples", at, mask, tuple(tests), most, target == RETURN))
+
+
+def _masked(value: Value | None, given: Value | None, at: Span) -> Value | None:
+    """What `&=` leaves of a mask."""
+    if isinstance(value, Mask) and isinstance(given, Mask):
+        return united((value, given), "AND", at)
+    return value._replace(allowed=value.allowed & given) if isinstance(value, Mask) and isinstance(given, int) else None
+
+
+def _plainly(node: "Syntax", expressions: Expressions) -> bool:
+    """Whether an assignment is one by `=`."""
+    sign = node.child_by_field_name("operator")
+    return sign is None or expressions.of(sign) == "="

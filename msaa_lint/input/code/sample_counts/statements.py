@@ -1,0 +1,70 @@
+"""Statements and expressions of C and C++ as syntax trees have them: blocks, chains of `if`, parentheses and casts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from msaa_lint.core.text.span import Span
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
+
+DEEPEST = 60
+"""Levels of an expression that are read."""
+
+MOST_LINKS = 64
+"""Conditions of one chain of `if` and `else if` that are read."""
+
+_SPLICED = ("preproc_if", "preproc_ifdef", "preproc_else", "preproc_elif", "ERROR")
+
+
+def span(node: Node) -> Span:
+    return Span(node.start_byte, node.end_byte)
+
+
+def unwrapped(node: Node | None) -> Node | None:
+    """An expression without the parentheses and C casts around it."""
+    for _ in range(DEEPEST):
+        if node is None:
+            return None
+        if node.type in ("parenthesized_expression", "condition_clause", "cast_expression") and node.named_child_count:
+            node = node.child_by_field_name("value") or node.named_children[-1]
+            continue
+        # `(Type)(value)` reads as a call where the grammar knows no types.
+        function, listed = node.child_by_field_name("function"), node.child_by_field_name("arguments")
+        if function is None or listed is None or function.type != "parenthesized_expression" or listed.named_child_count != 1:
+            return node
+        node = listed.named_children[0]
+    return node
+
+
+def statements(node: Node) -> Iterator[Node]:
+    """The statements of a block, or the one that stands for it; those of the preprocessor's blocks among them."""
+    waiting = [node]
+    while waiting:
+        each = waiting.pop()
+        block = each.type in ("compound_statement", "else_clause", "translation_unit") and (each is node or node.type == "else_clause")
+        if block or each.type in _SPLICED:
+            waiting += reversed(each.named_children)
+        else:
+            yield each
+
+
+def links(node: Node) -> Iterator[tuple[Node | None, Node]]:
+    """The conditions of an `if` and its `else if`s, each with what stands behind it; None for a last `else`."""
+    current: Node | None = node
+    for _ in range(MOST_LINKS):
+        if current is None:
+            return
+        condition, then = current.child_by_field_name("condition"), current.child_by_field_name("consequence")
+        if then is not None:
+            yield condition, then
+        other = current.child_by_field_name("alternative")
+        current = None
+        if other is not None:
+            following = other.named_children[-1] if other.type == "else_clause" and other.named_child_count else other
+            if following.type == "if_statement":
+                current = following
+            else:
+                yield None, following

@@ -1,0 +1,275 @@
+"""What a program does with the sample count that it has found: what caps it, and the formats of the images that get it."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from msaa_lint.core.text.span import Span
+from msaa_lint.frame.vulkan.formats import format_of
+
+from .masks import COUNTS, Expressions
+
+if TYPE_CHECKING:
+    from tree_sitter import Node as Syntax
+
+MOST_USES = 200
+"""Uses of one name that are looked at; of one that is used more often nothing is said."""
+
+MOST_STEPS = 300_000
+"""Nodes of a file that are looked at for formats."""
+
+MOST_MEMBERS = 2000
+"""Uses of a member that are looked through for those of one structure."""
+
+MOST_NAMES = 12
+"""Names that a count goes by."""
+
+_CAPS = frozenset({"min", "MIN", "Min", "clamp", "Clamp", "CLAMP", "qMin", "qBound", "SDL_min"})
+_NOTHING_ELSE = frozenset({"parenthesized_expression", "cast_expression", "static_cast", "initializer_list", "condition_clause"})
+_DECLARING = frozenset({"field_expression", "array_declarator", "pointer_declarator", "reference_declarator"})
+_FORMAT = "VK_FORMAT_"
+_SAMPLES = ("samples", "rasterizationSamples", "sampleCount")
+
+
+class Uses:
+    """The names of a file by where they are used, and the functions that it defines."""
+
+    def __init__(self, root: Syntax, expressions: Expressions) -> None:
+        self.expressions = expressions
+        self._named: dict[str, list[Syntax]] = {}
+        self._functions: dict[str, Syntax] = {}
+        self._left = MOST_STEPS
+        self._used: dict[str, list[Syntax]] = {}
+        self._held: dict[str, list[str]] = {}
+        waiting = [root]
+        while waiting:
+            node = waiting.pop()
+            if node.type in ("identifier", "field_identifier"):
+                self._named.setdefault(expressions.of(node), []).append(node)
+            elif node.type == "function_definition":
+                declarator = node.child_by_field_name("declarator")
+                while declarator is not None and declarator.type != "function_declarator":
+                    declarator = declarator.child_by_field_name("declarator")
+                if declarator is not None:
+                    self._functions.setdefault(expressions.name(declarator.child_by_field_name("declarator")), node)
+            waiting += reversed(node.named_children)
+
+    def holders(self, name: str) -> list[str]:
+        """A function or variable that has a count, and what is given its value."""
+        if name in self._held:
+            return self._held[name]
+        found = self._held[name] = [name]
+        for each in found:
+            for node in self._uses(each)[:MOST_USES]:
+                given = _given_to(node)
+                target = self.expressions.name(given)
+                if given is not None and target in _SAMPLES:
+                    # Many structures have such a member, those that describe an image among them.
+                    target = "" if given.type == "field_expression" and self._beside(node) else self.expressions.of(given)
+                if target and target not in found and len(found) < MOST_NAMES:
+                    found.append(target)
+        return found
+
+    def _uses(self, name: str) -> list[Syntax]:
+        """Where a name is used; a member with what it is of, where that is written alike."""
+        if name in self._used:
+            return self._used[name]
+        short = re.split(r"->|\.", name)[-1]
+        uses = self._named.get(short, [])
+        if short != name:
+            near = uses if len(uses) <= MOST_MEMBERS else []
+            uses = [each for each in near if each.parent is not None and self.expressions.of(each.parent) == name]
+        elif name in _SAMPLES:
+            uses = [each for each in uses if each.type == "identifier"]
+        self._used[name] = uses
+        return uses
+
+    def cap(self, name: str) -> int | None:
+        """The count that caps it; 0 where something caps it that is not known; None where nothing does."""
+        caps: list[int] = []
+        for each in self.holders(name):
+            uses = self._uses(each)
+            if len(uses) > MOST_USES:
+                return 0
+            for node in uses:
+                found = self._capped(node)
+                if found is not None:
+                    caps.append(found)
+        return min(caps) if caps else None
+
+    def _capped(self, node: Syntax) -> int | None:
+        """What a use of a count says of its cap, as `cap`."""
+        value, parent = _whole(node)
+        if parent is None:
+            return None
+        if parent.type == "argument_list" and parent.parent is not None:
+            called = self.expressions.name(parent.parent.child_by_field_name("function"))
+            if called not in _CAPS:
+                return None
+            others = [self.expressions.value(child, {}) for child in parent.named_children if child != value and child.type != "comment"]
+            counts = [other for other in others if isinstance(other, int) and other in COUNTS]
+            return counts[0] if len(counts) == len(others) == 1 and called in _CAPS else 0
+        if parent.type == "binary_expression":
+            sign = parent.child_by_field_name("operator")
+            operator = self.expressions.of(sign) if sign is not None else ""
+            other = parent.child_by_field_name("right" if parent.child_by_field_name("left") == value else "left")
+            if operator in ("<", ">", "<=", ">="):
+                return None if self.expressions.value(other, {}) in (0, 1) else 0
+        return None
+
+    def formats(self, name: str) -> dict[str, Span]:
+        """The formats with depth or stencil of images that get the count, and where each is named, as far as that is seen."""
+        found: dict[str, Span] = {}
+        for each in self.holders(name):
+            for node in self._uses(each)[:MOST_USES]:
+                for expression in self._beside(node):
+                    self._formats(expression, found, 0, set())
+        return found
+
+    def _beside(self, node: Syntax) -> list[Syntax]:
+        """What may be the format where a count is an image's: the other arguments of a call, the member `format` of the same structure."""
+        value, parent = _whole(node)
+        if parent is None:
+            return []
+        if parent.type == "argument_list":
+            return [child for child in parent.named_children if child != value]
+        if parent.type == "assignment_expression" and parent.child_by_field_name("right") == value:
+            left = parent.child_by_field_name("left")
+            if left is None or left.type != "field_expression" or self.expressions.name(left) != "samples":
+                return []
+            structure = left.child_by_field_name("argument")
+            name = self.expressions.of(structure) if structure is not None else ""
+            if len(self._member(parent, name, "samples")) > 1:
+                # The structure is used for several images: which format goes with the count is not seen.
+                return []
+            return self._member(parent, name, "format")
+        if parent.type == "initializer_pair" and parent.parent is not None:
+            given = [child for child in parent.parent.named_children if child.type == "initializer_pair"]
+            if self.expressions.of(parent).lstrip(". ").startswith("samples"):
+                return [child for child in given if self.expressions.of(child).lstrip(". ").startswith("format")]
+        return []
+
+    def _member(self, node: Syntax, structure: str, member: str) -> list[Syntax]:
+        """What a member of a structure is given in the function around a node."""
+        around = node.parent
+        while around is not None and around.type not in ("function_definition", "lambda_expression", "translation_unit"):
+            around = around.parent
+        found = []
+        for each in self._named.get(member, ())[:MOST_USES]:
+            field = each.parent
+            given = field.parent if field is not None else None
+            inside = around is not None and around.start_byte <= each.start_byte < around.end_byte
+            if inside and field is not None and given is not None and given.type == "assignment_expression":
+                of, right = field.child_by_field_name("argument"), given.child_by_field_name("right")
+                same = of is not None and self.expressions.of(of) == structure
+                if same and right is not None and given.child_by_field_name("left") == field:
+                    found.append(right)
+        return found
+
+    def _formats(self, node: Syntax, found: dict[str, Span], depth: int, seen: set[str]) -> None:
+        """The formats that an expression may be: named in it, given to a variable of it, or returned by a function that it calls."""
+        waiting = [node]
+        while waiting and self._left > 0:
+            each = waiting.pop()
+            self._left -= 1
+            if each.type == "binary_expression" or each.type in ("case_statement", "lambda_expression"):
+                continue
+            if each.type in ("identifier", "field_identifier", "qualified_identifier"):
+                name = _format(self.expressions.of(each))
+                if name is not None:
+                    form = format_of(name)
+                    if form is not None and not {"depth", "stencil"}.isdisjoint(form.aspects):
+                        found.setdefault(name, Span(each.start_byte, each.end_byte))
+                    continue
+                short = self.expressions.name(each)
+                if depth < 3 and short not in seen and ("ormat" in short or short in self._functions):
+                    seen.add(short)
+                    self._left -= min(len(self._named.get(short, ())), MOST_USES)
+                    for source in self._sources(short, each):
+                        self._formats(source, found, depth + 1, seen)
+                if each.type == "qualified_identifier":
+                    continue
+            waiting += reversed(each.named_children)
+
+    def _sources(self, name: str, at: Syntax) -> list[Syntax]:
+        """What a name is given in the file, or what the function of that name says."""
+        parent = at.parent
+        called = parent is not None and parent.type == "call_expression" and parent.child_by_field_name("function") == at
+        if name in self._functions and (called or (parent is not None and parent.type in ("field_expression", "qualified_identifier"))):
+            body = self._functions[name].child_by_field_name("body")
+            return [body] if body is not None else []
+        found = []
+        for node in self._named.get(name, ())[:MOST_USES]:
+            holder: Syntax | None = node.parent
+            field = node
+            while holder is not None and holder.type in _DECLARING:
+                field, holder = holder, holder.parent
+            if holder is None:
+                continue
+            value = holder.child_by_field_name("value" if holder.type == "init_declarator" else "right")
+            if holder.type in ("init_declarator", "assignment_expression") and value is not None and value != field:
+                found.append(value)
+        return found
+
+
+def _whole(node: Syntax) -> tuple[Syntax, Syntax | None]:
+    """A name with its object, call, parentheses and casts around it, and what that stands in."""
+    for _ in range(12):
+        parent = node.parent
+        if parent is None:
+            return node, None
+        same = parent.type in _NOTHING_ELSE or (parent.type in ("field_expression", "qualified_identifier") and _last(parent) == node)
+        called = parent.type == "call_expression" and parent.child_by_field_name("function") == node
+        cast = parent.type == "argument_list" and parent.parent is not None and parent.named_child_count == 1 and _is_cast(parent.parent)
+        if cast and parent.parent is not None:
+            node = parent.parent
+        elif same or called:
+            node = parent
+        else:
+            return node, parent
+    return node, node.parent
+
+
+def _last(node: Syntax) -> Syntax | None:
+    return node.child_by_field_name("field") or node.child_by_field_name("name")
+
+
+def _is_cast(node: Syntax) -> bool:
+    function = node.child_by_field_name("function")
+    name = function.child_by_field_name("name") if function is not None and function.type == "template_function" else function
+    return node.type == "call_expression" and name is not None and name.text in (b"static_cast", b"reinterpret_cast", b"uint32_t", b"int")
+
+
+def _given_to(node: Syntax) -> Syntax | None:
+    """What is given the value of a use."""
+    value, parent = _whole(node)
+    if parent is not None and parent.type == "init_declarator" and parent.child_by_field_name("value") == value:
+        return parent.child_by_field_name("declarator")
+    if parent is not None and parent.type == "assignment_expression" and parent.child_by_field_name("right") == value:
+        return parent.child_by_field_name("left")
+    if parent is not None and parent.type == "argument_list" and parent.named_child_count == 1:
+        # A constructor's `samples(pick())`.
+        around = parent.parent
+        return around.named_children[0] if around is not None and around.type == "field_initializer" else None
+    return None
+
+
+def _format(text: str) -> str | None:
+    """The format that a name is, in either spelling."""
+    if text.startswith(_FORMAT):
+        return text[len(_FORMAT) :]
+    if "Format::e" not in text or len(text) > 80:
+        return None
+    made = ""
+    short = text.rpartition("Format::e")[2]
+    for n, letter in enumerate(short):
+        upper = letter.isupper() and n > 0 and (short[n - 1].islower() or short[n - 1].isdigit())
+        made += ("_" if upper and _breaks(short, n) else "") + letter.upper()
+    return made
+
+
+def _breaks(short: str, n: int) -> bool:
+    """Whether an underscore stands before a letter of vulkan.hpp's spelling: `D24UnormS8Uint` is D24_UNORM_S8_UINT."""
+    following = short[n + 1 : n + 2]
+    return following.islower() or (short[n - 1].islower() and following.isdigit()) or short[n - 1].islower()

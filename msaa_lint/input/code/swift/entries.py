@@ -1,0 +1,71 @@
+"""Members of a tree in Metal's words, at their places in Swift; names that are each used once."""
+
+from __future__ import annotations
+
+from msaa_lint.core.text.node import Node
+from msaa_lint.core.text.node_builder import scalar, words
+from msaa_lint.core.text.span import Span
+
+from .values import Field, Known
+
+Entry = tuple[str, Span, Node]
+
+COUNTS = (1, 2, 4, 8, 16, 32, 64)
+
+_USAGES = frozenset({"renderTarget", "shaderRead", "shaderWrite", "pixelFormatView", "shaderAtomic"})
+
+
+class Names:
+    """Names that are each used once: qualified by what they are in where two have the same."""
+
+    def __init__(self) -> None:
+        self.of: dict[int, str] = {}
+        self.taken: set[str] = set()
+        self.numbers: dict[str, int] = {}
+
+    def give(self, items: list[tuple[object, str, str]]) -> None:
+        """Names things by what they are called and what they are in."""
+        often: dict[str, int] = {}
+        for _, name, _ in items:
+            often[name] = often.get(name, 0) + 1
+        for item, name, within in items:
+            wanted = f"{within}.{name}" if often[name] > 1 and within else name
+            while wanted in self.taken:
+                number = self.numbers[wanted] = self.numbers.get(wanted, 1) + 1
+                candidate = f"{wanted} {number}"
+                if candidate not in self.taken:
+                    wanted = candidate
+            self.taken.add(wanted)
+            self.of[id(item)] = wanted
+
+
+def type_of(fields: dict[str, Field]) -> object:
+    field = fields.get("textureType")
+    return field.value.value if field is not None and isinstance(field.value, Known) else None
+
+
+def word(name: str, field: Field, allowed: frozenset[str]) -> list[Entry]:
+    """A member that holds one of these words."""
+    if isinstance(field.value, Known) and isinstance(field.value.value, str) and field.value.value in allowed:
+        return [(name, field.key, scalar(field.value.value, field.at))]
+    return []
+
+
+def plain(name: str, field: Field) -> list[Entry]:
+    """A member that holds a number above 0, a truth value or a word."""
+    value = field.value.value if isinstance(field.value, Known) else None
+    if isinstance(value, str) and value.isidentifier():
+        return [(name, field.key, scalar(value, field.at))]
+    if isinstance(value, bool) or (isinstance(value, int) and 0 < value < 1 << 31):
+        return [(name, field.key, scalar(value, field.at))]
+    return []
+
+
+def usage(field: Field) -> list[Entry]:
+    """The usage that is stated; `unknown` is 0, and alone allows everything."""
+    value = field.value.value if isinstance(field.value, Known) else None
+    stated = (value,) if isinstance(value, str) else value if isinstance(value, tuple) else ()
+    named = [word for word in dict.fromkeys(stated) if word != "unknown"]
+    if not named or not _USAGES.issuperset(named):
+        return []
+    return [("usage", field.key, words(named, field.at))]

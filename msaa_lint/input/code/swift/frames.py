@@ -1,0 +1,63 @@
+"""What a frame of a Swift file does, in order."""
+
+from __future__ import annotations
+
+from msaa_lint.core.text.node import Node
+from msaa_lint.core.text.node_builder import mapping, scalar, sequence
+
+from .frame_state import Encoded, Pass
+from .machine import Machine
+from .textures import Textures
+from .values import Field, Known, Texture
+
+
+def commands(machine: Machine, textures: Textures, passes: list[Pass], names: dict[int, str]) -> Node | None:
+    """What a frame does, where one function encodes all passes and shows the drawable, and nothing of it is hidden."""
+    encodings = [each for each in machine.encoded if each.kind == "pass"]
+    roots = {each.by for each in encodings}
+    if len(roots) != 1 or len(encodings) != len(passes) or roots & machine.incomplete:
+        return None
+    steps = [each for each in machine.encoded if each.by in roots]
+    if not all(each.sure for each in steps) or not any(each.kind == "present" for each in steps):
+        return None
+    if {id(each.what[0]) for each in encodings} != set(names):
+        return None
+    attached = {id(field.value) for each in passes for fields in each.attachments.values() for field in fields.values()}
+    hidden = attached & machine.escaped or any(id(each) in attached and _read_elsewhere(each) for each in textures.all.values())
+    if hidden or len(steps) != len(machine.encoded):
+        return None
+    reads: dict[int, list[Encoded]] = {}
+    for step in steps:
+        if step.kind == "read":
+            if not isinstance(step.what[2], Pass):
+                return None
+            reads.setdefault(id(step.what[2]), []).append(step)
+    nodes: list[Node] = []
+    for step in steps:
+        if step.kind == "pass":
+            nodes.extend(_command(textures, each) for each in reads.get(id(step.what[0]), ()))
+            nodes.append(mapping([("renderPass", step.at, scalar(names[id(step.what[0])], step.at))], step.at))
+        elif step.kind != "read":
+            nodes.append(_command(textures, step))
+    return sequence(nodes, steps[0].at)
+
+
+def _read_elsewhere(texture: Texture) -> bool:
+    """Whether other files may read a texture, as far as its usage goes."""
+    if not texture.open:
+        return False
+    return not texture.made or any(not _drawn_only(fields.get("usage")) for fields in texture.made)
+
+
+def _drawn_only(usage: Field | None) -> bool:
+    return usage is not None and usage.value in (Known("renderTarget"), Known(("renderTarget",)))
+
+
+def _command(textures: Textures, step: Encoded) -> Node:
+    at = step.at
+    named = [scalar(textures.name(item), at) for item in step.what if isinstance(item, Texture)]
+    if step.kind == "present":
+        return mapping([("present", at, named[0])], at)
+    if step.kind == "copy":
+        return mapping([("copy", at, mapping([("source", at, named[0]), ("destination", at, named[1])], at))], at)
+    return mapping([("readTexture", at, mapping([("texture", at, named[0]), ("stage", at, scalar(str(step.what[1]), at))], at))], at)

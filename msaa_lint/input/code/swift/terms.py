@@ -1,0 +1,108 @@
+"""What Swift says, in a dozen kinds of terms: its syntax tree without what no question of ours depends on.
+
+A term is a tuple whose first item is its kind and whose last is its place. What unwraps, tries, awaits or casts is left out: `a!`, `try a`
+and `a as! B` are `a`. Expressions:
+
+    (NAME, text, at)                          `self` too
+    (LITERAL, value, at)                      a number, a truth value, a text, None for nil
+    (MEMBER, object or None, name, at)        `object.name`; None for `.name`; the place of the name is `name_at`
+    (INDEX, object, index, at)
+    (LIST, items, at)
+    (TUPLE, ((label, item), ...), at)
+    (CALL, function, ((label, argument), ...), closure or None, at)
+    (CLOSURE, names of its parameters, statements, at)
+    (BINARY, operator, left, right, at), (NOT, of, at)
+    (CHOICE, conditions, then, otherwise, at)
+    (OTHER, text, at)
+
+Statements:
+
+    (LET, names, type, value or None, at)     several names take a tuple apart
+    (SET, operator, target, value, at)
+    (DO, expression, at), (RETURN, expression or None, at), (LEAVE, at)
+    (IF, conditions, then, otherwise, at)     also #if: a single condition of the kind OTHER
+    (GUARD, conditions, otherwise, at)
+    (CASES, bodies, at)                       of a switch
+    (BLOCK, statements, at), (LOOP, names, statements, at)
+    (FUNC, function, at)                      one that is declared in another
+
+A condition is an expression, or (BIND, name, expression or None, at) for `let name = expression`.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from msaa_lint.core.text.span import Span
+
+if TYPE_CHECKING:
+    from tree_sitter import Node as SyntaxNode
+
+Term = tuple[Any, ...]
+
+NAME, LITERAL, MEMBER, INDEX, LIST, TUPLE, CALL, CLOSURE, BINARY, NOT, CHOICE, OTHER, BIND = range(13)
+LET, SET, DO, RETURN, LEAVE, IF, GUARD, CASES, BLOCK, LOOP, FUNC = range(20, 31)
+
+
+class Parameter(NamedTuple):
+    """A parameter: the label that a call gives it (empty for `_`), its name, its type as written, its default."""
+
+    label: str
+    name: str
+    type: str
+    default: Term | None
+
+
+class Function(NamedTuple):
+    """A function, an initialiser (`init`), a computed property or an observer. `within` is the type that it belongs to, or empty; `gives`
+    the labels of the tuple that it returns; `body` is read when it is asked for."""
+
+    name: str
+    within: str
+    parameters: tuple[Parameter, ...]
+    gives: tuple[str, ...]
+    body: SyntaxNode | None
+    at: Span
+
+
+class Member(NamedTuple):
+    """A property that is stored: its type as written, its value, whether it may be set again, whether other files see it."""
+
+    type: str
+    value: Term | None
+    variable: bool
+    open: bool
+
+
+class Type(NamedTuple):
+    """A class, a structure or an enumeration with all its extensions: what it declares, what it inherits from, its cases with their raw
+    values."""
+
+    name: str
+    members: dict[str, Member]
+    computed: dict[str, Function]
+    functions: dict[str, list[Function]]
+    cases: dict[str, Term | None]
+    inherits: set[str]
+
+    def named(self, name: str) -> list[Function]:
+        return self.functions.get(name, [])
+
+
+class Unit(NamedTuple):
+    """All of a file: its types by name (the one without a name has what stands outside of types), its statements outside of functions."""
+
+    types: dict[str, Type]
+    outside: tuple[Term, ...]
+
+
+def at(term: Term) -> Span:
+    """The place of a term."""
+    place: Span = term[-1]
+    return place
+
+
+def name_at(member: Term) -> Span:
+    """The place of the name of a member: where it ends, as many characters before."""
+    end = member[-1].end
+    return Span(end - len(member[2]), end)

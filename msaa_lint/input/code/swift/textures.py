@@ -1,0 +1,147 @@
+"""The textures of a Swift file as members of a tree; what has to be assumed of their sample counts."""
+
+from __future__ import annotations
+
+from msaa_lint.core.text.node_builder import scalar
+from msaa_lint.core.text.span import Span
+
+from .entries import COUNTS, Entry, Names, plain, type_of, usage, word
+from .machine import Machine
+from .values import MULTISAMPLED_TYPES, Field, Known, Object, Symbol, Texture, joined_fields
+
+ASSUMED_COUNT = 4
+"""The only count above 1 that every device has (Apple's documentation of supportsTextureSampleCount)."""
+
+_STORAGE = frozenset({"shared", "managed", "private", "memoryless"})
+
+
+class Textures:
+    """The textures of a file. `assumed` has what is not known: where it stands, what it is taken for; `symbols` the counts that values are
+    taken for; `attached` the textures that a pass draws to, `resolved` those that it resolves, `alike` those beside others."""
+
+    def __init__(self, machine: Machine, defaults: bool) -> None:
+        self.machine = machine
+        self.defaults = defaults
+        self.all: dict[int, Texture] = {}
+        self.names = Names()
+        self.attached: set[int] = set()
+        self.resolved: dict[int, Span] = {}
+        self.symbols: dict[Symbol, int] = {}
+        self.given: dict[int, dict[str, Field]] = {}
+        self.alike: dict[int, int] = {}
+        self.assumed: dict[str, tuple[Span, str]] = {}
+
+    def add(self, texture: Texture) -> None:
+        self.all[id(texture)] = texture
+
+    def name(self, texture: object) -> str:
+        return self.names.of[id(texture)]
+
+    def assume(self, what: str, at: Span, value: str) -> None:
+        self.assumed.setdefault(" ".join(what.split())[:80], (at, value))
+
+    def fields(self, texture: Texture) -> dict[str, Field]:
+        """What a texture is made with: what agrees each time, and of those with several samples where it ever has several."""
+        known = self.given.get(id(texture))
+        if known is None:
+            several = [fields for fields in texture.made if type_of(fields) in MULTISAMPLED_TYPES]
+            known = {}
+            for index, each in enumerate(several or texture.made):
+                known = each if index == 0 else joined_fields(known, each)
+            self.given[id(texture)] = known
+        return known
+
+    def draw(self, textures: list[Texture]) -> None:
+        """Notes the textures of a pass, which all have the same sample count: what is known of one is known of the others."""
+        counts = {self.stated(texture) for texture in textures} - {None}
+        self.attached.update(map(id, textures))
+        if len(counts) == 1:
+            (count,) = counts
+            for texture in textures:
+                if count is not None and count > 1 and self.stated(texture) is None:
+                    self.alike.setdefault(id(texture), count)
+
+    def stated(self, texture: Texture) -> int | None:
+        """The sample count that the file states."""
+        fields = self.fields(texture) if texture.owner is None else self.machine.snapshot(texture.owner)
+        count = fields.get("sampleCount")
+        value = count.value.value if count is not None and isinstance(count.value, Known) else None
+        return value if type(value) is int and value in COUNTS else None
+
+    def members(self, texture: Texture) -> list[Entry]:
+        """The members of a texture."""
+        if texture.drawable:
+            return [("drawable", texture.at, scalar(True, texture.at)), *self.shown()]
+        if texture.owner is not None:
+            return self.of_view(texture, texture.owner)
+        fields = self.fields(texture)
+        entries: list[Entry] = []
+        for name in ("pixelFormat", "width", "height", "mipmapLevelCount", "arrayLength"):
+            if name in fields:
+                entries.extend(plain(name, fields[name]))
+        entries.extend(self.count(texture, fields))
+        if "usage" in fields:
+            entries.extend(usage(fields["usage"]))
+        # Of a texture that no pass of the file has, passes elsewhere may ask what only memory can give.
+        if "storageMode" in fields and (id(texture) in self.attached or fields["storageMode"].value == Known("memoryless")):
+            entries.extend(word("storageMode", fields["storageMode"], _STORAGE))
+        return entries
+
+    def count(self, texture: Texture, fields: dict[str, Field]) -> list[Entry]:
+        """The texture's type and its sample count, which is assumed where it is above 1 and not known."""
+        kind, count = fields.get("textureType"), fields.get("sampleCount")
+        number = count.value.value if count is not None and isinstance(count.value, Known) else None
+        if kind is not None and kind.default and count is not None and not count.default:
+            kind = kind._replace(key=count.key, at=count.at)
+        if count is not None and count.default and kind is not None and not kind.default:
+            count = count._replace(key=kind.key, at=kind.at)
+        entries: list[Entry] = []
+        several = type_of(fields) in MULTISAMPLED_TYPES
+        if several and count is not None and count.default and not self.defaults:
+            count, number = None, None
+        if kind is not None and isinstance(kind.value, Known) and isinstance(kind.value.value, str) and (number is not None or several):
+            entries.append(("textureType", kind.key, scalar(kind.value.value, kind.at)))
+        if type(number) is int and number in COUNTS and count is not None:
+            entries.append(("sampleCount", count.key, scalar(number, count.at)))
+        elif number is None and (several or id(texture) in self.resolved or id(texture) in self.alike):
+            entries.append(self.assumed_count(texture, count, kind))
+        return entries
+
+    def assumed_count(self, texture: Texture, count: Field | None, kind: Field | None) -> Entry:
+        """A count that is that of its pass's other textures, or the one that every device has."""
+        value = self.alike.get(id(texture), ASSUMED_COUNT)
+        if count is None:
+            place = kind.at if kind is not None else self.resolved.get(id(texture), texture.at)
+            if id(texture) not in self.alike:
+                self.assume(f"the sample count of `{self.name(texture)}`", place, str(value))
+            return "sampleCount", place, scalar(value, place)
+        if isinstance(count.value, Symbol):
+            self.symbols.setdefault(count.value, value)
+        if id(texture) not in self.alike:
+            self.assume(f"`{self.machine.text[count.at.start : count.at.end]}`", count.at, str(value))
+        return "sampleCount", count.key, scalar(value, count.at)
+
+    def shown(self) -> list[Entry]:
+        """The pixel format of the drawable, as the layer or the view is given it."""
+        fields = [
+            field
+            for item in self.machine.objects.values()
+            for name in {"layer": ("pixelFormat",), "view": ("colorPixelFormat",)}.get(item.kind, ())
+            if (field := self.machine.has(item, name)) is not None
+        ]
+        return plain("pixelFormat", fields[0]) if fields and all(each.value == fields[0].value for each in fields) else []
+
+    def of_view(self, texture: Texture, view: Object) -> list[Entry]:
+        """What is known of a texture that MTKView makes."""
+        fields = self.machine.snapshot(view)
+        entries: list[Entry] = []
+        pixels = fields.get("colorPixelFormat" if texture.name == "multisampleColorTexture" else "depthStencilPixelFormat")
+        if pixels is not None:
+            entries.extend(plain("pixelFormat", pixels))
+        count = fields.get("sampleCount")
+        if count is None:
+            return entries
+        if isinstance(count.value, Known) and count.value.value in COUNTS and count.value.value != 1:
+            entries.append(("textureType", count.key, scalar("type2DMultisample", count.at)))
+            entries.append(("sampleCount", count.key, scalar(count.value.value, count.at)))
+        return entries

@@ -1,0 +1,235 @@
+"""What was found of a Swift file to a tree with the section `metal`, every member at its place in the source."""
+
+from __future__ import annotations
+
+from msaa_lint.core.text.node import Node
+from msaa_lint.core.text.node_builder import mapping, scalar, sequence
+from msaa_lint.core.text.span import Span
+
+from .entries import COUNTS, Entry, Names, plain, word
+from .frame_state import Pass, Pipeline
+from .frames import commands
+from .machine import Machine
+from .metal import pass_of, pipeline_of
+from .textures import Textures
+from .values import Among, Field, Known, Symbol, Texture, Value
+
+RESOLVING = ("multisampleResolve", "storeAndMultisampleResolve")
+_LOADS = frozenset({"load", "clear", "dontCare"})
+_STORES = frozenset({"store", "dontCare", "multisampleResolve", "storeAndMultisampleResolve", "unknown", "customSampleDepthStore"})
+_FILTERS = {
+    "depthResolveFilter": frozenset({"sample0", "min", "max"}),
+    "stencilResolveFilter": frozenset({"sample0", "depthResolvedSample"}),
+}
+_DEFAULTS = {"color": ("dontCare", "store"), "depth": ("clear", "dontCare"), "stencil": ("clear", "dontCare")}
+"""Load and store actions of attachments that are never given any (Apple's documentation of loadAction and storeAction)."""
+
+_SWITCHES = ("isAlphaToCoverageEnabled", "alphaToCoverageEnabled", "isAlphaToOneEnabled", "alphaToOneEnabled", "isRasterizationEnabled")
+
+
+class Writer:
+    """Writes the tree of one file."""
+
+    def __init__(self, machine: Machine, defaults: bool) -> None:
+        self.machine = machine
+        self.defaults = defaults
+        self.textures = Textures(machine, defaults)
+        self.perhaps_loaded: set[int] = set()
+
+    def tree(self, whole: Span) -> Node | None:
+        """The tree; None where the file has nothing of Metal's multisampling."""
+        passes = [(each, written) for each in self.passes() if (written := self.used(each))]
+        machine = self.machine
+        for texture in machine.textures.values():
+            if texture.made:
+                self.textures.add(texture)
+        mentioned = set(self.textures.attached)
+        for each in machine.encoded:
+            for item in each.what:
+                if isinstance(item, Texture):
+                    self.textures.add(item)
+                    mentioned.add(id(item))
+        made = {id(each.descriptor) for each in machine.pipelines.values()}
+        built = [each for each in machine.objects.values() if each.kind == "pipeline" and each.fields and id(each) not in made]
+        pipelines = [*machine.pipelines.values(), *(pipeline_of(machine, each, each.at, each.within) for each in built)]
+        self.textures.names.give([(item, item.name or "texture", item.within) for item in self.textures.all.values()])
+        pass_names = Names()
+        pass_names.give([(each, each.descriptor.name or "renderPass", each.descriptor.within) for each, _ in passes])
+        textures = [
+            (self.textures.name(texture), texture.at, mapping(members, texture.at))
+            for texture in self.textures.all.values()
+            if (members := self.textures.members(texture)) or id(texture) in mentioned
+        ]
+        sections: list[Entry] = []
+        for name, entries in (
+            ("textures", textures),
+            ("renderPasses", [(pass_names.of[id(each)], each.descriptor.at, self.render_pass(each, used)) for each, used in passes]),
+            ("renderPipelines", self.pipelines(pipelines, pass_names.of)),
+        ):
+            if entries:
+                place = entries[0][1]
+                sections.append((name, place, mapping(entries, place)))
+        steps = commands(machine, self.textures, [each for each, _ in passes], pass_names.of)
+        if steps is not None:
+            sections.append(("commands", steps.span, steps))
+        if not sections:
+            return None
+        place = sections[-1][1]
+        return mapping([("metal", place, mapping([*self.device(), *sections], place))], whole)
+
+    # Passes
+
+    def passes(self) -> list[Pass]:
+        """Every pass that is encoded, and every descriptor that is only built up; of one that is encoded alike twice, one."""
+        machine = self.machine
+        found: list[Pass] = []
+        seen: dict[int, list[dict[str, dict[str, Value]]]] = {}
+        for each in machine.passes.values():
+            held = {slot: {name: field.value for name, field in fields.items()} for slot, fields in each.attachments.items()}
+            before = seen.setdefault(id(each.descriptor), [])
+            same = next((index for index, one in enumerate(before[:8]) if one == held), None)
+            before.append(held)
+            if same is None:
+                found.append(each)
+        for item in machine.objects.values():
+            if item.kind == "pass" and id(item) not in seen and item.fields and id(item) not in machine.superseded:
+                made = pass_of(machine, item, item.at)
+                made.complete = False
+                found.append(made)
+        return sorted(found, key=lambda each: each.at.start)
+
+    def used(self, each: Pass) -> dict[str, dict[str, Field]]:
+        """The attachments of a pass of which enough is known, in the order of their slots."""
+        found: dict[str, dict[str, Field]] = {}
+        drawn: list[Texture] = []
+        for name in sorted(each.attachments):
+            fields = each.attachments[name]
+            texture, resolve, store = fields.get("texture"), fields.get("resolveTexture"), fields.get("storeAction")
+            if texture is None or not isinstance(texture.value, Texture):
+                continue
+            action = store.value.value if store is not None and isinstance(store.value, Known) else None
+            if resolve is not None and not isinstance(resolve.value, (Texture, Known)):
+                continue
+            # Other code may give it what it resolves to.
+            if resolve is None and (not each.complete if action in RESOLVING else action is None and not each.descriptor.complete):
+                continue
+            found[name] = fields
+            self.textures.add(texture.value)
+            drawn.append(texture.value)
+            load = fields.get("loadAction")
+            if load is not None and isinstance(load.value, Among) and "load" in load.value.names:
+                self.perhaps_loaded.add(id(texture.value))
+            if resolve is not None and isinstance(resolve.value, Texture):
+                self.textures.add(resolve.value)
+                self.textures.attached.add(id(resolve.value))
+                if action in RESOLVING:
+                    self.textures.resolved.setdefault(id(texture.value), texture.at)
+        self.textures.draw(drawn)
+        return found
+
+    def render_pass(self, each: Pass, used: dict[str, dict[str, Field]]) -> Node:
+        entries: list[Entry] = []
+        colors: list[Entry] = []
+        for name, fields in used.items():
+            place = fields["texture"].key
+            node = mapping(self.attachment(each, name, fields), place)
+            if name.startswith("color"):
+                colors.append((name.removeprefix("color"), place, node))
+            else:
+                entries.append((name, place, node))
+        if colors:
+            entries.insert(0, ("colorAttachments", colors[0][1], mapping(colors, colors[0][1])))
+        return mapping(entries, each.descriptor.at)
+
+    def attachment(self, each: Pass, slot: str, fields: dict[str, Field]) -> list[Entry]:
+        entries: list[Entry] = []
+        for name in ("texture", "resolveTexture"):
+            field = fields.get(name)
+            if field is not None and isinstance(field.value, Texture):
+                entries.append((name, field.key, scalar(self.textures.name(field.value), field.at)))
+        kind = "color" if slot.startswith("color") else slot.removesuffix("Attachment")
+        for index, (name, allowed) in enumerate((("loadAction", _LOADS), ("storeAction", _STORES))):
+            field = fields.get(name)
+            if field is not None:
+                # What is stored for a load that only some frames do has its reader.
+                stores = field.value in (Known("store"), Known("storeAndMultisampleResolve"))
+                if not (stores and id(fields["texture"].value) in self.perhaps_loaded):
+                    entries.extend(word(name, field, allowed))
+            elif each.complete and self.defaults:
+                place = fields.get("resolveTexture", fields["texture"]).key
+                entries.append((name, place, scalar(_DEFAULTS[kind][index], place)))
+        for name, allowed in _FILTERS.items():
+            field = fields.get(name)
+            if field is not None and name.startswith(kind):
+                entries.extend(word(name, field, allowed))
+        return entries
+
+    # Pipelines
+
+    def pipelines(self, pipelines: list[Pipeline], passes: dict[int, str]) -> list[Entry]:
+        names = Names()
+        names.give([(each, each.name or each.descriptor.name or "pipeline", each.within) for each in pipelines])
+        made = [(names.of[id(each)], each.descriptor.at, self.pipeline(each, passes)) for each in pipelines]
+        return [entry for entry in made if entry[2].value]
+
+    def pipeline(self, each: Pipeline, passes: dict[int, str]) -> Node:
+        entries: list[Entry] = []
+        drawn = next((one for one in each.passes if id(one) in passes), None)
+        if drawn is not None:
+            entries.append(("renderPass", each.at, scalar(passes[id(drawn)], each.at)))
+        counted = False
+        for name in ("rasterSampleCount", "sampleCount"):
+            field = each.fields.get(name)
+            if field is None:
+                continue
+            counted = True
+            if isinstance(field.value, Known) and field.value.value in COUNTS:
+                entries.append((name, field.key, scalar(field.value.value, field.at)))
+            elif isinstance(field.value, Symbol) and field.value in self.textures.symbols:
+                entries.append((name, field.key, scalar(self.textures.symbols[field.value], field.at)))
+        complete = each.descriptor.complete and not each.descriptor.loose
+        if not counted and drawn is not None and complete and self.defaults:
+            entries.append(("rasterSampleCount", each.descriptor.at, scalar(1, each.descriptor.at)))
+        for name in ("depthAttachmentPixelFormat", "stencilAttachmentPixelFormat", *_SWITCHES):
+            if name in each.fields:
+                entries.extend(plain(name, each.fields[name]))
+        colors: list[Entry] = []
+        for slot in sorted(each.colors):
+            fields = each.colors[slot]
+            members = [entry for name in ("pixelFormat", "isBlendingEnabled") if name in fields for entry in plain(name, fields[name])]
+            if members:
+                colors.append((slot.removeprefix("color"), members[0][1], mapping(members, members[0][1])))
+        if colors:
+            entries.append(("colorAttachments", colors[0][1], mapping(colors, colors[0][1])))
+        return mapping(entries, each.descriptor.at)
+
+    # The frame
+
+    def device(self) -> list[Entry]:
+        machine = self.machine
+        entries: list[Entry] = []
+        if machine.family is not None:
+            name, place = machine.family
+            entries.append(("family", place, scalar(name, place)))
+        else:
+            found = self.family()
+            if found is not None:
+                self.textures.assume("the GPU's family", found, "apple3, which iOS 13 needs")
+                entries.append(("family", found, scalar("apple3", found)))
+        most = max(machine.offered, default=0)
+        if most in COUNTS and most > 4:
+            place = machine.offered[most]
+            entries.append(("supportedSampleCounts", place, sequence([scalar(count, place) for count in (1, 2, 4, most)], place)))
+        return entries
+
+    def family(self) -> Span | None:
+        """Where the file shows that it is for Apple's own GPUs."""
+        found = self.machine.imports
+        if found is not None:
+            return found
+        for texture in self.textures.all.values():
+            for fields in texture.made:
+                mode = fields.get("storageMode")
+                if mode is not None and mode.value == Known("memoryless"):
+                    return mode.at
+        return None

@@ -1,0 +1,41 @@
+"""A tree out of plain data, of which every part may have a place of its own."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from msaa_lint.core.text.node import Node
+from msaa_lint.core.text.node_builder import mapping, scalar, sequence
+from msaa_lint.core.text.span import Span
+
+
+class Stated(NamedTuple):
+    """A value, and where its reason stands."""
+
+    value: Any
+    at: Span
+
+
+def tree(value: Any, at: Span) -> Node:
+    """The node of a value at a place: of dicts, lists and scalars, of nodes as they are, of what is `Stated` at its own place.
+
+    A member whose value is None, or is stated to be, is unknown and left out.
+    """
+    if isinstance(value, Node):
+        return value
+    if isinstance(value, Stated):
+        return tree(value.value, value.at)
+    if isinstance(value, dict):
+        members = ((key, _place(each, at), tree(each, at)) for key, each in value.items() if not _unknown(each))
+        return mapping(members, at)
+    if isinstance(value, (list, tuple)):
+        return sequence([tree(each, at) for each in value], at)
+    return scalar(value, at)
+
+
+def _unknown(value: Any) -> bool:
+    return value is None or (isinstance(value, Stated) and value.value is None)
+
+
+def _place(value: Any, at: Span) -> Span:
+    return value.at if isinstance(value, Stated) else at

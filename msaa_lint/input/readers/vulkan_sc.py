@@ -1,0 +1,119 @@
+"""Vulkan SC pipeline JSON: what the Khronos tools write for the offline pipeline compiler (JSON schema of VK_KHR_pipeline_cache_sc tools).
+
+One file is one pipeline, with its render pass in C's own structures. It names no image; what the file does not hold another one may.
+"""
+
+from __future__ import annotations
+
+from msaa_lint.core.text.source import Source
+from msaa_lint.core.text.span import Span
+from msaa_lint.core.text.tree import Node
+from msaa_lint.frame.description.bind import Binder, is_null
+from msaa_lint.frame.description.document import Document
+from msaa_lint.frame.description.records import Description, Enabled, Pipeline, RenderPass
+
+STATES = ("GraphicsPipelineState", "ComputePipelineState", "RayTracingPipelineState")
+
+
+def claims(root: Node) -> bool:
+    """Whether a document is a pipeline description of Vulkan SC, whatever its file's name."""
+    return root.kind == "mapping" and any(state in root.value for state in STATES)
+
+
+def read(source: Source, root: Node) -> Document:
+    """The pipeline as a document. A compute pipeline gives one without passes."""
+    binder = Binder(dumped=True)
+    description: Description = binder.record(Description, _nothing(root), "", "", Span(root.start, root.start))
+    if root.kind != "mapping" or not any(state in root.value for state in STATES):
+        binder.wrong(root, "", f"one of {', '.join(STATES)}")
+        return Document(source, description, tuple(binder.problems), whole=False)
+    state = root.value.get("GraphicsPipelineState")
+    if state is not None and state.kind == "mapping":
+        _graphics(binder, description, state)
+        _enabled(binder, description, root, state)
+    elif state is not None and not is_null(state):
+        binder.wrong(state, "GraphicsPipelineState", "a mapping")
+    return Document(source, description, tuple(binder.problems), whole=False)
+
+
+def _nothing(root: Node) -> Node:
+    """A mapping without members, at the root's place."""
+    return Node("mapping", root.start, root.end, {}, {})
+
+
+def _graphics(binder: Binder, description: Description, state: Node) -> None:
+    passes = [
+        key for key in ("Renderpass", "Renderpass2", "RenderPass", "RenderPass2") if key in state.value and not is_null(state.value[key])
+    ]
+    name = ""
+    for name in passes:
+        path = f"GraphicsPipelineState.{name}"
+        made: RenderPass = binder.record(RenderPass, state.value[name], path, name, state.keys[name].span)
+        description.renderPasses = {name: made}
+    pipeline = state.value.get("GraphicsPipeline")
+    if pipeline is None or is_null(pipeline):
+        return
+    path = "GraphicsPipelineState.GraphicsPipeline"
+    if pipeline.kind != "mapping":
+        binder.wrong(pipeline, path, "a mapping")
+        return
+    made_pipeline: Pipeline = binder.record(Pipeline, _plain(pipeline), path, "GraphicsPipeline", state.keys["GraphicsPipeline"].span)
+    # `renderPass` is the number that the tool gave the render pass above.
+    made_pipeline.renderPass = name or None
+    for stage in made_pipeline.stages:
+        # A module is a number of the tool's as well, no path.
+        stage.module = None
+        stage.spelled.pop("module", None)
+    description.pipelines = {"GraphicsPipeline": made_pipeline}
+
+
+def _plain(pipeline: Node) -> Node:
+    """The pipeline without its render pass's number, and with the dynamic states themselves in place of their structure."""
+    keys = {key: node for key, node in pipeline.keys.items() if key != "renderPass"}
+    value = {key: pipeline.value[key] for key in keys}
+    state = value.get("pDynamicState")
+    if state is not None and state.kind == "mapping":
+        listed = state.value.get("pDynamicStates")
+        if listed is not None:
+            value["pDynamicState"] = listed
+        else:
+            del value["pDynamicState"], keys["pDynamicState"]
+    return Node("mapping", pipeline.start, pipeline.end, value, keys)
+
+
+def _enabled(binder: Binder, description: Description, root: Node, state: Node) -> None:
+    """EnabledExtensions, and the features that the device is created with."""
+    enabled: Enabled = binder.record(Enabled, _nothing(root), "EnabledExtensions", "EnabledExtensions", Span(root.start, root.start))
+    listed = root.value.get("EnabledExtensions")
+    if listed is not None and listed.kind == "sequence":
+        enabled.extensions = tuple(item.text for item in listed.value if item.kind == "scalar")
+        enabled.spelled["extensions"] = (root.keys["EnabledExtensions"], listed)
+    features = state.value.get("PhysicalDeviceFeatures")
+    found = _core_features(features) if features is not None else None
+    if found is not None:
+        key, node = found
+        enabled.features = tuple(
+            name for name, item in node.value.items() if item.kind == "scalar" and item.text in ("VK_TRUE", "1", "true")
+        )
+        rate = "sampleRateShading"
+        enabled.spelled["features"] = (node.keys[rate], node.value[rate]) if rate in node.value else (key, node)
+    description.enabled = enabled
+
+
+def _core_features(chain: Node) -> tuple[Node, Node] | None:
+    """The VkPhysicalDeviceFeatures that the device is created with, in a chain of structures: the last that stands in it.
+
+    The tools dump VkDeviceObjectReservationCreateInfo, whose chain holds a VkPhysicalDeviceFeatures2 where the application passed one,
+    and beside it pEnabledFeatures, all false where it passed none.
+    """
+    node: Node | None = chain
+    outer: tuple[Node, Node] | None = None
+    while node is not None and node.kind == "mapping":
+        features = node.value.get("features")
+        if features is not None and features.kind == "mapping":
+            found = (node.keys["features"], features)
+            if node is not chain:
+                return found
+            outer = found
+        node = node.value.get("pNext")
+    return outer

@@ -1,0 +1,163 @@
+"""Finds the SPIR-V or the GLSL that shader stages name, and says what it says of multisampling.
+
+A module comes with the input (a capture's), or is a file: its path counts from the folder of the description and must stay in its project
+with all symbolic links followed. It may come from a stranger's branch: it is limited, checked, and never more than data. What is wrong
+with one is a warning at its `module`; the rest is linted, and rules that need the shader stay undecided.
+"""
+
+# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
+import os
+
+from msaa_lint.core.diagnostics import diagnostic
+from msaa_lint.core.finding import Finding
+from msaa_lint.core.project import inside, project_root
+from msaa_lint.core.text.files import read
+from msaa_lint.core.text.node import Limits
+from msaa_lint.core.text.source import Unreadable
+from msaa_lint.core.text.span import Span
+from msaa_lint.frame.description.document import Document
+from msaa_lint.frame.description.records import ShaderStage
+from msaa_lint.frame.spirv.module import MAX_BYTES, Module
+from msaa_lint.frame.spirv.reflect import Reflected, reflected
+from msaa_lint.frame.spirv.words import SpirvError
+
+MAX_WORK = 64_000_000
+"""Of one document: words of modules, each time that one is looked at, and instructions followed, of which one counts as much as STEP words.
+That takes half a minute or so; a game's frame takes a hundredth of it."""
+
+STEP = 16
+
+TOO_MANY = "this module and others after it are not looked at: there are too many, or they are too large"
+
+GLSL = (".frag", ".comp", ".glsl", ".vert", ".tesc", ".tese", ".geom", ".mesh", ".task")
+"""The endings of texts that are GLSL."""
+
+MAGIC = (b"\x03\x02\x23\x07", b"\x07\x23\x02\x03")
+"""What SPIR-V begins with, in either byte order."""
+
+MAX_KEPT = 8
+"""Modules that are kept as they were read: pipelines that share one mostly stand together."""
+
+
+class _Unusable(Exception):
+    """Why a module cannot be had: the code of a finding, in words, and what may help."""
+
+    def __init__(self, code: str, message: str, help: str = "") -> None:
+        super().__init__(message)
+        self.code = code
+        self.help = help
+
+
+class Modules:
+    """The modules of one document. `findings` are the warnings about those that cannot be used."""
+
+    def __init__(self, document: Document, file: str) -> None:
+        self.findings: list[Finding] = []
+        self._own = document.modules
+        self._file = file
+        self._folder = os.path.dirname(file) or os.curdir
+        self._left = MAX_WORK
+        self._warned: set[tuple[str, str]] = set()
+        self._kept: dict[str, Module | _Unusable] = {}
+        self._known: dict[object, Reflected | None] = {}
+
+    def reflected(self, stage: ShaderStage, alpha: bool) -> Reflected | None:
+        """What a stage's module says; None where it cannot be used. `alpha` asks what is stored to the colour's alpha."""
+        constants = {int(name): value for name, value in (stage.specialization or {}).items()}
+        key = (stage.module, stage.name, tuple(constants.items()), alpha)
+        if key not in self._known:
+            self._known[key] = self._reflected(stage, constants, alpha)
+        return self._known[key]
+
+    def _reflected(self, stage: ShaderStage, constants: dict[int, float | bool], alpha: bool) -> Reflected | None:
+        name = stage.module or ""
+        try:
+            module = self._module(name)
+            self._left -= len(module.words)
+            if self._left < 0:
+                raise _Unusable("MSAA906", TOO_MANY)
+            try:
+                found = reflected(module, stage.name, constants, alpha)
+                self._left -= STEP * found.steps
+            except SpirvError as error:
+                raise _Unusable("MSAA904" if "entry point" in str(error) else "MSAA903", f"{_quoted(name)}: {error}") from None
+        except _Unusable as error:
+            self._warn(error, stage)
+            return None
+        if found.stage != stage.stage:
+            wrong = _Unusable("MSAA903", f"{_quoted(name)}: `{found.name[:40]}` is a shader of stage {found.stage}, not {stage.stage}")
+            self._warn(wrong, stage)
+            return None
+        return found
+
+    def _warn(self, error: _Unusable, stage: ShaderStage) -> None:
+        # One mistake, one finding: at the first that names it. Those that are too many have no name.
+        key = ("" if error.code == "MSAA906" else stage.module or "", str(error))
+        if key in self._warned:
+            return
+        self._warned.add(key)
+        at: Span = stage.place("name") if "entry point" in str(error) and stage.states("name") else stage.place("module")
+        help = error.help or "rules that ask the shader stay undecided"
+        self.findings.append(
+            diagnostic(error.code, str(error), self._file, at, f"{stage.path}.module", help=help)._replace(severity="warning")
+        )
+
+    def _module(self, name: str) -> Module:
+        kept = self._kept.pop(name, None)
+        if kept is None:
+            if len(self._kept) >= MAX_KEPT:
+                self._kept.pop(next(iter(self._kept)))
+            try:
+                kept = self._read(name)
+            except _Unusable as error:
+                kept = error
+        self._kept[name] = kept
+        if isinstance(kept, _Unusable):
+            raise kept
+        return kept
+
+    def _read(self, name: str) -> Module:
+        code = self._own.get(name)
+        if code is None:
+            code = self._bytes(name)
+        if self._left < len(code) // 4:
+            raise _Unusable("MSAA906", TOO_MANY)
+        if name.endswith(GLSL) and code[:4] not in MAGIC:
+            code = self._of_text(name, code)
+        try:
+            return Module(code)
+        except SpirvError as error:
+            raise _Unusable("MSAA903", f"{_quoted(name)}: {error}", "a module is SPIR-V, as glslang and DXC write it") from None
+
+    def _of_text(self, name: str, code: bytes) -> bytes:
+        """The module that GLSL makes."""
+        from .code.glsl.shader import shader
+        from .code.glsl.text import NotRead
+        from .code.parsing import Missing
+
+        self._left -= STEP * len(code)
+        try:
+            # What a page shows, and what others include, may be a part of a shader.
+            return shader(code.decode("utf-8", "replace"), True).code
+        except Missing as error:
+            raise _Unusable("MSAA903", f"{_quoted(name)} is GLSL", str(error)) from None
+        except NotRead as error:
+            raise _Unusable("MSAA903", f"{_quoted(name)} cannot be followed: {error}", "name its SPIR-V, which is read whole") from None
+
+    def _bytes(self, name: str) -> bytes:
+        path = os.path.join(self._folder, name)
+        if not inside(path, project_root(self._folder)):
+            raise _Unusable("MSAA903", f"{_quoted(name)} leaves the project")
+        try:
+            return read(path, Limits(bytes=MAX_BYTES))
+        except FileNotFoundError:
+            raise _Unusable("MSAA904", f"no file {_quoted(name)}", "without it, rules that ask the shader stay undecided") from None
+        except Unreadable:
+            raise _Unusable("MSAA903", f"{_quoted(name)} cannot be read: it is larger than {MAX_BYTES >> 20} MiB") from None
+        except (OSError, ValueError) as error:
+            reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
+            raise _Unusable("MSAA903", f"{_quoted(name)} cannot be read: {reason}") from None
+
+
+def _quoted(word: str) -> str:
+    return f"`{word[:120]}…`" if len(word) > 120 else f"`{word}`"

@@ -1,0 +1,165 @@
+"""The values of a TOML text, by tomllib, and where its keys and values stand, which tomllib does not say."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+from msaa_lint.core.diagnostics import diagnostic
+from msaa_lint.core.finding import Finding
+from msaa_lint.core.text.span import Span
+
+MAX_DOTS = 4_000_000
+"""Of the sum over all lines of their dots squared: tomllib takes that much time for a dotted key."""
+_AT = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)\Z")
+
+_BLANK = re.compile(r"(?:[ \t\r\n]+|#[^\n]*)*")
+_SPACE = re.compile(r"[ \t]*")
+_STRING = re.compile(
+    r'"""[^"\\]*(?:(?:\\.|"{1,2}(?!"))[^"\\]*)*"{3,5}'
+    r"|'''.*?'''+"
+    r'|"[^"\\\n]*(?:\\.[^"\\\n]*)*"'
+    r"|'[^'\n]*'",
+    re.DOTALL,
+)
+_BARE = re.compile(r"[^\s,\]}#](?:[^,\]}#\r\n]*[^\s,\]}#])?")
+_KEY = re.compile(r"[A-Za-z0-9_-]+")
+_STEP = re.compile(r"[ \t]*\.[ \t]*")
+
+
+class Place(NamedTuple):
+    """The key (an element of an array: itself) and the value; for a table, the last name of its header twice."""
+
+    key: Span
+    value: Span
+
+
+Path = tuple[str | int, ...]
+
+
+def parsed(text: str, name: str) -> dict[str, Any] | Finding:
+    """The table of a TOML text, or the finding that it is none."""
+    if sum(line.count(".") ** 2 for line in text.split("\n")) > MAX_DOTS:
+        return diagnostic("MSAA921", "too many dotted names in one line of the configuration", name)
+    import tomllib
+
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        return diagnostic("MSAA921", "the configuration is nested too deeply", name)
+    except ValueError as error:
+        message = str(error)
+        at = _AT.search(message)
+        if at is None:
+            return diagnostic("MSAA921", f"the configuration is no TOML: {message[:200]}", name)
+        start = len(text)
+        if at[1]:
+            lines = text.split("\n")
+            start = min(len(text), sum(len(line) + 1 for line in lines[: int(at[1]) - 1]) + int(at[2]) - 1)
+        end = start + (text[start : start + 1] not in ("", "\n", "\r"))
+        return diagnostic("MSAA921", f"the configuration is no TOML: {message[: at.start()]}", name, Span(start, end))
+
+
+@lru_cache(maxsize=4)
+def places(text: str) -> dict[Path, Place]:
+    """Each key's first place by its path, an array's elements by their index. Arrays of tables count as tables.
+
+    Meant for a text that tomllib has read: it checks nothing, and stops where it no longer understands.
+    """
+    found: dict[Path, Place] = {}
+    table: Path = ()
+    # What is open: its path, its key, where it starts, and the next index (-1: an inline table).
+    open_: list[tuple[Path, Span, int, int]] = []
+    at = 0
+    while True:
+        at = _skip(_BLANK, text, at)
+        if at >= len(text):
+            return found
+        char = text[at]
+        if open_:
+            path, key, start, index = open_[-1]
+            if char in "]}":
+                found.setdefault(path, Place(key, Span(start, at + 1)))
+                open_.pop()
+                at += 1
+                continue
+            if char == ",":
+                open_[-1] = (path, key, start, index + 1 if index >= 0 else -1)
+                at += 1
+                continue
+            if index >= 0:
+                at = _value(text, at, (*path, index), None, found, open_)
+                if at < 0:
+                    return found
+                continue
+        elif char == "[":
+            at += 2 if text.startswith("[[", at) else 1
+            names, at = _dotted(text, _skip(_SPACE, text, at))
+            table = ()
+            for name, span in names:
+                table = (*table, name)
+                found.setdefault(table, Place(span, span))
+            at = text.find("]", at)
+            if not names or at < 0:
+                return found
+            at += 2 if text.startswith("]]", at) else 1
+            continue
+        path = open_[-1][0] if open_ else table
+        names, at = _dotted(text, at)
+        at = _skip(_SPACE, text, at)
+        if not names or not text.startswith("=", at):
+            return found
+        for name, span in names[:-1]:
+            path = (*path, name)
+            found.setdefault(path, Place(span, span))
+        name, span = names[-1]
+        at = _value(text, _skip(_SPACE, text, at + 1), (*path, name), span, found, open_)
+        if at < 0:
+            return found
+
+
+def _value(text: str, at: int, path: Path, key: Span | None, found: dict[Path, Place], open_: list[tuple[Path, Span, int, int]]) -> int:
+    """Takes a scalar, or opens an array or a table; where it goes on, or -1."""
+    if text[at : at + 1] in ("[", "{"):
+        open_.append((path, key or Span(at, at + 1), at, 0 if text[at] == "[" else -1))
+        return at + 1
+    match = _STRING.match(text, at) or _BARE.match(text, at)
+    if match is None:
+        return -1
+    span = Span(match.start(), match.end())
+    found.setdefault(path, Place(key or span, span))
+    return match.end()
+
+
+def _dotted(text: str, at: int) -> tuple[list[tuple[str, Span]], int]:
+    """A key's names with their places, and where it ends."""
+    names: list[tuple[str, Span]] = []
+    while True:
+        match = _KEY.match(text, at) or _STRING.match(text, at)
+        if match is None:
+            return names, at
+        names.append((_unquoted(match[0]), Span(match.start(), match.end())))
+        at = match.end()
+        step = _STEP.match(text, at)
+        if step is None:
+            return names, at
+        at = step.end()
+
+
+def _unquoted(name: str) -> str:
+    if name[0] == '"' and "\\" in name:
+        import tomllib
+
+        try:
+            text: str = tomllib.loads("x = " + name)["x"]
+        except ValueError:
+            # A name that is no TOML has no place to be asked for.
+            return name[1:-1]
+        return text
+    return name[1:-1] if name[0] in "\"'" else name
+
+
+def _skip(what: re.Pattern[str], text: str, at: int) -> int:
+    match = what.match(text, at)
+    return match.end() if match is not None else at

@@ -1,0 +1,250 @@
+"""Finds the record that `msaa-lint study --record` left beside a description, and says how it stands to the frame.
+
+A record holds digests of what a study answers to. It may come from a stranger's branch: it is limited, checked, and never more than data.
+"""
+
+# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
+import math
+import os
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+from msaa_lint.frame.facts.study import STALE, UNSTUDIED, UNUSABLE, Measured, Studied
+
+if TYPE_CHECKING:
+    from msaa_lint.core.text.tree import Node
+    from msaa_lint.frame.description.record import Record
+    from msaa_lint.frame.facts.frame import Frame
+
+ENDING = ".msaa-study.json"
+SCHEMA = "msaa-lint/study-record-v1"
+PARTS = ("attachments", "device", "pipelines", "scene", "size")
+"""Of a description, what a study answers to."""
+
+COUNTS = (1, 2, 4, 8, 16, 32, 64)
+MAX_BYTES = 1 << 18
+MAX_DEPTH = 8
+MAX_NODES = 20_000
+MAX_TEXT = 200
+
+_PIPELINE = ("multisampleState", "colorBlendState", "depthStencilState")
+_LEFT_OUT = frozenset({"rasterizationSamples"})
+
+
+class Unusable(Exception):
+    """What is wrong with a record, in words, and where."""
+
+    def __init__(self, reason: str, at: "Node | None" = None) -> None:
+        super().__init__(reason)
+        self.at = at
+
+
+class Entry(NamedTuple):
+    """The study of one document of a description: digests by part, where the time is from (empty: no time), pixels, counts."""
+
+    inputs: dict[str, str]
+    device: str
+    size: tuple[int, int]
+    counts: dict[int, Measured]
+
+
+def path_of(file: str) -> str:
+    """Where the record of a description lies."""
+    return file + ENDING
+
+
+def studied(frame: "Frame", file: str) -> Studied:
+    """How the record beside a description stands to its frame. `file` is its path, or a name that is no path, such as `<stdin>`."""
+    path = path_of(file)
+    try:
+        if not os.path.lexists(path):
+            return UNSTUDIED
+        entries = _read(path)
+    except Unusable as error:
+        return Studied(UNUSABLE, str(error))
+    own = digests(frame)
+    found = next((entry for entry in entries if entry.inputs == own), None)
+    if found is not None:
+        measured = ", ".join(f"{count}x" for count in found.counts)
+        return Studied("", f"it measured {measured}", found.counts)
+    nearest = min(entries, key=lambda entry: len(_changed(entry, own)))
+    return Studied(STALE, f"{_listed(_changed(nearest, own))} changed since; run `msaa-lint study --record` again")
+
+
+def _changed(entry: Entry, own: dict[str, str]) -> list[str]:
+    return [part for part in PARTS if entry.inputs[part] != own[part]]
+
+
+def _listed(words: list[str]) -> str:
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+
+
+def digests(frame: "Frame") -> dict[str, str]:
+    """Digests of what a study of a frame answers to, by part.
+
+    Sample counts are not among it: a study measures several. Nor are names, load and store operations, layouts, memory, and images that
+    are not drawn to.
+    """
+    from hashlib import sha256
+
+    return {part: sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:16] for part, text in inputs(frame).items()}
+
+
+def inputs(frame: "Frame") -> dict[str, str]:
+    """What a study of a frame answers to, by part, as text."""
+    description = frame.description
+    size = description.frame
+    states = ([(member, _canonical(getattr(pipeline, member))) for member in _PIPELINE] for pipeline, _ in frame.pipelines)
+    return {
+        "attachments": repr(sorted({repr(each) for each in _attachments(frame)})),
+        "device": repr(_canonical(description.device)),
+        "pipelines": repr(sorted({repr(each) for each in states})),
+        "scene": repr(_canonical(description.scene)),
+        "size": repr((size.width, size.height) if size is not None else None),
+    }
+
+
+def _attachments(frame: "Frame") -> Iterator[object]:
+    """The formats of multisampled images and what their values mean, whether colour elsewhere is encoded, and how is resolved."""
+    for target in frame.all_targets:
+        encoding = target.image.encoding if target.image is not None else None
+        usage = target.image.usage if target.image is not None else None
+        if target.samples is not None and target.samples > 1:
+            yield target.format.name if target.format is not None else None, encoding
+        elif usage is None or "COLOR_ATTACHMENT" in usage:
+            yield target.format is not None and target.format.is_srgb, encoding == "GAMMA"
+    for each in frame.passes:
+        for subpass in each.subpasses:
+            yield from ((resolve.aspect, resolve.mode) for resolve in subpass.resolves)
+
+
+def _canonical(value: object) -> object:
+    """A value so that what is spelled otherwise, or in another order, and means the same is the same."""
+    shape = getattr(type(value), "SHAPE", None)
+    if shape is not None:
+        record: Record = value  # type: ignore[assignment]
+        absent = record.ABSENT
+        members = [(name, getattr(record, name)) for name in sorted(shape) if name not in _LEFT_OUT]
+        return [(name, _canonical(member)) for name, member in members if member != absent.get(name)]
+    if isinstance(value, dict):
+        return sorted((str(key), _canonical(member)) for key, member in value.items())
+    if isinstance(value, (list, tuple)):
+        return [_canonical(member) for member in value]
+    return int(value) if isinstance(value, float) and value.is_integer() else value
+
+
+def _read(path: str) -> list[Entry]:
+    """The studies of a record. Unusable where it is none."""
+    from msaa_lint.core.project import inside, project_root
+    from msaa_lint.core.text.files import read
+    from msaa_lint.core.text.source import Source, Unreadable, decode
+    from msaa_lint.core.text.tree import Limits, parse
+
+    name = os.path.basename(path)
+    if not inside(path, project_root(os.path.dirname(path) or os.curdir)):
+        raise Unusable(f"{name} leaves the project")
+    try:
+        source = Source(name, decode(read(path, Limits(bytes=MAX_BYTES))))
+    except Unreadable as error:
+        raise Unusable(f"{name}: {str(error).replace('the input', 'it')}") from None
+    except OSError as error:
+        raise Unusable(f"{name} cannot be read: {error.strerror or error}") from None
+    parsed = parse(source, Limits(depth=MAX_DEPTH, nodes=MAX_NODES))
+    for problem in parsed.problems:
+        place = source.position(problem.span.start)
+        raise Unusable(f"{name}, line {place.line}: {problem.message}")
+    try:
+        if len(parsed.documents) != 1:
+            raise Unusable("one JSON object is due")
+        return list(_entries(parsed.documents[0]))
+    except Unusable as error:
+        at = f", line {source.position(error.at.start).line}" if error.at is not None else ""
+        raise Unusable(f"{name}{at}: {error}") from None
+
+
+def _entries(root: "Node") -> Iterator[Entry]:
+    schema, studies = _members(root, ("schema", "studies"))
+    if schema.value != SCHEMA:
+        raise Unusable(f'the schema is not "{SCHEMA}"', schema)
+    if studies.kind != "sequence" or not studies.value:
+        raise Unusable("`studies` is a list of at least one", studies)
+    for node in studies.value:
+        parts, device, size, counts = _members(node, ("inputs", "device", "size", "counts"))
+        digests = dict(zip(PARTS, (_text(part) for part in _members(parts, PARTS)), strict=True))
+        if size.kind != "sequence" or len(size.value) != 2:
+            raise Unusable("`size` is a width and a height", size)
+        width, height = (_whole(side) for side in size.value)
+        where, pixels = _text(device), (width, height)
+        yield Entry(digests, where, pixels, _counts(counts, where, pixels))
+
+
+class _Count(NamedTuple):
+    rmse: float
+    time_ms: float | None
+    justified: bool
+    reason: str
+
+
+def _counts(node: "Node", device: str, size: tuple[int, int]) -> dict[int, Measured]:
+    if node.kind != "mapping" or not node.value:
+        raise Unusable("`counts` is an object of at least one sample count", node)
+    known = {str(count): count for count in COUNTS}
+    found: dict[int, _Count] = {}
+    for key, value in node.value.items():
+        if key not in known:
+            raise Unusable(f"`{key[:20]}` is no sample count", node.keys[key])
+        rmse, time, justified, reason = _members(value, ("rmse", "time_ms", "justified", "reason"))
+        if not isinstance(justified.value, bool):
+            raise Unusable("`justified` is true or false", justified)
+        found[known[key]] = _Count(_number(rmse), None if _is_null(time) else _number(time), justified.value, _text(reason))
+    return {count: Measured(found[count].justified, _says(count, found, device, size)) for count in sorted(found)}
+
+
+def _says(count: int, found: dict[int, _Count], device: str, size: tuple[int, int]) -> str:
+    """What a study found of a count, against the largest of at most four."""
+    own = found[count]
+    base = max((each for each in found if each <= 4), default=None)
+    where = f"at {size[0]}x{size[1]}" + (f" on {device}" if device else "") + (f"; {own.reason}" if own.reason else "")
+    if base is None or base == count:
+        return f"its error is {own.rmse:.3g} {where}"
+    than = found[base]
+    error = f"it leaves {100 * own.rmse / than.rmse:.0f} % of {base}x's error" if than.rmse > 0 else f"{base}x has no error to lose"
+    if own.time_ms is None or not than.time_ms:
+        return f"{error}, at no known time, {where}"
+    return f"{error} for {own.time_ms / than.time_ms:.2g} times its time {where}"
+
+
+def _members(node: "Node", names: Iterable[str]) -> "list[Node]":
+    """The members of an object that has these and no others."""
+    due = tuple(names)
+    if node.kind != "mapping":
+        raise Unusable(f"an object with {', '.join(due)} is due", node)
+    for key in node.value:
+        if key not in due:
+            raise Unusable(f"unknown key `{key[:40]}`", node.keys[key])
+    missing = [name for name in due if name not in node.value]
+    if missing:
+        raise Unusable(f"it lacks {', '.join(missing)}", node)
+    return [node.value[name] for name in due]
+
+
+def _is_null(node: "Node") -> bool:
+    return node.kind == "scalar" and node.value is None
+
+
+def _text(node: "Node") -> str:
+    if node.kind != "scalar" or not isinstance(node.value, str) or len(node.value) > MAX_TEXT:
+        raise Unusable(f"a text of at most {MAX_TEXT} characters is due", node)
+    return node.value
+
+
+def _whole(node: "Node") -> int:
+    if type(node.value) is not int or not 1 <= node.value < 1 << 31:
+        raise Unusable("a whole number of pixels is due", node)
+    return node.value
+
+
+def _number(node: "Node") -> float:
+    if type(node.value) not in (int, float) or not 0 <= node.value < math.inf:
+        raise Unusable("a number of at least 0 is due", node)
+    return float(node.value)

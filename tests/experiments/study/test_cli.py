@@ -1,0 +1,356 @@
+"""`msaa-lint study` as a process: what it refuses, what it writes, how it ends."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+
+from msaa_lint.cli import study as command
+from msaa_lint.cli.study_options import STUDY, read
+from msaa_lint.experiments.study import measure
+from msaa_lint.experiments.study.points import MSAA, Point, Technique, techniques
+from msaa_lint.experiments.study.scenes import NAMES
+from msaa_lint.experiments.study.scenes.scene import Scene
+from tests.paths import ROOT
+
+SCHEMA = json.loads((ROOT / "msaa_lint" / "cli" / "report" / "study_v1.schema.json").read_text())
+COMMAND = (sys.executable, "-m", "msaa_lint", "study", "--isolated")
+SMALL = ("--size", "64x48", "--jobs", "1")
+
+FRAME = """\
+frame: {width: 64, height: 48, fps: 60}
+images:
+  color_ms: {format: R8G8B8A8_UNORM, samples: 8, usage: [COLOR_ATTACHMENT, TRANSIENT_ATTACHMENT], memory: [DEVICE_LOCAL, LAZILY_ALLOCATED]}
+  color: {format: R8G8B8A8_UNORM, samples: 1, usage: [COLOR_ATTACHMENT, SAMPLED], memory: [DEVICE_LOCAL]}
+renderPasses:
+  forward:
+    attachments:
+      color_ms: {image: color_ms, loadOp: CLEAR, storeOp: DONT_CARE, initialLayout: UNDEFINED, finalLayout: COLOR_ATTACHMENT_OPTIMAL}
+      color: {image: color, loadOp: DONT_CARE, storeOp: STORE, initialLayout: UNDEFINED, finalLayout: SHADER_READ_ONLY_OPTIMAL}
+    subpasses:
+      - {colorAttachments: [color_ms], resolveAttachments: [color]}
+scene: {edges: true}
+"""
+
+
+def run(folder: Path, *arguments: str, text: str | None = None, **environment: str) -> subprocess.CompletedProcess[str]:
+    given = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1", **environment}
+    done = subprocess.run([*COMMAND, *arguments], cwd=folder, env=given, input=text, capture_output=True, text=True, check=False)
+    assert "Traceback" not in done.stderr
+    return done
+
+
+def report(text: str) -> dict[str, Any]:
+    data = json.loads(text)
+    jsonschema.Draft202012Validator(SCHEMA).validate(data)
+    assert isinstance(data, dict)
+    return data
+
+
+def test_schema_is_one() -> None:
+    jsonschema.Draft202012Validator.check_schema(SCHEMA)
+
+
+def test_options_are_read_without_typer() -> None:
+    given = read(["edge-fan", "--samples", "1,4", "--jobs=2", "--record", "--bits", "4", "--output", "json", "--output=full=a.txt"])
+    assert given == {"paths": ["edge-fan"], "samples": "1,4", "jobs": 2, "record": True, "bits": "4", "output": ["json", "full=a.txt"]}
+    assert read(["--list-scenes"]) == {"paths": [], "list_scenes": True}
+    for wrong in (
+        ["a", "--jobs", "0"],
+        ["a", "--bits", "5"],
+        ["a", "--nothing"],
+        ["a", "--record=1"],
+        [],
+        ["a", "--size"],
+        ["a", "--backend=x"],
+    ):
+        assert read(wrong) is None
+    assert len({option.flag for option in STUDY}) == len(STUDY)
+
+
+def test_help_names_every_option(tmp_path: Path) -> None:
+    done = run(tmp_path, "--help")
+    assert done.returncode == 0
+    assert [option.flag for option in STUDY if option.flag not in done.stdout] == []
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["edge-fun"], "no scene and no file 'edge-fun'; did you mean edge-fan?"),
+        (["qqqq\x1b"], r"no scene and no file 'qqqq\x1b'; scenes are edge-fan, "),
+        (["edge-fan", "--samples", "3"], "--samples '3': one or more of 1, 2, 4, 8, 16 are due, with commas between"),
+        (["edge-fan", "--samples", ""], "--samples ''"),
+        (["edge-fan", "--techniques", "msaa,fxaa"], "--techniques 'msaa,fxaa': one or more of msaa, sample-shading, ssaa are due"),
+        (["edge-fan", "--techniques", "sample-shading", "--samples", "1"], "sample shading needs a count above 1"),
+        (["edge-fan", "--size", "1920"], "--size '1920': WIDTHxHEIGHT in pixels is due"),
+        (["edge-fan", "--size", "8x8"], "edge-fan: 8x8 pixels are too few"),
+        (["edge-fan", "--output", "sarif"], "no output 'sarif'; there are full, json"),
+        (["edge-fan", "--plot", "a.gif"], "--plot 'a.gif': the name of an .svg or .png file is due"),
+        (["edge-fan", "--profile", "mali-g67"], "--profile: no profile `mali-g67`; did you mean `mali-g76`?"),
+        (["edge-fan", "--record"], "--record: the file of a description is due"),
+        (["edge-fan", "--bits", "5"], "'5' is not one of '4', '8'"),
+    ],
+)
+def test_what_says_nothing_ends_with_2(tmp_path: Path, arguments: list[str], words: str) -> None:
+    done = run(tmp_path, *arguments)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert words in done.stderr and "\x1b" not in done.stderr
+
+
+def test_no_path_ends_with_2(tmp_path: Path) -> None:
+    done = run(tmp_path)
+    assert done.returncode == 2 and "--list-scenes" in done.stderr
+
+
+def test_scenes_are_listed(tmp_path: Path) -> None:
+    done = run(tmp_path, "--list-scenes")
+    assert done.returncode == 0
+    assert [line.split()[0] for line in done.stdout.splitlines()] == list(NAMES)
+    assert all(len(line.split()) > 2 for line in done.stdout.splitlines())
+
+
+def test_every_technique_of_a_scene_has_a_point(tmp_path: Path) -> None:
+    done = run(tmp_path, "edge-fan", *SMALL, "--output", "json")
+    assert (done.returncode, done.stderr) == (0, "")
+    data = report(done.stdout)
+    assert [point["name"] for point in data["points"]] == [technique.name for technique in techniques()]
+    assert (data["device"], data["model"], data["size"], data["bits"]) == (None, None, [64, 48], 8)
+    assert {(point["time_ms"], point["time_from"], point["ratio"]) for point in data["points"]} == {(None, "", None)}
+    one, *_, sixteen = [point["rmse"] for point in data["points"] if point["technique"] == "msaa"]
+    assert 0.2 < one < 0.35 and sixteen < one / 4
+    assert data["points"][0]["bytes_per_frame"] == 64 * 48 * 4, "samples stay on the tile: the picture alone is written"
+    (scene,) = data["scenes"]
+    assert (scene["name"], scene["error_of"], scene["effects"]) == ("edge-fan", "coverage", [])
+    assert scene["edge_pixels"] > 100
+    assert any("4x" in each["says"] for each in data["advice"])
+
+
+def test_the_same_input_gives_the_same_bytes_whatever_the_jobs(tmp_path: Path) -> None:
+    alone = run(tmp_path, "edge-fan", *SMALL, "--output", "json").stdout
+    spread = run(tmp_path, "edge-fan", "--size", "64x48", "--jobs", "2", "--backend", "threading", "--output", "json").stdout
+    processes = run(tmp_path, "edge-fan", "--size", "64x48", "--jobs", "2", "--output", "json").stdout
+    assert alone == spread == processes
+
+
+def test_counts_and_techniques_are_chosen(tmp_path: Path) -> None:
+    data = report(run(tmp_path, "edge-fan", *SMALL, "--output", "json", "--samples", "8,4", "--techniques", "msaa").stdout)
+    assert [(point["technique"], point["samples"]) for point in data["points"]] == [("msaa", 4), ("msaa", 8)]
+
+
+def test_a_person_reads_a_table_with_its_sources(tmp_path: Path) -> None:
+    done = run(tmp_path, "edge-fan", *SMALL, "--samples", "1,4", "--techniques", "msaa,ssaa")
+    assert done.returncode == 0
+    lines = done.stdout.splitlines()
+    assert lines[0] == "edge-fan"
+    assert "64x48, vertices snapped to 8 bits; no time is known: --device NAME measures it" in lines
+    assert any(line.startswith("bytes, power and memory: the cost model") for line in lines)
+    assert any(line.startswith("- 4x leaves ") and "'s error (RMSE 0." in line for line in lines)
+    assert lines[-1] == "5 points of 1 scene"
+    assert not any("to 1x" in line for line in lines), "no time is known, and none is shown"
+
+
+def test_outputs_go_to_files(tmp_path: Path) -> None:
+    done = run(tmp_path, "edge-fan", *SMALL, "--samples", "4", "--output", "json=a.json", "--output", "full=a.txt")
+    assert (done.returncode, done.stdout) == (0, "")
+    report((tmp_path / "a.json").read_text())
+    assert (tmp_path / "a.txt").read_text().startswith("edge-fan\n")
+    refused = run(tmp_path, "edge-fan", *SMALL, "--samples", "4", "--output", "json=no/a.json")
+    assert refused.returncode == 2 and "no/a.json cannot be written: No such file or directory" in refused.stderr
+
+
+@pytest.mark.parametrize("ending", ["svg", "png"])
+def test_plots_are_the_same_for_the_same_points(tmp_path: Path, ending: str) -> None:
+    for name in ("a", "b"):
+        assert run(tmp_path, "edge-fan", *SMALL, "--samples", "1,4", "--plot", f"{name}.{ending}").returncode == 0
+    data = (tmp_path / f"a.{ending}").read_bytes()
+    assert data.startswith(b"<?xml" if ending == "svg" else b"\x89PNG\r\n")
+    assert data == (tmp_path / f"b.{ending}").read_bytes()
+    if ending == "svg":
+        assert b">4x</text>" in data and b">edge-fan</text>" in data and b"no time is known" in data
+
+
+def test_crops_are_side_by_side(tmp_path: Path) -> None:
+    done = run(tmp_path, "edge-fan", *SMALL, "--samples", "1,4", "--techniques", "msaa,ssaa", "--crops", "pictures")
+    assert "written: pictures/edge-fan-crops.png" in done.stdout
+    data = (tmp_path / "pictures" / "edge-fan-crops.png").read_bytes()
+    wide, high = int.from_bytes(data[16:20]), int.from_bytes(data[20:24])
+    assert (wide, high) == (4 * 264 - 8, 2 * (15 + 8 + 256) + 8), "exact, 1x, 4x; exact, and three grids"
+
+
+def test_a_description_is_a_scene_of_its_own(tmp_path: Path) -> None:
+    (tmp_path / "frame.msaa.yaml").write_text(FRAME)
+    few = ("--jobs", "1", "--samples", "1,4", "--techniques", "msaa", "--output", "json")
+    data = report(run(tmp_path, "frame.msaa.yaml", *few).stdout)
+    assert data["size"] == [64, 48], "what the description states"
+    assert [scene["name"] for scene in data["scenes"]] == ["frame.msaa.yaml"]
+    same = run(tmp_path, "-", "--stdin-filename", "frame.msaa.yaml", *few, text=FRAME)
+    assert report(same.stdout) == data
+    two = run(tmp_path, "-", *SMALL, "--samples", "4", "--techniques", "msaa", "--output", "json", text=f"{FRAME}---\n{FRAME}")
+    assert [scene["name"] for scene in report(two.stdout)["scenes"]] == ["<stdin>#1", "<stdin>#2"]
+
+
+def test_a_description_that_is_wrong_ends_with_2_and_the_others_go_on(tmp_path: Path) -> None:
+    (tmp_path / "bad.msaa.yaml").write_text("images: [\n")
+    (tmp_path / "frame.msaa.yaml").write_text(FRAME)
+    done = run(tmp_path, "bad.msaa.yaml", "frame.msaa.yaml", *SMALL, "--samples", "4", "--output", "json")
+    assert done.returncode == 2
+    assert "msaa-lint: bad.msaa.yaml: " in done.stderr
+    data = report(done.stdout)
+    assert [each["file"] for each in data["errors"]] == ["bad.msaa.yaml"]
+    assert [scene["name"] for scene in data["scenes"]] == ["frame.msaa.yaml"]
+
+
+def test_a_record_lies_beside_its_description(tmp_path: Path) -> None:
+    (tmp_path / "frame.msaa.yaml").write_text(FRAME)
+    done = run(tmp_path, "frame.msaa.yaml", "--jobs", "1", "--record", "--techniques", "msaa")
+    assert done.returncode == 0
+    assert "written: frame.msaa.yaml.msaa-study.json" in done.stdout
+    checked = subprocess.run(
+        [sys.executable, "-m", "msaa_lint", "check", "--isolated", "--select", "MSAA101", "frame.msaa.yaml"],
+        cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert checked.returncode == 1
+    assert "which its study does not justify: it leaves " in checked.stdout
+    assert "its time was not measured, which `--device NAME` does" in checked.stdout
+    refused = run(tmp_path, "frame.msaa.yaml", *SMALL, "--record", "--techniques", "ssaa")
+    assert refused.returncode == 2 and "--record: no sample count was measured" in refused.stderr
+
+
+def test_a_device_s_clock_is_named(tmp_path: Path) -> None:
+    done = run(tmp_path, "edge-fan", *SMALL, "--samples", "1,4,8", "--techniques", "msaa", "--device", "llvmpipe", "--repeats", "3",
+               "--output", "json")  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    data = report(done.stdout)
+    assert "llvmpipe" in data["device"]
+    one, four, eight = data["points"]
+    assert one["time_ms"] > 0 and four["time_ms"] > 0 and one["ratio"] == 1.0
+    assert one["time_from"] == four["time_from"] == data["device"]
+    assert (eight["time_ms"], eight["time_from"], eight["best"]) == (None, "", False)
+    assert [each["name"] for each in data["untimed"]] == ["8x"]
+
+
+def test_a_device_that_is_not_there_ends_with_2(tmp_path: Path) -> None:
+    done = run(tmp_path, "edge-fan", *SMALL, "--device", "no such thing")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "no such thing" in done.stderr
+
+
+def test_a_point_that_fails_is_told_and_ends_with_2(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    whole = measure.point
+
+    def point(scene: Scene, technique: Technique, bits: int = 8, ssim: bool = False) -> Point:
+        if technique.samples == 4:
+            raise MemoryError("no \x1b[31m room")
+        return whole(scene, technique, bits, ssim)
+
+    monkeypatch.setattr(measure, "point", point)
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "frame.msaa.yaml").write_text(FRAME)
+    given = {"paths": ["frame.msaa.yaml"], "jobs": 1, "techniques": MSAA, "output": ["json"], "record": True}
+    assert command.study(given) == 2
+    printed = capsys.readouterr()
+    assert printed.err == "msaa-lint: frame.msaa.yaml: 4x: MemoryError: no \\x1b[31m room\n"
+    data = report(printed.out)
+    assert [each["samples"] for each in data["points"]] == [1, 2, 8, 16]
+    assert data["failed"] == [{"scene": "frame.msaa.yaml", "name": "4x", "reason": "MemoryError: no \x1b[31m room"}]
+    assert not (tmp_path / "frame.msaa.yaml.msaa-study.json").exists(), "no record is left of half a study"
+
+
+def test_a_failure_of_the_program_is_one_line(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(command, "_found", lambda *_: 1 / 0)
+    given = {"paths": ["edge-fan"], "jobs": 1, "size": "64x48", "samples": "4", "techniques": MSAA}
+    assert command.study(given) == 2
+    assert capsys.readouterr().err == "msaa-lint: the program failed: ZeroDivisionError: division by zero (--traceback shows where)\n"
+    with pytest.raises(ZeroDivisionError):
+        command.study({**given, "traceback": True})
+
+
+@pytest.mark.parametrize(("missing", "arguments", "words"), [
+    ("numpy", [], "study needs numpy, which is not installed: pip install 'msaa-lint[study]'"),
+    ("joblib", ["--jobs", "2"], "joblib is not installed: pip install 'msaa-lint[study]'"),
+    ("matplotlib", ["--plot", "a.svg", "--jobs", "1"], "--plot needs matplotlib, which is not installed: pip install 'msaa-lint[chart]'"),
+])  # fmt: skip
+def test_what_is_not_installed_is_said(tmp_path: Path, missing: str, arguments: list[str], words: str) -> None:
+    (tmp_path / missing).mkdir()
+    (tmp_path / missing / "__init__.py").write_text(f"raise ModuleNotFoundError('none', name={missing!r})")
+    done = run(tmp_path, "edge-fan", "--size", "64x48", "--samples", "4", *arguments, PYTHONPATH=f"{ROOT}{os.pathsep}{tmp_path}")
+    assert done.returncode == 2
+    assert words in done.stderr
+
+
+def test_only_ssim_needs_scikit_image(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setitem(sys.modules, "skimage", None)
+    given = {"paths": ["edge-fan"], "jobs": 1, "size": "64x48", "samples": "4", "techniques": MSAA}
+    assert command.study(given) == 0
+    capsys.readouterr()
+    assert command.study({**given, "ssim": True}) == 2
+    wanted = "msaa-lint: --ssim needs scikit-image, which is not installed: pip install 'msaa-lint[ssim]'\n"
+    assert capsys.readouterr() == ("", wanted)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="process groups are POSIX")
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_an_interrupted_sweep_loses_nothing_and_goes_on(tmp_path: Path, jobs: str) -> None:
+    arguments = ["edge-fan", "near-horizontal", "--size", "320x240", "--output", "json", "--jobs", jobs]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1"}
+    kept = tmp_path / "kept"
+    with subprocess.Popen(
+        [*COMMAND, *arguments, "--resume", "kept"], cwd=tmp_path, env=environment, text=True, start_new_session=True,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    ) as running:  # fmt: skip
+        while running.poll() is None and len(list(kept.glob("edge-fan-*.json"))) < 2:
+            time.sleep(0.01)
+        os.killpg(running.pid, signal.SIGINT)
+        out, error = running.communicate(timeout=60)
+    assert running.returncode == 130, error
+    assert out == ""
+    assert error == "msaa-lint: interrupted; what was done is kept in kept, and the same command goes on from there\n"
+    there = {path: path.read_bytes() for path in kept.iterdir()}
+    assert 2 <= len([path for path in there if not path.name.startswith("time-")]) < 2 * len(techniques())
+    assert not any(path.suffix == ".tmp" for path in there)
+    resumed = run(tmp_path, *arguments, "--resume", "kept")
+    assert resumed.returncode == 0, resumed.stderr
+    assert resumed.stdout == run(tmp_path, *arguments).stdout
+    assert {path: path.read_bytes() for path in there} == there, "what was there was not had anew"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="terminals are POSIX")
+def test_a_terminal_shows_progress(tmp_path: Path) -> None:
+    import pty
+
+    master, terminal = pty.openpty()
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "TERM": "xterm", "COLUMNS": "120"}
+    with subprocess.Popen(
+        [*COMMAND, "edge-fan", *SMALL, "--samples", "1,4"], cwd=tmp_path, env=environment, stdout=subprocess.DEVNULL, stderr=terminal
+    ) as running:
+        os.close(terminal)
+        shown = b""
+        while True:
+            try:
+                piece = os.read(master, 4096)
+            except OSError:
+                break
+            if not piece:
+                break
+            shown += piece
+    os.close(master)
+    assert running.returncode == 0
+    assert b"/7" in shown and b"edge-fan" in shown
+
+
+def test_nothing_heavy_is_imported_to_read_the_options() -> None:
+    code = "import sys, msaa_lint.cli.study_options, msaa_lint.experiments.study.points, msaa_lint.linter.study_record; print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert {"numpy", "joblib", "matplotlib", "rich", "typer", "pydantic", "json"}.isdisjoint(done.stdout.split())

@@ -1,0 +1,100 @@
+"""The front: what nothing beats, whatever the order, and only that."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from msaa_lint.experiments.study.pareto import SAME, Vector, beats, front, marked
+from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Point, Technique, techniques
+from tests.experiments.study.fakes import point, timed
+
+FEW = st.integers(0, 6).map(float)
+VECTORS = st.lists(st.tuples(FEW, FEW) | st.none(), max_size=12)
+
+
+@given(VECTORS)
+def test_no_member_is_beaten_and_every_other_is_by_a_member(vectors: list[Vector | None]) -> None:
+    on = front(vectors)
+    members = [vector for vector, best in zip(vectors, on, strict=True) if best and vector is not None]
+    for vector, best in zip(vectors, on, strict=True):
+        assert best == (vector is not None and not any(beats(other, vector) for other in vectors if other is not None))
+        if vector is not None and not best:
+            assert any(beats(member, vector) for member in members)
+    assert bool(members) == any(vector is not None for vector in vectors)
+
+
+@given(st.lists(st.tuples(FEW, FEW), min_size=1, max_size=8), st.randoms())
+def test_order_and_repetition_change_nothing(vectors: list[Vector], random: object) -> None:
+    once = dict(zip(vectors, front(vectors), strict=True))
+    again = [*vectors, *vectors]
+    random.shuffle(again)  # type: ignore[attr-defined]
+    assert front(again) == [once[vector] for vector in again]
+
+
+@given(st.lists(st.tuples(FEW, FEW), min_size=1, max_size=8), FEW, FEW)
+def test_what_is_beaten_takes_nothing_from_the_front(vectors: list[Vector], more: float, dearer: float) -> None:
+    worse = (vectors[0][0] + more + 1, vectors[0][1] + dearer)
+    assert front([*vectors, worse]) == [*front(vectors), False]
+
+
+@given(st.tuples(FEW, FEW, FEW), st.tuples(FEW, FEW, FEW), st.tuples(FEW, FEW, FEW))
+def test_beating_is_a_strict_order(a: Vector, b: Vector, c: Vector) -> None:
+    assert not beats(a, a)
+    assert not (beats(a, b) and beats(b, a))
+    if beats(a, b) and beats(b, c):
+        assert beats(a, c)
+
+
+def test_what_is_no_number_is_on_no_front() -> None:
+    assert front([(math.nan, 1.0), (2.0, 2.0), (1.0, math.nan), None]) == [False, True, False, False]
+    assert front([]) == []
+
+
+def best(points: list[Point]) -> list[str]:
+    return [each.technique.name for each in marked(points) if each.best]
+
+
+def test_error_against_time() -> None:
+    assert best([timed(technique) for technique in techniques()]) == ["1x", "2x", "4x", "8x"]
+
+
+def test_without_a_time_samples_invocations_and_bytes_count() -> None:
+    assert best([point(technique) for technique in techniques()]) == ["1x", "2x", "4x", "8x"]
+    dear = [point(technique, bytes_per_frame=9.0 if technique.samples > 4 else 1.0) for technique in techniques((MSAA,))]
+    assert best(dear) == ["1x", "2x", "4x", "8x"]
+    cheap = [point(Technique(MSAA, 4), bytes_per_frame=2.0, rmse=0.1), point(Technique(SSAA, 4, grid=2), bytes_per_frame=1.0, rmse=0.1)]
+    assert best(cheap) == ["4x", "SSAA 2x2"]
+    half = [cheap[0], cheap[1]._replace(bytes_per_frame=None)]
+    assert best(half) == ["4x"], "bytes that are not known of all are compared of none"
+
+
+def test_what_a_device_does_not_draw_is_not_on_its_front() -> None:
+    points = [timed(technique) for technique in techniques((MSAA,))]
+    points[3] = points[3]._replace(time_ms=None, time_from="")
+    assert best(points) == ["1x", "2x", "4x", "16x"]
+
+
+def test_errors_that_differ_by_rounding_are_the_same() -> None:
+    four, eight = point(Technique(MSAA, 4), rmse=0.17606), point(Technique(MSAA, 8), rmse=0.17605)
+    assert best([four, eight]) == ["4x"]
+    assert best([four, eight._replace(rmse=0.1754)]) == ["4x", "8x"]
+
+
+def test_scenes_have_fronts_of_their_own() -> None:
+    points = [point(Technique(MSAA, 1), "a", rmse=0.1), point(Technique(MSAA, 1), "b", rmse=0.2)]
+    assert [each.best for each in marked(points)] == [True, True]
+    assert [each.best for each in marked([each._replace(best=True, rmse=math.nan) for each in points])] == [False, False]
+
+
+@pytest.mark.parametrize(("time", "names"), [(2.0 * SAME, ["4x"]), (2.0 * SAME + 0.01, ["4x", "4x, half of them shaded"])])
+def test_what_does_the_same_with_less_work_in_the_same_time_takes_the_place(time: float, names: list[str]) -> None:
+    """A clock's noise puts no shader invocations on the front that change nothing."""
+    plain, half, each = Technique(MSAA, 4), Technique(SAMPLE_SHADING, 4, 0.5), Technique(SAMPLE_SHADING, 4, 1.0)
+    points = [timed(plain, time_ms=time), timed(half, time_ms=2.0), timed(each, time_ms=2.2)]
+    assert best(points) == (names if len(names) == 1 else names[1:])
+    better = [points[0], points[1]._replace(rmse=0.07)]
+    assert best(better) == ["4x, half of them shaded"]

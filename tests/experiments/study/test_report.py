@@ -1,0 +1,253 @@
+"""What is printed of points that nobody simulated: byte for byte, safe to show, true to its schema."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import zlib
+from typing import Any
+
+import jsonschema
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from msaa_lint.cli.report import Options
+from msaa_lint.cli.report.study_json import render as as_json
+from msaa_lint.cli.report.study_plot import FORMATS, drawn, place, plot
+from msaa_lint.cli.report.study_text import render as as_text
+from msaa_lint.core.diagnostics import diagnostic
+from msaa_lint.experiments.confirm.png import Picture, png
+from msaa_lint.experiments.study.advice import Advice, advice
+from msaa_lint.experiments.study.crops import aligned, displayed, lettered, most_different, short, stacked, window
+from msaa_lint.experiments.study.outcome import Pictured, Study, Untimed
+from msaa_lint.experiments.study.pareto import marked
+from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Point, Technique, techniques
+from msaa_lint.experiments.study.scenes import scene
+from msaa_lint.experiments.study.simulate import simulated
+from msaa_lint.experiments.study.tasks import Failed
+from tests.experiments.study.fakes import point, timed
+from tests.paths import ROOT
+
+GOLDEN = ROOT / "tests" / "golden" / "study"
+SCHEMA = json.loads((ROOT / "msaa_lint" / "cli" / "report" / "study_v1.schema.json").read_text())
+HOSTILE = "\x1b[31m\u202e##[error]\udcff[bold]\n"
+
+
+def study(**other: Any) -> Study:
+    """Two scenes, one of coverage and one of colour, timed by a device that has no 16 samples."""
+    points = [timed(technique) for technique in techniques()]
+    points += [timed(technique, "texture", rmse=0.3 / math.sqrt(technique.shaded), psnr_db=math.inf) for technique in techniques((MSAA,))]
+    missing = {"time_ms": None, "time_from": "", "ratio": None}
+    points = marked([each._replace(**missing) if each.technique.samples == 16 else each for each in points])
+    made = Study(
+        "a device",
+        "Mali-G76",
+        (64, 48),
+        8,
+        [
+            Pictured("edges", "edges at all angles", (("depth-test", "a pipeline tests depth"),)),
+            Pictured("texture", "detail inside of triangles", (), coverage=False),
+        ],
+        points,
+        [Failed("texture", Technique(SAMPLE_SHADING, 4, 1.0), "ValueError: it broke")],
+        [Untimed("16x", "the device does not have 16 samples"), Untimed("16x, each shaded", "the device does not have 16 samples")],
+        advice(points),
+        [diagnostic("MSAA901", "the input is empty", "bad.msaa.yaml")],
+        ["frame.msaa.yaml.msaa-study.json"],
+        ["crops/edges-crops.png"],
+    )
+    return made._replace(**other)
+
+
+def printed(render: Any, of: Study, *more: Any) -> str:
+    pieces: list[str] = []
+    render(of, pieces.append, *more)
+    return "".join(pieces)
+
+
+def check(name: str, text: str) -> None:
+    path = GOLDEN / name
+    if os.environ.get("UPDATE"):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(text.encode())
+    assert text == path.read_bytes().decode()
+
+
+def test_json_byte_for_byte() -> None:
+    text = printed(as_json, study(), "1.0")
+    check("study.json", text)
+    jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(text))
+
+
+def test_text_byte_for_byte() -> None:
+    check("study.txt", printed(as_text, study(), Options(width=160)))
+
+
+def test_text_in_color() -> None:
+    text = printed(as_text, study(), Options(width=160, color=True))
+    lines = [line for line in text.splitlines() if "8x" in line and "0.0361" in line and "+0.0000" in line]
+    assert lines[0].startswith("\x1b[32m*")
+    assert not any("\x1b[32m" in line for line in lines[1:]), "nothing else of 8x is on the front"
+
+
+def test_what_is_no_number_or_infinite_is_null() -> None:
+    odd = point(Technique(MSAA, 4), rmse=math.nan, psnr_db=math.inf, bias=-0.0, max_error=math.inf)
+    text = printed(as_json, study(points=[odd], advice=[]))
+    (found,) = json.loads(text)["points"]
+    assert (found["rmse"], found["psnr_db"], found["max_error"], found["time_ms"]) == (None, None, None, None)
+    assert math.copysign(1, found["bias"]) == 1
+    shown = printed(as_text, study(points=[odd], advice=[]), Options(width=160))
+    assert "exact" in shown
+
+
+def test_without_a_device_no_time_is_shown_as_one() -> None:
+    points = marked([point(technique, simulated_ms=12345.6) for technique in techniques()])
+    of = study(device="", model="", points=points, advice=advice(points), untimed=[])
+    text = printed(as_text, of, Options(width=160))
+    assert "to 1x" not in text and "12345" not in text and "12346" not in text
+    assert "no time is known: --device NAME measures it" in text
+    data = printed(as_json, of)
+    assert "12345" not in data
+    assert {each["time_ms"] for each in json.loads(data)["points"]} == {None}
+
+
+def test_optional_columns_come_with_their_figures() -> None:
+    bare = [point(technique) for technique in techniques((MSAA,))]
+    text = printed(as_text, study(points=bare, advice=[]), Options(width=160))
+    assert "SSIM" not in text and "mW" not in text
+    text = printed(as_text, study(points=[each._replace(ssim=0.98765, milliwatts=12.0) for each in bare], advice=[]), Options(width=160))
+    assert "SSIM" in text and "0.9877" in text and "mW" in text
+
+
+def hostile() -> Study:
+    points = [each._replace(scene=HOSTILE, time_from=HOSTILE) for each in study().points]
+    return study(
+        device=HOSTILE,
+        model=HOSTILE,
+        scenes=[Pictured(HOSTILE, HOSTILE, (("depth-test", HOSTILE),))],
+        points=points,
+        failed=[Failed(HOSTILE, Technique(MSAA, 4), HOSTILE)],
+        untimed=[Untimed("16x", HOSTILE)],
+        advice=[Advice(HOSTILE, HOSTILE, HOSTILE)],
+        wrong=[diagnostic("MSAA901", HOSTILE, HOSTILE)],
+        records=[HOSTILE],
+        pictures=[HOSTILE],
+    )
+
+
+def test_hostile_texts_are_safe_to_show() -> None:
+    text = printed(as_text, hostile(), Options(width=200))
+    assert "\x1b" not in text and "\u202e" not in text and "##[" not in text and "\udcff" not in text
+    assert "\\x1b[31m" in text and "[bold]" in text, "shown as it is, not taken for markup"
+    data = printed(as_json, hostile())
+    assert data.isascii()
+    jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(data))
+
+
+def test_nothing_studied_is_still_a_report() -> None:
+    empty = study(scenes=[], points=[], failed=[], untimed=[], advice=[])
+    jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(printed(as_json, empty)))
+    assert printed(as_text, empty, Options()).endswith("0 points of 0 scenes\n")
+    assert plot(empty, "png").startswith(b"\x89PNG")
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.lists(st.floats(), min_size=8, max_size=8), st.sampled_from(techniques()))
+def test_any_figures_can_be_printed(figures: list[float], technique: Technique) -> None:
+    names = ("rmse", "rmse_all", "max_error", "bias", "psnr_db", "psnr_display_db", "time_ms", "bytes_per_frame")
+    of = study(points=marked([timed(technique, **dict(zip(names, figures, strict=True)))]), scenes=[Pictured("edges", "", ())])
+    json.loads(printed(as_json, of))
+    assert technique.name in printed(as_text, of, Options(width=160))
+
+
+@pytest.mark.parametrize("format", FORMATS)
+def test_plots_are_the_same_for_the_same_study(format: str) -> None:
+    assert plot(study(), format) == plot(study(), format)
+
+
+def test_a_plot_shows_what_has_a_place() -> None:
+    text = plot(study(), "svg").decode()
+    for name in ("1x", "4x", "8x/8", "SSAA 2x2", "edges", "texture", "time, ms", "RMSE of coverage", "RMSE of linear colour", "a device"):
+        assert f">{name}</text>" in text or name in text, name
+    assert ">16x</text>" not in text, "it was not timed"
+    bare = plot(study(device="", points=[point(technique) for technique in techniques()]), "svg").decode()
+    assert ">16x</text>" in bare and "no time is known" in bare and "time, ms" not in bare
+
+
+def test_hostile_names_are_plotted_as_text() -> None:
+    text = plot(hostile(), "svg").decode()
+    assert "\x1b" not in text and "\u202e" not in text
+    odd = study(scenes=[Pictured("$\\frac{", "", ())], points=[each._replace(scene="$\\frac{") for each in study().points])
+    assert "$\\frac{" in plot(odd, "svg").decode()
+
+
+def test_an_error_of_zero_has_a_place_too() -> None:
+    points = [timed(technique, rmse=0.0) for technique in techniques((MSAA,))]
+    assert plot(study(points=points), "png").startswith(b"\x89PNG")
+    assert drawn([points[0]._replace(rmse=math.nan), points[1]._replace(time_ms=None)]) == []
+    assert place(point(Technique(SAMPLE_SHADING, 4, 0.5))) == (6.0, 0.0722)
+
+
+def picture(pixels: list[list[int]]) -> Any:
+    return np.repeat(np.array(pixels, dtype=np.uint8)[:, :, None], 3, axis=2)
+
+
+def test_linear_light_is_displayed_as_srgb() -> None:
+    linear = np.array([[[0.0, 0.5, 1.0, 0.3], [2.0, -1.0, math.nan, 1.0], [0.0031308, 0.21404, math.inf, 0.0]]])
+    assert displayed(linear).tolist() == [[[0, 188, 255], [255, 0, 0], [10, 127, 255]]]
+
+
+@given(st.integers(1, 40), st.integers(1, 40), st.data())
+def test_a_crop_is_where_pictures_differ_most(width: int, height: int, data: st.DataObject) -> None:
+    one = np.zeros((height, width, 3), dtype=np.uint8)
+    other = one.copy()
+    x, y = data.draw(st.integers(0, width - 1)), data.draw(st.integers(0, height - 1))
+    other[y, x] = 200
+    left, top = most_different(one, other)
+    assert left <= x < left + 16 and top <= y < top + 16
+    assert 0 <= left <= max(width - 16, 0) and 0 <= top <= max(height - 16, 0)
+    assert most_different(one, one) == (0, 0)
+
+
+@pytest.mark.parametrize("name", ["edge-fan", "zone-plate", "foliage-to-coverage", "intersecting", "hdr-emitter"])
+@pytest.mark.parametrize("technique", [Technique(MSAA, 4), Technique(SAMPLE_SHADING, 4, 1.0), Technique(SSAA, 9, grid=3)])
+def test_a_part_is_drawn_as_in_the_whole(name: str, technique: Technique) -> None:
+    whole = scene(name, 96, 64)
+    x, y = aligned((45, 30))
+    assert (x, y) == (40, 24)
+    part = simulated(window(whole, x, y), technique).image
+    assert part.shape == (16, 16, 4)
+    np.testing.assert_allclose(part, simulated(whole, technique).image[y : y + 16, x : x + 16], rtol=0, atol=1e-6)
+    assert simulated(window(whole, 88, 56), technique).image.shape == (8, 8, 4)
+
+
+def test_names_stand_above_their_crops() -> None:
+    made = lettered(["4x", "8x/2"], 40)
+    assert (made.width, made.height) == (40 + 8 + 40, 15)
+    lit = np.frombuffer(made.rgb, dtype=np.uint8).reshape(15, 88, 3)[::3, ::3, 0] == 255
+    rows = ["".join(".#"[int(dot)] for dot in row) for row in lit[:, :8]]
+    assert rows == ["#.#.#.#.", "#.#.#.#.", "###..#..", "..#.#.#.", "..#.#.#."]
+    assert lit[:, 16:].any() and not lit[:, 8:16].any()
+
+
+def test_pictures_are_stacked_from_the_left() -> None:
+    made = stacked([Picture(2, 1, b"\x01" * 6), Picture(1, 1, b"\x02" * 3)])
+    assert (made.width, made.height) == (2, 10)
+    assert made.rgb == b"\x01" * 6 + b"\x80" * 48 + b"\x02" * 3 + b"\x80" * 3
+    data = png(made)
+    assert len(zlib.decompress(data[data.index(b"IDAT") + 4 : -16])) == 10 * (1 + 2 * 3)
+
+
+@pytest.mark.parametrize("technique", techniques(), ids=lambda technique: technique.name)
+def test_short_names_are_short_and_lettered(technique: Technique) -> None:
+    assert len(short(technique)) <= 8
+    assert set(short(technique).upper()) <= set("0123456789X/SA ")
+
+
+def test_points_are_told_by_scene() -> None:
+    of = study()
+    points: list[Point] = of.of("texture")
+    assert {each.scene for each in points} == {"texture"} and len(points) == 5

@@ -1,0 +1,157 @@
+"""Mistakes in the section `metal`: each at its place, with the nearest right word."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from msaa_lint import lint
+from msaa_lint.frame.description.metal_models import Metal
+from tests.frame.description.test_schema import documents, mistakes
+from tests.frame.metal.frames import ARTICLE, BEST, read
+from tests.marked import unmarked
+
+
+@pytest.mark.parametrize(
+    ("marked", "code", "message", "help"),
+    [
+        ("metal: ⟦3⟧", "MSAA903", "a mapping is due here, not `3`", ""),
+        ("metal: {⟦texturs⟧: {}}", "MSAA902", "unknown key `texturs` in metal", "did you mean `textures`?"),
+        ("metal: {family: ⟦aple7⟧}", "MSAA903", "`aple7` is no MTLGPUFamily", "did you mean `apple7`?"),
+        ("metal: {supportedSampleCounts: [1, ⟦3⟧]}", "MSAA903", "a sample count (1, 2, 4, 8, 16, 32, 64) is due here, not `3`", ""),
+        (
+            "metal: {textures: {a: {pixelFormat: ⟦brga8Unorm_srgb⟧}}}",
+            "MSAA903",
+            "`brga8Unorm_srgb` is no MTLPixelFormat",
+            "did you mean `rgba8Unorm_srgb`?",
+        ),
+        (
+            "metal: {textures: {a: {⟦samples⟧: 4}}}",
+            "MSAA902",
+            "unknown key `samples` in metal.textures.a",
+            None,
+        ),
+        (
+            "metal: {textures: {a: {usage: [renderTarget, ⟦.shaderReed⟧]}}}",
+            "MSAA903",
+            "`.shaderReed` is no MTLTextureUsage",
+            "did you mean `shaderRead`?",
+        ),
+        (
+            "metal: {textures: {a: {storageMode: ⟦MTLStorageModeMemoryles⟧}}}",
+            "MSAA903",
+            "`MTLStorageModeMemoryles` is no MTLStorageMode",
+            "did you mean `memoryless`?",
+        ),
+        (
+            "metal: {textures: {a: {textureType: ⟦2DMultisample⟧}}}",
+            "MSAA903",
+            "`2DMultisample` is no MTLTextureType",
+            "did you mean `type2DMultisample`?",
+        ),
+        (
+            "metal: {renderPasses: {p: {colorAttachments: [{storeAction: ⟦DONT_CARE⟧}]}}}",
+            "MSAA903",
+            "`DONT_CARE` is no MTLStoreAction",
+            "did you mean `dontCare`?",
+        ),
+        (
+            "metal: {renderPasses: {p: {depthAttachment: {⟦resolveFilter⟧: min}}}}",
+            "MSAA902",
+            "unknown key `resolveFilter` in metal.renderPasses.p.depthAttachment",
+            "did you mean `depthResolveFilter`?",
+        ),
+        (
+            "metal: {renderPasses: {p: {colorAttachments: {⟦8⟧: {}}}}}",
+            "MSAA903",
+            "a number from 0 to 7 as key is due here, not `8`",
+            "",
+        ),
+        (
+            "metal: {renderPasses: {p: {colorAttachments: {⟦4294967295⟧: {}}}}}",
+            "MSAA903",
+            "a number from 0 to 7 as key is due here, not `4294967295`",
+            "",
+        ),
+        (
+            "metal: {renderPasses: {p: {colorAttachments: [~, ~, ~, ~, ~, ~, ~, ~, ⟦~⟧]}}}",
+            "MSAA903",
+            "there are at most 8 here",
+            "",
+        ),
+        (
+            "metal: {textures: {colorMS: {}}, renderPasses: {p: {colorAttachments: [{texture: ⟦colourMS⟧}]}}}",
+            "MSAA904",
+            "no `colourMS` in `metal.textures`",
+            "did you mean `colorMS`?",
+        ),
+        (
+            "metal: {renderPasses: {p: {depthAttachment: {resolveTexture: ⟦depth⟧}}}}",
+            "MSAA904",
+            "no `depth` in `metal.textures`",
+            "the description has no `metal.textures`",
+        ),
+        (
+            "metal: {renderPasses: {forward: {}}, commands: [{renderPass: ⟦forwad⟧}]}",
+            "MSAA904",
+            "no `forwad` in `metal.renderPasses`",
+            "did you mean `forward`?",
+        ),
+        (
+            "metal: {renderPasses: {forward: {}}, renderPipelines: {a: {renderPass: ⟦other⟧}}}",
+            "MSAA904",
+            "no `other` in `metal.renderPasses`",
+            "`metal.renderPasses` has forward",
+        ),
+        (
+            "metal: {commands: [{⟦blit⟧: {}}]}",
+            "MSAA902",
+            "unknown command `blit`",
+            "it is one of renderPass, readTexture, writeTexture, copy, present",
+        ),
+        ("metal: {commands: [⟦present⟧]}", "MSAA903", "`present` is due with its parameters", ""),
+        (
+            "metal: {commands: [{readTexture: {stage: ⟦FRAGMENT⟧}}]}",
+            "MSAA903",
+            "one of vertex, fragment, compute, tile is due here, not `FRAGMENT`",
+            "did you mean `fragment`?",
+        ),
+        (
+            "images: {}\n⟦metal⟧: {}",
+            "MSAA903",
+            "`metal` stands beside Vulkan's `images`",
+            "describe the frame in `metal`, or without it: beside it there may be `frame`, `device`, `scene`",
+        ),
+        ("⟦metal⟧: {}\ncommands: []", "MSAA903", "`metal` stands beside Vulkan's `commands`", None),
+        ("metal: {}\ndevice: ⟦apple-m9⟧", "MSAA904", "no device `apple-m9`", "did you mean `apple-m1`?"),
+    ],
+)
+def test_mistakes(marked: str, code: str, message: str, help: str | None) -> None:
+    text, (span,) = unmarked(marked)
+    found = read(text)
+    assert [(problem.code, problem.message, problem.span) for problem in found.problems] == [(code, message, span)]
+    assert help is None or found.problems[0].help == help
+    assert found.metal is None and not found.description.renderPasses, "what was misread is not judged"
+
+
+def test_every_mistake_is_told() -> None:
+    text = "metal: {family: x, textures: {a: {pixelFormat: y, usage: 3}}, commands: [{renderPass: z}]}"
+    assert [problem.code for problem in read(text).problems] == ["MSAA903", "MSAA903", "MSAA903", "MSAA904"]
+
+
+@pytest.mark.parametrize("text", [ARTICLE, BEST])
+def test_the_schema_takes_what_is_read(text: str) -> None:
+    (value,) = documents(text)
+    assert mistakes(value) == []
+    value["metal"]["textures"]["ms"]["storageMode"] = "lazily"
+    value["metal"]["renderPasses"]["forward"]["colorAttachments"][0]["storeOp"] = "STORE"
+    assert sorted(mistakes(value)) == ["metal/renderPasses/forward/colorAttachments", "metal/textures/ms/storageMode"]
+
+
+def test_programs_are_checked_alike() -> None:
+    (value,) = documents(ARTICLE)
+    found = lint(text=json.dumps(value)).findings
+    assert "metal-samples-stored-unread" in {finding.rule for finding in found}
+    made = Metal.model_validate({"textures": {"a": {"usage": ".renderTarget | shaderRead", "storageMode": "MTLStorageModePrivate"}}})
+    assert (made.textures["a"].usage, made.textures["a"].storageMode) == (("renderTarget", "shaderRead"), "private")

@@ -1,0 +1,71 @@
+"""Vulkan's names as C and C++ spell them, held to the registry."""
+
+from __future__ import annotations
+
+import pytest
+
+from msaa_lint.input.code.c.names import MEMBERS, WITHOUT_TYPE, constant, elements, extent, member, set_by, structure
+
+
+@pytest.fixture(scope="module")
+def registry() -> dict[str, list[str]]:
+    vulkan_object = pytest.importorskip("vulkan_object")
+    structs = vulkan_object.get_vulkan_object().structs
+    names = {name: [each.name for each in struct.members] for name, struct in structs.items()}
+    return names | {alias: names[name] for name, struct in structs.items() for alias in struct.aliases}
+
+
+@pytest.mark.parametrize("kind", sorted(MEMBERS))
+def test_members_come_in_the_registrys_order(kind: str, registry: dict[str, list[str]]) -> None:
+    members = next(registry[f"Vk{kind}{suffix}"] for suffix in ("", "KHR", "EXT") if f"Vk{kind}{suffix}" in registry)
+    assert ("sType" not in members) == (kind in WITHOUT_TYPE)
+    own = [name for name in members if name not in ("sType", "pNext")]
+    # Of some structures the first members are all that rules ask for.
+    assert list(MEMBERS[kind]) == own[: len(MEMBERS[kind])]
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("VK_SAMPLE_COUNT_4_BIT", 4),
+        ("vk::SampleCountFlagBits::e16", 16),
+        ("VK_TRUE", True),
+        ("VK_SUCCESS", 0),
+        ("vk::AttachmentStoreOp::eDontCare", "DONT_CARE"),
+        ("vk::ImageLayout::ePresentSrcKHR", "PRESENT_SRC_KHR"),
+        ("VULKAN_HPP_NAMESPACE::Format::eD24UnormS8Uint", "D24_UNORM_S8_UINT"),
+        ("vk::PipelineStageFlagBits::eColorAttachmentOutput", "COLOR_ATTACHMENT_OUTPUT"),
+        ("VK_ATTACHMENT_STORE_OP_STORE", "VK_ATTACHMENT_STORE_OP_STORE"),
+        ("VK_NULL_HANDLE", None),
+        ("vk::AttachmentStoreOp::eNoSuch", None),
+        ("Quality::e4", None),
+        ("samples", None),
+    ],
+)
+def test_constants(name: str, value: object) -> None:
+    assert constant(name) == value
+    assert type(constant(name)) is type(value)
+
+
+def test_types() -> None:
+    assert structure("VkImageCreateInfo") == structure("vk::ImageCreateInfo") == "ImageCreateInfo"
+    assert structure("VkRenderingAttachmentInfoKHR") == "RenderingAttachmentInfo"
+    assert structure("VkImageCreateInfo[3]") == structure("VkDevice") == structure("ImageCreateInfo") == ""
+    assert elements("std::array<VkImageView,3>") == elements("VkImageView[]") == elements("std::vector<VkImageView>") == "VkImageView"
+    assert elements("VkImageView") is None
+    assert [extent(text) for text in ("std::array<VkImageView,3>", "VkImageView[N]", "VkImageView[]", "std::vector<VkImageView>")] == [
+        "3",
+        "N",
+        "",
+        "",
+    ]
+
+
+def test_members_and_setters() -> None:
+    assert [member(name) for name in ("pAttachments", "pNext", "preserve", "p")] == ["attachments", "next", "preserve", "p"]
+    assert [set_by(name) for name in ("setSamples", "setPDepthStencilAttachment", "settle", "samples")] == [
+        "samples",
+        "depthStencilAttachment",
+        None,
+        None,
+    ]

@@ -1,0 +1,55 @@
+"""Programs in many styles: what is wrong with them is found at its line, and nothing else is said of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.input.code.expected import CORPUS, PROGRAMS, Found, findings, marks, outcome
+from tests.input.code.generated import program as generated
+
+pytest.importorskip("tree_sitter_cpp")
+
+
+@pytest.mark.parametrize("program", PROGRAMS, ids=lambda program: program.name)
+def test_what_a_program_says(program: Path) -> None:
+    held = outcome(program)
+    assert held.false == ()
+    assert held.missed == ()
+
+
+def test_the_marks_of_a_program() -> None:
+    text = "a;\nb;  // expect: MSAA201, MSAA403#x  // may: MSAA101\n/* expect-later: MSAA406 */ c;\n"
+    assert marks(text) == [
+        (2, "expect", "MSAA201", "MSAA201:2"),
+        (2, "expect", "MSAA403", "MSAA403#x"),
+        (2, "may", "MSAA101", "MSAA101:2"),
+        (3, "expect-later", "MSAA406", "MSAA406:3"),
+    ]
+
+
+def test_a_program_is_held_against_its_marks(tmp_path: Path) -> None:
+    """A mark in a wrong line is a miss and a false finding: this test can fail."""
+    text = (CORPUS / "positional.cpp").read_text(encoding="utf-8")
+    moved = tmp_path / "moved.cpp"
+    text = text.replace("  // expect: MSAA205", "").replace("#define CHECK", "// expect: MSAA205\n#define CHECK")
+    moved.write_text(text, encoding="utf-8")
+    held = outcome(moved)
+    assert [name[:7] for name in held.missed] == ["MSAA205"]
+    assert [(found.code, type(found)) for found in held.false] == [("MSAA205", Found)]
+
+
+def test_a_long_program(tmp_path: Path) -> None:
+    """Classes with methods of the same names, and other code between them."""
+    text, places = generated(800)
+    path = tmp_path / "long.cpp"
+    path.write_text(text, encoding="utf-8")
+    assert len(places) == 2
+    assert [(found.line, found.code) for found in findings(path)] == [(line, "MSAA201") for line in places]
+
+
+def test_the_corpus_has_programs_of_both_kinds() -> None:
+    kinds = [any(kind != "may" for _, kind, _, _ in marks(program.read_text(encoding="utf-8"))) for program in PROGRAMS]
+    assert sum(kinds) >= 25
+    assert len(kinds) - sum(kinds) >= 15

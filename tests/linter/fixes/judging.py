@@ -1,0 +1,66 @@
+"""Descriptions read, judged and fixed, as the tests of fixes need them."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+
+from msaa_lint.core.finding import Finding
+from msaa_lint.core.text.comments import comments
+from msaa_lint.core.text.source import Source
+from msaa_lint.core.text.tree import Limits, parse
+from msaa_lint.frame.description.record import Record
+from msaa_lint.frame.description.records import Command
+from msaa_lint.linter.engine import Engine, FileResult
+from msaa_lint.linter.fixes import fixer as rounds
+from msaa_lint.linter.fixes.fixer import Fixed
+from msaa_lint.linter.rules.registry import load
+from msaa_lint.linter.rules.rule_file import Rule
+from tests.pages import RULES
+
+ENGINE = Engine(load())
+
+
+def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
+    """Severities without configuration."""
+    return "note" if rule.vendors and vendor not in rule.vendors else suggested
+
+
+def lint(text: str) -> FileResult:
+    return ENGINE.lint(text.encode(), str(RULES / "frame.yaml"), as_written)
+
+
+def fixed(text: str, unsafe: bool = False) -> Fixed:
+    return rounds.fix(lint(text), lint, unsafe)
+
+
+def comments_of(text: str) -> list[str]:
+    source = Source("", text)
+    return [comment.text for comment in comments(source, parse(source, Limits()).documents)]
+
+
+def kinds(linted: FileResult) -> Counter[tuple[str, str]]:
+    """The findings by rule and subject, indices aside."""
+    return Counter((found.rule, re.sub(r"\[\d+\]", "", found.subject)) for found in linted.findings)
+
+
+def rules(findings: tuple[Finding, ...] | list[Finding]) -> list[str]:
+    return sorted(found.rule for found in findings)
+
+
+def meaning(linted: FileResult) -> list[object]:
+    """What the documents of a text state, their places and spellings aside."""
+    return [_meaning(judged.document.description) for judged in linted.judged]
+
+
+def _meaning(value: object) -> object:
+    if isinstance(value, Record):
+        if isinstance(value, Command):
+            return (value.kind, _meaning(value.body))
+        stated = {name: getattr(value, name) for name in value.SHAPE}
+        # The order of flags says nothing.
+        flags = {name: sorted(each) for name, each in stated.items() if value.SHAPE[name][0] == "flags" and each is not None}
+        return (type(value).__name__, value.key, [(name, flags.get(name, _meaning(each))) for name, each in stated.items()])
+    if isinstance(value, (tuple, list)):
+        return [_meaning(item) for item in value]
+    return {name: _meaning(item) for name, item in value.items()} if isinstance(value, dict) else value

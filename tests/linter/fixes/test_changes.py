@@ -1,0 +1,121 @@
+"""Changes of records: made while they are looked at, taken back exactly."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from msaa_lint.linter.fixes.changes import Change, FixContext, Refused, Structural, applied, changes
+from msaa_lint.linter.rules.rule_file import FixSpec, Setting
+from tests.linter.fixes.judging import lint, meaning
+
+TEXT = """\
+images:
+  ms: {format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT], memory: [DEVICE_LOCAL]}
+  ms2: {format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT]}
+  out: {format: R8G8B8A8_UNORM, samples: 1, presentable: true}
+renderPasses:
+  main:
+    attachments:
+      color: {samples: 4, loadOp: CLEAR, storeOp: STORE}
+      output: {loadOp: LOAD, storeOp: STORE}
+    subpasses:
+      - {colorAttachments: [color], resolveAttachments: [output]}
+framebuffers:
+  even: {renderPass: main, attachments: [ms, out]}
+  odd: {renderPass: main, attachments: [ms2, out]}
+commands:
+  - beginRenderPass: {renderPass: main, framebuffer: [even, odd]}
+  - endRenderPass
+  - present: {image: out}
+"""
+LINTED = lint(TEXT)
+(JUDGED,) = LINTED.judged
+DOCUMENT = JUDGED.document
+
+
+def found(mend: FixSpec, kind: str, path: str) -> tuple[Change, ...] | Refused:
+    from msaa_lint.frame.facts.subjects import subjects
+
+    subject = next(each for each in subjects(DOCUMENT) if (each.kind, each.path) == (kind, path))
+    return changes(mend, subject, FixContext(DOCUMENT))
+
+
+def mend(action: str, fact: str, value: Any) -> FixSpec:
+    from msaa_lint.core.text.span import Span
+
+    return FixSpec("", "safe", **{action: (Setting(fact, value, Span(0, 0)),)})
+
+
+def described(made: tuple[Change, ...] | Refused) -> Any:
+    return made.reason if isinstance(made, Refused) else [(c.record.path, c.member, c.action, c.value) for c in made]
+
+
+COLOR = "renderPasses.main.attachments.color"
+
+
+@pytest.mark.parametrize(
+    ("action", "fact", "value", "kind", "path", "expected"),
+    [
+        ("set", "aspect.store", "DONT_CARE", "aspect", COLOR, [(COLOR, "storeOp", "set", "DONT_CARE")]),
+        ("set", "aspect.store", "STORE", "aspect", COLOR, "it is stated like that already"),
+        ("add", "image.usage", "SAMPLED", "image", "images.ms", [("images.ms", "usage", "add", "SAMPLED")]),
+        ("remove", "image.usage", "SAMPLED", "image", "images.ms", "it is stated like that already"),
+        ("remove", "image.memory", "DEVICE_LOCAL", "image", "images.ms2", "it is stated like that already"),
+        # Of images that alternate all are changed.
+        (
+            "add",
+            "image.usage",
+            "SAMPLED",
+            "attachment",
+            COLOR,
+            [("images.ms", "usage", "add", "SAMPLED"), ("images.ms2", "usage", "add", "SAMPLED")],
+        ),
+        # A count is changed wherever it is stated.
+        ("set", "image.samples", 2, "image", "images.ms", [("images.ms", "samples", "set", 2), (COLOR, "samples", "set", 2)]),
+        ("set", "image.samples", "{image.samples}", "image", "images.ms", "it is stated like that already"),
+        ("add", "image.usage", "{image.flags}", "image", "images.ms", "it is stated like that already"),
+        ("add", "image.usage", "{image.encoding}", "image", "images.ms", "{image.encoding} is not known"),
+        ("set", "attachment.final_layout", "GENERAL", "attachment", COLOR, [(COLOR, "finalLayout", "set", "GENERAL")]),
+        (
+            "set",
+            "resolve.mode",
+            "MIN",
+            "resolve",
+            "renderPasses.main.subpasses[0].resolveAttachments[0]",
+            "Vulkan fixes the mode of this resolve",
+        ),
+    ],
+)
+def test_facts_are_changed_where_they_are_stated(action: str, fact: str, value: Any, kind: str, path: str, expected: Any) -> None:
+    assert described(found(mend(action, fact, value), kind, path)) == expected
+
+
+@given(st.lists(st.sampled_from(["set", "unset", "add", "remove"]), max_size=6), st.booleans())
+def test_what_was_comes_back_exactly(actions: list[str], fails: bool) -> None:
+    image = DOCUMENT.description.images["ms"]
+    before = meaning(LINTED)
+    made = [
+        Change(image, "usage", action, "SAMPLED") if action in ("add", "remove") else Change(image, "samples", action, 8)
+        for action in actions
+    ]
+    try:
+        with applied(made):
+            if actions and actions[-1] == "set":
+                assert image.samples == 8
+            if fails:
+                raise KeyError
+    except KeyError:
+        pass
+    assert meaning(LINTED) == before
+
+
+def test_structures_are_not_changed_in_place() -> None:
+    before = meaning(LINTED)
+    image = DOCUMENT.description.images["ms"]
+    with pytest.raises(Structural), applied([Change(image, "samples", "set", 8), Change(DOCUMENT.description, "commands", "drop", 0)]):
+        pass
+    assert meaning(LINTED) == before

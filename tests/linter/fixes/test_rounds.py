@@ -1,0 +1,204 @@
+"""Which fixes are made together, which one after another, and which not at all."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+
+from msaa_lint.core.finding import Finding, Fix
+from msaa_lint.core.text.span import Edit, Span
+from msaa_lint.linter.fixes.fixer import MAX_TRIALS, _apart, _Fix, _joined
+from tests.linter.fixes.judging import fixed, lint, rules
+
+STORED = """\
+images:
+  ms: {format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT, TRANSIENT_ATTACHMENT]}
+  out: {format: R8G8B8A8_UNORM, samples: 1, usage: [COLOR_ATTACHMENT], presentable: true}
+renderPasses:
+  main:
+    attachments:
+      color: {image: ms, loadOp: CLEAR, storeOp: STORE}
+      output: {image: out, loadOp: LOAD, storeOp: STORE}
+    subpasses:
+      - {colorAttachments: [color], resolveAttachments: [output]}
+"""
+MENDED = STORED.replace("CLEAR, storeOp: STORE", "CLEAR, storeOp: DONT_CARE").replace("LOAD", "DONT_CARE")
+
+
+PASS = """\
+renderPasses:
+  main:
+    attachments: [{format: R8_UNORM, samples: 4, loadOp: CLEAR}]
+    subpasses: [{colorAttachments: [0]}]
+"""
+
+
+def test_one_edit_mends_two_findings() -> None:
+    done = fixed(STORED)
+    assert rules(done.fixed) == ["multisampled-attachment-stored", "resolve-target-loaded", "transient-needs-memory"]
+    assert done.text == MENDED
+    assert done.linted.findings == []
+
+
+def test_wishes_are_respected() -> None:
+    from msaa_lint.linter.fixes import fixer as rounds
+
+    done = rounds.fix(lint(STORED), lint, False, lambda found: found.code == "MSAA205")
+    assert rules(done.fixed) == ["resolve-target-loaded"]
+
+
+def test_a_suppressed_finding_stays() -> None:
+    text = STORED.replace(
+        "storeOp: STORE}\n      output", "storeOp: STORE}  # msaa-lint: ignore[MSAA201, MSAA403] a viewer reads it\n      output"
+    )
+    done = fixed(text)
+    assert rules(done.fixed) == ["resolve-target-loaded"]
+    assert done.text == text.replace("loadOp: LOAD", "loadOp: DONT_CARE")
+
+
+def test_a_suppression_that_a_fix_makes_unused_goes() -> None:
+    """Stored by mistake and loaded as well: with the store goes what the comment silenced."""
+    text = STORED.replace(
+        "storeOp: STORE}\n      output", "storeOp: STORE}  # msaa-lint: ignore[transient-needs-memory] once\n      output"
+    )
+    done = fixed(text)
+    assert rules(done.fixed) == ["multisampled-attachment-stored", "resolve-target-loaded", "unused-suppression"]
+    assert done.text == MENDED
+
+
+def test_fixes_that_overlap_take_turns() -> None:
+    """Both put a member at the end of the same mapping."""
+    text = """\
+renderPasses:
+  main:
+    attachments: [{format: R8_UNORM, samples: 4}]
+    subpasses: [{colorAttachments: [0]}]
+    dependencies:
+      - srcSubpass: EXTERNAL
+        dstSubpass: 0
+"""
+    done = fixed(text)
+    assert rules(done.fixed) == ["reused-attachment-unsynchronised"]
+    added = "        srcStageMask: [COLOR_ATTACHMENT_OUTPUT]\n        srcAccessMask: [COLOR_ATTACHMENT_WRITE]\n"
+    assert done.text == text + added
+
+
+def test_what_brings_another_finding_is_not_made() -> None:
+    text = """\
+renderPasses:
+  main:
+    attachments: [{format: R8_UNORM, samples: 4, loadOp: CLEAR, storeOp: DONT_CARE}]
+    subpasses: [{colorAttachments: [0], flags: [CUSTOM_RESOLVE_EXT]}]
+pipelines:
+  glass: {renderPass: main, multisampleState: {rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 4}}
+"""
+    done = fixed(text, True)
+    assert (done.text, done.fixed) == (text, ())
+    (unfixed,) = done.unfixed
+    assert unfixed.finding.code == "MSAA510"
+    assert unfixed.reason.startswith("it would bring sample-shading-everywhere: `glass` runs")
+
+
+def test_one_that_fails_does_not_keep_the_others() -> None:
+    bad = "    g{0}: {{renderPass: main, multisampleState: {{rasterizationSamples: 4, sampleShadingEnable: {1}, minSampleShading: 4}}}}\n"
+    text = PASS + "pipelines:\n" + "".join(bad.format(n, "true" if n == 5 else "false") for n in range(9))
+    done = fixed(text, True)
+    assert len(done.fixed) == 8
+    assert [each.finding.subject for each in done.unfixed] == ["pipelines.g5"]
+    assert done.text.count("minSampleShading: 1.0") == 8
+
+
+def test_documents_of_a_stream() -> None:
+    text = f"{STORED}---\n# two\n{STORED}...\n"
+    done = fixed(text)
+    assert len(done.fixed) == 6
+    assert done.text == f"{MENDED}---\n# two\n{MENDED}...\n"
+
+
+@pytest.mark.parametrize("text", ["", "a: [", "images: {a: {smaples: 4}}", "\x00", "images: null"])
+def test_what_cannot_be_read_is_not_touched(text: str) -> None:
+    assert fixed(text, True).text == text
+
+
+def test_a_broken_document_does_not_keep_the_others() -> None:
+    done = fixed(f"{STORED}---\nimages: {{a: {{smaples: 4}}}}\n")
+    assert len(done.fixed) == 3
+
+
+def test_thousands_of_fixes_take_no_quadratic_time() -> None:
+    lines = "".join(f"      c{n}: {{format: R8_UNORM, samples: 4, loadOp: CLEAR, storeOp: STORE}}\n" for n in range(1000))
+    references = ", ".join(f"c{n}" for n in range(1000))
+    text = f"renderPasses:\n  main:\n    attachments:\n{lines}      out: {{format: R8_UNORM, samples: 1, loadOp: DONT_CARE}}\n"
+    text += f"    subpasses:\n      - {{colorAttachments: [{references}], resolveAttachments: [{', '.join(['out'] * 1000)}]}}\n"
+    start = time.monotonic()
+    done = fixed(text, True)
+    assert len(done.fixed) == 1000
+    assert time.monotonic() - start < 30
+
+
+def test_thousands_of_fixes_that_fail_are_given_up() -> None:
+    each = "  g{0}: {{renderPass: main, multisampleState: {{rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 4}}}}\n"
+    text = PASS + "pipelines:\n" + "".join(each.format(n) for n in range(200))
+    start = time.monotonic()
+    done = fixed(text, True)
+    assert done.fixed == ()
+    assert len(done.unfixed) == 200
+    assert done.unfixed[-1].reason == "too many fixes of this input cannot be made"
+    assert time.monotonic() - start < 30
+    assert MAX_TRIALS == 60
+
+
+def made(*edits: tuple[int, int, str]) -> _Fix:
+    found = Finding("MSAA201", "x", "note", "high", "", "f", Span(0, 0), fix=Fix("", True))
+    return _Fix((found,), tuple(Edit(Span(start, end), text) for start, end, text in edits))
+
+
+def test_fixes_with_an_edit_in_common_are_one() -> None:
+    one, two, three = made((0, 1, "a")), made((5, 6, "b"), (8, 8, "c")), made((0, 1, "a"), (8, 8, "c"))
+    (joined,) = _joined([one, two, three])
+    assert len(joined.findings) == 3
+    assert joined.edits == ((Span(0, 1), "a"), (Span(5, 6), "b"), (Span(8, 8), "c"))
+    assert len(_joined([one, two])) == 2
+
+
+@pytest.mark.parametrize(
+    ("taken", "other", "apart"),
+    [
+        ((2, 5, ""), (5, 7, ""), True),
+        ((2, 5, ""), (5, 5, "x"), True),
+        ((2, 5, ""), (2, 2, "x"), True),
+        ((2, 5, ""), (3, 3, "x"), False),
+        ((2, 5, ""), (4, 9, ""), False),
+        ((2, 9, ""), (4, 5, ""), False),
+        ((4, 4, "x"), (4, 4, "y"), False),
+        ((2, 5, "x"), (2, 5, "y"), False),
+    ],
+)
+def test_overlaps(taken: tuple[int, int, str], other: tuple[int, int, str], apart: bool) -> None:
+    for one, two in ((taken, other), (other, taken)):
+        assert len(_apart([made(one), made(two)])) == (2 if apart else 1)
+
+
+def test_what_a_refused_fix_stood_in_the_way_of_is_made() -> None:
+    from msaa_lint.core.text.source import Source
+    from msaa_lint.linter.engine import FileResult
+    from msaa_lint.linter.fixes import fixer as rounds
+
+    def finding(code: str, severity: str, fix: Fix | None = None) -> Finding:
+        return Finding(code, code.lower(), severity, "high", "", "f", Span(0, 1), code, fix=fix)
+
+    def judged(text: str) -> FileResult:
+        found = []
+        if text[0] == "a":
+            found.append(finding("MSAA1", "error", Fix("both", True, (Edit(Span(0, 2), "cd"),))))
+        if text[1] == "b":
+            found.append(finding("MSAA2", "warning", Fix("one", True, (Edit(Span(1, 2), "B"),))))
+        if text == "cd":
+            found.append(finding("MSAA3", "warning"))
+        return FileResult("f", Source("f", text), found, [], [])
+
+    done = rounds.fix(judged("ab"), judged, False, lambda _: True)
+    assert done.text == "aB"
+    assert rules(done.fixed) == ["msaa2"]
+    assert [(each.finding.code, each.reason) for each in done.unfixed] == [("MSAA1", "it would bring msaa3: ")]

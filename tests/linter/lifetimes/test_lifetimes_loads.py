@@ -1,0 +1,938 @@
+"""What becomes of what a pass stores, and what was in what it loads: against a frame that is played, and case by case.
+
+A line of carets under a line of input marks what must be found there, and nothing else of `WATCHED` may be found.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from typing import NamedTuple
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from msaa_lint.linter.engine import FileResult
+from tests.linter.lifetimes import watched as given_frames
+from tests.linter.lifetimes.watched import ENGINE, as_written
+
+WATCHED = {f"MSAA{number}" for number in (107, 208, 209, 211, 212, 213, 214)}
+
+
+def lint(text: str, **values: str) -> FileResult:
+    """Lints a text, in which `$name` stands for a value."""
+    return given_frames.lint(given_frames.given_text(text, **values), prices=True)
+
+
+def check(text: str, **values: str) -> FileResult:
+    """As `watched.check`, of the watched rules; `$name` stands for a value."""
+    return given_frames.check(given_frames.given_text(text, **values), WATCHED, prices=True)
+
+
+def undecided(linted: FileResult, code: str) -> set[str]:
+    return {each.subject for each in linted.undecided if each.code == code}
+
+
+def message(linted: FileResult, code: str) -> str:
+    (found,) = [finding for finding in linted.findings if finding.code == code]
+    return found.message
+
+
+# A frame that is played: every image holds marks of who wrote what is in it, and for whom is told by who reads them.
+
+
+class Step(NamedTuple):
+    """A pass that begins, or a command."""
+
+    kind: str
+    """`pass` or the command."""
+    which: int
+    """The pass, or the image."""
+    images: tuple[int, ...] = ()
+    """A pass: the images of its framebuffers, which alternate from frame to frame."""
+
+
+class Played(NamedTuple):
+    """What must be found, by code: the passes."""
+
+    wasted: set[int]
+    undefined: set[int]
+    cleared: set[int]
+    copied: set[int]
+
+
+Operations = list[tuple[str, str]]
+IMAGES = 2
+COMMANDS = {
+    "read": "copyImageToBuffer: {{srcImage: i{0}}}",
+    "clear": "clearColorImage: {{image: i{0}}}",
+    "copy": "copyImage: {{srcImage: source, dstImage: i{0}}}",
+    "write": "writeImage: {{image: i{0}, stage: COMPUTE}}",
+}
+
+
+def play(operations: Operations, steps: list[Step]) -> Played:
+    """What the frames come to, once they have settled."""
+    holds: list[set[tuple[str, int]]] = [{("before", 0)} for _ in range(IMAGES)]
+    last = [""] * IMAGES
+    stores, read, undefined, copied = set[int](), set[int](), set[int](), set[int]()
+    cleared: dict[int, bool] = {}
+    for frame in range(36):
+        settled = frame >= 12
+        for step in steps:
+            if step.kind != "pass":
+                image = step.which
+                if step.kind == "read":
+                    read |= {which for kind, which in holds[image] if kind == "stored"}
+                    if settled and [kind for kind, _ in holds[image]] == ["discarded"]:
+                        undefined |= {which for _, which in holds[image]}
+                elif step.kind == "clear":
+                    holds[image] = {("cleared", 0)}
+                else:
+                    holds[image] = {*((k, w) for k, w in holds[image] if k != "discarded"), ("written", 0)}
+                last[image] = step.kind
+                continue
+            image = step.images[frame % len(step.images)]
+            begin, end = operations[step.which]
+            if begin == "LOAD":
+                read |= {which for kind, which in holds[image] if kind == "stored"}
+                if settled and [kind for kind, _ in holds[image]] == ["discarded"]:
+                    undefined.add(step.which)
+                if settled and last[image] == "copy":
+                    copied.add(step.which)
+            if settled:
+                cleared[step.which] = cleared.get(step.which, True) and last[image] == "clear"
+            if end == "STORE":
+                stores.add(step.which)
+            holds[image] = {("stored" if end == "STORE" else "discarded", step.which)}
+            last[image] = "pass"
+    return Played(stores - read, undefined, {which for which, every in cleared.items() if every}, copied)
+
+
+def described(operations: Operations, steps: list[Step], usage: str = "usage: [COLOR_ATTACHMENT], presentable: false") -> str:
+    """The same as a description."""
+    lines = ["images:", "  source: {format: R8_UNORM, samples: 1}"]
+    lines += [f"  i{n}: {{format: R8_UNORM, samples: 1, {usage}}}" for n in range(IMAGES)]
+    lines.append("renderPasses:")
+    for n, (begin, end) in enumerate(operations):
+        lines += [f"  p{n}:", "    attachments:", f"      color: {{format: R8_UNORM, samples: 1, loadOp: {begin}, storeOp: {end}}}"]
+        lines.append("    subpasses: [{colorAttachments: [color]}]")
+    lines.append("framebuffers:")
+    lines += [f"  f{n}x{i}: {{renderPass: p{n}, attachments: [i{i}]}}" for n in range(len(operations)) for i in range(IMAGES)]
+    lines.append("commands:")
+    for step in steps:
+        if step.kind == "pass":
+            buffers = ", ".join(f"f{step.which}x{i}" for i in step.images)
+            lines += [f"  - beginRenderPass: {{renderPass: p{step.which}, framebuffer: [{buffers}]}}", "  - endRenderPass"]
+        else:
+            lines.append(f"  - {COMMANDS[step.kind].format(step.which)}")
+    return "\n".join(lines) + "\n"
+
+
+def found(linted: FileResult, code: str) -> set[int]:
+    """The passes that a rule blames."""
+    return {int(each.subject.split(".")[1].removeprefix("p")) for each in linted.findings if each.code == code}
+
+
+@st.composite
+def frames(draw: st.DrawFn, alternating: bool) -> tuple[Operations, list[Step]]:
+    """Some passes with their operations, and in which order a frame begins them and gives commands."""
+    operations = [
+        (draw(st.sampled_from(["LOAD", "LOAD", "CLEAR", "DONT_CARE"])), draw(st.sampled_from(["STORE", "STORE", "DONT_CARE"])))
+        for _ in range(draw(st.integers(1, 4)))
+    ]
+    steps = []
+    for _ in range(draw(st.integers(1, 7))):
+        if draw(st.integers(0, 2)):
+            most = 3 if alternating else 1
+            images = tuple(draw(st.lists(st.integers(0, IMAGES - 1), min_size=1, max_size=most)))
+            steps.append(Step("pass", draw(st.integers(0, len(operations) - 1)), images))
+        else:
+            steps.append(Step(draw(st.sampled_from(sorted(COMMANDS))), draw(st.integers(0, IMAGES - 1))))
+    return operations, steps
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.booleans().flatmap(frames))
+def test_a_frame_that_is_played(case: tuple[Operations, list[Step]]) -> None:
+    """Whatever the order, however often a pass is begun, and whichever images alternate."""
+    operations, steps = case
+    expected = play(operations, steps)
+    linted = lint(described(operations, steps))
+    assert found(linted, "MSAA208") == expected.wasted
+    assert found(linted, "MSAA209") == expected.undefined
+    assert found(linted, "MSAA211") == expected.cleared
+    assert found(linted, "MSAA213") == expected.copied
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.booleans().flatmap(frames), st.integers(0, 30), st.integers(0, IMAGES - 1))
+def test_a_further_reader_excuses_stores_and_blames_none(case: tuple[Operations, list[Step]], at: int, image: int) -> None:
+    operations, steps = case
+    before = found(lint(described(operations, steps)), "MSAA208")
+    at %= len(steps) + 1
+    after = found(lint(described(operations, [*steps[:at], Step("read", image), *steps[at:]])), "MSAA208")
+    assert after <= before
+
+
+@settings(max_examples=100, deadline=None)
+@given(frames(alternating=False), st.integers(0, 6))
+def test_where_the_loop_is_cut_does_not_matter(case: tuple[Operations, list[Step]], at: int) -> None:
+    """By what the usage tells, the frame may begin anywhere."""
+    operations, steps = case
+    at %= len(steps)
+    one, other = lint(described(operations, steps)), lint(described(operations, [*steps[at:], *steps[:at]]))
+    for code in ("MSAA208", "MSAA209", "MSAA211", "MSAA213"):
+        assert found(one, code) == found(other, code)
+
+
+@settings(max_examples=100, deadline=None)
+@given(frames(alternating=True))
+def test_what_the_usage_does_not_tell_is_never_more(case: tuple[Operations, list[Step]]) -> None:
+    """Unknown is not wrong: without a usage a part of it is found."""
+    operations, steps = case
+    known, unknown = lint(described(operations, steps)), lint(described(operations, steps, usage="mipLevels: 1"))
+    for code in ("MSAA208", "MSAA209"):
+        assert found(unknown, code) <= found(known, code)
+
+
+READS = [
+    "readImage: {image: x, stage: FRAGMENT, access: SHADER_READ}",
+    "resolveImage: {srcImage: x, dstImage: other}",
+    "copyImage: {srcImage: x, dstImage: other}",
+    "blitImage: {srcImage: x, dstImage: other}",
+    "copyImageToBuffer: {srcImage: x}",
+    "present: {image: x}",
+]
+NEUTRAL = [
+    "readImage: {image: other, stage: FRAGMENT, access: SHADER_READ}",
+    "pipelineBarrier: {srcStageMask: [ALL_COMMANDS], dstStageMask: [ALL_COMMANDS], images: [x]}",
+    "copyImage: {srcImage: third, dstImage: x}",
+    "writeImage: {image: x, stage: COMPUTE}",
+    "copyBufferToImage: {dstImage: x}",
+    "present: {image: third}",
+]
+
+
+@settings(max_examples=120, deadline=None)
+@given(
+    st.lists(st.sampled_from(NEUTRAL), max_size=4),
+    st.sampled_from(["CLEAR", "DONT_CARE"]),
+    st.sampled_from(["x: {format: R8_UNORM, samples: 1}", "x: {format: R8_UNORM, samples: 1, usage: [COLOR_ATTACHMENT, SAMPLED]}"]),
+    st.sampled_from(READS),
+    st.integers(0, 4),
+)
+def test_a_reader_anywhere_between_a_store_and_what_overwrites_it(between: list[str], begin: str, image: str, reader: str, at: int) -> None:
+    def blamed(commands: list[str]) -> bool:
+        text = f"images:\n  {image}\n  other: {{format: R8_UNORM, samples: 1}}\n  third: {{format: R8_UNORM, samples: 1}}\ncommands:\n"
+        text += "  - beginRendering: {colorAttachments: [{image: x, loadOp: CLEAR, storeOp: STORE}]}\n  - endRendering\n"
+        text += "".join(f"  - {command}\n" for command in commands)
+        text += f"  - beginRendering: {{colorAttachments: [{{image: x, loadOp: {begin}, storeOp: STORE}}]}}\n  - endRendering\n"
+        text += "  - readImage: {image: x, stage: FRAGMENT}\n"
+        return any(each.code == "MSAA208" for each in lint(text.replace("$", "$$")).findings)
+
+    assert blamed(between)
+    at %= len(between) + 1
+    assert not blamed([*between[:at], reader, *between[at:]])
+
+
+# Aspects are apart.
+
+
+@pytest.mark.parametrize("aspect", ["depth", "stencil"])
+def test_a_load_of_one_aspect_reads_nothing_of_the_other(aspect: str) -> None:
+    other = {"depth": "stencil", "stencil": "depth"}[aspect]
+    check(
+        """
+    images:
+      both: {format: D24_UNORM_S8_UINT, samples: 1, usage: [DEPTH_STENCIL_ATTACHMENT]}
+    commands:
+      - beginRendering:
+          ${aspect}Attachment: {image: both, loadOp: CLEAR, storeOp: STORE}
+          ${other}Attachment: {image: both, loadOp: CLEAR, storeOp: STORE}
+    $mark
+      - endRendering
+      - beginRendering:
+          ${aspect}Attachment: {image: both, loadOp: LOAD, storeOp: DONT_CARE}
+          ${other}Attachment: {image: both, loadOp: CLEAR, storeOp: DONT_CARE}
+      - endRendering
+    """,
+        aspect=aspect,
+        other=other,
+        mark=f"#{'':{len(other) + 55}}^^^^^ MSAA208 warning high",
+    )
+
+
+def test_a_command_that_reads_depth_and_stencil_may_mean_either() -> None:
+    """Neither is stored in vain, and what is not stored may not be meant."""
+    check("""
+    images:
+      both: {format: D24_UNORM_S8_UINT, samples: 1}
+      output: {format: R8G8B8A8_UNORM, samples: 1, presentable: true}
+    commands:
+      - beginRendering:
+          depthAttachment: {image: both, loadOp: CLEAR, storeOp: STORE}
+          stencilAttachment: {image: both, loadOp: CLEAR, storeOp: DONT_CARE}
+      - endRendering
+      - beginRendering: {colorAttachments: [{image: output, loadOp: CLEAR, storeOp: STORE}]}
+      - readImage: {image: both, stage: FRAGMENT}
+      - endRendering
+      - present: {image: output}
+    """)
+
+
+def test_the_stencil_of_a_render_pass_is_judged_by_its_own_operations() -> None:
+    check("""
+    images:
+      both: {format: D24_UNORM_S8_UINT, samples: 1, usage: [DEPTH_STENCIL_ATTACHMENT]}
+    renderPasses:
+      opaque:
+        attachments:
+          both: {image: both, loadOp: CLEAR, storeOp: STORE, stencilLoadOp: CLEAR, stencilStoreOp: DONT_CARE}
+        subpasses:
+          - {depthStencilAttachment: both}
+      decals:
+        attachments:
+          both: {image: both, loadOp: LOAD, storeOp: DONT_CARE, stencilLoadOp: LOAD, stencilStoreOp: DONT_CARE}
+    #                                                                          ^^^^ MSAA209 error medium
+        subpasses:
+          - {depthStencilAttachment: both}
+    """)
+
+
+# Whole images and parts of them.
+
+
+@pytest.mark.parametrize(
+    ("image", "begin", "whole"),
+    [
+        ("extent: {width: 64, height: 64}", "renderArea: {x: 0, y: 0, width: 64, height: 64}", True),
+        ("extent: {width: 64, height: 64}", "renderArea: {x: 0, y: 0, width: 32, height: 64}", False),
+        ("extent: {width: 64, height: 64}", "renderArea: {x: 1, y: 0, width: 64, height: 64}", False),
+        ("flags: []", "renderArea: {x: 0, y: 0, width: 64, height: 64}", False),
+        ("arrayLayers: 2", "layerCount: 2", True),
+        ("arrayLayers: 2", "layerCount: 1", False),
+        ("arrayLayers: 2", "viewMask: 3", True),
+        ("mipLevels: 2", "flags: []", False),
+    ],
+)
+def test_what_is_overwritten_or_thrown_away_in_part_lives_on(image: str, begin: str, whole: bool) -> None:
+    linted = lint(
+        """
+    images:
+      color: {format: R8G8B8A8_UNORM, samples: 1, $image}
+      depth: {format: D16_UNORM, samples: 1, $image}
+    commands:
+      - beginRendering:
+          colorAttachments: [{image: color, loadOp: CLEAR, storeOp: STORE}]
+          depthAttachment: {image: depth, loadOp: CLEAR, storeOp: STORE}
+      - endRendering
+      - beginRendering:
+          $begin
+          colorAttachments: [{image: color, loadOp: CLEAR, storeOp: STORE}]
+          depthAttachment: {image: depth, loadOp: LOAD, storeOp: DONT_CARE}
+      - endRendering
+      - readImage: {image: color, stage: FRAGMENT}
+      - beginRendering: {depthAttachment: {image: depth, loadOp: LOAD, storeOp: STORE}}
+      - endRendering
+      - readImage: {image: depth, stage: FRAGMENT}
+    """,
+        image=image,
+        begin=begin,
+    )
+    assert [(found.code, found.subject) for found in linted.findings if found.code in WATCHED] == (
+        [
+            ("MSAA208", "commands[0].beginRendering.colorAttachments[0]"),
+            ("MSAA209", "commands[5].beginRendering.depthAttachment"),
+        ]
+        if whole
+        else []
+    )
+
+
+# Renderings in parts, and begun again.
+
+
+def test_a_suspended_rendering_neither_stores_nor_loads_in_between() -> None:
+    check(
+        """
+    images:
+      depth: {format: D16_UNORM, samples: 1, usage: [DEPTH_STENCIL_ATTACHMENT]}
+      other: {format: D16_UNORM, samples: 1, usage: [DEPTH_STENCIL_ATTACHMENT]}
+    commands:
+      - beginRendering: {flags: [SUSPENDING], depthAttachment: {image: depth, loadOp: CLEAR, storeOp: STORE}}
+      - endRendering
+      - beginRendering: {flags: [RESUMING], depthAttachment: {image: depth, loadOp: CLEAR, storeOp: STORE}}
+    #                                                                                               ^^^^^ MSAA208
+      - endRendering
+      - beginRendering: {flags: [SUSPENDING], depthAttachment: {image: other, loadOp: LOAD, storeOp: DONT_CARE}}
+    #                                                                                 ^^^^ MSAA209
+      - endRendering
+      - beginRendering: {flags: [RESUMING], depthAttachment: {image: other, loadOp: LOAD, storeOp: DONT_CARE}}
+      - endRendering
+    """.replace("    - present", "")
+    )
+
+
+FIRST = "commands[0].beginRendering.depthAttachment"
+
+
+@pytest.mark.parametrize(("second", "expected"), [("SUSPENDING", [FIRST]), ("RESUMING", []), ("", [FIRST])])
+def test_a_part_of_a_rendering_that_is_not_described_may_do_anything(second: str, expected: list[str]) -> None:
+    linted = lint(
+        """
+    images: {depth: {format: D16_UNORM, samples: 1, usage: [DEPTH_STENCIL_ATTACHMENT]}}
+    commands:
+      - beginRendering: {depthAttachment: {image: depth, loadOp: CLEAR, storeOp: STORE}}
+      - endRendering
+      - beginRendering: {flags: [$second], depthAttachment: {image: depth, loadOp: CLEAR, storeOp: DONT_CARE}}
+      - endRendering
+    """,
+        second=second,
+    )
+    assert [found.subject for found in linted.findings if found.code == "MSAA208"] == expected
+
+
+ANCHOR = """
+images:
+  map: {format: D16_UNORM, samples: 1}
+  lit: {format: R8G8B8A8_UNORM, samples: 1}
+commands:
+  - beginRendering: &shadow
+      depthAttachment: {image: map, loadOp: CLEAR, storeOp: STORE}
+%s
+  - endRendering
+  - beginRendering: *shadow
+  - endRendering
+%s  - beginRendering: {depthAttachment: {image: map, loadOp: CLEAR, storeOp: DONT_CARE}}
+  - endRendering
+"""
+
+
+@pytest.mark.parametrize("read", [True, False])
+def test_a_rendering_that_is_begun_again_is_wasted_where_every_time_is(read: bool) -> None:
+    reader = "  - readImage: {image: map, stage: FRAGMENT}\n" if read else ""
+    mark = "" if read else "#                                                           ^^^^^ MSAA208 warning high"
+    check(ANCHOR % (mark, reader))
+
+
+def test_a_pass_that_the_commands_never_begin_is_undecided_and_may_read() -> None:
+    linted = check("""
+    images:
+      depth: {format: D16_UNORM, samples: 1, usage: [DEPTH_STENCIL_ATTACHMENT]}
+    renderPasses:
+      scene:
+        attachments:
+          depth: {image: depth, loadOp: CLEAR, storeOp: STORE}
+        subpasses:
+          - {depthStencilAttachment: depth}
+      idle:
+        attachments:
+          depth: {image: depth, loadOp: LOAD, storeOp: STORE}
+        subpasses:
+          - {depthStencilAttachment: depth}
+    commands:
+      - beginRenderPass: {renderPass: scene}
+      - endRenderPass
+    """)
+    assert undecided(linted, "MSAA208") == {"renderPasses.scene.attachments.depth", "renderPasses.idle.attachments.depth"}
+
+
+# What may read or write outside of the description.
+
+
+@pytest.mark.parametrize(
+    ("image", "present", "expected"),
+    [
+        ("usage: [COLOR_ATTACHMENT]", "", None),
+        ("usage: [COLOR_ATTACHMENT], presentable: false", "", "high"),
+        ("usage: [COLOR_ATTACHMENT], presentable: true", "- present: {image: other}", None),
+        ("usage: [COLOR_ATTACHMENT]", "- present: {image: other}", "high"),
+        ("usage: [COLOR_ATTACHMENT, SAMPLED]", "- present: {image: other}", "medium"),
+        ("usage: [COLOR_ATTACHMENT, SAMPLED]", "", None),
+        ("flags: []", "- present: {image: other}", "medium"),
+        ("flags: []", "", None),
+    ],
+)
+def test_who_can_read_what_a_frame_leaves(image: str, present: str, expected: str | None) -> None:
+    linted = lint(
+        """
+    images:
+      color: {format: R8G8B8A8_UNORM, samples: 1, $image}
+      other: {format: B8G8R8A8_UNORM, samples: 1, presentable: true}
+    commands:
+      - beginRendering: {colorAttachments: [{image: color, loadOp: CLEAR, storeOp: STORE}]}
+      - endRendering
+      $present
+    """,
+        image=image,
+        present=present,
+    )
+    assert [found.confidence for found in linted.findings if found.code == "MSAA208"] == ([expected] if expected else [])
+    assert bool(undecided(linted, "MSAA208")) is (expected is None)
+
+
+@pytest.mark.parametrize(
+    "usage", ["[DEPTH_STENCIL_ATTACHMENT]", "[DEPTH_STENCIL_ATTACHMENT, TRANSFER_DST]", "[DEPTH_STENCIL_ATTACHMENT, STORAGE]"]
+)
+def test_who_can_have_written_what_a_frame_finds(usage: str) -> None:
+    linted = lint(
+        """
+    images: {depth: {format: D16_UNORM, samples: 1, usage: $usage}}
+    commands:
+      - beginRendering: {depthAttachment: {image: depth, loadOp: LOAD, storeOp: DONT_CARE}}
+      - endRendering
+    """,
+        usage=usage,
+    )
+    codes = {found.code for found in linted.findings}
+    assert ("MSAA209" in codes) is (usage == "[DEPTH_STENCIL_ATTACHMENT]")
+    assert ("MSAA215" in codes) is (usage != "[DEPTH_STENCIL_ATTACHMENT]")
+
+
+@pytest.mark.parametrize("format", ["R8G8B8A8_UNORM", "R16G16B16A16_SFLOAT"])
+def test_an_image_that_takes_turns_with_another_is_excused(format: str) -> None:
+    """A history of the same format, samples and size, which the frame reads and never writes."""
+    linted = lint(
+        """
+    images:
+      even: {format: R8G8B8A8_UNORM, samples: 1}
+      odd: {format: $format, samples: 1}
+      output: {format: B8G8R8A8_UNORM, samples: 1, presentable: true}
+    commands:
+      - readImage: {image: odd, stage: COMPUTE}
+      - beginRendering: {colorAttachments: [{image: even, loadOp: CLEAR, storeOp: STORE}]}
+      - endRendering
+      - present: {image: output}
+    """,
+        format=format,
+    )
+    assert ("MSAA208" in {found.code for found in linted.findings}) is (format != "R8G8B8A8_UNORM")
+
+
+def test_without_commands_the_order_of_the_passes_and_the_usage_decide() -> None:
+    linted = check("""
+    images:
+      closed: {format: D16_UNORM, samples: 1, usage: [DEPTH_STENCIL_ATTACHMENT]}
+      sampled: {format: D16_UNORM, samples: 1, usage: [DEPTH_STENCIL_ATTACHMENT, SAMPLED]}
+      unstated: {format: D16_UNORM, samples: 1}
+      picture: {format: R8G8B8A8_UNORM, samples: 1, usage: [COLOR_ATTACHMENT]}
+    renderPasses:
+      first:
+        attachments:
+          picture: {image: picture, loadOp: CLEAR, storeOp: STORE}
+    #                                                       ^^^^^ MSAA208 warning high
+          closed: {image: closed, loadOp: CLEAR, storeOp: STORE}
+    #                                                     ^^^^^ MSAA208 warning high
+        subpasses:
+          - {colorAttachments: [picture], depthStencilAttachment: closed}
+      second:
+        attachments:
+          picture: {image: picture, loadOp: CLEAR, storeOp: STORE}
+          sampled: {image: sampled, loadOp: CLEAR, storeOp: STORE}
+        subpasses:
+          - {colorAttachments: [picture], depthStencilAttachment: sampled}
+      third:
+        attachments:
+          unstated: {image: unstated, loadOp: CLEAR, storeOp: STORE}
+        subpasses:
+          - {depthStencilAttachment: unstated}
+    """)
+    assert undecided(linted, "MSAA208") == {
+        "renderPasses.second.attachments.picture",
+        "renderPasses.second.attachments.sampled",
+        "renderPasses.third.attachments.unstated",
+    }
+
+
+# One cause, one finding.
+
+
+def test_multisampled_stores_have_rules_of_their_own() -> None:
+    linted = check("""
+    images:
+      color: {format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT], presentable: false}
+      both: {format: D24_UNORM_S8_UINT, samples: 4, usage: [DEPTH_STENCIL_ATTACHMENT]}
+    commands:
+      - beginRendering:
+          colorAttachments: [{image: color, loadOp: CLEAR, storeOp: STORE}]
+          depthAttachment: {image: both, loadOp: CLEAR, storeOp: STORE}
+          stencilAttachment: {image: both, loadOp: CLEAR, storeOp: STORE}
+      - endRendering
+    """)
+    covering = {found.code for found in linted.findings if "covers stored-then-discarded (MSAA208) too" in found.notes}
+    assert covering == {"MSAA201", "MSAA203", "MSAA204"}
+
+
+@pytest.mark.parametrize("samples", ["1", "4"])
+def test_a_load_is_blamed_once(samples: str) -> None:
+    """By what is the matter with it, and not for what it costs besides."""
+    linted = lint(
+        """
+    images:
+      a: {format: R8G8B8A8_UNORM, samples: $samples}
+      b: {format: R8G8B8A8_UNORM, samples: $samples}
+      c: {format: R8G8B8A8_UNORM, samples: $samples}
+    commands:
+      - copyImage: {srcImage: c, dstImage: a}
+      - beginRendering: {colorAttachments: [{image: a, loadOp: LOAD, storeOp: STORE}]}
+      - endRendering
+      - clearColorImage: {image: b}
+      - beginRendering: {colorAttachments: [{image: b, loadOp: LOAD, storeOp: DONT_CARE}]}
+      - endRendering
+      - beginRendering: {colorAttachments: [{image: b, loadOp: LOAD, storeOp: STORE}]}
+      - endRendering
+    """,
+        samples=samples,
+    )
+    loads = [found.code for found in linted.findings if found.code in ("MSAA202", "MSAA215", "MSAA209", "MSAA211", "MSAA213")]
+    assert loads == ["MSAA213", "MSAA211", "MSAA209"]
+
+
+@pytest.mark.parametrize(
+    ("access", "after", "certain"),
+    [("", "", False), (", access: SHADER_READ", "- writeImage: {image: a, stage: COMPUTE}", False), (", access: SHADER_READ", "", True)],
+)
+def test_a_shader_that_may_read_reads_nothing_undefined(access: str, after: str, certain: bool) -> None:
+    """What a capture shows are the images that a shader could read: they have a reader, who need not read."""
+    linted = lint(
+        """
+    images:
+      a: {format: R8G8B8A8_UNORM, samples: 1}
+      b: {format: R8G8B8A8_UNORM, samples: 1}
+    commands:
+      - beginRendering:
+          colorAttachments: [{image: a, loadOp: CLEAR, storeOp: DONT_CARE}, {image: b, loadOp: CLEAR, storeOp: STORE}]
+      - endRendering
+      - readImage: {image: b, stage: FRAGMENT, access: SHADER_READ}
+      - readImage: {image: a, stage: FRAGMENT$access}
+      $after
+      - beginRendering: {colorAttachments: [{image: b, loadOp: CLEAR, storeOp: STORE}]}
+      - endRendering
+      - copyImageToBuffer: {srcImage: b}
+    """,
+        access=access,
+        after=after,
+    )
+    assert [found.code for found in linted.findings if found.code in WATCHED] == (["MSAA209"] if certain else [])
+
+
+def test_a_store_before_a_barrier_from_undefined_is_not_what_is_wrong() -> None:
+    check("""
+    images: {color: {format: R8G8B8A8_UNORM, samples: 1, usage: [COLOR_ATTACHMENT], presentable: false}}
+    commands:
+      - beginRendering: {colorAttachments: [{image: color, loadOp: CLEAR, storeOp: STORE}]}
+      - endRendering
+      - pipelineBarrier:
+          srcStageMask: [COLOR_ATTACHMENT_OUTPUT]
+          dstStageMask: [COLOR_ATTACHMENT_OUTPUT]
+          images: [{image: color, oldLayout: UNDEFINED, newLayout: GENERAL}]
+      - beginRendering: {colorAttachments: [{image: color, loadOp: LOAD, storeOp: DONT_CARE}]}
+    #                                                              ^^^^ MSAA209 error high
+      - endRendering
+    """)
+
+
+# Clears by commands.
+
+CLEARING = """
+images:
+  color: {format: R8G8B8A8_UNORM, samples: 1%(image)s}
+renderPasses:
+  scene:
+    attachments:
+      color: {image: color, loadOp: %(load)s, storeOp: STORE}
+    subpasses:
+      - {colorAttachments: [color]}
+      - {colorAttachments: [color]}
+commands:
+%(commands)s
+"""
+
+
+def cleared(commands: list[str], load: str = "LOAD", image: str = "") -> list[tuple[str, str]]:
+    text = CLEARING % {"load": load, "image": image, "commands": "\n".join(f"  - {command}" for command in commands)}
+    return [(found.severity, found.message) for found in lint(text).findings if found.code == "MSAA211"]
+
+
+BEGIN = "beginRenderPass: {renderPass: scene, renderArea: {x: 0, y: 0, width: 64, height: 32}}"
+CLEAR = "clearAttachments: {attachments: [{aspect: COLOR, colorAttachment: 0}], rects: [{x: 0, y: 0, width: 64, height: 32}]}"
+
+
+@pytest.mark.parametrize(("load", "severity"), [("LOAD", "warning"), ("CLEAR", "note"), ("DONT_CARE", "note")])
+def test_a_clear_within_the_pass(load: str, severity: str) -> None:
+    assert [weight for weight, _ in cleared([BEGIN, CLEAR, "draw: {vertexCount: 3}", "endRenderPass"], load)] == [severity]
+
+
+@pytest.mark.parametrize(
+    "commands",
+    [
+        [BEGIN, "draw: {vertexCount: 3}", CLEAR, "endRenderPass"],
+        [BEGIN, "draw: {vertexCount: 3}", "nextSubpass", CLEAR, "endRenderPass"],
+        [BEGIN, CLEAR.replace("x: 0", "x: 1"), "endRenderPass"],
+        [BEGIN, CLEAR.replace("width: 64", "width: 63"), "endRenderPass"],
+        [BEGIN, CLEAR.replace("colorAttachment: 0", "colorAttachment: 1"), "endRenderPass"],
+        [BEGIN, CLEAR.replace("COLOR", "DEPTH"), "endRenderPass"],
+        ["beginRenderPass: {renderPass: scene}", CLEAR, "endRenderPass"],
+        [BEGIN, CLEAR, "endRenderPass", BEGIN, "draw: {vertexCount: 3}", "endRenderPass"],
+        [CLEAR],
+    ],
+)
+def test_a_clear_that_the_load_operation_cannot_do(commands: list[str]) -> None:
+    assert cleared(commands) == []
+
+
+@pytest.mark.parametrize(
+    "commands",
+    [
+        [BEGIN, "nextSubpass", CLEAR, "draw: {vertexCount: 3}", "endRenderPass"],
+        [BEGIN, CLEAR.replace("width: 64", "width: 100"), "endRenderPass"],
+        [BEGIN, CLEAR, "endRenderPass", BEGIN, CLEAR, "draw: {vertexCount: 3}", "endRenderPass"],
+        [BEGIN, CLEAR.replace("rects: [", "rects: [{x: 5, y: 5, width: 1, height: 1}, "), "endRenderPass"],
+    ],
+)
+def test_a_clear_that_the_load_operation_can_do(commands: list[str]) -> None:
+    assert len(cleared(commands)) == 1
+
+
+def test_a_clear_of_an_image_whose_size_is_known_needs_no_render_area() -> None:
+    begin = "beginRenderPass: {renderPass: scene}"
+    assert len(cleared([begin, CLEAR, "endRenderPass"], image=", extent: {width: 64, height: 32}")) == 1
+    assert cleared([begin, CLEAR, "endRenderPass"], image=", extent: {width: 64, height: 64}") == []
+
+
+@pytest.mark.parametrize(
+    ("load", "words"), [("LOAD", "loads it from there"), ("CLEAR", "begins with CLEAR"), ("DONT_CARE", "begins with DONT_CARE")]
+)
+def test_a_clear_of_the_image_before_the_pass(load: str, words: str) -> None:
+    ((severity, text),) = cleared(["clearColorImage: {image: color}", "beginRenderPass: {renderPass: scene}", "endRenderPass"], load)
+    assert severity == "warning" and words in text
+
+
+@pytest.mark.parametrize("image", [", mipLevels: 2", ", arrayLayers: 2"])
+def test_a_clear_of_an_image_may_be_of_a_part(image: str) -> None:
+    assert cleared(["clearColorImage: {image: color}", "beginRenderPass: {renderPass: scene}", "endRenderPass"], image=image) == []
+
+
+# What nothing touches.
+
+TOUCHED = """
+images:
+  color: {format: R8G8B8A8_UNORM, samples: 1}
+  both: {format: D24_UNORM_S8_UINT, samples: 1}
+pipelines:
+  one: {rendering: {}, colorBlendState: {attachments: [%(blend)s]}, depthStencilState: {%(depth)s}%(more)s}
+commands:
+  - beginRendering:
+      colorAttachments: [{image: color, loadOp: %(load)s, storeOp: %(store)s}]
+      depthAttachment: {image: both, loadOp: %(load)s, storeOp: %(store)s}
+      stencilAttachment: {image: both, loadOp: %(load)s, storeOp: %(store)s}
+  - %(command)s
+  - endRendering
+  - readImage: {image: color, stage: FRAGMENT}
+  - readImage: {image: both, stage: FRAGMENT}
+"""
+DRAW = "draw: {pipeline: one, vertexCount: 300}"
+OFF = "depthTestEnable: false, depthBoundsTestEnable: false, stencilTestEnable: false"
+
+
+def untouched(
+    blend: str = "{colorWriteMask: []}", depth: str = OFF, more: str = "", load: str = "LOAD", store: str = "STORE", command: str = DRAW
+) -> set[str]:
+    values = {"blend": blend, "depth": depth, "more": more, "load": load, "store": store, "command": command}
+    words = {"the color of": "color", "the depth of": "depth", "the stencil of": "stencil"}
+    findings = [found for found in lint(TOUCHED % values).findings if found.code == "MSAA212"]
+    assert {found.severity for found in findings} <= {"warning"}
+    return {words[" ".join(found.message.split()[:3])] for found in findings}
+
+
+def test_state_says_what_a_draw_touches() -> None:
+    every = {"color", "depth", "stencil"}
+    assert untouched() == every
+    assert untouched(blend="{colorWriteMask: [A]}") == every - {"color"}
+    assert untouched(depth=OFF.replace("depthTestEnable: false", "depthTestEnable: true")) == every - {"depth"}
+    assert untouched(depth=OFF.replace("depthBoundsTestEnable: false", "depthBoundsTestEnable: true")) == every - {"depth"}
+    assert untouched(depth=OFF.replace("stencilTestEnable: false", "stencilTestEnable: true")) == every - {"stencil"}
+    assert untouched(blend="{colorWriteMask: [A]}", more=", rasterizationState: {rasterizerDiscardEnable: true}") == every
+
+
+def test_what_is_not_stated_touches() -> None:
+    every = {"color", "depth", "stencil"}
+    assert untouched(blend="") == every - {"color"}
+    assert untouched(blend="{blendEnable: false}") == every - {"color"}
+    assert untouched(depth="depthTestEnable: false, stencilTestEnable: false") == every - {"depth"}
+    assert untouched(more=", dynamicState: [COLOR_WRITE_MASK_EXT, DEPTH_TEST_ENABLE, STENCIL_TEST_ENABLE]") == set()
+    assert untouched(command="draw: {vertexCount: 3}") == set()
+    assert untouched(command="setRasterizationSamples: 1") == set()
+
+
+def test_clears_and_reads_touch() -> None:
+    clear = "clearAttachments: {attachments: [{aspect: DEPTH}], rects: [{x: 0, y: 0, width: 1, height: 1}]}"
+    assert untouched(command=clear) == {"color", "stencil"}
+    assert untouched(command=f"{DRAW}\n  - readImage: {{image: both, stage: FRAGMENT}}") == {"color"}
+
+
+def test_operations_that_move_nothing_and_clears_that_are_kept_are_no_matter() -> None:
+    assert untouched(load="CLEAR", store="STORE") == set()
+    assert untouched(load="CLEAR", store="DONT_CARE") == set()
+    assert untouched(load="NONE", store="NONE") == set()
+    assert untouched(load="DONT_CARE", store="STORE") == {"color", "depth", "stencil"}
+    assert untouched(load="LOAD", store="DONT_CARE") == {"color", "depth", "stencil"}
+
+
+def test_an_attachment_that_no_subpass_uses_is_one_finding_and_nothing_else() -> None:
+    linted = lint("""
+    images: {both: {format: D24_UNORM_S8_UINT, samples: 4, usage: [DEPTH_STENCIL_ATTACHMENT]}}
+    renderPasses:
+      scene:
+        attachments:
+          color: {format: R8G8B8A8_UNORM, samples: 1, loadOp: CLEAR, storeOp: STORE}
+          both: {image: both, loadOp: LOAD, storeOp: STORE, stencilLoadOp: LOAD, stencilStoreOp: STORE}
+          fine: {format: R8G8B8A8_UNORM, samples: 1, loadOp: CLEAR, storeOp: DONT_CARE}
+        subpasses:
+          - {colorAttachments: [color], preserveAttachments: [both]}
+    commands:
+      - beginRenderPass: {renderPass: scene}
+      - endRenderPass
+    """)
+    assert [(each.code, each.subject, each.severity) for each in linted.findings if each.subject.startswith("renderPasses")] == [
+        ("MSAA212", "renderPasses.scene.attachments.both", "note")
+    ]
+
+
+# Clear values.
+
+
+@pytest.mark.parametrize(
+    ("operations", "count", "expected"),
+    [
+        ("loadOp: LOAD, stencilLoadOp: LOAD", 1, "note"),
+        ("loadOp: CLEAR, stencilLoadOp: LOAD", 1, None),
+        ("loadOp: LOAD, stencilLoadOp: CLEAR", 1, None),
+        ("loadOp: LOAD, stencilLoadOp: LOAD", 0, None),
+        ("loadOp: CLEAR, stencilLoadOp: LOAD", 2, "warning"),
+        ("loadOp: LOAD", 1, None),
+    ],
+)
+def test_clear_values(operations: str, count: int, expected: str | None) -> None:
+    linted = lint(
+        """
+    renderPasses:
+      scene:
+        attachments:
+          both: {format: D24_UNORM_S8_UINT, samples: 1, $operations}
+        subpasses:
+          - {depthStencilAttachment: both}
+    commands:
+      - beginRenderPass: {renderPass: scene, clearValueCount: 0}
+      - endRenderPass
+      - beginRenderPass: {renderPass: scene, clearValueCount: $count}
+      - endRenderPass
+    """,
+        operations=operations,
+        count=str(count),
+    )
+    assert [found.severity for found in linted.findings if found.code == "MSAA214"] == ([expected] if expected else [])
+
+
+# Passes over the whole picture.
+
+SCREEN = """
+images:
+  scene: {format: R8G8B8A8_UNORM, samples: %(read)s}
+  color: {format: R8G8B8A8_UNORM, samples: 4}
+pipelines:
+  screen:
+    rendering: {}
+    vertexInputState: {%(vertices)s}
+    multisampleState: {rasterizationSamples: 4, sampleShadingEnable: %(shading)s, alphaToCoverageEnable: false%(more)s}
+commands:
+  - beginRendering: {flags: [%(flags)s], colorAttachments: [{image: color, loadOp: %(load)s, storeOp: STORE}]}
+  - readImage: {image: scene, stage: FRAGMENT}
+  - draw: {pipeline: screen, vertexCount: %(count)s, instanceCount: %(instances)s}
+  - endRendering
+%(after)s
+"""
+PLAIN = {
+    "read": "1", "vertices": "", "shading": "false", "more": "", "flags": "", "load": "DONT_CARE", "count": "3", "instances": "1",
+    "after": "",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("changed", "expected"),
+    [
+        ({}, True),
+        ({"count": "6"}, True),
+        ({"load": "CLEAR"}, True),
+        ({"count": "4"}, False),
+        ({"instances": "2"}, False),
+        ({"load": "LOAD"}, False),
+        ({"read": "4"}, False),
+        ({"shading": "true"}, False),
+        ({"more": ", sampleMask: [1]"}, False),
+        ({"flags": "SUSPENDING"}, False),
+        ({"vertices": "vertexBindingDescriptions: [{binding: 0, stride: 8}]"}, False),
+        ({"after": "  - beginRendering: {colorAttachments: [{image: color, loadOp: LOAD, storeOp: STORE}]}\n  - endRendering"}, False),
+        ({"after": "  - beginRendering: {colorAttachments: [{image: color, loadOp: CLEAR, storeOp: STORE}]}\n  - endRendering"}, True),
+    ],
+)
+def test_a_pass_over_the_whole_picture(changed: dict[str, str], expected: bool) -> None:
+    assert ("MSAA107" in {found.code for found in lint(SCREEN % {**PLAIN, **changed}).findings}) is expected
+
+
+# Prices: plain arithmetic, 1000 * 500 texels of 4 bytes at 60 frames a second.
+
+
+def priced(text: str, code: str) -> tuple[float, float]:
+    (found,) = [
+        found for found in lint("frame: {width: 1000, height: 500, fps: 60}\n" + textwrap.dedent(text)).findings if found.code == code
+    ]
+    assert found.price is not None
+    return found.price.read_mb_per_s, found.price.write_mb_per_s
+
+
+PICTURE = 1000 * 500 * 4 * 60 / 1e6
+
+
+def test_prices() -> None:
+    stored = "images: {d: {format: D32_SFLOAT, samples: 1, usage: [DEPTH_STENCIL_ATTACHMENT]}}\ncommands:\n"
+    stored += "  - beginRendering: {depthAttachment: {image: d, loadOp: CLEAR, storeOp: STORE}}\n  - endRendering\n"
+    assert priced(stored, "MSAA208") == pytest.approx((0, PICTURE))
+    loaded = stored.replace("CLEAR", "LOAD").replace("STORE}", "DONT_CARE}")
+    assert priced(loaded, "MSAA209") == pytest.approx((PICTURE, 0))
+    copied = "images: {a: {format: R8G8B8A8_UNORM, samples: 1}, b: {format: R8G8B8A8_UNORM, samples: 1}}\ncommands:\n"
+    copied += "  - blitImage: {srcImage: a, dstImage: b}\n"
+    copied += "  - beginRendering: {colorAttachments: [{image: b, loadOp: LOAD, storeOp: STORE}]}\n  - endRendering\n"
+    assert priced(copied, "MSAA213") == pytest.approx((PICTURE, PICTURE))
+    assert priced(copied.replace("blitImage: {srcImage: a, dstImage: b}", "clearColorImage: {image: b}"), "MSAA211") == pytest.approx(
+        (PICTURE, PICTURE)
+    )
+    assert priced(TOUCHED % {"blend": "{colorWriteMask: [R]}", "depth": OFF.replace("stencilTestEnable: false", "stencilTestEnable: true"),
+                             "more": "", "load": "LOAD", "store": "STORE", "command": DRAW}, "MSAA212") == pytest.approx(
+        (PICTURE * 3 / 4, PICTURE * 3 / 4)
+    )  # fmt: skip
+
+
+# Hostile input.
+
+
+def test_more_uses_than_are_followed_leave_all_unknown() -> None:
+    attachments, begins = 750, 700
+    text = "images: {x: {format: D16_UNORM, samples: 1, usage: [DEPTH_STENCIL_ATTACHMENT]}}\nrenderPasses:\n  scene:\n    attachments:\n"
+    text += "      - {image: x, loadOp: CLEAR, storeOp: STORE}\n" * attachments
+    text += "    subpasses: [{depthStencilAttachment: 0}]\ncommands:\n"
+    text += "  - beginRenderPass: {renderPass: scene}\n  - endRenderPass\n" * begins
+    linted = ENGINE.lint(text.encode(), "frame.yaml", as_written)
+    assert "renderPasses.scene.attachments[0]" in undecided(linted, "MSAA208")
+
+
+def test_framebuffers_that_come_round_too_seldom_leave_all_unknown() -> None:
+    names = [f"f{n}" for n in range(13)]
+    text = "images:\n" + "".join(f"  i{n}: {{format: D16_UNORM, samples: 1, usage: [DEPTH_STENCIL_ATTACHMENT]}}\n" for n in range(13))
+    text += "renderPasses:\n  r: {attachments: {d: {loadOp: CLEAR, storeOp: STORE}}, subpasses: [{depthStencilAttachment: d}]}\n"
+    text += "framebuffers:\n" + "".join(f"  f{n}: {{renderPass: r, attachments: [i{n}]}}\n" for n in range(13))
+    every = f"{text}commands:\n  - beginRenderPass: {{renderPass: r, framebuffer: [{', '.join(names)}]}}\n  - endRenderPass\n"
+    assert undecided(lint(every), "MSAA208") == {"renderPasses.r.attachments.d"}
+    some = f"{text}commands:\n  - beginRenderPass: {{renderPass: r, framebuffer: [{', '.join(names[:12])}]}}\n  - endRenderPass\n"
+    assert [found.code for found in lint(some).findings if found.code in WATCHED] == ["MSAA208"]

@@ -1,0 +1,994 @@
+"""What becomes of a resolve: who reads it, who waits for it, what is done twice; depth that is read unresolved; images that take turns.
+
+A line of carets under a line of input marks what must be found there, and nothing else of `WATCHED` may be found.
+"""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from msaa_lint.core.finding import Finding
+from msaa_lint.frame.facts.events import MAX_STEPS
+from msaa_lint.linter.engine import FileResult
+from msaa_lint.linter.fixes import fixer as rounds
+from tests.linter.lifetimes import watched as given_frames
+from tests.linter.lifetimes.watched import given_text, lint
+
+WATCHED = {"MSAA307", "MSAA308", "MSAA315", "MSAA317", "MSAA406", "MSAA601"}
+
+
+def check(text: str, **values: str) -> FileResult:
+    """As `watched.check`, of the watched rules; `$name` stands for a value."""
+    return given_frames.check(given_text(text, **values), WATCHED)
+
+
+def watched(linted: FileResult) -> list[Finding]:
+    return given_frames.watched(linted, WATCHED)
+
+
+def one(linted: FileResult, code: str) -> Finding:
+    (found,) = [finding for finding in linted.findings if finding.code == code]
+    return found
+
+
+def undecided(linted: FileResult) -> set[tuple[str, str]]:
+    return {(each.code, each.subject) for each in linted.undecided if each.code in WATCHED}
+
+
+def fixed(text: str, code: str) -> str:
+    """The text with the fixes of one rule made, the unsafe ones too; no finding of the rule is left."""
+    done = rounds.fix(lint(text), lambda other: lint(other), True, lambda found: found.code == code)
+    assert [found.code for found in done.fixed] == [code]
+    assert code not in {found.code for found in done.linted.findings}
+    return done.text
+
+
+# 601: who waits for a resolve.
+
+READ_AFTER = """
+    images:
+      depth_ms: {format: D32_SFLOAT, samples: 4}
+      depth: {format: D32_SFLOAT, samples: 1}
+      other: {format: D32_SFLOAT, samples: 1}
+    commands:
+      - beginRendering: {depthAttachment: {image: depth_ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: MIN, resolveImage: depth}}
+      - endRendering
+      $barriers
+      - readImage: {image: depth, stage: $stage}
+    """
+
+
+def barrier(stages: str, into: str = "FRAGMENT_SHADER", access: str = "DEPTH_STENCIL_ATTACHMENT_WRITE", images: str = "depth") -> str:
+    masks = f"srcStageMask: [{stages}], srcAccessMask: [{access}], dstStageMask: [{into}], dstAccessMask: [SHADER_READ]"
+    return f"- pipelineBarrier: {{{masks}, images: [{images}]}}"
+
+
+def waits(*barriers: str, stage: str = "FRAGMENT") -> bool | None:
+    """Whether what orders a reader after a resolve waits for it, as the rule has it; None where it does not say."""
+    linted = lint(given_text(READ_AFTER, barriers="\n      ".join(barriers), stage=stage))
+    if "MSAA601" in {found.code for found in linted.findings}:
+        return False
+    return None if "MSAA601" in {each.code for each in linted.undecided} else True
+
+
+@pytest.mark.parametrize(
+    ("stages", "answer"),
+    [
+        ("COLOR_ATTACHMENT_OUTPUT", True),
+        ("VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT", True),
+        ("VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT", True),
+        ("LATE_FRAGMENT_TESTS, COLOR_ATTACHMENT_OUTPUT", True),
+        ("ALL_GRAPHICS", True),
+        ("ALL_COMMANDS", True),
+        ("BOTTOM_OF_PIPE", True),
+        ("LATE_FRAGMENT_TESTS", False),
+        ("VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT, VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT", False),
+        ("FRAGMENT_SHADER", False),
+        ("TOP_OF_PIPE", False),
+        ("TRANSFER", False),
+        ("NONE", False),
+        ("", False),
+    ],
+)
+def test_which_stages_wait_for_a_resolve_of_depth(stages: str, answer: bool) -> None:
+    assert waits(barrier(stages)) is answer
+
+
+def test_what_is_not_stated_is_undecided() -> None:
+    assert waits() is None
+    assert waits("- pipelineBarrier: {dstStageMask: [FRAGMENT_SHADER], images: [depth]}") is None
+
+
+def test_barriers_count_together() -> None:
+    late, color = barrier("LATE_FRAGMENT_TESTS"), barrier("COLOR_ATTACHMENT_OUTPUT", access="COLOR_ATTACHMENT_WRITE")
+    assert waits(late, color) is True
+    assert waits(color, late) is True
+    assert waits(late, late) is False
+
+
+def test_a_barrier_for_another_image_is_for_another_image() -> None:
+    assert waits(barrier("LATE_FRAGMENT_TESTS", images="other")) is None
+    # Its execution dependency holds, what the resolve wrote is not made available by it.
+    assert waits(barrier("LATE_FRAGMENT_TESTS"), barrier("COLOR_ATTACHMENT_OUTPUT", images="other")) is False
+
+
+def test_a_barrier_without_images_is_for_all_memory() -> None:
+    assert waits(barrier("LATE_FRAGMENT_TESTS", images="")) is False
+    assert waits(barrier("COLOR_ATTACHMENT_OUTPUT", images="")) is True
+    # Not meant for this reader: they hold back no fragment shader, or make nothing available that a resolve may be taken for.
+    assert waits(barrier("LATE_FRAGMENT_TESTS", into="LATE_FRAGMENT_TESTS", images="")) is None
+    assert waits(barrier("VERTEX_SHADER", access="SHADER_WRITE", images="")) is None
+
+
+def test_waits_follow_from_one_another() -> None:
+    """Each holds back what the next one waits for; stages of drawing include those before them, and what comes after them."""
+    first = barrier("COLOR_ATTACHMENT_OUTPUT", into="TRANSFER", images="")
+    assert waits(first, barrier("TRANSFER")) is True
+    assert waits(first, barrier("COMPUTE_SHADER")) is False
+    early = barrier("COLOR_ATTACHMENT_OUTPUT", into="EARLY_FRAGMENT_TESTS", images="")
+    assert waits(early, barrier("LATE_FRAGMENT_TESTS")) is True
+    assert waits(barrier("LATE_FRAGMENT_TESTS"), barrier("COLOR_ATTACHMENT_OUTPUT", into="COLOR_ATTACHMENT_OUTPUT", images="")) is False
+
+
+@pytest.mark.parametrize(("stage", "into"), [("COMPUTE", "COMPUTE_SHADER"), ("VERTEX", "VERTEX_SHADER"), ("RAYGEN_KHR", "ALL_COMMANDS")])
+def test_readers_of_other_stages(stage: str, into: str) -> None:
+    assert waits(barrier("LATE_FRAGMENT_TESTS", into=into, images=""), stage=stage) is False
+    assert waits(barrier("COLOR_ATTACHMENT_OUTPUT", into=into, images=""), stage=stage) is True
+
+
+PASSES = """
+    images:
+      depth_ms: {format: D32_SFLOAT, samples: 4}
+      depth: {format: D32_SFLOAT, samples: 1}
+      depth_b: {format: D32_SFLOAT, samples: 1}
+      color: {format: R8G8B8A8_UNORM, samples: 1}
+    renderPasses:
+      first:
+        attachments:
+          depth_ms: {image: depth_ms, loadOp: CLEAR, storeOp: DONT_CARE}
+          depth: {image: depth, loadOp: DONT_CARE, storeOp: STORE}
+        subpasses:
+          - depthStencilAttachment: depth_ms
+            depthStencilResolve: {attachment: depth, depthResolveMode: SAMPLE_ZERO, stencilResolveMode: NONE}
+        dependencies: [$out]
+      second:
+        attachments:
+          color: {image: color, loadOp: DONT_CARE, storeOp: STORE}
+        subpasses:
+          - {colorAttachments: [color]}
+        dependencies: [$into]
+    framebuffers:
+      $buffers
+    commands:
+      - beginRenderPass: {renderPass: first$named}
+      - endRenderPass
+      - beginRenderPass: {renderPass: second}
+      - readImage: {image: depth, stage: FRAGMENT}
+      - endRenderPass
+    """
+
+
+def dependency(src: str, dst: str, stages: str, into: str = "FRAGMENT_SHADER", access: str = "DEPTH_STENCIL_ATTACHMENT_WRITE") -> str:
+    masks = f"srcStageMask: [{stages}], dstStageMask: [{into}], srcAccessMask: [{access}], dstAccessMask: [SHADER_READ]"
+    return f"{{srcSubpass: {src}, dstSubpass: {dst}, {masks}}}"
+
+
+@pytest.mark.parametrize("named", ["", ", framebuffer: [one, two]"])
+@pytest.mark.parametrize(
+    ("out", "into", "answer"),
+    [
+        ("", "", None),
+        (dependency("0", "EXTERNAL", "LATE_FRAGMENT_TESTS"), "", False),
+        (dependency("0", "EXTERNAL", "COLOR_ATTACHMENT_OUTPUT"), "", True),
+        ("", dependency("EXTERNAL", "0", "LATE_FRAGMENT_TESTS"), False),
+        ("", dependency("EXTERNAL", "0", "COLOR_ATTACHMENT_OUTPUT", access="COLOR_ATTACHMENT_WRITE"), True),
+        (dependency("0", "EXTERNAL", "LATE_FRAGMENT_TESTS"), dependency("EXTERNAL", "0", "ALL_GRAPHICS"), True),
+        # For what the reading pass draws to: it holds back no shader.
+        (
+            dependency("0", "EXTERNAL", "LATE_FRAGMENT_TESTS"),
+            dependency("EXTERNAL", "0", "COLOR_ATTACHMENT_OUTPUT", "COLOR_ATTACHMENT_OUTPUT", "COLOR_ATTACHMENT_WRITE"),
+            False,
+        ),
+        ("", dependency("EXTERNAL", "0", "COLOR_ATTACHMENT_OUTPUT", "COLOR_ATTACHMENT_OUTPUT", "COLOR_ATTACHMENT_WRITE"), None),
+        # For what the first pass waits for itself.
+        (dependency("EXTERNAL", "0", "LATE_FRAGMENT_TESTS"), "", None),
+    ],
+)
+def test_dependencies_of_both_passes(out: str, into: str, answer: bool | None, named: str) -> None:
+    """By one framebuffer, and by two that alternate."""
+    buffers = "\n      ".join(
+        (
+            "one: {renderPass: first, attachments: [depth_ms, depth]}",
+            "two: {renderPass: first, attachments: [depth_ms, depth_b]}" if named else "",
+        )
+    )
+    linted = lint(given_text(PASSES, out=out, into=into, buffers=buffers, named=named))
+    codes = {found.code for found in linted.findings}
+    unknown = ("MSAA601", "renderPasses.first.subpasses[0].depthStencilResolve") in undecided(linted)
+    assert ("MSAA601" in codes, unknown) == (answer is False, answer is None)
+
+
+def test_within_a_pass_nothing_else_can_order_them() -> None:
+    """Without commands too. The dependency between the two subpasses counts, not one into another subpass."""
+    linted = check("""
+    renderPasses:
+      main:
+        attachments:
+          depth_ms: {format: D32_SFLOAT, samples: 4, loadOp: CLEAR, storeOp: DONT_CARE}
+          depth: {image: depth, loadOp: DONT_CARE, storeOp: DONT_CARE}
+        subpasses:
+          - depthStencilAttachment: depth_ms
+            depthStencilResolve: {attachment: depth, depthResolveMode: SAMPLE_ZERO, stencilResolveMode: NONE}
+          - {}
+          - {inputAttachments: [depth]}
+        dependencies:
+          - {srcSubpass: 1, dstSubpass: 2, srcStageMask: [LATE_FRAGMENT_TESTS], dstStageMask: [FRAGMENT_SHADER]}
+          - srcSubpass: 0
+            dstSubpass: 2
+            srcStageMask: [LATE_FRAGMENT_TESTS]
+    #                     ^^^^^^^^^^^^^^^^^^^^^ MSAA601 error high
+            srcAccessMask: [DEPTH_STENCIL_ATTACHMENT_WRITE]
+            dstStageMask: [FRAGMENT_SHADER]
+            dstAccessMask: [INPUT_ATTACHMENT_READ]
+    images:
+      depth: {format: D32_SFLOAT, samples: 1, usage: [DEPTH_STENCIL_ATTACHMENT, INPUT_ATTACHMENT]}
+    """)
+    found = one(linted, "MSAA601")
+    assert found.message == (
+        "`depth` is read after a wait for LATE_FRAGMENT_TESTS: its resolve runs in COLOR_ATTACHMENT_OUTPUT, which nothing stated waits for"
+    )
+    assert [label.text for label in found.labels] == ["resolved here"]
+
+
+def test_a_reader_of_the_next_frame_is_found_round_the_loop() -> None:
+    check("""
+    images:
+      depth_ms: {format: D32_SFLOAT, samples: 4}
+      depth: {format: D32_SFLOAT, samples: 1}
+    commands:
+      - pipelineBarrier: {srcStageMask: [LATE_FRAGMENT_TESTS], dstStageMask: [COMPUTE_SHADER], images: [depth]}
+    #                                   ^^^^^^^^^^^^^^^^^^^^^ MSAA601 error low
+      - readImage: {image: depth, stage: COMPUTE}
+      - beginRendering: {depthAttachment: {image: depth_ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: MAX, resolveImage: depth}}
+      - endRendering
+    """)
+
+
+def test_the_first_reader_counts_and_an_overwritten_resolve_has_none() -> None:
+    check("""
+    images:
+      ms: {format: R8G8B8A8_UNORM, samples: 4}
+      color: {format: R8G8B8A8_UNORM, samples: 1}
+    commands:
+      - beginRendering: {colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: AVERAGE, resolveImage: color}]}
+      - endRendering
+      - pipelineBarrier: {srcStageMask: [COLOR_ATTACHMENT_OUTPUT], dstStageMask: [FRAGMENT_SHADER], images: [color]}
+      - readImage: {image: color, stage: FRAGMENT}
+      - pipelineBarrier: {srcStageMask: [FRAGMENT_SHADER], dstStageMask: [COMPUTE_SHADER], images: [color]}
+      - readImage: {image: color, stage: COMPUTE}
+      - beginRendering: {colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: AVERAGE, resolveImage: color}]}
+      - endRendering
+      - pipelineBarrier: {srcStageMask: [LATE_FRAGMENT_TESTS], dstStageMask: [FRAGMENT_SHADER], images: [color]}
+      - clearColorImage: {image: color}
+      - readImage: {image: color, stage: FRAGMENT}
+    """)
+
+
+def test_a_presentation_has_a_semaphore() -> None:
+    check("""
+    images:
+      ms: {format: R8G8B8A8_UNORM, samples: 4}
+      back: {format: R8G8B8A8_UNORM, samples: 1, presentable: true}
+    commands:
+      - beginRendering: {colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: AVERAGE, resolveImage: back}]}
+      - endRendering
+      - pipelineBarrier: {srcStageMask: [LATE_FRAGMENT_TESTS], dstStageMask: [BOTTOM_OF_PIPE], images: [back]}
+      - present: {image: back}
+    """)
+
+
+@pytest.mark.parametrize("stages", ["TRANSFER", "RESOLVE", "COLOR_ATTACHMENT_OUTPUT, ALL_TRANSFER", "ALL_COMMANDS"])
+def test_a_command_resolves_in_transfer(stages: str) -> None:
+    check(
+        """
+    images:
+      ms: {format: R8G8B8A8_UNORM, samples: 4}
+      color: {format: R8G8B8A8_UNORM, samples: 1}
+    commands:
+      - beginRendering: {colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: STORE}]}
+      - endRendering
+      - resolveImage: {srcImage: ms, dstImage: color}
+      - pipelineBarrier: {srcStageMask: [$stages], dstStageMask: [FRAGMENT_SHADER], images: [color]}
+      - readImage: {image: color, stage: FRAGMENT}
+    """,
+        stages=stages,
+    )
+
+
+def test_a_wait_is_mended_and_nothing_else() -> None:
+    text = given_text(READ_AFTER, barriers=barrier("LATE_FRAGMENT_TESTS"), stage="FRAGMENT")
+    after = fixed(text, "MSAA601")
+    assert after == text.replace("[LATE_FRAGMENT_TESTS]", "[LATE_FRAGMENT_TESTS, COLOR_ATTACHMENT_OUTPUT]").replace(
+        "[DEPTH_STENCIL_ATTACHMENT_WRITE]", "[DEPTH_STENCIL_ATTACHMENT_WRITE, COLOR_ATTACHMENT_WRITE]"
+    )
+
+
+STAGES = ["COLOR_ATTACHMENT_OUTPUT", "LATE_FRAGMENT_TESTS", "FRAGMENT_SHADER", "TRANSFER", "COMPUTE_SHADER", "ALL_COMMANDS", "TOP_OF_PIPE"]
+BARRIERS = st.lists(
+    st.builds(
+        lambda source, target, images: barrier(", ".join(source), ", ".join(target), "MEMORY_WRITE", images),
+        st.lists(st.sampled_from(STAGES), min_size=1, max_size=2),
+        st.lists(st.sampled_from(STAGES), min_size=1, max_size=2),
+        st.sampled_from(["depth", "", "other"]),
+    ),
+    max_size=4,
+)
+
+
+@settings(max_examples=80, deadline=None)
+@given(BARRIERS, BARRIERS)
+def test_one_more_wait_for_all_commands_is_enough(before: list[str], after: list[str]) -> None:
+    """Wherever it stands, and whatever else is waited for."""
+    assert waits(*before, barrier("ALL_COMMANDS", "ALL_COMMANDS"), *after) is True
+
+
+@settings(max_examples=80, deadline=None)
+@given(BARRIERS)
+def test_waits_without_the_stage_are_never_enough(barriers: list[str]) -> None:
+    without = [re.sub("COLOR_ATTACHMENT_OUTPUT|ALL_COMMANDS", "EARLY_FRAGMENT_TESTS", each) for each in barriers]
+    meant = any("images: [depth]" in each for each in without)
+    answer = waits(*without)
+    assert answer is False if meant else answer in (None, False)
+
+
+# 308: who reads resolved depth.
+
+
+@pytest.mark.parametrize(
+    "reader",
+    [
+        "readImage: {image: depth, stage: COMPUTE}",
+        "copyImage: {srcImage: depth, dstImage: other}",
+        "copyImageToBuffer: {srcImage: depth}",
+        "beginRendering: {depthAttachment: {image: depth, loadOp: LOAD, storeOp: DONT_CARE}}",
+    ],
+)
+@pytest.mark.parametrize("after", [True, False])
+def test_resolved_depth_has_a_reader(reader: str, after: bool) -> None:
+    """After the pass, or, the frame being a loop, before it in the next frame."""
+    end = "\n      - endRendering" if "begin" in reader else ""
+    check(
+        """
+    images:
+      depth_ms: {format: D32_SFLOAT, samples: 4}
+      depth: {format: D32_SFLOAT, samples: 1}
+      other: {format: D32_SFLOAT, samples: 1}
+    commands:
+      $before
+      - beginRendering: {depthAttachment: {image: depth_ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: MIN, resolveImage: depth}}
+      - endRendering
+      $after
+    """,
+        before="" if after else f"- {reader}{end}",
+        after=f"- {reader}{end}" if after else "",
+    )
+
+
+@pytest.mark.parametrize(
+    "overwrite",
+    [
+        "clearDepthStencilImage: {image: depth}",
+        "beginRendering: {depthAttachment: {image: depth, loadOp: CLEAR, storeOp: STORE}}",
+        "pipelineBarrier: {images: [{image: depth, oldLayout: UNDEFINED, newLayout: GENERAL}]}",
+    ],
+)
+def test_resolved_depth_that_is_overwritten_has_none(overwrite: str) -> None:
+    end = "- endRendering" if "begin" in overwrite else ""
+    check(
+        """
+    images:
+      depth_ms: {format: D32_SFLOAT, samples: 4}
+      depth: {format: D32_SFLOAT, samples: 1}
+    commands:
+      - beginRendering: {depthAttachment: {image: depth_ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: MIN, resolveImage: depth}}
+    #                                                                                                       ^^^ MSAA308 warning medium
+      - endRendering
+      - $overwrite
+      $end
+      - readImage: {image: depth, stage: COMPUTE}
+    """,
+        overwrite=overwrite,
+        end=end,
+    )
+
+
+BOTH = """
+    device: {name: any, independentResolve: $alone, independentResolveNone: $alone}
+    images:
+      ms: {format: D24_UNORM_S8_UINT, samples: 4}
+      ds: {format: D24_UNORM_S8_UINT, samples: 1}
+    renderPasses:
+      first:
+        attachments:
+          ms: {image: ms, loadOp: CLEAR, storeOp: DONT_CARE, stencilLoadOp: CLEAR, stencilStoreOp: DONT_CARE}
+          ds: {image: ds, loadOp: DONT_CARE, storeOp: STORE, stencilLoadOp: DONT_CARE, stencilStoreOp: STORE}
+        subpasses:
+          - depthStencilAttachment: ms
+            depthStencilResolve:
+              attachment: ds
+              depthResolveMode: SAMPLE_ZERO
+    $depth
+              stencilResolveMode: SAMPLE_ZERO
+    $stencil
+      second:
+        attachments:
+          ds: {image: ds, loadOp: $load, storeOp: DONT_CARE, stencilLoadOp: DONT_CARE, stencilStoreOp: DONT_CARE}
+        subpasses:
+          - {depthStencilAttachment: ds}
+    commands:
+      - beginRenderPass: {renderPass: first}
+      - endRenderPass
+      - beginRenderPass: {renderPass: second}
+      - endRenderPass
+    """
+DEPTH_MARK = "#                           ^^^^^^^^^^^ MSAA308"
+STENCIL_MARK = "#                             ^^^^^^^^^^^ MSAA308"
+
+
+def test_depth_and_stencil_are_read_apart() -> None:
+    check(BOTH, alone="true", load="LOAD", depth="", stencil=STENCIL_MARK)
+    check(BOTH, alone="true", load="CLEAR", depth=DEPTH_MARK, stencil=STENCIL_MARK)
+    # Where they are resolved alike or not at all, one reader keeps both; two without one are two mistakes on every device.
+    check(BOTH, alone="false", load="LOAD", depth="", stencil="")
+    check(BOTH, alone="false", load="CLEAR", depth=DEPTH_MARK, stencil=STENCIL_MARK)
+
+
+def test_one_of_two_aspects_is_left_out() -> None:
+    text = given_text(BOTH, alone="true", load="LOAD", depth="", stencil="")
+    assert fixed(text, "MSAA308") == text.replace("stencilResolveMode: SAMPLE_ZERO", "stencilResolveMode: NONE").replace(
+        "stencilStoreOp: STORE", "stencilStoreOp: DONT_CARE"
+    )
+
+
+@pytest.mark.parametrize(
+    ("usage", "found", "unknown"),
+    [
+        ("usage: [DEPTH_STENCIL_ATTACHMENT]", True, False),
+        ("usage: [DEPTH_STENCIL_ATTACHMENT, SAMPLED]", False, False),
+        ("usage: [DEPTH_STENCIL_ATTACHMENT, TRANSFER_SRC]", False, False),
+        ("flags: []", False, True),
+    ],
+)
+def test_without_commands_the_usage_tells(usage: str, found: bool, unknown: bool) -> None:
+    linted = lint(
+        given_text(
+            """
+    images:
+      depth: {format: D32_SFLOAT, samples: 1, $usage}
+    renderPasses:
+      scene:
+        attachments:
+          ms: {format: D32_SFLOAT, samples: 4, loadOp: CLEAR, storeOp: DONT_CARE}
+          depth: {image: depth, loadOp: DONT_CARE, storeOp: STORE}
+        subpasses:
+          - depthStencilAttachment: ms
+            depthStencilResolve: {attachment: depth, depthResolveMode: MIN, stencilResolveMode: NONE}
+    """,
+            usage=usage,
+        )
+    )
+    at = ("MSAA308", "renderPasses.scene.subpasses[0].depthStencilResolve")
+    assert ({"MSAA308"} <= {each.code for each in linted.findings}, at in undecided(linted)) == (found, unknown)
+
+
+def test_an_unread_depth_resolve_costs_its_write() -> None:
+    linted = lint(
+        given_text(
+            """
+    frame: {width: 1920, height: 1080, fps: 60}
+    images:
+      depth_ms: {format: D32_SFLOAT, samples: 4}
+      depth: {format: D32_SFLOAT, samples: 1, usage: [DEPTH_STENCIL_ATTACHMENT]}
+    commands:
+      - beginRendering: {depthAttachment: {image: depth_ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: MIN, resolveImage: depth}}
+      - endRendering
+    """
+        ),
+        prices=True,
+    )
+    found = one(linted, "MSAA308")
+    assert (found.confidence, found.fix and found.fix.safe) == ("high", True)
+    assert found.price == pytest.approx((0.0, 1920 * 1080 * 4 * 60 / 1e6, 0.0, 49.7664))
+
+
+def test_what_takes_too_long_to_find_out_stays_undecided() -> None:
+    """Resolves to one layer each of an image: who reads which is looked for through the whole frame, each time."""
+    rendering = "{image: ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: MIN, resolveImage: depth}"
+    passes = f"  - beginRendering: {{depthAttachment: {rendering}}}\n  - endRendering\n" * 700
+    images = "images:\n  ms: {format: D32_SFLOAT, samples: 4}\n  depth: {format: D32_SFLOAT, samples: 1, arrayLayers: 700}\n"
+    linted = lint(f"{images}commands:\n{passes}")
+    decided = sum(found.code == "MSAA308" for found in linted.findings)
+    left = sum(each.code == "MSAA308" for each in linted.undecided)
+    assert decided + left == 700
+    assert 0 < decided <= MAX_STEPS // 700
+
+
+# 308 and 317 against a frame that is played: what a resolve wrote is a token, which readers mark.
+
+STEPS = ["clear and resolve", "load and resolve", "load", "read", "clear target"]
+
+
+def played(steps: list[str]) -> tuple[set[int], set[int]]:
+    """The steps whose result nothing reads, in a loop; those that a later one of the frame repeats with more drawn, unread in between."""
+    written: dict[int, bool] = {}
+    target: tuple[int, int] | None = None
+    read: set[tuple[int, int]] = set()
+    for turn in range(3):
+        for number, step in enumerate(steps):
+            if "resolve" in step:
+                target = (turn, number)
+                written[number] = True
+            elif step == "read" and target is not None:
+                read.add(target)
+            elif step == "clear target":
+                target = None
+    unread = {number for number in written if (1, number) not in read}
+    anew = set()
+    for number in unread:
+        for later in range(number + 1, len(steps)):
+            if steps[later] == "clear and resolve":
+                break
+            if steps[later] == "load and resolve":
+                anew.add(number)
+                break
+    return unread, anew
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.lists(st.sampled_from(STEPS), min_size=1, max_size=7))
+def test_what_nothing_reads_is_what_nothing_read_when_the_frame_was_played(steps: list[str]) -> None:
+    lines, places = [], {}
+    for number, step in enumerate(steps):
+        if step == "read":
+            lines.append("- readImage: {image: depth, stage: COMPUTE}")
+        elif step == "clear target":
+            lines.append("- clearDepthStencilImage: {image: depth}")
+        else:
+            load_op = "CLEAR" if "clear" in step else "LOAD"
+            resolve = ", resolveMode: MIN, resolveImage: depth" if "resolve" in step else ""
+            places[f"commands[{len(lines)}]"] = number
+            lines.append(f"- beginRendering: {{depthAttachment: {{image: ms, loadOp: {load_op}, storeOp: STORE{resolve}}}}}")
+            lines.append("- endRendering")
+    images = "images:\n  ms: {format: D32_SFLOAT, samples: 4}\n  depth: {format: D32_SFLOAT, samples: 1}\n"
+    linted = lint(images + "commands:\n" + "".join(f"  {line}\n" for line in lines))
+    found = {(each.code, places[re.match(r"commands\[\d+\]", each.subject)[0]]) for each in watched(linted)}  # type: ignore[index]
+    unread, anew = played(steps)
+    # Of two rules that blame the same resolve, the more specific one is told.
+    assert {number for code, number in found if code == "MSAA317"} == anew
+    assert {number for code, number in found if code == "MSAA308"} == unread - anew
+
+
+# 317: samples that are resolved again.
+
+
+def test_with_nothing_drawn_between() -> None:
+    linted = check("""
+    images:
+      ms: {format: R8G8B8A8_UNORM, samples: 4}
+      one: {format: R8G8B8A8_UNORM, samples: 1}
+      two: {format: R8G8B8A8_UNORM, samples: 1}
+    commands:
+      - beginRendering: {colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: STORE, resolveMode: AVERAGE, resolveImage: one}]}
+      - endRendering
+      - resolveImage: {srcImage: ms, dstImage: two}
+    #   ^^^^^^^^^^^^ MSAA317 warning medium
+      - readImage: {image: one, stage: FRAGMENT}
+      - readImage: {image: two, stage: FRAGMENT}
+    """)
+    found = one(linted, "MSAA317")
+    assert found.message == "`ms` is resolved a second time, to `two`, with nothing drawn on it since the first"
+    assert found.fix is not None and found.fix.shown
+    (label,) = found.labels
+    assert linted.source is not None and linted.source.position(label.span.start).line == 6
+
+
+@pytest.mark.parametrize(
+    "between",
+    [
+        "- beginRendering: {colorAttachments: [{image: ms, loadOp: LOAD, storeOp: STORE}]}\n      - endRendering",
+        "- writeImage: {image: ms, stage: COMPUTE}",
+        "- copyImage: {srcImage: other, dstImage: ms}",
+        "- clearColorImage: {image: ms}",
+    ],
+)
+def test_with_something_between_both_results_are_wanted(between: str) -> None:
+    check(
+        """
+    images:
+      ms: {format: R8G8B8A8_UNORM, samples: 4}
+      other: {format: R8G8B8A8_UNORM, samples: 4}
+      one: {format: R8G8B8A8_UNORM, samples: 1}
+      two: {format: R8G8B8A8_UNORM, samples: 1}
+    commands:
+      - beginRendering: {colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: STORE, resolveMode: AVERAGE, resolveImage: one}]}
+      - endRendering
+      $between
+      - resolveImage: {srcImage: ms, dstImage: two}
+      - readImage: {image: one, stage: FRAGMENT}
+      - readImage: {image: two, stage: FRAGMENT}
+    """,
+        between=between,
+    )
+
+
+def test_a_pass_that_is_begun_twice_and_loads_resolves_each_time_anew() -> None:
+    check("""
+    images:
+      ms: {format: R8G8B8A8_UNORM, samples: 4}
+      back: {format: R8G8B8A8_UNORM, samples: 1, presentable: true}
+    renderPasses:
+      grow:
+        attachments:
+          ms: {image: ms, loadOp: LOAD, storeOp: STORE}
+          back: {image: back, loadOp: DONT_CARE, storeOp: STORE}
+        subpasses:
+          - {colorAttachments: [ms], resolveAttachments: [back]}
+    #                                                     ^^^^ MSAA317 warning high
+    commands:
+      - beginRenderPass: {renderPass: grow}
+      - endRenderPass
+      - beginRenderPass: {renderPass: grow}
+      - endRenderPass
+      - present: {image: back}
+    """)
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "images"),
+    [
+        ("renderArea: {x: 0, width: 32, height: 64}, ", "renderArea: {x: 32, width: 32, height: 64}, ", "extent: {width: 64, height: 64}"),
+        ("layerCount: 1, ", "layerCount: 1, ", "arrayLayers: 2"),
+    ],
+)
+def test_parts_of_an_image_are_resolved_part_by_part(first: str, second: str, images: str) -> None:
+    check(
+        """
+    images:
+      ms: {format: R8G8B8A8_UNORM, samples: 4, $images}
+      color: {format: R8G8B8A8_UNORM, samples: 1, $images}
+    commands:
+      - beginRendering: {${first}colorAttachments: [{image: ms, loadOp: LOAD, storeOp: STORE, resolveMode: AVERAGE, resolveImage: color}]}
+      - endRendering
+      - beginRendering: {${second}colorAttachments: [{image: ms, loadOp: LOAD, storeOp: STORE, resolveMode: AVERAGE, resolveImage: color}]}
+      - endRendering
+      - readImage: {image: color, stage: FRAGMENT}
+    """,
+        first=first,
+        second=second,
+        images=images,
+    )
+
+
+def test_a_load_operation_that_is_not_stated_leaves_it_undecided() -> None:
+    linted = check("""
+    images:
+      ms: {format: R8G8B8A8_UNORM, samples: 4}
+      color: {format: R8G8B8A8_UNORM, samples: 1}
+    commands:
+      - beginRendering: {colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: STORE, resolveMode: AVERAGE, resolveImage: color}]}
+      - endRendering
+      - beginRendering: {colorAttachments: [{image: ms, storeOp: STORE, resolveMode: AVERAGE, resolveImage: color}]}
+      - endRendering
+      - readImage: {image: color, stage: FRAGMENT}
+    """)
+    assert ("MSAA317", "commands[0].beginRendering.colorAttachments[0]") in undecided(linted)
+
+
+def test_a_suspended_rendering_resolves_when_it_ends() -> None:
+    check("""
+    images:
+      ms: {format: R8G8B8A8_UNORM, samples: 4}
+      color: {format: R8G8B8A8_UNORM, samples: 1}
+    commands:
+      - beginRendering:
+          flags: [SUSPENDING]
+          colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: STORE, resolveMode: AVERAGE, resolveImage: color}]
+      - endRendering
+      - beginRendering:
+          flags: [RESUMING]
+          colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: STORE, resolveMode: AVERAGE, resolveImage: color}]
+      - endRendering
+      - readImage: {image: color, stage: FRAGMENT}
+    """)
+
+
+def test_a_slot_of_a_subpass_is_emptied() -> None:
+    text = given_text("""
+    images:
+      a: {format: R8G8B8A8_UNORM, samples: 4}
+      b: {format: R8G8B8A8_UNORM, samples: 4}
+      one: {format: R8G8B8A8_UNORM, samples: 1, usage: [COLOR_ATTACHMENT]}
+      two: {format: R8G8B8A8_UNORM, samples: 1, usage: [COLOR_ATTACHMENT, SAMPLED]}
+    renderPasses:
+      scene:
+        attachments:
+          - {image: a, loadOp: CLEAR, storeOp: STORE}
+          - {image: b, loadOp: CLEAR, storeOp: STORE}
+          - {image: one, loadOp: DONT_CARE, storeOp: STORE}
+          - {image: two, loadOp: DONT_CARE, storeOp: STORE}
+        subpasses:
+          - {colorAttachments: [0, 1], resolveAttachments: [2, 3]}
+      more:
+        attachments:
+          - {image: a, loadOp: LOAD, storeOp: DONT_CARE}
+          - {image: two, loadOp: DONT_CARE, storeOp: STORE}
+        subpasses:
+          - {colorAttachments: [0], resolveAttachments: [1]}
+    commands:
+      - beginRenderPass: {renderPass: scene}
+      - endRenderPass
+      - readImage: {image: two, stage: FRAGMENT}
+      - beginRenderPass: {renderPass: more}
+      - endRenderPass
+      - readImage: {image: two, stage: FRAGMENT}
+      - readImage: {image: b, stage: FRAGMENT, samples: ALL}
+    """)
+    assert fixed(text, "MSAA317") == text.replace("resolveAttachments: [2, 3]", "resolveAttachments: [null, 3]").replace(
+        "{image: one, loadOp: DONT_CARE, storeOp: STORE}", "{image: one, loadOp: DONT_CARE, storeOp: DONT_CARE}"
+    )
+
+
+# 315: a picture that is only copied on.
+
+COPIED = """
+    images:
+      ms: {format: R8G8B8A8_UNORM, samples: 4}
+      color: {format: $from, samples: 1$from_size}
+      back: {format: $to, samples: 1, presentable: true$to_size}
+    commands:
+      - beginRendering: {colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: AVERAGE, resolveImage: color}]}
+    $mark
+      - endRendering
+      $before
+      - $command: {srcImage: color, dstImage: back}
+      $after
+      - present: {image: back}
+      $then
+    """
+COLOR_MARK = "#" + " " * 122 + "^^^^^ MSAA315"
+
+
+def copied(mark: str = "", **values: str) -> FileResult:
+    size = ", extent: {width: 64, height: 64}"
+    given = {"from": "R8G8B8A8_UNORM", "to": "R8G8B8A8_UNORM", "from_size": size, "to_size": size, "command": "copyImage"}
+    empty = dict.fromkeys(("before", "after", "then"), "")
+    return check(COPIED, **{**given, **empty, **values, "mark": f"{COLOR_MARK}{mark}" if mark else ""})
+
+
+@pytest.mark.parametrize("command", ["copyImage", "blitImage"])
+def test_same_format_and_size(command: str) -> None:
+    linted = copied(" warning high", command=command)
+    assert one(linted, "MSAA315").message == "`ms` is resolved to `color`, which is only copied on to `back`"
+
+
+@pytest.mark.parametrize(
+    ("command", "change", "mark"),
+    [
+        ("copyImage", {"to_size": ""}, " warning medium"),
+        ("blitImage", {"to_size": ""}, " note low"),
+        ("blitImage", {"to_size": ", extent: {width: 128, height: 64}"}, ""),
+        ("blitImage", {"to": "R8G8B8A8_SRGB"}, ""),
+        ("copyImage", {"to": "R8G8B8A8_SRGB"}, ""),
+        ("copyImageToBuffer", {}, ""),
+    ],
+)
+def test_what_scales_or_converts_is_no_detour(command: str, change: dict[str, str], mark: str) -> None:
+    if command == "copyImageToBuffer":
+        copied(before="- copyImageToBuffer: {srcImage: color}")
+    else:
+        copied(mark, command=command, **change)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"before": "- beginRendering: {colorAttachments: [{image: color, loadOp: LOAD, storeOp: STORE}]}\n      - endRendering"},
+        {"before": "- writeImage: {image: color, stage: COMPUTE}"},
+        {"before": "- readImage: {image: color, stage: FRAGMENT}"},
+        {"after": "- readImage: {image: color, stage: FRAGMENT}"},
+        {"then": "- readImage: {image: color, stage: FRAGMENT}"},
+        {"then": "- copyImageToBuffer: {srcImage: color}"},
+        {"before": "- clearColorImage: {image: back}"},
+        {"before": "- blitImage: {srcImage: ms, dstImage: back}"},
+        {"after": "- copyImage: {srcImage: ms, dstImage: back}"},
+        {"from_size": ", arrayLayers: 2", "to_size": ""},
+    ],
+)
+def test_a_picture_that_is_used_otherwise_is_no_detour(change: dict[str, str]) -> None:
+    copied(**change)
+
+
+def test_what_is_drawn_over_the_copy_does_not_need_it() -> None:
+    over = "- beginRendering: {colorAttachments: [{image: back, loadOp: LOAD, storeOp: STORE}]}\n      - endRendering"
+    copied(" warning high", after=over)
+
+
+def test_an_image_that_is_presented_is_presentable() -> None:
+    """Both ends: a picture that is itself presented is no detour."""
+    copied(then="- present: {image: color}")
+
+
+def test_a_part_of_an_image_is_no_detour() -> None:
+    """Dynamic resolution: the pass renders a corner, which a blit enlarges."""
+    check("""
+    images:
+      ms: {format: R8G8B8A8_UNORM, samples: 4, extent: {width: 64, height: 64}}
+      color: {format: R8G8B8A8_UNORM, samples: 1, extent: {width: 64, height: 64}}
+      back: {format: R8G8B8A8_UNORM, samples: 1, presentable: true, extent: {width: 64, height: 64}}
+    commands:
+      - beginRendering:
+          renderArea: {x: 0, y: 0, width: 48, height: 48}
+          colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: AVERAGE, resolveImage: color}]
+      - endRendering
+      - blitImage: {srcImage: color, dstImage: back}
+      - present: {image: back}
+    """)
+
+
+def test_the_copy_costs_its_read_and_write() -> None:
+    text = given_text("""
+    frame: {width: 1920, height: 1080, fps: 60}
+    images:
+      ms: {format: R8G8B8A8_UNORM, samples: 4, extent: {width: 1920, height: 1080}}
+      color: {format: R8G8B8A8_UNORM, samples: 1, extent: {width: 1920, height: 1080}}
+      back: {format: R8G8B8A8_UNORM, samples: 1, usage: [TRANSFER_DST], presentable: true, extent: {width: 1920, height: 1080}}
+    commands:
+      - beginRendering: {colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: AVERAGE, resolveImage: color}]}
+      - endRendering
+      - copyImage: {srcImage: color, dstImage: back}
+      - present: {image: back}
+    """)
+    found = one(lint(text, prices=True), "MSAA315")
+    assert found.price == pytest.approx((497.664, 497.664, 1920 * 1080 * 4 / 2**20, 99.5328))
+    after = fixed(text, "MSAA315")
+    assert "copyImage" not in after and "  color:" not in after
+    assert "usage: [COLOR_ATTACHMENT]" in after and "resolveImage: back" in after
+
+
+# 406: images that take turns.
+
+TURNS = """
+    images:
+      ms_0: {format: R8G8B8A8_UNORM, samples: 4}
+      ms_1: {format: R8G8B8A8_UNORM, samples: $count}
+      back_0: {format: R8G8B8A8_UNORM, samples: 1, presentable: true}
+      back_1: {format: R8G8B8A8_UNORM, samples: 1, presentable: true}
+    renderPasses:
+      scene:
+        attachments:
+          ms: {loadOp: $load, storeOp: DONT_CARE}
+          back: {loadOp: DONT_CARE, storeOp: STORE}
+        subpasses:
+          - {colorAttachments: [ms], resolveAttachments: [back]}
+    framebuffers:
+      one: {renderPass: scene, attachments: [ms_0, back_0]}
+      two: {renderPass: scene, attachments: [ms_1, back_1]}
+    $commands
+    """
+
+
+@pytest.mark.parametrize(
+    ("commands", "confidence"),
+    [
+        ("commands: [{beginRenderPass: {renderPass: scene, framebuffer: [one, two]}}, endRenderPass]", "high"),
+        ("commands: [{beginRenderPass: {renderPass: scene, framebuffer: two}}, endRenderPass, {present: {image: back_1}}]", "medium"),
+        ("", "medium"),
+        (
+            "commands: [{beginRenderPass: {renderPass: scene, framebuffer: one}}, endRenderPass, "
+            "{beginRenderPass: {renderPass: scene, framebuffer: two}}, endRenderPass]",
+            "",
+        ),
+        ("commands: [{beginRenderPass: {renderPass: scene, framebuffer: [one, two, one]}}, endRenderPass]", ""),
+        (
+            "commands: [{beginRenderPass: {renderPass: scene, framebuffer: [one, two]}}, endRenderPass, "
+            "{readImage: {image: ms_1, stage: FRAGMENT}}]",
+            "",
+        ),
+    ],
+)
+def test_one_for_each_image_of_a_swapchain(commands: str, confidence: str) -> None:
+    linted = lint(given_text(TURNS, commands=commands, load="CLEAR", count="4"))
+    found = [each for each in linted.findings if each.code == "MSAA406"]
+    assert [(each.subject, each.confidence) for each in found] == ([("images.ms_0", confidence)] if confidence else [])
+
+
+@pytest.mark.parametrize("change", [{"load": "LOAD"}, {"load": "NONE"}, {"count": "2"}])
+def test_images_that_keep_something_or_differ_do_not_take_turns(change: dict[str, str]) -> None:
+    commands = "commands: [{beginRenderPass: {renderPass: scene, framebuffer: [one, two]}}, endRenderPass]"
+    linted = lint(given_text(TURNS, **{"commands": commands, "load": "CLEAR", "count": "4", **change}))
+    assert ("MSAA406" in {each.code for each in linted.findings}) == (change == {"load": "NONE"})
+
+
+def test_spare_images_cost_their_memory() -> None:
+    commands = "commands: [{beginRenderPass: {renderPass: scene, framebuffer: [one, two]}}, endRenderPass]"
+    text = "frame: {width: 1920, height: 1080, fps: 60}\n" + given_text(TURNS, commands=commands, load="CLEAR", count="4")
+    found = one(lint(text, prices=True), "MSAA406")
+    assert found.price == pytest.approx((0.0, 0.0, 1920 * 1080 * 4 * 4 / 2**20, 0.0))
+    after = fixed(text, "MSAA406")
+    assert "ms_1" not in after
+    assert "two: {renderPass: scene, attachments: [ms_0, back_1]}" in after
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(2, 5), st.integers(1, 6))
+def test_as_many_as_presentable_images_and_no_other_number(presentable: int, multisampled: int) -> None:
+    images = [f"  ms_{n}: {{format: R8G8B8A8_UNORM, samples: 4}}" for n in range(multisampled)]
+    images += [f"  back_{n}: {{format: R8G8B8A8_UNORM, samples: 1, presentable: true}}" for n in range(presentable)]
+    rendered = "{image: ms_0, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: AVERAGE, resolveImage: back_0}"
+    commands = [f"  - beginRendering: {{colorAttachments: [{rendered}]}}", "  - endRendering", "  - present: {image: back_0}"]
+    linted = lint("\n".join(["images:", *images, "commands:", *commands, ""]))
+    assert ("MSAA406" in {each.code for each in linted.findings}) == (presentable == multisampled)
+
+
+# 307: depth that a shader reads unresolved.
+
+UNRESOLVED = """
+    enabled: {apiVersion: "$version", extensions: []}
+    images:
+      depth_ms: {format: $format, samples: 4}
+      color_ms: {format: R8G8B8A8_UNORM, samples: 4}
+    commands:
+      - beginRendering: {depthAttachment: {image: depth_ms, loadOp: CLEAR, storeOp: STORE}}
+    $mark
+      - endRendering
+      $readers
+    """
+STORE_MARK = "#                                                                               ^^^^^ MSAA307"
+
+
+def unresolved(mark: str, *readers: str, version: str = "1.2", format: str = "D32_SFLOAT") -> FileResult:
+    values = {"mark": f"{STORE_MARK}{mark}" if mark else "", "readers": "\n      ".join(readers), "version": version, "format": format}
+    return check(UNRESOLVED, **values)
+
+
+READ_ONE, READ_ALL = "- readImage: {image: depth_ms, samples: 1}", "- readImage: {image: depth_ms, samples: ALL}"
+READ_SOME = "- readImage: {image: depth_ms}"
+
+
+def test_a_shader_that_fetches_one_sample() -> None:
+    unresolved(" warning high", READ_ONE)
+    unresolved(" warning high", READ_ONE, READ_ONE)
+    unresolved(" warning medium", READ_SOME)
+    unresolved(" warning medium", READ_ONE, READ_SOME)
+    # Which of the two aspects the shader reads is not stated.
+    unresolved(" warning medium", READ_ONE, format="D24_UNORM_S8_UINT")
+
+
+@pytest.mark.parametrize(
+    "readers",
+    [
+        [READ_ALL],
+        [READ_ONE, READ_ALL],
+        ["- readImage: {image: depth_ms, resolves: MIN}"],
+        [READ_ONE, "- copyImageToBuffer: {srcImage: depth_ms}"],
+        [READ_ONE, "- beginRendering: {depthAttachment: {image: depth_ms, loadOp: LOAD, storeOp: NONE}}", "- endRendering"],
+        [],
+    ],
+)
+def test_samples_that_are_needed_or_not_read_at_all(readers: list[str]) -> None:
+    unresolved("", *readers)
+
+
+def test_depth_stencil_resolve_must_be_there() -> None:
+    unresolved("", READ_ONE, version="1.1")
+    linted = lint(given_text(UNRESOLVED, version="1.2", mark="", readers=READ_ONE, format="D32_SFLOAT").split("\n", 1)[1])
+    assert ("MSAA307", "commands[0].beginRendering.depthAttachment") in undecided(linted)
+
+
+def test_of_two_passes_the_one_whose_samples_the_shader_reads() -> None:
+    again = "{depthAttachment: {image: depth_ms, loadOp: CLEAR, storeOp: STORE}}"
+    unresolved(" warning high", READ_ONE, f"- beginRendering: {again}", "- endRendering", READ_ALL)

@@ -1,0 +1,249 @@
+"""What findings cost: exact prices, and the laws that prices keep."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from msaa_lint.core.finding import Finding, Price
+from msaa_lint.linter import prices as price
+from msaa_lint.linter.engine import Engine, FileResult
+from msaa_lint.linter.rules.registry import load
+from msaa_lint.linter.rules.rule_file import Rule
+from tests.pages import all_examples
+from tests.paths import ROOT
+
+EXAMPLES = sorted((ROOT / "examples").rglob("*.msaa.yaml"))
+ENGINE = Engine(load())
+
+
+def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
+    return suggested
+
+
+def lint(text: str) -> FileResult:
+    return ENGINE.lint(text.encode(), "frame.yaml", as_written, prices=True)
+
+
+def prices(linted: FileResult) -> dict[str, Price | None]:
+    return {f"{found.code} {found.subject}": found.price for found in linted.findings}
+
+
+def together(linted: FileResult, some: list[Finding] | None = None) -> Price | None:
+    return linted.together(linted.findings if some is None else some) if linted.together is not None else None
+
+
+ATTACHED = """
+frame: {width: 2168, height: 1080, fps: 60}
+images:
+  color_ms: {format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT, TRANSIENT_ATTACHMENT]}
+  depth_ms: {format: D32_SFLOAT, samples: 4, usage: [DEPTH_STENCIL_ATTACHMENT, TRANSIENT_ATTACHMENT]}
+  output: {format: R8G8B8A8_UNORM, samples: 1, usage: [COLOR_ATTACHMENT], presentable: true}
+renderPasses:
+  scene:
+    attachments:
+      color: {image: color_ms, loadOp: CLEAR, storeOp: STORE}
+      depth: {image: depth_ms, loadOp: CLEAR, storeOp: STORE}
+      output: {image: output, loadOp: DONT_CARE, storeOp: STORE}
+    subpasses:
+      - {colorAttachments: [color], resolveAttachments: [output], depthStencilAttachment: depth}
+"""
+
+
+def test_a_store_costs_its_bytes_and_their_power() -> None:
+    """2168 * 1080 * 4 B * 4 samples * 60 Hz."""
+    stored = 2168 * 1080 * 4 * 4 * 60 / 1e6
+    assert round(stored, 2) == 2247.78
+    found = prices(lint(ATTACHED))
+    assert found["MSAA201 renderPasses.scene.attachments.color"] == pytest.approx(Price(0.0, stored, 0.0, stored / 10))
+    assert found["MSAA203 renderPasses.scene.attachments.depth"] == pytest.approx(Price(0.0, stored, 0.0, stored / 10))
+
+
+def test_independent_findings_cost_their_sum() -> None:
+    linted = lint(ATTACHED)
+    both = [found for found in linted.findings if found.code in ("MSAA201", "MSAA203")]
+    assert together(linted, both) == pytest.approx(tuple(map(sum, zip(*(found.price or () for found in both), strict=True))))
+
+
+def test_rate_that_is_not_stated_is_taken_for_sixty_and_said() -> None:
+    (found,) = [f for f in lint(ATTACHED.replace(", fps: 60", "")).findings if f.code == "MSAA201"]
+    assert found.price is not None and round(found.price.write_mb_per_s, 2) == 2247.78
+    assert "the cost is at 60 frames a second" in found.notes
+    assert not any("the cost is at" in note for f in lint(ATTACHED).findings for note in f.notes)
+
+
+def test_without_a_size_nothing_has_a_price() -> None:
+    assert set(prices(lint(ATTACHED.replace("frame: {width: 2168, height: 1080, fps: 60}", ""))).values()) == {None}
+
+
+def test_a_fix_that_saves_nothing_costs_nothing() -> None:
+    text = (
+        ATTACHED
+        + """
+pipelines:
+  p:
+    renderPass: scene
+    multisampleState: {rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 0.2}
+    subpass: 0
+"""
+    )
+    assert prices(lint(text))["MSAA502 pipelines.p"] == Price(0.0, 0.0, 0.0, 0.0)
+
+
+def test_prices_are_not_worked_out_unless_asked_for() -> None:
+    linted = ENGINE.lint(ATTACHED.encode(), "frame.yaml", as_written)
+    assert linted.together is None
+    assert {found.price for found in linted.findings} == {None}
+
+
+def test_each_document_of_a_stream_has_its_own_prices() -> None:
+    linted = lint(ATTACHED + "---\n" + ATTACHED.replace("fps: 60", "fps: 30"))
+    costs = [found.price.write_mb_per_s for found in linted.findings if found.code == "MSAA201" and found.price is not None]
+    assert costs == pytest.approx([2247.7824, 1123.8912])
+    whole = together(linted)
+    assert whole is not None and whole.write_mb_per_s == pytest.approx(3 * 2247.7824)
+
+
+FORMATS = {"color": ["R8G8B8A8_UNORM", "R16G16B16A16_SFLOAT"], "depth": ["D32_SFLOAT", "D24_UNORM_S8_UINT"]}
+OPS = {"loadOp": ["CLEAR", "LOAD", "DONT_CARE"], "storeOp": ["STORE", "DONT_CARE"]}
+STENCIL_OPS = {"stencilLoadOp": ["CLEAR", "LOAD", "DONT_CARE"], "stencilStoreOp": ["STORE", "DONT_CARE"]}
+
+
+@st.composite
+def frames(draw: st.DrawFn) -> str:
+    """Frames with the mistakes that cost: passes over shared images, resolves inside and outside of passes, readers."""
+    device = draw(st.sampled_from(["mali-g76", "nvidia", None]))
+    images: dict[str, Any] = {}
+    for name in ("color_a", "color_b", "depth"):
+        usage = ["DEPTH_STENCIL_ATTACHMENT" if name == "depth" else "COLOR_ATTACHMENT"]
+        usage += draw(st.sampled_from([[], ["TRANSIENT_ATTACHMENT"], ["SAMPLED"], ["TRANSFER_SRC"]]))
+        image = {"format": draw(st.sampled_from(FORMATS["depth" if name == "depth" else "color"])), "samples": 4, "usage": usage}
+        if draw(st.booleans()):
+            image["memory"] = draw(st.sampled_from([["DEVICE_LOCAL"], ["DEVICE_LOCAL", "LAZILY_ALLOCATED"]]))
+        images[name] = image
+    for name in ("color_a", "color_b"):
+        images[f"{name}_1x"] = {"format": images[name]["format"], "samples": 1, "usage": ["COLOR_ATTACHMENT", "TRANSFER_DST", "SAMPLED"]}
+    passes: dict[str, Any] = {}
+    for number in range(draw(st.integers(1, 3))):
+        color = draw(st.sampled_from(["color_a", "color_b"]))
+        attachments = {
+            "color": {"image": color, **{member: draw(st.sampled_from(values)) for member, values in OPS.items()}},
+            "depth": {"image": "depth", **{m: draw(st.sampled_from(v)) for m, v in (OPS | STENCIL_OPS).items()}},
+        }
+        subpass: dict[str, Any] = {"colorAttachments": ["color"], "depthStencilAttachment": "depth"}
+        if draw(st.booleans()):
+            attachments["output"] = {"image": f"{color}_1x", **{m: draw(st.sampled_from(v)) for m, v in OPS.items()}}
+            subpass["resolveAttachments"] = ["output"]
+        passes[f"pass{number}"] = {"attachments": attachments, "subpasses": [subpass]}
+    description: dict[str, Any] = {"frame": {"width": 640, "height": 480, "fps": 30}, "images": images, "renderPasses": passes}
+    if device is not None:
+        description["device"] = device
+    if draw(st.booleans()):
+        commands: list[Any] = []
+        for name, each in passes.items():
+            commands += [{"beginRenderPass": {"renderPass": name}}, "endRenderPass"]
+            color = each["attachments"]["color"]["image"]
+            commands += draw(
+                st.sampled_from(
+                    [
+                        [],
+                        [{"resolveImage": {"srcImage": color, "dstImage": f"{color}_1x"}}],
+                        [{"readImage": {"image": "depth", "samples": 1}}],
+                        [{"readImage": {"image": f"{color}_1x"}}],
+                    ]
+                )
+            )
+        description["commands"] = commands
+    return json.dumps(description)
+
+
+def assert_at_most_the_sum(linted: FileResult) -> None:
+    whole = together(linted)
+    parts = [found.price for found in linted.findings if found.price is not None]
+    assert (whole is None) == (not parts)
+    if whole is not None:
+        # What a fix costs instead of saving (memory that an image takes again, say) is shared as well, where two findings ask for it.
+        for figure, column in zip(whole, zip(*parts, strict=True), strict=True):
+            assert figure <= sum(part for part in column if part > 0) + 1e-6
+
+
+@settings(max_examples=300, deadline=None)
+@given(frames())
+def test_together_they_cost_at_most_the_sum(text: str) -> None:
+    assert_at_most_the_sum(lint(text))
+
+
+@settings(max_examples=200, deadline=None)
+@given(frames())
+def test_one_by_itself_costs_what_it_does_together_with_nothing(text: str) -> None:
+    """The price of one is worked out on a part of the frame, what several cost on the whole."""
+    linted = lint(text)
+    for found in linted.findings:
+        assert together(linted, [found]) == (pytest.approx(found.price, abs=1e-5) if found.price is not None else None)
+
+
+@settings(max_examples=200, deadline=None)
+@given(frames(), frames())
+def test_two_frames_side_by_side_cost_what_they_do_apart(one: str, other: str) -> None:
+    """Fixes that have nothing to do with each other are independent: what they save is the sum."""
+    first, second = together(lint(one)), together(lint(other))
+    both = together(lint(f"{one}\n---\n{other}"))
+    none = Price(0.0, 0.0, 0.0, 0.0)
+    assert (both or none) == pytest.approx([a + b for a, b in zip(first or none, second or none, strict=True)])
+
+
+@pytest.mark.parametrize("text", [path.read_text() for path in EXAMPLES], ids=[path.stem for path in EXAMPLES])
+def test_examples_together_cost_at_most_the_sum(text: str) -> None:
+    assert_at_most_the_sum(lint(text))
+
+
+@pytest.mark.parametrize("example", all_examples(), ids=str)
+def test_pages_have_prices_where_a_size_is_given(example: Any) -> None:
+    """Every finding of every page can be priced or has no fix; with a frame, none raises and all keep the law."""
+    text = example.text
+    if example.language == "yaml" and "\nframe:" not in f"\n{text}" and "\n---" not in text:
+        text = f"frame: {{width: 1920, height: 1080, fps: 60}}\n{text}"
+    assert_at_most_the_sum(lint(text))
+
+
+KHRONOS = ROOT / "examples" / "khronos-msaa"
+
+
+def test_separate_resolve_costs_what_the_khronos_sample_measured() -> None:
+    """C - B of its counters: 2169.8 MiB/s read and 2282.0 MiB/s written, 4.668 GB/s; by arithmetic 2 * 2247.78 MB/s, 450 mW."""
+    (found,) = [f for f in lint((KHRONOS / "color-separate.msaa.yaml").read_text()).findings if f.code == "MSAA301"]
+    assert found.price is not None
+    assert found.price == pytest.approx(Price(2247.7824, 2247.7824, 2168 * 1080 * 4 * 4 / 2**20, 449.55648))
+    measured = (2169.8 * 2**20 / 1e6, 2282.0 * 2**20 / 1e6)
+    assert found.price.read_mb_per_s == pytest.approx(measured[0], rel=0.02)
+    assert found.price.write_mb_per_s == pytest.approx(measured[1], rel=0.07)
+
+
+def test_stored_and_resolved_costs_two_stores_and_their_memory() -> None:
+    linted = lint((KHRONOS / "stored-and-resolved.msaa.yaml").read_text())
+    memory = 2 * 2168 * 1080 * 4 * 4 / 2**20
+    assert together(linted) == pytest.approx(Price(0.0, 2 * 2247.7824, memory, 449.55648))
+
+
+def test_records_are_as_they_were() -> None:
+    """Pricing changes records for a moment: what is found after it is what was found before."""
+    linted = lint(ATTACHED)
+    again = together(linted)
+    assert again == together(linted)
+    assert [found._replace(price=None) for found in linted.findings] == [
+        found._replace(price=None) for found in ENGINE.lint(ATTACHED.encode(), "frame.yaml", as_written).findings
+    ]
+
+
+def test_of_two_values_for_a_member_the_first_counts() -> None:
+    class Stand:
+        pass
+
+    record: Any = Stand()
+    one, other = price.Change(record, "storeOp", "set", "DONT_CARE"), price.Change(record, "storeOp", "set", "STORE")
+    flag = price.Change(record, "usage", "add", "TRANSIENT_ATTACHMENT")
+    assert price.merged([[one, flag], [other, flag]]) == (one, flag)
