@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint import __version__
@@ -16,6 +16,7 @@ from msaa_lint.cli.report import FORMATS as REPORTED
 from msaa_lint.input import readers
 from msaa_lint.input.code import LANGUAGES
 from tests.cli.test_check import run
+from tests.strength import examples
 
 
 def test_version_and_help(tmp_path: Path) -> None:
@@ -106,7 +107,7 @@ words = st.sampled_from(
 )
 
 
-@settings(max_examples=150, deadline=None)
+@examples(1.5)
 @given(st.lists(words, max_size=6))
 def test_both_ways_to_read_arguments_agree(arguments: list[str]) -> None:
     """Where the table reads the arguments, typer reads the same from them."""

@@ -6,7 +6,7 @@ import json
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.core.finding import Finding, Price
@@ -16,6 +16,7 @@ from msaa_lint.linter.rules.registry import load
 from msaa_lint.linter.rules.rule_file import Rule
 from tests.pages import all_examples
 from tests.paths import ROOT
+from tests.strength import examples
 
 EXAMPLES = sorted((ROOT / "examples").rglob("*.msaa.yaml"))
 ENGINE = Engine(load())
@@ -171,13 +172,13 @@ def assert_at_most_the_sum(linted: FileResult) -> None:
             assert figure <= sum(part for part in column if part > 0) + 1e-6
 
 
-@settings(max_examples=300, deadline=None)
+@examples(3)
 @given(frames())
 def test_together_they_cost_at_most_the_sum(text: str) -> None:
     assert_at_most_the_sum(lint(text))
 
 
-@settings(max_examples=200, deadline=None)
+@examples(2)
 @given(frames())
 def test_one_by_itself_costs_what_it_does_together_with_nothing(text: str) -> None:
     """The price of one is worked out on a part of the frame, what several cost on the whole."""
@@ -186,7 +187,7 @@ def test_one_by_itself_costs_what_it_does_together_with_nothing(text: str) -> No
         assert together(linted, [found]) == (pytest.approx(found.price, abs=1e-5) if found.price is not None else None)
 
 
-@settings(max_examples=200, deadline=None)
+@examples(2)
 @given(frames(), frames())
 def test_two_frames_side_by_side_cost_what_they_do_apart(one: str, other: str) -> None:
     """Fixes that have nothing to do with each other are independent: what they save is the sum."""

@@ -7,7 +7,7 @@ from unicodedata import category, east_asian_width
 from xml.etree import ElementTree
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from msaa_lint.cli.report import FORMATS, Options
@@ -18,12 +18,13 @@ from msaa_lint.core.text.span import Label, Span
 from tests.cli.report.hostile import TOKENS, results
 from tests.cli.report.sample import finding, printed, result
 from tests.cli.report.schemas import check_sarif, json_validator
+from tests.strength import examples
 
 TEXT_FORMATS = ("full", "concise", "github", "junit", "markdown")
 EVERYTHING = {"show_suppressed": True, "statistics": True, "sarif_category": "x", "edition": "2026.1"}
 
 
-@settings(max_examples=80, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@examples(0.8, suppress_health_check=[HealthCheck.too_slow])
 @given(results(), st.integers(0, 80))
 def test_text_outputs_are_harmless(run: Result, width: int) -> None:
     parts: list[str] = []
@@ -71,7 +72,7 @@ def junit_is_xml_with_a_case_for_each_finding(text: str, run: Result) -> None:
     assert len(root.findall("./testsuite/testcase")) == len(run.findings) + len(clean) == int(root.attrib["tests"])
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@examples(0.6, suppress_health_check=[HealthCheck.too_slow])
 @given(results())
 def test_machine_outputs_parse(run: Result) -> None:
     outputs = {name: printed(name, run, **EVERYTHING) for name in ("json", "sarif", "gitlab")}
@@ -87,7 +88,7 @@ def test_machine_outputs_parse(run: Result) -> None:
     assert len({issue["fingerprint"] for issue in issues}) == len(run.findings)
 
 
-@settings(max_examples=30, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@examples(0.3, suppress_health_check=[HealthCheck.too_slow])
 @given(results())
 def test_same_result_same_bytes(run: Result) -> None:
     for name in FORMATS:

@@ -1,7 +1,7 @@
 import re
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from markdown_it import MarkdownIt
 
 from msaa_lint.cli.report.escape import shown
@@ -10,6 +10,7 @@ from msaa_lint.core.finding import Result
 from msaa_lint.core.text.span import Span
 from tests.cli.report.hostile import TOKENS, results, texts
 from tests.cli.report.sample import finding, frame, printed, result
+from tests.strength import examples
 
 PARSER = MarkdownIt("commonmark").enable(["table", "strikethrough"])
 
@@ -53,7 +54,7 @@ def test_forges_find_no_reference_in_the_finished_page(text: str, forbidden: str
     assert forbidden not in literal(text)
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@examples(0.6, suppress_health_check=[HealthCheck.too_slow])
 @given(results())
 def test_nothing_breaks_out(run: Result) -> None:
     text = printed("markdown", run)

@@ -4,7 +4,7 @@ import string
 
 import pytest
 import yaml
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.core.text.comments import Comment, comments
@@ -13,6 +13,7 @@ from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Edit, Span
 from msaa_lint.core.text.tree import Limits, parse
 from tests.core.text.reading import plain, reading
+from tests.strength import examples
 
 
 def found(text: str) -> list[Comment]:
@@ -102,7 +103,7 @@ KEYS = st.text(string.ascii_letters + " #'\":", min_size=1, max_size=6)
 VALUES = st.text(string.ascii_letters + " #'\"\n:-|>", max_size=30)
 
 
-@settings(max_examples=80)
+@examples(0.8)
 @given(st.dictionaries(KEYS, VALUES | st.lists(VALUES, max_size=3), min_size=1, max_size=5), st.data())
 def test_what_is_written_between_values_is_found_and_changes_nothing(value: dict[str, object], data: st.DataObject) -> None:
     style = data.draw(st.sampled_from([None, "'", '"', "|", ">"]))

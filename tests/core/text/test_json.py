@@ -7,13 +7,14 @@ import re
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.core.text.source import Source, forbidden
 from msaa_lint.core.text.tree import Limits, parse
 from tests.core.text.reading import one, plain, spelled, trouble, without_libyaml
 from tests.paths import SAMPLES
+from tests.strength import examples
 
 
 @pytest.mark.usefixtures("stack")
@@ -102,7 +103,7 @@ VALUES = st.recursive(
 )
 
 
-@settings(max_examples=80)
+@examples(0.8)
 @given(
     VALUES,
     st.booleans(),

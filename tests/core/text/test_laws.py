@@ -6,13 +6,14 @@ import json
 from typing import Any
 
 import yaml
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.core.text.scalars import resolve
 from msaa_lint.core.text.source import forbidden
 from msaa_lint.core.text.tree import Node, Parsed
 from tests.core.text.reading import nodes, one, plain, reading, without_libyaml
+from tests.strength import examples
 
 # What YAML 1.1, which yaml.dump writes, reads otherwise is left out where it writes without quotes.
 LETTERS = st.text(
@@ -83,7 +84,7 @@ TEXTS = st.builds(
 )
 
 
-@settings(max_examples=60)
+@examples(0.6)
 @given(VALUES, st.sampled_from([None, "'", '"']), st.sampled_from([None, True, False]), st.sampled_from([2, 5]), st.booleans())
 def test_what_is_dumped_is_read(value: Any, style: str | None, flow: bool | None, indent: int, ascii_only: bool) -> None:
     text = as_yaml(value, style, flow, indent, 30, ascii_only)
@@ -92,7 +93,7 @@ def test_what_is_dumped_is_read(value: Any, style: str | None, flow: bool | None
     assert repr(found) == repr(value)
 
 
-@settings(max_examples=60)
+@examples(0.6)
 @given(TEXTS)
 def test_the_text_at_a_place_is_the_node(text: str) -> None:
     for node in nodes(one(text)):
@@ -106,7 +107,7 @@ def test_the_text_at_a_place_is_the_node(text: str) -> None:
             assert documents[0].end - documents[0].start == node.end - node.start
 
 
-@settings(max_examples=60)
+@examples(0.6)
 @given(TEXTS)
 def test_places_nest_and_follow_each_other(text: str) -> None:
     def check(node: Node) -> None:
@@ -123,7 +124,7 @@ def test_places_nest_and_follow_each_other(text: str) -> None:
     check(one(text))
 
 
-@settings(max_examples=60)
+@examples(0.6)
 @given(TEXTS, st.data())
 def test_both_parsers_give_the_same(text: str, data: st.DataObject) -> None:
     cuts = data.draw(st.lists(st.integers(0, len(text)), max_size=2))

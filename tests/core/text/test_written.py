@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from msaa_lint.core.text.emitter import WIDTH, written
@@ -16,6 +16,7 @@ from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Span
 from msaa_lint.core.text.tree import Limits, parse
 from tests.paths import ROOT
+from tests.strength import examples
 
 HERE = Span(0, 0)
 TEXTS = st.one_of(
@@ -54,7 +55,7 @@ def read(text: str) -> Node:
 
 
 @given(TREES)
-@settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@examples(3, suppress_health_check=[HealthCheck.too_slow])
 def test_reads_back_as_itself(value: Any) -> None:
     tree = node(value)
     assert data(read(written(tree))) == data(tree)

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from msaa_lint.experiments.confirm import parts
@@ -20,6 +20,7 @@ from msaa_lint.experiments.confirm.session import Session
 from tests.experiments.confirm.frames import frames, planned
 from tests.frames import frames as random_frames
 from tests.pages import Example, all_examples
+from tests.strength import examples
 
 ONE = "format: R8G8B8A8_UNORM, samples: 1"
 LIMITS = ("properties", "limits")
@@ -766,7 +767,7 @@ def test_every_example_of_the_catalogue_is_asked_about(device: Mapping[str, Any]
 PIECES = st.sampled_from(["properties", "features", "memory", "extensions", "formats", RESOLVES, "VkPhysicalDeviceVulkan13Features"])
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
+@examples(0.6, suppress_health_check=list(HealthCheck))
 @given(description=random_frames(), lacking=st.sets(PIECES, max_size=7))
 def test_any_description_is_asked_about(device: Mapping[str, Any], description: Any, lacking: set[str]) -> None:
     made = planned(json.dumps(description))

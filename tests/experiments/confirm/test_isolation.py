@@ -31,13 +31,19 @@ WANT = {"pixels": None, "repeats": 0, "warmups": 0}
 def scratch(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """A folder for temporary files, in which nothing may be left; and no child may be."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    # Other tests of this process may have left helpers running, joblib's for instance.
+    OTHERS.clear()
+    OTHERS.update(children())
     yield tmp_path
     assert list(tmp_path.iterdir()) == []
     assert children() == []
 
 
+OTHERS: set[int] = set()
+
+
 def children() -> list[int]:
-    """Every process whose parent is this one, dead ones too."""
+    """The processes that the test started and that still exist, dead ones too."""
     own = []
     for path in glob.glob("/proc/[0-9]*/stat"):
         try:
@@ -46,7 +52,7 @@ def children() -> list[int]:
             continue
         if int(text.rpartition(")")[2].split()[1]) == os.getpid():
             own.append(int(text.split()[0]))
-    return own
+    return [child for child in own if child not in OTHERS]
 
 
 def session(seconds: float = 20.0, memory: int = 8 << 30, device: str | None = None, **more: Any) -> Session:
@@ -131,10 +137,8 @@ def test_what_a_driver_starts_is_ended_with_it(scratch: Path) -> None:
     left = []
     for path in glob.glob("/proc/[0-9]*/cmdline"):
         try:
-            if (
-                b"tests.experiments.confirm.fake" in Path(path).read_bytes()
-                and b"msaa_lint.experiments.confirm.worker" in Path(path).read_bytes()
-            ):
+            command = Path(path).read_bytes()
+            if b"tests.experiments.confirm.fake" in command and b"msaa_lint.experiments.confirm.worker" in command:
                 left.append(path)
         except OSError:
             continue

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from msaa_lint.core.text.source import Source
@@ -25,6 +25,7 @@ from tests.experiments.confirm.frames import begins, frames, image, one, planned
 from tests.frames import frames as random_frames
 from tests.pages import Example, all_examples
 from tests.paths import ROOT
+from tests.strength import examples
 
 UNDEFINED, GENERAL, COLOR_LAYOUT, DEPTH_LAYOUT, DEPTH_READ_LAYOUT, READ_LAYOUT = 0, 1, 2, 3, 4, 5
 SOURCE_LAYOUT, PRESENT_LAYOUT = 6, 1000001002
@@ -1267,7 +1268,7 @@ ARGUMENTS = st.fixed_dictionaries(
 )
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
+@examples(1.5, suppress_health_check=list(HealthCheck))
 @given(random_frames(), ARGUMENTS)
 def test_any_description_is_planned(description: Any, arguments: dict[str, Any]) -> None:
     source = Source("frame.msaa.yaml", json.dumps(description))

@@ -11,12 +11,13 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from msaa_lint.experiments.confirm import scene
 from msaa_lint.experiments.confirm.shaders import generate
 from msaa_lint.experiments.confirm.shaders.spirv import OUTPUTS, SLOTS, instructions, needs, read, with_outputs, words_of
+from tests.strength import examples
 
 FOLDER = Path(generate.FOLDER)
 SHADERS = generate.sources()
@@ -135,7 +136,7 @@ def test_a_shader_has_every_output_there_may_be(shader: str) -> None:
     assert Module(stored(shader)).outputs() == expected
 
 
-@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@examples(0.25, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(shader=st.sampled_from(FRAGMENTS), outputs=KINDS)
 def test_a_shader_has_the_outputs_that_are_asked_for(tmp_path: Path, shader: str, outputs: Sequence[str]) -> None:
     code = read(shader, outputs)
@@ -257,7 +258,7 @@ def test_what_is_no_code_is_refused(code: bytes) -> None:
             reading(code)
 
 
-@settings(max_examples=300, deadline=None)
+@examples(3)
 @given(st.sampled_from(FRAGMENTS), st.lists(st.tuples(st.integers(5, 10**6), st.integers(0, 2**32 - 1)), min_size=1, max_size=4), KINDS)
 def test_damaged_code_is_read_or_refused(shader: str, damage: list[tuple[int, int]], outputs: Sequence[str]) -> None:
     words = words_of(stored(shader))

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -17,6 +17,7 @@ from msaa_lint.experiments.study.exact_area import ACCURACY, areas, areas_of
 from msaa_lint.experiments.study.fragments import hits
 from msaa_lint.experiments.study.locations import SUBPIXELS, grid, standard
 from tests.experiments.study.rational import exact_area, shoelace
+from tests.strength import examples
 
 SIDE = 6
 Floats = NDArray[np.float64]
@@ -45,7 +46,7 @@ def star(seed: int, corners: int, low: float = 0.5, high: float = 4.5, middle: t
     return np.array(middle) + np.stack((np.cos(angles), np.sin(angles)), axis=1) * random.uniform(low, high, (corners, 1))
 
 
-@settings(max_examples=150, deadline=None)
+@examples(1.5)
 @given(st.lists(st.tuples(PLACES, PLACES), min_size=3, max_size=3))
 def test_triangles_are_as_fractions_have_them(corners: list[tuple[float, float]]) -> None:
     triangle = np.array(corners)
@@ -88,7 +89,7 @@ def test_an_edge_from_far_away_in_plain_double_precision_would_miss_the_accuracy
     assert abs(float(Fraction(x0 + (y - y0) * (x1 - x0) / (y1 - y0)) - (a0 + (Fraction(y) - b0) * (a1 - a0) / (b1 - b0)))) > 10 * ACCURACY
 
 
-@settings(max_examples=60, deadline=None)
+@examples(0.6)
 @given(st.integers(0, 2**32), st.integers(3, 12))
 def test_the_parts_of_a_polygon_add_up_to_it(seed: int, corners: int) -> None:
     """A star round (3, 3), cut into triangles there: disjoint, and together the star."""

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -17,6 +17,7 @@ from msaa_lint.experiments.study.fragments import masks
 from msaa_lint.experiments.study.locations import SUBPIXELS, grid, jittered, random, standard
 from msaa_lint.frame.vulkan.sample_locations import STANDARD
 from tests.experiments.study.rational import covered
+from tests.strength import examples
 
 WIDTH, HEIGHT = 5, 4
 
@@ -42,13 +43,13 @@ def same(one: Rows, other: Rows) -> bool:
     return all(np.array_equal(a, b) and a.dtype == b.dtype for a, b in zip(one, other, strict=True))
 
 
-@settings(max_examples=400, deadline=None)
+@examples(4)
 @given(triangles(), COUNTS)
 def test_every_sample_is_what_its_edge_functions_say(corners: NDArray[np.int64], samples: int) -> None:
     assert np.array_equal(drawn(corners, samples), covered(corners[0], WIDTH, HEIGHT, standard(samples)))
 
 
-@settings(max_examples=100, deadline=None)
+@examples(1)
 @given(triangles(), st.lists(st.tuples(st.integers(0, 255), st.integers(0, 255)), min_size=1, max_size=9))
 def test_samples_may_lie_anywhere_in_the_pixel(corners: NDArray[np.int64], places: list[tuple[int, int]]) -> None:
     locations = np.array(places, dtype=np.int64)
@@ -56,7 +57,7 @@ def test_samples_may_lie_anywhere_in_the_pixel(corners: NDArray[np.int64], place
     assert np.array_equal(found, covered(corners[0], WIDTH, HEIGHT, locations))
 
 
-@settings(max_examples=60, deadline=None)
+@examples(0.6)
 @given(triangles(), COUNTS)
 def test_neither_winding_nor_the_first_corner_matters(corners: NDArray[np.int64], samples: int) -> None:
     expected = rows(corners, WIDTH, HEIGHT, standard(samples))
@@ -64,7 +65,7 @@ def test_neither_winding_nor_the_first_corner_matters(corners: NDArray[np.int64]
         assert same(rows(corners[:, order], WIDTH, HEIGHT, standard(samples)), expected)
 
 
-@settings(max_examples=100, deadline=None)
+@examples(1)
 @given(triangles(st.integers(0, 4 * SUBPIXELS)), COUNTS, st.integers(0, 2**22), st.integers(0, 2000))
 def test_whole_pixels_to_the_side_or_down_change_nothing_else(corners: NDArray[np.int64], samples: int, across: int, down: int) -> None:
     here = rows(corners, WIDTH, HEIGHT, standard(samples))
@@ -75,7 +76,7 @@ def test_whole_pixels_to_the_side_or_down_change_nothing_else(corners: NDArray[n
     assert np.array_equal(there.right, np.where(empty, 0, here.right + across))
 
 
-@settings(max_examples=100, deadline=None)
+@examples(1)
 @given(triangles(most=12), COUNTS, st.integers(1, 9))
 def test_many_triangles_are_each_as_alone(corners: NDArray[np.int64], samples: int, chunk: int) -> None:
     with pytest.MonkeyPatch.context() as patch:
@@ -99,7 +100,7 @@ def test_near_and_far_triangles_come_back_in_their_order() -> None:
         assert np.array_equal(found.right[own], alone.right)
 
 
-@settings(max_examples=100, deadline=None)
+@examples(1)
 @given(triangles(most=12), COUNTS)
 def test_python_s_integers_give_what_int64_gives(corners: NDArray[np.int64], samples: int) -> None:
     expected = rows(corners, WIDTH, HEIGHT, standard(samples))
@@ -108,7 +109,7 @@ def test_python_s_integers_give_what_int64_gives(corners: NDArray[np.int64], sam
         assert same(rows(corners, WIDTH, HEIGHT, standard(samples)), expected)
 
 
-@settings(max_examples=100, deadline=None)
+@examples(1)
 @given(triangles(most=12), COUNTS)
 def test_rows_are_in_order_within_the_picture_and_none_is_empty(corners: NDArray[np.int64], samples: int) -> None:
     found = rows(corners, WIDTH, HEIGHT, standard(samples))
@@ -187,7 +188,7 @@ def test_what_is_no_triangle_or_no_location_is_refused(corners: NDArray[Any], lo
         rows(corners, WIDTH, HEIGHT, locations)
 
 
-@settings(max_examples=60, deadline=None)
+@examples(0.6)
 @given(triangles(FREE), st.integers(1, 4))
 def test_a_grid_takes_the_samples_of_a_larger_picture(corners: NDArray[np.int64], side: int) -> None:
     large = drawn(corners * side, 1, WIDTH * side, HEIGHT * side)[..., 0]
@@ -237,7 +238,7 @@ def test_other_counts_have_no_standard_pattern(samples: int) -> None:
         standard(samples)
 
 
-@settings(max_examples=50, deadline=None)
+@examples(0.5)
 @given(st.integers(1, 20), st.integers(0, 2**32), st.sampled_from([256, 1000, 65536]))
 def test_jittered_samples_have_a_cell_each(side: int, seed: int, subpixels: int) -> None:
     places = jittered(side, seed, subpixels)

@@ -6,7 +6,7 @@ from math import gcd, isqrt
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -15,6 +15,7 @@ from msaa_lint.experiments.study.fragments import hits, masks
 from msaa_lint.experiments.study.locations import SUBPIXELS, standard
 from msaa_lint.frame.vulkan.sample_locations import STANDARD
 from tests.experiments.study.rational import covered, covers, edge, hit, naive
+from tests.strength import examples
 
 SIDE = 8
 """Pixels of the picture's side."""
@@ -129,7 +130,7 @@ def test_int64_alone_would_wrap_where_python_s_integers_take_over() -> None:
         assert 0.1 < found.mean() < 0.9
 
 
-@settings(max_examples=150, deadline=None)
+@examples(1.5)
 @given(
     st.tuples(st.integers(0, 2048), st.integers(0, 2048)),
     st.integers(0, 31),
@@ -147,7 +148,7 @@ def test_corners_at_any_distance_up_to_2_23_pixels(through: tuple[int, int], bit
     assert np.array_equal(found, covered(corners, SIDE, SIDE, standard(samples)))
 
 
-@settings(max_examples=150, deadline=None)
+@examples(1.5)
 @given(
     st.tuples(st.integers(0, 2048), st.integers(0, 2048)),
     st.tuples(st.integers(-2048, 2048), st.integers(-2048, 2048)),
@@ -172,7 +173,7 @@ def test_a_wire_of_a_256th_pixel_hits_the_centres_that_it_begins_on_and_no_other
     assert np.count_nonzero(found[:, 0] if upright else found[0]) == count
 
 
-@settings(max_examples=150, deadline=None)
+@examples(1.5)
 @given(st.data(), st.sampled_from(sorted(STANDARD)))
 def test_corners_on_samples_and_on_the_corners_of_pixels(data: st.DataObject, samples: int) -> None:
     places = [(int(x), int(y)) for x, y in standard(samples)] + [(0, 0)]

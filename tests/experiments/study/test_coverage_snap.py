@@ -6,10 +6,11 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.experiments.study.snap import snapped, viewport
+from tests.strength import examples
 
 
 def single(exact: Fraction) -> float:
@@ -45,7 +46,7 @@ def test_ties_go_to_the_even_position(pixels: float, bits: int, expected: int) -
     assert snapped(np.array([[pixels, 0.0]]), bits).tolist() == [[expected, 0]]
 
 
-@settings(max_examples=200, deadline=None)
+@examples(2)
 @given(st.floats(-(2.0**23), 2.0**23), st.integers(4, 8))
 def test_snapping_is_the_rounding_of_fractions(pixels: float, bits: int) -> None:
     found = snapped(np.array([pixels, -pixels]), bits)
@@ -66,7 +67,7 @@ def test_what_is_no_position_is_refused(pixels: float) -> None:
         snapped(np.array([[1.0, pixels]]))
 
 
-@settings(max_examples=400, deadline=None)
+@examples(4)
 @given(st.floats(-2, 2, width=32), st.integers(1, 16384), st.integers(1, 16384))
 def test_the_viewport_rounds_once_where_it_is_fused_and_twice_where_not(ndc: float, width: int, height: int) -> None:
     point = np.array([[ndc, -ndc]], dtype=np.float32)

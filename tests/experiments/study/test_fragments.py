@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from numpy.typing import NDArray
 
 from msaa_lint.experiments.study.coverage import rows
@@ -12,6 +12,7 @@ from msaa_lint.experiments.study.fragments import fragments, hits, masks
 from msaa_lint.experiments.study.locations import SUBPIXELS, grid, jittered, standard
 from tests.experiments.study.rational import covered
 from tests.experiments.study.test_coverage import COUNTS, HEIGHT, WIDTH, triangles
+from tests.strength import examples
 
 PIXEL = [(0, 0), (2 * SUBPIXELS, 0), (0, 2 * SUBPIXELS)]
 """A triangle that has the whole first pixel."""
@@ -22,7 +23,7 @@ def each(corners: NDArray[np.int64], samples: int) -> NDArray[np.bool_]:
     return np.stack([covered(triangle, WIDTH, HEIGHT, standard(samples)) for triangle in corners])
 
 
-@settings(max_examples=100, deadline=None)
+@examples(1)
 @given(triangles(most=4), COUNTS)
 def test_fragments_are_the_pixels_with_a_covered_sample_in_order(corners: NDArray[np.int64], samples: int) -> None:
     exact = each(corners, samples)
@@ -35,7 +36,7 @@ def test_fragments_are_the_pixels_with_a_covered_sample_in_order(corners: NDArra
     assert [part.dtype for part in found] == [np.dtype(np.int32)] * 3 + [np.dtype(np.uint16)]
 
 
-@settings(max_examples=100, deadline=None)
+@examples(1)
 @given(triangles(most=5), COUNTS)
 def test_masks_are_what_any_triangle_covers_and_hits_count_them(corners: NDArray[np.int64], samples: int) -> None:
     exact = each(corners, samples)

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.core.text.source import Source
@@ -28,6 +28,7 @@ from msaa_lint.input import readers
 from msaa_lint.linter.study_record import MAX_BYTES, PARTS, digests, path_of, studied
 from tests.experiments.study.fakes import point, timed
 from tests.paths import ROOT
+from tests.strength import examples
 
 FRAME = """\
 frame: {width: 1920, height: 1080, fps: 60}
@@ -312,7 +313,7 @@ def test_a_hostile_record_is_said_to_be(beside: Path, data: bytes, words: str) -
     assert words in broken(beside, data)
 
 
-@settings(max_examples=150, deadline=None)
+@examples(1.5)
 @given(st.data())
 def test_no_record_makes_a_crash(data: st.DataObject) -> None:
     whole = text([study()]).encode()

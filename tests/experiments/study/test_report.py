@@ -11,7 +11,7 @@ from typing import Any
 import jsonschema
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.cli.report import Options
@@ -30,6 +30,7 @@ from msaa_lint.experiments.study.simulate import simulated
 from msaa_lint.experiments.study.tasks import Failed
 from tests.experiments.study.fakes import point, timed
 from tests.paths import ROOT
+from tests.strength import examples
 
 GOLDEN = ROOT / "tests" / "golden" / "study"
 SCHEMA = json.loads((ROOT / "msaa_lint" / "cli" / "report" / "study_v1.schema.json").read_text())
@@ -154,7 +155,7 @@ def test_nothing_studied_is_still_a_report() -> None:
     assert plot(empty, "png").startswith(b"\x89PNG")
 
 
-@settings(max_examples=25, deadline=None)
+@examples(0.25)
 @given(st.lists(st.floats(), min_size=8, max_size=8), st.sampled_from(techniques()))
 def test_any_figures_can_be_printed(figures: list[float], technique: Technique) -> None:
     names = ("rmse", "rmse_all", "max_error", "bias", "psnr_db", "psnr_display_db", "time_ms", "bytes_per_frame")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.experiments.study import coverage, fragments, locations, measure, scenes, snap
@@ -18,6 +18,7 @@ from msaa_lint.experiments.study.scenes import mesh as own
 from msaa_lint.experiments.study.scenes.scene import BLACK, Scene
 from msaa_lint.experiments.study.simulate import simulated
 from tests.experiments.confirm.frames import frame
+from tests.strength import examples
 
 MANY = Technique(SSAA, 256, grid=16)
 """So many samples that what is left of an error is theirs: of an edge along an axis 1 / (16 sqrt(12)) = 0.018."""
@@ -66,7 +67,7 @@ def test_pictures_that_are_too_small_are_refused(size: tuple[int, int]) -> None:
         scenes.scene("edge-fan", *size)
 
 
-@settings(max_examples=15, deadline=None)
+@examples(0.15)
 @given(st.sampled_from(scenes.NAMES), st.integers(32, 70), st.integers(32, 70))
 def test_every_size_has_every_scene(name: str, width: int, height: int) -> None:
     found = measure.point(scenes.scene(name, width, height), Technique(MSAA, 4))
@@ -217,7 +218,7 @@ def test_blended_surfaces_are_mixed_in_their_order() -> None:
     assert picture[0, 5] == pytest.approx([0, 0.5, 0, 0.5])
 
 
-@settings(max_examples=25, deadline=None)
+@examples(0.25)
 @given(st.lists(st.tuples(*[st.integers(-40, 200)] * 6), min_size=1, max_size=6), st.integers(0, 2**20))
 def test_pieces_of_any_triangles_fill_the_picture_once(corners: list[tuple[int, ...]], seed: int) -> None:
     triangles = np.array(corners, np.float64).reshape(-1, 3, 2) / 8

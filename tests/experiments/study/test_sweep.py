@@ -9,7 +9,7 @@ import tempfile
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.experiments.study.checkpoint import Kept
@@ -18,6 +18,7 @@ from msaa_lint.experiments.study.sweep import costs, ordered, sweep, with_cost
 from msaa_lint.experiments.study.tasks import Asked, Failed, Task, Unusable
 from msaa_lint.experiments.study.times import Cost, Model
 from tests.experiments.study.fakes import Clock, measure, point, tasks
+from tests.strength import examples
 
 ALL = techniques()
 FEW = [Technique(MSAA, 1), Technique(MSAA, 4), Technique(MSAA, 8), Technique(SAMPLE_SHADING, 4, 0.5)]
@@ -71,7 +72,7 @@ def test_each_point_is_kept_before_the_next_is_asked_for(tmp_path: Path) -> None
         assert len(list(tmp_path.iterdir())) == count
 
 
-@settings(max_examples=20, deadline=None)
+@examples(0.2)
 @given(st.integers(0, len(ALL)), st.sampled_from([1, 2]))
 def test_resumed_after_any_stop_it_is_the_same(stop: int, jobs: int) -> None:
     wanted = tasks("a", techniques=ALL)

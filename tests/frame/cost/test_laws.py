@@ -7,7 +7,7 @@ import math
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.frame.cost.amounts import Amount, FrameCost, Terms
@@ -18,6 +18,7 @@ from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.global_facts import profile
 from tests.frame.cost.frames import cost, document
 from tests.frames import frames
+from tests.strength import examples
 
 OPS = {"loadOp": st.sampled_from(["LOAD", "CLEAR", "DONT_CARE"]), "storeOp": st.sampled_from(["STORE", "DONT_CARE"])}
 COMPRESSED = DeviceProfile("compressed", tiler=True, compression=dict.fromkeys((1, 2, 4, 8, 16, 32, 64), (0.5, 0.75)))
@@ -117,7 +118,7 @@ def test_an_unknown_operation_counts_nothing_and_is_named(description: dict[str,
     assert any("storeOp is not stated" in text for text in after.unknown) == begun
 
 
-@settings(deadline=None)
+@examples(1)
 @given(
     frames(),
     st.sampled_from([None, "mali-g76", "nvidia", "v3d", "powervr", "apple-m1", "adreno-740", "portable"]),

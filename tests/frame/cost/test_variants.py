@@ -6,7 +6,7 @@ import json
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from msaa_lint.frame.cost.amounts import Amount, Terms
@@ -19,6 +19,7 @@ from msaa_lint.frame.facts.global_facts import profile
 from tests.frame.cost.frames import EXAMPLES, document
 from tests.frames import frames
 from tests.pages import all_examples
+from tests.strength import examples
 
 ONE, FOUR = 561.9456, 2247.7824
 """MB/s: 2168 * 1080 * 4 B * 60 Hz, of one sample and of four."""
@@ -269,7 +270,7 @@ def resolving(draw: st.DrawFn) -> dict[str, Any]:
     return found
 
 
-@settings(deadline=None)
+@examples(1)
 @given(resolving())
 def test_laws_of_frames_that_resolve(description: dict[str, Any]) -> None:
     """With its own count a frame is as written; inside costs at most what is written, apart at least what inside costs, and the
@@ -293,7 +294,7 @@ def test_laws_of_frames_that_resolve(description: dict[str, Any]) -> None:
     assert one.memory_mib == pytest.approx(len({n.removesuffix("_out") for n in description["images"]}) * 4e4 / 2**20)
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@examples(1.5, suppress_health_check=[HealthCheck.too_slow])
 @given(frames())
 def test_no_frame_is_too_odd(description: dict[str, Any]) -> None:
     found = document(json.dumps(description))

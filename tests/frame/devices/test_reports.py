@@ -6,11 +6,12 @@ import json
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, example, given, settings
+from hypothesis import HealthCheck, example, given
 from hypothesis import strategies as st
 
 from msaa_lint.frame.devices.reports import NotAReport, Report, pick, read
 from tests.frame.devices import reported
+from tests.strength import examples
 
 COUNTS = {1, 2, 4, 8, 16, 32, 64}
 
@@ -227,7 +228,7 @@ def sane(found: list[Report]) -> None:
         json.dumps([profile, report.details, report.notes])
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@examples(1.5, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.sampled_from(sorted(reported.DIALECTS)), st.integers(0, 12_000), st.text(max_size=3))
 @example("vulkaninfo-text", 500, "")
 def test_a_report_that_is_cut_off_never_crashes(dialect: str, length: int, more: str) -> None:
@@ -249,7 +250,7 @@ JUNK = st.recursive(
 )
 
 
-@settings(max_examples=300, deadline=None)
+@examples(3)
 @given(st.data(), st.sampled_from(["gpuinfo", "vulkaninfo_json", "devsim", "vkjson", "profiles"]), JUNK)
 def test_a_report_with_a_value_exchanged_never_crashes(data: st.DataObject, dialect: str, junk: object) -> None:
     root: Any = json.loads(json.dumps(getattr(reported, dialect)()))
@@ -267,7 +268,7 @@ def test_a_report_with_a_value_exchanged_never_crashes(data: st.DataObject, dial
         assert str(error)
 
 
-@settings(max_examples=200, deadline=None)
+@examples(2)
 @given(st.data())
 def test_vulkaninfo_with_lines_shuffled_never_crashes(data: st.DataObject) -> None:
     lines = reported.text("Own A", "Own B").splitlines()

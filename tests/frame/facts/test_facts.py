@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
@@ -23,6 +23,7 @@ from tests.frame.description.shapes import Json
 from tests.frames import frames
 from tests.pages import all_examples
 from tests.paths import ROOT
+from tests.strength import examples
 
 TYPES = {"BOOL": bool, "INT": int, "DOUBLE": float, "STRING": str}
 
@@ -140,7 +141,7 @@ def test_every_fact_is_asked_or_of_use_to_a_users_rules() -> None:
 ENGINE = Engine(load())
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+@examples(0.6, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 @given(frames())
 def test_random_frames_are_judged_without_a_failure(frame: Json) -> None:
     text = json.dumps(frame)

@@ -7,7 +7,7 @@ import re
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 
 from msaa_lint.frame.cost.model import frame_cost
 from msaa_lint.frame.description.document import Document
@@ -20,6 +20,7 @@ from msaa_lint.linter.rules.registry import load
 from tests.frame.description.shapes import Json
 from tests.frame.metal.frames import ARTICLE, BEST, document
 from tests.frames import metal_frames
+from tests.strength import examples
 
 ENGINE = Engine(load())
 
@@ -297,7 +298,7 @@ def test_a_render_target_of_no_vulkan_format_is_what_it_is_attached_as() -> None
     assert (image.format, image.usage) == (None, ("COLOR_ATTACHMENT",))
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+@examples(1.5, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 @given(metal_frames())
 def test_random_frames_are_judged_priced_and_fixed_without_a_failure(frame: Json) -> None:
     text = json.dumps(frame)

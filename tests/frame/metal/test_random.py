@@ -6,11 +6,12 @@ import json
 from random import Random
 from typing import Any
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.frame.metal.names import ENUMS
 from tests.linter.fixes.judging import fixed, kinds, lint
+from tests.strength import examples
 
 FORMATS = {"a": "rgba8Unorm", "b": "rgba8Unorm", "c": "depth32Float_stencil8", "d": "depth32Float_stencil8"}
 FILTERS = {
@@ -76,7 +77,7 @@ class Frames:
         return {"frame": {"width": 64, "height": 64, "fps": 60}, "scene": wants, "metal": metal}
 
 
-@settings(max_examples=60, deadline=None)
+@examples(0.6)
 @given(st.integers(0, 2**32), st.booleans())
 def test_they_are_judged_and_fixed(seed: int, unsafe: bool) -> None:
     text = json.dumps(Frames(seed).frame(), indent=1)

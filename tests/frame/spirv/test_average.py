@@ -7,11 +7,12 @@ from fractions import Fraction
 from pathlib import Path
 from typing import NamedTuple
 
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from msaa_lint.frame.spirv.reflect import reflect
 from tests.frame.spirv.generate import compiled
+from tests.strength import examples
 
 
 class Term(NamedTuple):
@@ -72,7 +73,7 @@ void main() {{
     return image.resolves, image.samples
 
 
-@settings(max_examples=60, deadline=None)
+@examples(0.6)
 @given(TERMS)
 @example(scaled(whole(4, True), Fraction(1, 4), True))
 @example(added(scaled(whole(2, False), Fraction(1, 2), False), fetched(0), 1))
@@ -85,13 +86,13 @@ def test_an_average_weighs_all_samples_alike(term: Term) -> None:
         assert len(set(term.weights.values())) == 1, "an average, or a multiple of one"
 
 
-@settings(max_examples=25, deadline=None)
+@examples(0.25)
 @given(st.sampled_from([2, 4]), st.booleans(), st.booleans())
 def test_a_plain_average_is_found(count: int, swapped: bool, divides: bool) -> None:
     assert resolved(scaled(whole(count, swapped), Fraction(1, count), divides))[0] == "AVERAGE"
 
 
-@settings(max_examples=25, deadline=None)
+@examples(0.25)
 @given(st.permutations(range(4)), st.one_of(st.just([Fraction(1, 4)] * 4), st.lists(FACTORS, min_size=4, max_size=4)))
 def test_weighed_samples_are_an_average_if_the_weights_are(order: list[int], factors: list[Fraction]) -> None:
     made, *rest = (scaled(fetched(sample), factors[sample], False) for sample in order)

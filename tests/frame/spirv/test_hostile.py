@@ -6,7 +6,7 @@ import array
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.frame.spirv import state
@@ -14,6 +14,7 @@ from msaa_lint.frame.spirv.module import MAX_BYTES, Module
 from msaa_lint.frame.spirv.reflect import Reflected, reflect
 from msaa_lint.frame.spirv.words import SpirvError, words_of
 from tests.frame.spirv.generate import RULES, SHADERS
+from tests.strength import examples
 
 MODULES = [path.read_bytes() for folder in (SHADERS, RULES) for path in sorted(folder.glob("*.spv"))]
 SMALLEST = min(MODULES, key=len)
@@ -76,7 +77,7 @@ WORDS = st.one_of(
 )
 
 
-@settings(max_examples=400, deadline=None)
+@examples(4)
 @given(st.sampled_from(MODULES), st.lists(st.tuples(st.integers(5, 10**6), WORDS), min_size=1, max_size=8))
 def test_damaged_code_is_read_or_refused(code: bytes, damage: list[tuple[int, int]]) -> None:
     words = words_of(code)
@@ -85,26 +86,26 @@ def test_damaged_code_is_read_or_refused(code: bytes, damage: list[tuple[int, in
     read(words.tobytes())
 
 
-@settings(max_examples=300, deadline=None)
+@examples(3)
 @given(st.sampled_from(MODULES), st.integers(5, 10**6), st.integers(5, 10**6), st.sampled_from(MODULES))
 def test_two_modules_in_one_are_read_or_refused(one: bytes, at: int, begin: int, other: bytes) -> None:
     first, second = words_of(one), words_of(other)
     read((first[: 5 + at % (len(first) - 5)] + second[5 + begin % (len(second) - 5) :]).tobytes())
 
 
-@settings(max_examples=300, deadline=None)
+@examples(3)
 @given(st.lists(WORDS, max_size=60))
 def test_random_words_are_read_or_refused(given_words: list[int]) -> None:
     read((HEADER + array.array("I", given_words)).tobytes())
 
 
-@settings(max_examples=100, deadline=None)
+@examples(1)
 @given(st.binary(max_size=200))
 def test_random_bytes_are_refused(data: bytes) -> None:
     assert read(data) is None
 
 
-@settings(max_examples=100, deadline=None)
+@examples(1)
 @given(st.sampled_from(MODULES), st.lists(st.tuples(st.integers(5, 10**6), WORDS), max_size=4))
 def test_damaged_code_is_the_same_in_both_orders(code: bytes, damage: list[tuple[int, int]]) -> None:
     words = words_of(code)

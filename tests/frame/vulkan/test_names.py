@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.frame.vulkan.enums import ALIASES, BITLESS, ENUMS, PREFIXES, VALUES
 from msaa_lint.frame.vulkan.names import MAX_WORD, MAX_WORDS, VENDORS, flag_names, from_value, nearest, parse_enum, parse_flags
+from tests.strength import examples
 
 FLAGS = sorted(enum for enum in VALUES if "FlagBits" in enum)
 SPELLINGS = [(enum, short, canonical) for enum, names in ENUMS.items() for short, canonical in names.items()]
@@ -122,7 +123,7 @@ def test_values_are_the_registrys() -> None:
     assert from_value("VkImageLayout", 3_000_000_000) is None
 
 
-@settings(deadline=None)
+@examples(1)
 @given(st.data())
 def test_masks_and_names_go_both_ways(data: st.DataObject) -> None:
     enum = data.draw(st.sampled_from(FLAGS))
@@ -237,7 +238,7 @@ def test_nearest_key(word: str, words: list[str], meant: str | None) -> None:
     assert nearest(word, words) == meant
 
 
-@settings(deadline=None)
+@examples(1)
 @given(st.sampled_from(SPELLINGS), st.integers(min_value=0), st.characters())
 def test_nearest_is_one_of_the_words_whatever_the_slip(spelling: tuple[str, str, str], place: int, letter: str) -> None:
     enum, short, _ = spelling

@@ -6,7 +6,7 @@ import copy
 import time
 from typing import Any
 
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from msaa_lint.core.text.source import Source
@@ -18,6 +18,7 @@ from msaa_lint.input.captures.description_text import written
 from msaa_lint.input.captures.tracker import Tracker
 from tests.input.captures.program import Program, attachment, info
 from tests.input.captures.test_frames import forward, history
+from tests.strength import examples
 
 NUMBERS = st.sampled_from([0, 1, 2, 3, -1, 4, 5, 100, 101, 103, 2**31 - 1, 2**32 - 1, 2**64, -(2**70), 0.5, 1e308])
 WORDS = st.sampled_from(
@@ -109,7 +110,7 @@ def test_the_calls_themselves_make_a_right_description() -> None:
     }
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@examples(1.5, suppress_health_check=[HealthCheck.too_slow])
 @given(data=st.data())
 def test_any_value_in_any_place_leaves_a_description_without_mistakes(data: st.DataObject) -> None:
     calls = list(CALLS)
@@ -132,7 +133,7 @@ def test_any_value_in_any_place_leaves_a_description_without_mistakes(data: st.D
         assert document.problems == (), [problem.message for problem in document.problems]
 
 
-@settings(max_examples=100, deadline=None)
+@examples(1)
 @given(st.lists(st.integers(0, len(CALLS) - 1), max_size=200))
 def test_calls_in_any_order_leave_a_description_without_mistakes(order: list[int]) -> None:
     for document in described([CALLS[number] for number in order]):

@@ -5,10 +5,11 @@ from __future__ import annotations
 import time
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.input.code.fences import NAMES, blocks, codes
+from tests.strength import examples
 
 
 def code(text: str) -> list[tuple[str, list[str]]]:
@@ -81,7 +82,7 @@ PIECES = ("```", "~~~", "cpp", "\n", "\n", "> ", "- ", "1. ", "  ", "x", "\t", "
 
 
 @given(st.lists(st.sampled_from(PIECES), max_size=60).map("".join))
-@settings(max_examples=200, deadline=None)
+@examples(2)
 def test_any_text_keeps_its_length_and_its_lines(text: str) -> None:
     for each in codes(text):
         assert len(each.text) == len(text)

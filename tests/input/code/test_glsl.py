@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from msaa_lint.frame.spirv.reflect import Reflected, reflect
 from msaa_lint.input.code.glsl.description_trees import trees
@@ -24,6 +24,7 @@ from tests.frame.spirv.generate import RULES, SHADERS, compiled, sources
 from tests.frame.spirv.test_average import TERMS, Term
 from tests.input.code.glsl_shaders import HEAD
 from tests.input.code.glsl_shaders import SHADERS as STYLES
+from tests.strength import examples
 from tests.test_rules import ENGINE, as_written
 
 needs_glslang = pytest.mark.skipif(shutil.which("glslangValidator") is None, reason="glslangValidator is not installed")
@@ -62,7 +63,7 @@ def test_as_glslang_reads_it(name: str) -> None:
 
 
 @needs_glslang
-@settings(max_examples=40, deadline=None)
+@examples(0.4)
 @given(TERMS)
 def test_sums_are_followed_alike(term: Term) -> None:
     text = f"{HEAD}void main() {{ ivec2 at = ivec2(gl_FragCoord.xy); color = {term.text}; }}\n"

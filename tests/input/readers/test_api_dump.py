@@ -7,7 +7,7 @@ import json
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.input.captures import json_stream
@@ -18,6 +18,7 @@ from tests.input.readers.dialects import api_dump as dumped
 from tests.input.readers.dialects import common, lined, new_lines
 from tests.input.readers.programs import SMALL, WANTED, programs
 from tests.paths import SAMPLES
+from tests.strength import examples
 
 FOLDER = SAMPLES / "captures"
 
@@ -113,7 +114,7 @@ def test_places_and_numbers() -> None:
 @given(
     programs, st.integers(1, 4), st.sampled_from(("address", "NULL")), st.sampled_from((None, 0, 2)), st.sampled_from((10, 300, 1 << 18))
 )
-@settings(max_examples=60, deadline=None)
+@examples(0.6)
 def test_frames_and_layout_do_not_matter(
     program: list[tuple[str, dict[str, Any]]], frames: int, null: str, indent: int | None, block: int
 ) -> None:
@@ -193,7 +194,7 @@ def test_cut_at_every_byte() -> None:
 
 
 @given(st.lists(st.tuples(st.integers(0, 1 << 20), st.integers(0, 255)), min_size=1, max_size=3))
-@settings(max_examples=250, deadline=None)
+@examples(2.5)
 def test_bytes_that_were_changed(changes: list[tuple[int, int]]) -> None:
     original = dumped(SMALL, frames=2)
     text = bytearray(original)
@@ -212,7 +213,7 @@ SYMBOLS = [b"{", b"}", b"[", b"]", b'"', b",", b":", b"\n", b'"apiCalls"', b'"ar
 
 
 @given(st.lists(st.sampled_from(SYMBOLS), max_size=60).map(b"".join))
-@settings(max_examples=250, deadline=None)
+@examples(2.5)
 def test_any_symbols(text: bytes) -> None:
     for given_text in (text, b"[{" + text, b'[{"apiCalls":[{"name":"vkCmdDraw","args":[{"name":"a",' + text):
         read(given_text)

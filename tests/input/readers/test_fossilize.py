@@ -9,7 +9,7 @@ import zlib
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.input.captures.call import Broken, Call, Mark, Place
@@ -18,6 +18,7 @@ from tests.input.readers.dialects_binary import MAGIC, entries, entry, made, num
 from tests.input.readers.dialects_binary import fossilize as written
 from tests.input.readers.programs import programs
 from tests.paths import SAMPLES
+from tests.strength import examples
 
 FOLDER = SAMPLES / "captures"
 
@@ -145,7 +146,7 @@ def test_objects_are_calls(deflated: bool) -> None:
 
 
 @given(programs)
-@settings(max_examples=100, deadline=None)
+@examples(1)
 def test_any_program(program: list[tuple[str, dict[str, Any]]]) -> None:
     found, marks, broken = read(written(program))
     assert (marks, broken) == ([], None)
@@ -228,7 +229,7 @@ def test_numbers_that_json_has_not_and_names_that_are_no_utf_8() -> None:
 
 
 @given(words=st.lists(st.integers(0, 2**32 - 1) | st.sampled_from([0, 127, 128, 2**28, 2**32 - 1]), max_size=300))
-@settings(max_examples=100, deadline=None)
+@examples(1)
 def test_code_unpacks_to_what_was_packed(words: list[int]) -> None:
     code = b"".join(word.to_bytes(4, "little") for word in words)
     assert fossilize_code.decoded(packed(code), len(code)) == code
@@ -403,7 +404,7 @@ def test_truncated_at_every_byte() -> None:
 
 
 @given(victim=st.integers(0, len(PROGRAM) - 1), at=st.integers(0, 10**6), bit=st.integers(0, 7), deflated=st.booleans())
-@settings(max_examples=200, deadline=None)
+@examples(2)
 def test_a_flipped_bit_of_an_entry_is_noticed(victim: int, at: int, bit: int, deflated: bool) -> None:
     parts = [written([each], deflated)[16:] for each in PROGRAM]
     stored = bytearray(parts[victim])
@@ -417,7 +418,7 @@ def test_a_flipped_bit_of_an_entry_is_noticed(victim: int, at: int, bit: int, de
 
 
 @given(flips=st.lists(st.tuples(st.integers(0, 10**6), st.integers(0, 7)), min_size=1, max_size=9), checked=st.booleans())
-@settings(max_examples=300, deadline=None)
+@examples(3)
 def test_flipped_bits_end_in_calls_and_one_mistake_at_most(flips: list[tuple[int, int]], checked: bool) -> None:
     data = bytearray(MAGIC + b"".join(entry(*each, False, checked) for call in made(PROGRAM) for each in entries(call)))
     for at, bit in flips:
@@ -454,7 +455,7 @@ KEYS = [
         max_leaves=25,
     ),
 )
-@settings(max_examples=150, deadline=None)
+@examples(1.5)
 def test_json_of_any_shape(kind: int, document: Any) -> None:
     found, marks, broken = read(MAGIC + entry(kind, 1, json.dumps(document).encode() + b"\x00abc"))
     assert marks == []

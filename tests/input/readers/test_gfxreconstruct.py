@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.input.captures import json_stream
@@ -22,6 +22,7 @@ from tests.input.readers.dialects import api_dump as dumped
 from tests.input.readers.dialects import common, lined, new_array, new_lines, new_objects, old_lines
 from tests.input.readers.programs import SMALL, WANTED, programs
 from tests.paths import SAMPLES
+from tests.strength import examples
 
 FOLDER = SAMPLES / "captures"
 
@@ -66,7 +67,7 @@ def broken(text: bytes, wanted: frozenset[str] = WANTED) -> tuple[str, Place]:
 
 
 @given(programs)
-@settings(max_examples=60, deadline=None)
+@examples(0.6)
 def test_all_dialects_give_the_same_calls(program: list[tuple[str, dict[str, Any]]]) -> None:
     plain = calls(lined(new_lines(program)))
     assert len(plain) == len(program)
@@ -171,7 +172,7 @@ pieces = st.lists(st.tuples(st.sampled_from(BODIES), st.integers(-2, 3)) | st.sa
     past=st.sampled_from((2, 5, 1 << 19)),
     size=st.sampled_from((50, 200, 1 << 20)),
 )
-@settings(max_examples=300, deadline=None)
+@examples(3)
 def test_what_recurs_is_read_as_if_it_were_new(
     pieces: list[tuple[list[Any], int]], first: int, ending: str, last: bool, block: int, past: int, size: int
 ) -> None:
@@ -270,7 +271,7 @@ def test_memory_does_not_grow_with_the_lines() -> None:
 
 
 @given(programs, st.sampled_from((None, 0, 1, 2, 4, "\t")), st.integers(0, 3), st.booleans(), st.sampled_from((16, 300, 1 << 18)))
-@settings(max_examples=80, deadline=None)
+@examples(0.8)
 def test_an_array_in_any_layout(
     program: list[tuple[str, dict[str, Any]]], indent: int | str | None, shift: int, windows: bool, block: int
 ) -> None:
@@ -546,7 +547,7 @@ def _offset(text: bytes, call: Call) -> int:
 
 
 @given(st.sampled_from(sorted(TEXTS)), st.lists(st.tuples(st.integers(0, 1 << 20), st.integers(0, 255)), min_size=1, max_size=3))
-@settings(max_examples=300, deadline=None)
+@examples(3)
 def test_bytes_that_were_changed(form: str, changes: list[tuple[int, int]]) -> None:
     text = bytearray(TEXTS[form])
     whole = calls(bytes(text))
@@ -564,7 +565,7 @@ SYMBOLS = [b"{", b"}", b"[", b"]", b'"', b",", b":", b"\n", b'"index":', b"1", b
 
 
 @given(st.binary(max_size=200) | st.lists(st.sampled_from(SYMBOLS), max_size=60).map(b"".join))
-@settings(max_examples=300, deadline=None)
+@examples(3)
 def test_any_bytes(text: bytes) -> None:
     for given_text in (text, b"[" + text, b'{"index":1,"function":{"name":"vkCmdDraw"' + text):
         read(given_text)

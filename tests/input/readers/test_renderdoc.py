@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.input.captures.call import Broken, Call, Mark, Place
@@ -20,6 +20,7 @@ from tests.input.readers.dialects_binary import RenderDoc, numbers
 from tests.input.readers.dialects_binary import renderdoc as written
 from tests.input.readers.programs import programs
 from tests.paths import SAMPLES
+from tests.strength import examples
 
 FOLDER = SAMPLES / "captures"
 
@@ -152,7 +153,7 @@ def test_every_call_has_cs_names() -> None:
 
 
 @given(programs)
-@settings(max_examples=100, deadline=None)
+@examples(1)
 def test_any_program(program: list[tuple[str, dict[str, Any]]]) -> None:
     told = [each for each in program if each[0] not in ("vkGetPhysicalDeviceProperties", "vkSetDebugUtilsObjectNameEXT")]
     found, broken = read(written(told).text())
@@ -169,7 +170,7 @@ def first_words(value: Any) -> Any:
 
 
 @given(text=st.text(max_size=30), block=st.integers(1, 40))
-@settings(max_examples=200, deadline=None)
+@examples(2)
 def test_names_of_any_characters(text: str, block: int) -> None:
     capture = written([("vkSetDebugUtilsObjectNameEXT", {"pNameInfo": {"objectHandle": 7, "pObjectName": text}}), ("vkCmdDraw", {})])
     name, draw = (each for each in renderdoc.calls(Slow(capture.text(), block), Everything(), None) if isinstance(each, Call))
@@ -357,7 +358,7 @@ def test_a_large_set_is_not_told_and_stops_nothing(monkeypatch: pytest.MonkeyPat
 
 
 @given(block=st.integers(1, 400), limit=st.integers(1500, 5000))
-@settings(max_examples=100, deadline=None)
+@examples(1)
 def test_wherever_a_large_set_is_cut_the_rest_is_told(block: int, limit: int) -> None:
     capture = with_sets([sampled(71)] * 20)
     capture.chunk("vkCmdDraw", {"vertexCount": 3})
@@ -432,7 +433,7 @@ def test_what_is_no_zip_is_no_matter(tmp_path: Path) -> None:
 
 
 @given(at=st.integers(0, 10**6), bit=st.integers(0, 7))
-@settings(max_examples=150, deadline=None)
+@examples(1.5)
 def test_a_flipped_bit_in_the_zip_gives_the_code_or_nothing(at: int, bit: int, tmp_path_factory: pytest.TempPathFactory) -> None:
     capture = written(PROGRAM)
     data = bytearray(capture.zip())
@@ -551,7 +552,7 @@ def test_truncated_at_every_byte() -> None:
 
 
 @given(flips=st.lists(st.tuples(st.integers(0, 10**6), st.integers(0, 7)), min_size=1, max_size=4), block=st.integers(1, 300))
-@settings(max_examples=300, deadline=None)
+@examples(3)
 def test_flipped_bits_break_nothing_else(flips: list[tuple[int, int]], block: int) -> None:
     text = bytearray(written(PROGRAM).text())
     first = min(at % len(text) for at, _ in flips)
@@ -595,7 +596,7 @@ elements = st.recursive(
 
 
 @given(st.lists(st.builds(element, st.just("chunk"), st.sampled_from(CHUNKS), st.lists(elements, max_size=5).map("".join)), max_size=8))
-@settings(max_examples=150, deadline=None)
+@examples(1.5)
 def test_chunks_of_any_shape(chunks: list[str]) -> None:
     found, broken = read(xml("".join(chunks)))
     assert broken is None or (broken.message.endswith(" is no value of `bool`") and broken.place.call is not None)
@@ -605,7 +606,7 @@ def test_chunks_of_any_shape(chunks: list[str]) -> None:
 
 
 @given(block=st.integers(1, 5000))
-@settings(max_examples=30, deadline=None)
+@examples(0.3)
 def test_blocks_of_any_size_give_the_same(block: int) -> None:
     text = written(PROGRAM).text()
     assert [each for each in renderdoc.calls(Slow(text, block), Everything(), None) if isinstance(each, Call)] == read(text)[0]

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from msaa_lint import lint
@@ -22,6 +22,7 @@ from msaa_lint.linter.rules.registry import load
 from tests.frame.description.shapes import JUNK, paths, replaced
 from tests.frame.description.test_schema import value_of
 from tests.paths import ROOT, SAMPLES
+from tests.strength import examples
 
 DATA = ROOT / "tests" / "data"
 FOLDER = SAMPLES / "vulkan_sc"
@@ -221,7 +222,7 @@ ENGINE = Engine(load())
 VALUES: list[Any] = [value_of(parse(Source("x", text), Limits()).documents[0]) for text in (RENDERPASS, RENDERPASS2)]
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@examples(1.5, suppress_health_check=[HealthCheck.too_slow])
 @given(st.sampled_from([0, 1]), st.lists(st.tuples(st.integers(0, 10**6), JUNK | st.text(max_size=3)), min_size=1, max_size=4))
 def test_garbage_in_any_member_never_crashes(which: int, changes: list[tuple[int, Any]]) -> None:
     value = VALUES[which]

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from random import Random
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from msaa_lint.core.text.edits import apply
@@ -17,6 +17,7 @@ from tests.linter.fixes.judging import _meaning, comments_of, fixed, kinds, lint
 from tests.linter.fixes.spelled import data_of, written
 from tests.pages import all_examples
 from tests.paths import ROOT
+from tests.strength import examples
 
 EXAMPLES = sorted((ROOT / "examples").rglob("*.msaa.yaml"))
 TEXTS = {str(each): each.text for each in all_examples() if each.kind == "bad"}
@@ -54,7 +55,7 @@ def check(text: str, unsafe: bool) -> None:
     assert comments_of(done.text) == comments_of(text)
 
 
-@settings(max_examples=400, deadline=None)
+@examples(4)
 @given(st.sampled_from(MENDABLE), st.integers(0, 2**32), st.booleans())
 @example("clear-command-instead-of-load-op-bad-2", 0, True)
 def test_however_it_is_written(name: str, seed: int, unsafe: bool) -> None:
@@ -72,7 +73,7 @@ def test_however_it_is_written(name: str, seed: int, unsafe: bool) -> None:
     assert done.text.endswith("\n") == text.endswith("\n")
 
 
-@settings(max_examples=300, deadline=None)
+@examples(3)
 @given(st.sampled_from(MENDABLE), st.integers(0, 2**32), st.sampled_from([0.0, 0.2, 0.6]))
 def test_an_edit_makes_its_changes_and_no_others(name: str, seed: int, shared: float) -> None:
     """The text with a fix's edits means what the records with its changes mean, also where anchors share what it changes."""
@@ -121,7 +122,7 @@ def stated_with(linted: FileResult, made: Sequence[Change]) -> object:
     return found
 
 
-@settings(max_examples=150, deadline=None)
+@examples(1.5)
 @given(st.sampled_from(MENDABLE), st.integers(0, 2**32), st.booleans())
 def test_what_anchors_share_is_mended_by_the_same_laws(name: str, seed: int, unsafe: bool) -> None:
     check(written(DATA[name], Random(seed), 0.4), unsafe)

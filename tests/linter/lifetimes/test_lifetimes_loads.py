@@ -9,12 +9,13 @@ import textwrap
 from typing import NamedTuple
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.linter.engine import FileResult
 from tests.linter.lifetimes import watched as given_frames
 from tests.linter.lifetimes.watched import ENGINE, as_written
+from tests.strength import examples
 
 WATCHED = {f"MSAA{number}" for number in (107, 208, 209, 211, 212, 213, 214)}
 
@@ -152,7 +153,7 @@ def frames(draw: st.DrawFn, alternating: bool) -> tuple[Operations, list[Step]]:
     return operations, steps
 
 
-@settings(max_examples=300, deadline=None)
+@examples(3)
 @given(st.booleans().flatmap(frames))
 def test_a_frame_that_is_played(case: tuple[Operations, list[Step]]) -> None:
     """Whatever the order, however often a pass is begun, and whichever images alternate."""
@@ -165,7 +166,7 @@ def test_a_frame_that_is_played(case: tuple[Operations, list[Step]]) -> None:
     assert found(linted, "MSAA213") == expected.copied
 
 
-@settings(max_examples=100, deadline=None)
+@examples(1)
 @given(st.booleans().flatmap(frames), st.integers(0, 30), st.integers(0, IMAGES - 1))
 def test_a_further_reader_excuses_stores_and_blames_none(case: tuple[Operations, list[Step]], at: int, image: int) -> None:
     operations, steps = case
@@ -175,7 +176,7 @@ def test_a_further_reader_excuses_stores_and_blames_none(case: tuple[Operations,
     assert after <= before
 
 
-@settings(max_examples=100, deadline=None)
+@examples(1)
 @given(frames(alternating=False), st.integers(0, 6))
 def test_where_the_loop_is_cut_does_not_matter(case: tuple[Operations, list[Step]], at: int) -> None:
     """By what the usage tells, the frame may begin anywhere."""
@@ -186,7 +187,7 @@ def test_where_the_loop_is_cut_does_not_matter(case: tuple[Operations, list[Step
         assert found(one, code) == found(other, code)
 
 
-@settings(max_examples=100, deadline=None)
+@examples(1)
 @given(frames(alternating=True))
 def test_what_the_usage_does_not_tell_is_never_more(case: tuple[Operations, list[Step]]) -> None:
     """Unknown is not wrong: without a usage a part of it is found."""
@@ -214,7 +215,7 @@ NEUTRAL = [
 ]
 
 
-@settings(max_examples=120, deadline=None)
+@examples(1.2)
 @given(
     st.lists(st.sampled_from(NEUTRAL), max_size=4),
     st.sampled_from(["CLEAR", "DONT_CARE"]),

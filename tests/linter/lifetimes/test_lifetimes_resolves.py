@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.core.finding import Finding
@@ -17,6 +17,7 @@ from msaa_lint.linter.engine import FileResult
 from msaa_lint.linter.fixes import fixer as rounds
 from tests.linter.lifetimes import watched as given_frames
 from tests.linter.lifetimes.watched import given_text, lint
+from tests.strength import examples
 
 WATCHED = {"MSAA307", "MSAA308", "MSAA315", "MSAA317", "MSAA406", "MSAA601"}
 
@@ -329,14 +330,14 @@ BARRIERS = st.lists(
 )
 
 
-@settings(max_examples=80, deadline=None)
+@examples(0.8)
 @given(BARRIERS, BARRIERS)
 def test_one_more_wait_for_all_commands_is_enough(before: list[str], after: list[str]) -> None:
     """Wherever it stands, and whatever else is waited for."""
     assert waits(*before, barrier("ALL_COMMANDS", "ALL_COMMANDS"), *after) is True
 
 
-@settings(max_examples=80, deadline=None)
+@examples(0.8)
 @given(BARRIERS)
 def test_waits_without_the_stage_are_never_enough(barriers: list[str]) -> None:
     without = [re.sub("COLOR_ATTACHMENT_OUTPUT|ALL_COMMANDS", "EARLY_FRAGMENT_TESTS", each) for each in barriers]
@@ -548,7 +549,7 @@ def played(steps: list[str]) -> tuple[set[int], set[int]]:
     return unread, anew
 
 
-@settings(max_examples=150, deadline=None)
+@examples(1.5)
 @given(st.lists(st.sampled_from(STEPS), min_size=1, max_size=7))
 def test_what_nothing_reads_is_what_nothing_read_when_the_frame_was_played(steps: list[str]) -> None:
     lines, places = [], {}
@@ -923,7 +924,7 @@ def test_spare_images_cost_their_memory() -> None:
     assert "two: {renderPass: scene, attachments: [ms_0, back_1]}" in after
 
 
-@settings(max_examples=40, deadline=None)
+@examples(0.4)
 @given(st.integers(2, 5), st.integers(1, 6))
 def test_as_many_as_presentable_images_and_no_other_number(presentable: int, multisampled: int) -> None:
     images = [f"  ms_{n}: {{format: R8G8B8A8_UNORM, samples: 4}}" for n in range(multisampled)]

@@ -6,11 +6,12 @@ import itertools
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.linter.rules.condition import Condition, ConditionError, activation, check, literals, named
 from msaa_lint.linter.rules.rule_file import MAX_CONDITION
+from tests.strength import examples
 
 TEXTS = {"image.transient": "image.transient", "image.loaded": "image.loaded", "image.read": "image.read"}
 
@@ -61,7 +62,7 @@ def test_answers(text: str, facts: dict[str, Any], answer: bool | None) -> None:
     assert holds(text, **facts) is answer
 
 
-@settings(max_examples=100, deadline=None)
+@examples(1)
 @given(
     st.recursive(st.sampled_from(list(TEXTS)), lambda inner: st.tuples(st.sampled_from(["&&", "||", "!"]), inner, inner), max_leaves=6),
     st.data(),

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.core.finding import Finding
@@ -14,6 +14,7 @@ from msaa_lint.linter.engine import Engine, FileResult
 from msaa_lint.linter.rules.registry import Registry, load, markdown
 from msaa_lint.linter.rules.rule_file import KEYS, MAX_CONDITION, Rule, first_sentence, read_page, split
 from tests.marked import unmarked
+from tests.strength import examples
 
 PAGE = """---
 code: ACME001
@@ -304,7 +305,7 @@ VALUES: st.SearchStrategy[Any] = st.sampled_from(
 )
 
 
-@settings(max_examples=150, deadline=None)
+@examples(1.5)
 @given(st.dictionaries(st.sampled_from(KEYS), VALUES, max_size=6))
 def test_garbage_in_a_page_is_told_and_never_a_failure(tmp_path_factory: pytest.TempPathFactory, given_values: dict[str, str]) -> None:
     lines = dict(line.split(": ", 1) for line in PAGE.split("---")[1].strip().splitlines())

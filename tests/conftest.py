@@ -1,0 +1,5 @@
+"""Settings of every test."""
+
+from tests.strength import load_profile
+
+load_profile()
