@@ -99,48 +99,6 @@ def test_which_stages_wait_for_a_resolve_of_depth(stages: str, answer: bool) -> 
     assert waits(barrier(stages)) is answer
 
 
-def test_what_is_not_stated_is_undecided() -> None:
-    assert waits() is None
-    assert waits("- pipelineBarrier: {dstStageMask: [FRAGMENT_SHADER], images: [depth]}") is None
-
-
-def test_barriers_count_together() -> None:
-    late, color = barrier("LATE_FRAGMENT_TESTS"), barrier("COLOR_ATTACHMENT_OUTPUT", access="COLOR_ATTACHMENT_WRITE")
-    assert waits(late, color) is True
-    assert waits(color, late) is True
-    assert waits(late, late) is False
-
-
-def test_a_barrier_for_another_image_is_for_another_image() -> None:
-    assert waits(barrier("LATE_FRAGMENT_TESTS", images="other")) is None
-    # Its execution dependency holds, what the resolve wrote is not made available by it.
-    assert waits(barrier("LATE_FRAGMENT_TESTS"), barrier("COLOR_ATTACHMENT_OUTPUT", images="other")) is False
-
-
-def test_a_barrier_without_images_is_for_all_memory() -> None:
-    assert waits(barrier("LATE_FRAGMENT_TESTS", images="")) is False
-    assert waits(barrier("COLOR_ATTACHMENT_OUTPUT", images="")) is True
-    # Not meant for this reader: they hold back no fragment shader, or make nothing available that a resolve may be taken for.
-    assert waits(barrier("LATE_FRAGMENT_TESTS", into="LATE_FRAGMENT_TESTS", images="")) is None
-    assert waits(barrier("VERTEX_SHADER", access="SHADER_WRITE", images="")) is None
-
-
-def test_waits_follow_from_one_another() -> None:
-    """Each holds back what the next one waits for; stages of drawing include those before them, and what comes after them."""
-    first = barrier("COLOR_ATTACHMENT_OUTPUT", into="TRANSFER", images="")
-    assert waits(first, barrier("TRANSFER")) is True
-    assert waits(first, barrier("COMPUTE_SHADER")) is False
-    early = barrier("COLOR_ATTACHMENT_OUTPUT", into="EARLY_FRAGMENT_TESTS", images="")
-    assert waits(early, barrier("LATE_FRAGMENT_TESTS")) is True
-    assert waits(barrier("LATE_FRAGMENT_TESTS"), barrier("COLOR_ATTACHMENT_OUTPUT", into="COLOR_ATTACHMENT_OUTPUT", images="")) is False
-
-
-@pytest.mark.parametrize(("stage", "into"), [("COMPUTE", "COMPUTE_SHADER"), ("VERTEX", "VERTEX_SHADER"), ("RAYGEN_KHR", "ALL_COMMANDS")])
-def test_readers_of_other_stages(stage: str, into: str) -> None:
-    assert waits(barrier("LATE_FRAGMENT_TESTS", into=into, images=""), stage=stage) is False
-    assert waits(barrier("COLOR_ATTACHMENT_OUTPUT", into=into, images=""), stage=stage) is True
-
-
 PASSES = """
     images:
       depth_ms: {format: D32_SFLOAT, samples: 4}
@@ -245,71 +203,6 @@ def test_within_a_pass_nothing_else_can_order_them() -> None:
     assert [label.text for label in found.labels] == ["resolved here"]
 
 
-def test_a_reader_of_the_next_frame_is_found_round_the_loop() -> None:
-    check("""
-    images:
-      depth_ms: {format: D32_SFLOAT, samples: 4}
-      depth: {format: D32_SFLOAT, samples: 1}
-    commands:
-      - pipelineBarrier: {srcStageMask: [LATE_FRAGMENT_TESTS], dstStageMask: [COMPUTE_SHADER], images: [depth]}
-    #                                   ^^^^^^^^^^^^^^^^^^^^^ MSAA601 error low
-      - readImage: {image: depth, stage: COMPUTE}
-      - beginRendering: {depthAttachment: {image: depth_ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: MAX, resolveImage: depth}}
-      - endRendering
-    """)
-
-
-def test_the_first_reader_counts_and_an_overwritten_resolve_has_none() -> None:
-    check("""
-    images:
-      ms: {format: R8G8B8A8_UNORM, samples: 4}
-      color: {format: R8G8B8A8_UNORM, samples: 1}
-    commands:
-      - beginRendering: {colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: AVERAGE, resolveImage: color}]}
-      - endRendering
-      - pipelineBarrier: {srcStageMask: [COLOR_ATTACHMENT_OUTPUT], dstStageMask: [FRAGMENT_SHADER], images: [color]}
-      - readImage: {image: color, stage: FRAGMENT}
-      - pipelineBarrier: {srcStageMask: [FRAGMENT_SHADER], dstStageMask: [COMPUTE_SHADER], images: [color]}
-      - readImage: {image: color, stage: COMPUTE}
-      - beginRendering: {colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: AVERAGE, resolveImage: color}]}
-      - endRendering
-      - pipelineBarrier: {srcStageMask: [LATE_FRAGMENT_TESTS], dstStageMask: [FRAGMENT_SHADER], images: [color]}
-      - clearColorImage: {image: color}
-      - readImage: {image: color, stage: FRAGMENT}
-    """)
-
-
-def test_a_presentation_has_a_semaphore() -> None:
-    check("""
-    images:
-      ms: {format: R8G8B8A8_UNORM, samples: 4}
-      back: {format: R8G8B8A8_UNORM, samples: 1, presentable: true}
-    commands:
-      - beginRendering: {colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: AVERAGE, resolveImage: back}]}
-      - endRendering
-      - pipelineBarrier: {srcStageMask: [LATE_FRAGMENT_TESTS], dstStageMask: [BOTTOM_OF_PIPE], images: [back]}
-      - present: {image: back}
-    """)
-
-
-@pytest.mark.parametrize("stages", ["TRANSFER", "RESOLVE", "COLOR_ATTACHMENT_OUTPUT, ALL_TRANSFER", "ALL_COMMANDS"])
-def test_a_command_resolves_in_transfer(stages: str) -> None:
-    check(
-        """
-    images:
-      ms: {format: R8G8B8A8_UNORM, samples: 4}
-      color: {format: R8G8B8A8_UNORM, samples: 1}
-    commands:
-      - beginRendering: {colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: STORE}]}
-      - endRendering
-      - resolveImage: {srcImage: ms, dstImage: color}
-      - pipelineBarrier: {srcStageMask: [$stages], dstStageMask: [FRAGMENT_SHADER], images: [color]}
-      - readImage: {image: color, stage: FRAGMENT}
-    """,
-        stages=stages,
-    )
-
-
 def test_a_wait_is_mended_and_nothing_else() -> None:
     text = given_text(READ_AFTER, barriers=barrier("LATE_FRAGMENT_TESTS"), stage="FRAGMENT")
     after = fixed(text, "MSAA601")
@@ -346,67 +239,6 @@ def test_waits_without_the_stage_are_never_enough(barriers: list[str]) -> None:
     assert answer is False if meant else answer in (None, False)
 
 
-# 308: who reads resolved depth.
-
-
-@pytest.mark.parametrize(
-    "reader",
-    [
-        "readImage: {image: depth, stage: COMPUTE}",
-        "copyImage: {srcImage: depth, dstImage: other}",
-        "copyImageToBuffer: {srcImage: depth}",
-        "beginRendering: {depthAttachment: {image: depth, loadOp: LOAD, storeOp: DONT_CARE}}",
-    ],
-)
-@pytest.mark.parametrize("after", [True, False])
-def test_resolved_depth_has_a_reader(reader: str, after: bool) -> None:
-    """After the pass, or, the frame being a loop, before it in the next frame."""
-    end = "\n      - endRendering" if "begin" in reader else ""
-    check(
-        """
-    images:
-      depth_ms: {format: D32_SFLOAT, samples: 4}
-      depth: {format: D32_SFLOAT, samples: 1}
-      other: {format: D32_SFLOAT, samples: 1}
-    commands:
-      $before
-      - beginRendering: {depthAttachment: {image: depth_ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: MIN, resolveImage: depth}}
-      - endRendering
-      $after
-    """,
-        before="" if after else f"- {reader}{end}",
-        after=f"- {reader}{end}" if after else "",
-    )
-
-
-@pytest.mark.parametrize(
-    "overwrite",
-    [
-        "clearDepthStencilImage: {image: depth}",
-        "beginRendering: {depthAttachment: {image: depth, loadOp: CLEAR, storeOp: STORE}}",
-        "pipelineBarrier: {images: [{image: depth, oldLayout: UNDEFINED, newLayout: GENERAL}]}",
-    ],
-)
-def test_resolved_depth_that_is_overwritten_has_none(overwrite: str) -> None:
-    end = "- endRendering" if "begin" in overwrite else ""
-    check(
-        """
-    images:
-      depth_ms: {format: D32_SFLOAT, samples: 4}
-      depth: {format: D32_SFLOAT, samples: 1}
-    commands:
-      - beginRendering: {depthAttachment: {image: depth_ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: MIN, resolveImage: depth}}
-    #                                                                                                       ^^^ MSAA308 warning medium
-      - endRendering
-      - $overwrite
-      $end
-      - readImage: {image: depth, stage: COMPUTE}
-    """,
-        overwrite=overwrite,
-        end=end,
-    )
-
-
 BOTH = """
     device: {name: any, independentResolve: $alone, independentResolveNone: $alone}
     images:
@@ -436,16 +268,6 @@ BOTH = """
       - beginRenderPass: {renderPass: second}
       - endRenderPass
     """
-DEPTH_MARK = "#                           ^^^^^^^^^^^ MSAA308"
-STENCIL_MARK = "#                             ^^^^^^^^^^^ MSAA308"
-
-
-def test_depth_and_stencil_are_read_apart() -> None:
-    check(BOTH, alone="true", load="LOAD", depth="", stencil=STENCIL_MARK)
-    check(BOTH, alone="true", load="CLEAR", depth=DEPTH_MARK, stencil=STENCIL_MARK)
-    # Where they are resolved alike or not at all, one reader keeps both; two without one are two mistakes on every device.
-    check(BOTH, alone="false", load="LOAD", depth="", stencil="")
-    check(BOTH, alone="false", load="CLEAR", depth=DEPTH_MARK, stencil=STENCIL_MARK)
 
 
 def test_one_of_two_aspects_is_left_out() -> None:
@@ -453,37 +275,6 @@ def test_one_of_two_aspects_is_left_out() -> None:
     assert fixed(text, "MSAA308") == text.replace("stencilResolveMode: SAMPLE_ZERO", "stencilResolveMode: NONE").replace(
         "stencilStoreOp: STORE", "stencilStoreOp: DONT_CARE"
     )
-
-
-@pytest.mark.parametrize(
-    ("usage", "found", "unknown"),
-    [
-        ("usage: [DEPTH_STENCIL_ATTACHMENT]", True, False),
-        ("usage: [DEPTH_STENCIL_ATTACHMENT, SAMPLED]", False, False),
-        ("usage: [DEPTH_STENCIL_ATTACHMENT, TRANSFER_SRC]", False, False),
-        ("flags: []", False, True),
-    ],
-)
-def test_without_commands_the_usage_tells(usage: str, found: bool, unknown: bool) -> None:
-    linted = lint(
-        given_text(
-            """
-    images:
-      depth: {format: D32_SFLOAT, samples: 1, $usage}
-    renderPasses:
-      scene:
-        attachments:
-          ms: {format: D32_SFLOAT, samples: 4, loadOp: CLEAR, storeOp: DONT_CARE}
-          depth: {image: depth, loadOp: DONT_CARE, storeOp: STORE}
-        subpasses:
-          - depthStencilAttachment: ms
-            depthStencilResolve: {attachment: depth, depthResolveMode: MIN, stencilResolveMode: NONE}
-    """,
-            usage=usage,
-        )
-    )
-    at = ("MSAA308", "renderPasses.scene.subpasses[0].depthStencilResolve")
-    assert ({"MSAA308"} <= {each.code for each in linted.findings}, at in undecided(linted)) == (found, unknown)
 
 
 def test_an_unread_depth_resolve_costs_its_write() -> None:
@@ -573,9 +364,6 @@ def test_what_nothing_reads_is_what_nothing_read_when_the_frame_was_played(steps
     assert {number for code, number in found if code == "MSAA308"} == unread - anew
 
 
-# 317: samples that are resolved again.
-
-
 def test_with_nothing_drawn_between() -> None:
     linted = check("""
     images:
@@ -595,116 +383,6 @@ def test_with_nothing_drawn_between() -> None:
     assert found.fix is not None and found.fix.shown
     (label,) = found.labels
     assert linted.source is not None and linted.source.position(label.span.start).line == 6
-
-
-@pytest.mark.parametrize(
-    "between",
-    [
-        "- beginRendering: {colorAttachments: [{image: ms, loadOp: LOAD, storeOp: STORE}]}\n      - endRendering",
-        "- writeImage: {image: ms, stage: COMPUTE}",
-        "- copyImage: {srcImage: other, dstImage: ms}",
-        "- clearColorImage: {image: ms}",
-    ],
-)
-def test_with_something_between_both_results_are_wanted(between: str) -> None:
-    check(
-        """
-    images:
-      ms: {format: R8G8B8A8_UNORM, samples: 4}
-      other: {format: R8G8B8A8_UNORM, samples: 4}
-      one: {format: R8G8B8A8_UNORM, samples: 1}
-      two: {format: R8G8B8A8_UNORM, samples: 1}
-    commands:
-      - beginRendering: {colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: STORE, resolveMode: AVERAGE, resolveImage: one}]}
-      - endRendering
-      $between
-      - resolveImage: {srcImage: ms, dstImage: two}
-      - readImage: {image: one, stage: FRAGMENT}
-      - readImage: {image: two, stage: FRAGMENT}
-    """,
-        between=between,
-    )
-
-
-def test_a_pass_that_is_begun_twice_and_loads_resolves_each_time_anew() -> None:
-    check("""
-    images:
-      ms: {format: R8G8B8A8_UNORM, samples: 4}
-      back: {format: R8G8B8A8_UNORM, samples: 1, presentable: true}
-    renderPasses:
-      grow:
-        attachments:
-          ms: {image: ms, loadOp: LOAD, storeOp: STORE}
-          back: {image: back, loadOp: DONT_CARE, storeOp: STORE}
-        subpasses:
-          - {colorAttachments: [ms], resolveAttachments: [back]}
-    #                                                     ^^^^ MSAA317 warning high
-    commands:
-      - beginRenderPass: {renderPass: grow}
-      - endRenderPass
-      - beginRenderPass: {renderPass: grow}
-      - endRenderPass
-      - present: {image: back}
-    """)
-
-
-@pytest.mark.parametrize(
-    ("first", "second", "images"),
-    [
-        ("renderArea: {x: 0, width: 32, height: 64}, ", "renderArea: {x: 32, width: 32, height: 64}, ", "extent: {width: 64, height: 64}"),
-        ("layerCount: 1, ", "layerCount: 1, ", "arrayLayers: 2"),
-    ],
-)
-def test_parts_of_an_image_are_resolved_part_by_part(first: str, second: str, images: str) -> None:
-    check(
-        """
-    images:
-      ms: {format: R8G8B8A8_UNORM, samples: 4, $images}
-      color: {format: R8G8B8A8_UNORM, samples: 1, $images}
-    commands:
-      - beginRendering: {${first}colorAttachments: [{image: ms, loadOp: LOAD, storeOp: STORE, resolveMode: AVERAGE, resolveImage: color}]}
-      - endRendering
-      - beginRendering: {${second}colorAttachments: [{image: ms, loadOp: LOAD, storeOp: STORE, resolveMode: AVERAGE, resolveImage: color}]}
-      - endRendering
-      - readImage: {image: color, stage: FRAGMENT}
-    """,
-        first=first,
-        second=second,
-        images=images,
-    )
-
-
-def test_a_load_operation_that_is_not_stated_leaves_it_undecided() -> None:
-    linted = check("""
-    images:
-      ms: {format: R8G8B8A8_UNORM, samples: 4}
-      color: {format: R8G8B8A8_UNORM, samples: 1}
-    commands:
-      - beginRendering: {colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: STORE, resolveMode: AVERAGE, resolveImage: color}]}
-      - endRendering
-      - beginRendering: {colorAttachments: [{image: ms, storeOp: STORE, resolveMode: AVERAGE, resolveImage: color}]}
-      - endRendering
-      - readImage: {image: color, stage: FRAGMENT}
-    """)
-    assert ("MSAA317", "commands[0].beginRendering.colorAttachments[0]") in undecided(linted)
-
-
-def test_a_suspended_rendering_resolves_when_it_ends() -> None:
-    check("""
-    images:
-      ms: {format: R8G8B8A8_UNORM, samples: 4}
-      color: {format: R8G8B8A8_UNORM, samples: 1}
-    commands:
-      - beginRendering:
-          flags: [SUSPENDING]
-          colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: STORE, resolveMode: AVERAGE, resolveImage: color}]
-      - endRendering
-      - beginRendering:
-          flags: [RESUMING]
-          colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: STORE, resolveMode: AVERAGE, resolveImage: color}]
-      - endRendering
-      - readImage: {image: color, stage: FRAGMENT}
-    """)
 
 
 def test_a_slot_of_a_subpass_is_emptied() -> None:
@@ -777,24 +455,6 @@ def test_same_format_and_size(command: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("command", "change", "mark"),
-    [
-        ("copyImage", {"to_size": ""}, " warning medium"),
-        ("blitImage", {"to_size": ""}, " note low"),
-        ("blitImage", {"to_size": ", extent: {width: 128, height: 64}"}, ""),
-        ("blitImage", {"to": "R8G8B8A8_SRGB"}, ""),
-        ("copyImage", {"to": "R8G8B8A8_SRGB"}, ""),
-        ("copyImageToBuffer", {}, ""),
-    ],
-)
-def test_what_scales_or_converts_is_no_detour(command: str, change: dict[str, str], mark: str) -> None:
-    if command == "copyImageToBuffer":
-        copied(before="- copyImageToBuffer: {srcImage: color}")
-    else:
-        copied(mark, command=command, **change)
-
-
-@pytest.mark.parametrize(
     "change",
     [
         {"before": "- beginRendering: {colorAttachments: [{image: color, loadOp: LOAD, storeOp: STORE}]}\n      - endRendering"},
@@ -811,33 +471,6 @@ def test_what_scales_or_converts_is_no_detour(command: str, change: dict[str, st
 )
 def test_a_picture_that_is_used_otherwise_is_no_detour(change: dict[str, str]) -> None:
     copied(**change)
-
-
-def test_what_is_drawn_over_the_copy_does_not_need_it() -> None:
-    over = "- beginRendering: {colorAttachments: [{image: back, loadOp: LOAD, storeOp: STORE}]}\n      - endRendering"
-    copied(" warning high", after=over)
-
-
-def test_an_image_that_is_presented_is_presentable() -> None:
-    """Both ends: a picture that is itself presented is no detour."""
-    copied(then="- present: {image: color}")
-
-
-def test_a_part_of_an_image_is_no_detour() -> None:
-    """Dynamic resolution: the pass renders a corner, which a blit enlarges."""
-    check("""
-    images:
-      ms: {format: R8G8B8A8_UNORM, samples: 4, extent: {width: 64, height: 64}}
-      color: {format: R8G8B8A8_UNORM, samples: 1, extent: {width: 64, height: 64}}
-      back: {format: R8G8B8A8_UNORM, samples: 1, presentable: true, extent: {width: 64, height: 64}}
-    commands:
-      - beginRendering:
-          renderArea: {x: 0, y: 0, width: 48, height: 48}
-          colorAttachments: [{image: ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: AVERAGE, resolveImage: color}]
-      - endRendering
-      - blitImage: {srcImage: color, dstImage: back}
-      - present: {image: back}
-    """)
 
 
 def test_the_copy_costs_its_read_and_write() -> None:
@@ -880,38 +513,6 @@ TURNS = """
       two: {renderPass: scene, attachments: [ms_1, back_1]}
     $commands
     """
-
-
-@pytest.mark.parametrize(
-    ("commands", "confidence"),
-    [
-        ("commands: [{beginRenderPass: {renderPass: scene, framebuffer: [one, two]}}, endRenderPass]", "high"),
-        ("commands: [{beginRenderPass: {renderPass: scene, framebuffer: two}}, endRenderPass, {present: {image: back_1}}]", "medium"),
-        ("", "medium"),
-        (
-            "commands: [{beginRenderPass: {renderPass: scene, framebuffer: one}}, endRenderPass, "
-            "{beginRenderPass: {renderPass: scene, framebuffer: two}}, endRenderPass]",
-            "",
-        ),
-        ("commands: [{beginRenderPass: {renderPass: scene, framebuffer: [one, two, one]}}, endRenderPass]", ""),
-        (
-            "commands: [{beginRenderPass: {renderPass: scene, framebuffer: [one, two]}}, endRenderPass, "
-            "{readImage: {image: ms_1, stage: FRAGMENT}}]",
-            "",
-        ),
-    ],
-)
-def test_one_for_each_image_of_a_swapchain(commands: str, confidence: str) -> None:
-    linted = lint(given_text(TURNS, commands=commands, load="CLEAR", count="4"))
-    found = [each for each in linted.findings if each.code == "MSAA406"]
-    assert [(each.subject, each.confidence) for each in found] == ([("images.ms_0", confidence)] if confidence else [])
-
-
-@pytest.mark.parametrize("change", [{"load": "LOAD"}, {"load": "NONE"}, {"count": "2"}])
-def test_images_that_keep_something_or_differ_do_not_take_turns(change: dict[str, str]) -> None:
-    commands = "commands: [{beginRenderPass: {renderPass: scene, framebuffer: [one, two]}}, endRenderPass]"
-    linted = lint(given_text(TURNS, **{"commands": commands, "load": "CLEAR", "count": "4", **change}))
-    assert ("MSAA406" in {each.code for each in linted.findings}) == (change == {"load": "NONE"})
 
 
 def test_spare_images_cost_their_memory() -> None:
@@ -957,39 +558,3 @@ def unresolved(mark: str, *readers: str, version: str = "1.2", format: str = "D3
 
 
 READ_ONE, READ_ALL = "- readImage: {image: depth_ms, samples: 1}", "- readImage: {image: depth_ms, samples: ALL}"
-READ_SOME = "- readImage: {image: depth_ms}"
-
-
-def test_a_shader_that_fetches_one_sample() -> None:
-    unresolved(" warning high", READ_ONE)
-    unresolved(" warning high", READ_ONE, READ_ONE)
-    unresolved(" warning medium", READ_SOME)
-    unresolved(" warning medium", READ_ONE, READ_SOME)
-    # Which of the two aspects the shader reads is not stated.
-    unresolved(" warning medium", READ_ONE, format="D24_UNORM_S8_UINT")
-
-
-@pytest.mark.parametrize(
-    "readers",
-    [
-        [READ_ALL],
-        [READ_ONE, READ_ALL],
-        ["- readImage: {image: depth_ms, resolves: MIN}"],
-        [READ_ONE, "- copyImageToBuffer: {srcImage: depth_ms}"],
-        [READ_ONE, "- beginRendering: {depthAttachment: {image: depth_ms, loadOp: LOAD, storeOp: NONE}}", "- endRendering"],
-        [],
-    ],
-)
-def test_samples_that_are_needed_or_not_read_at_all(readers: list[str]) -> None:
-    unresolved("", *readers)
-
-
-def test_depth_stencil_resolve_must_be_there() -> None:
-    unresolved("", READ_ONE, version="1.1")
-    linted = lint(given_text(UNRESOLVED, version="1.2", mark="", readers=READ_ONE, format="D32_SFLOAT").split("\n", 1)[1])
-    assert ("MSAA307", "commands[0].beginRendering.depthAttachment") in undecided(linted)
-
-
-def test_of_two_passes_the_one_whose_samples_the_shader_reads() -> None:
-    again = "{depthAttachment: {image: depth_ms, loadOp: CLEAR, storeOp: STORE}}"
-    unresolved(" warning high", READ_ONE, f"- beginRendering: {again}", "- endRendering", READ_ALL)
