@@ -8,7 +8,7 @@ from __future__ import annotations
 import pytest
 
 from msaa_lint.core.finding import Finding
-from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.engine import Engine, LintOptions
 from msaa_lint.linter.rules.registry import load
 from msaa_lint.linter.rules.rule_file import Rule
 
@@ -20,7 +20,7 @@ def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
 
 
 def findings(text: str) -> list[Finding]:
-    linted = ENGINE.lint(text.encode(), "frame.yaml", as_written)
+    linted = ENGINE.lint(text.encode(), "frame.yaml", LintOptions(as_written))
     assert not [found.message for found in linted.findings if found.fatal]
     return linted.findings
 

@@ -7,8 +7,10 @@ from collections.abc import Callable
 
 import pytest
 
-from msaa_lint.input.source_file import programmed
-from msaa_lint.linter.engine import Engine, FileResult
+from msaa_lint.input.source_file import read_source_file
+from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.fixes.fix_checks import problems
+from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.condition import Condition
 from msaa_lint.linter.rules.registry import EDITIONS, check_rule, load, markdown
 from msaa_lint.linter.rules.rule_file import Rule
@@ -28,8 +30,8 @@ def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
 def lint(text: str, severity: Callable[[Rule, str, str | None], str | None] = as_written, language: str = "yaml") -> FileResult:
     name = str(RULES / f"example.{language}")
     if language in PROGRAMS:
-        return ENGINE.lint(programmed(text.encode(), name, language), name, severity)
-    return ENGINE.lint(text.encode(), name, severity)
+        return ENGINE.lint(read_source_file(text.encode(), name, language), name, LintOptions(severity))
+    return ENGINE.lint(text.encode(), name, LintOptions(severity))
 
 
 def places(linted: FileResult, rule: str) -> list[tuple[int, int, int]]:
@@ -51,7 +53,7 @@ def test_every_page_loads() -> None:
 @pytest.mark.parametrize("rule", CATALOGUE.rules, ids=lambda rule: rule.name)
 def test_page(rule: Rule) -> None:
     """A page's conditions compile, its facts and words exist, its form is the catalogue's."""
-    assert check_rule(rule) == []
+    assert check_rule(rule) == problems(rule) == []
     assert re.fullmatch(r"MSAA[1-8]\d\d", rule.code)
     assert rule.edition in EDITIONS
     assert rule.at, "a built-in rule says where it points"
@@ -70,7 +72,7 @@ def test_page_has_examples(rule: Rule) -> None:
     kinds = [example.kind for example in examples(RULES / f"{rule.name}.md", (*DESCRIPTIONS, *PROGRAMS))]
     assert "bad" in kinds
     assert "good" in kinds
-    assert ("fixed" in kinds) == bool(rule.mends)
+    assert ("fixed" in kinds) == bool(rule.fix_specs)
 
 
 @pytest.mark.parametrize("example", [e for e in EXAMPLES if e.kind == "bad"], ids=str)

@@ -13,7 +13,7 @@ from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.input import readers
 from msaa_lint.input.shader_modules import Modules
-from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.engine import Engine, LintOptions
 from msaa_lint.linter.rules.registry import load
 from tests.paths import ROOT
 
@@ -224,7 +224,7 @@ def test_its_price_is_the_way_of_the_samples_through_memory(tmp_path: Path) -> N
     assert found.fix is not None and found.fix.shown and found.fix.edits == ()
     engine = Engine(load())
     text = (tmp_path / "frame.msaa.yaml").read_bytes()
-    priced = engine.lint(text, str(tmp_path / "frame.msaa.yaml"), lambda rule, suggested, vendor: suggested, prices=True)
+    priced = engine.lint(text, str(tmp_path / "frame.msaa.yaml"), LintOptions(lambda rule, suggested, vendor: suggested, prices=True))
     price = next(each.price for each in priced.findings if each.rule == "shader-resolve-off-tile")
     assert price is not None
     assert (price.read_mb_per_s, price.write_mb_per_s) == (pytest.approx(3 * one), pytest.approx(3 * one))

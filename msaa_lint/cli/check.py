@@ -11,9 +11,9 @@ from msaa_lint.core.finding import is_confident, rank
 from msaa_lint.core.package import VERSION
 from msaa_lint.input.discovery import STDIN
 from msaa_lint.linter.run import Outcome, Request, run
+from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
 
 from .common import Target, colored, ended, outputs, settings, utf_8
-from .options import FORMATS
 
 EXAMPLE = "sarif=findings.sarif"
 LIMITS = {"max_depth": "depth", "max_nodes": "nodes", "max_bytes": "bytes"}
@@ -28,11 +28,11 @@ def check(given: Mapping[str, Any]) -> int:
 
 
 def _check(given: Mapping[str, Any]) -> int:
-    targets = outputs(given.get("output", ()), FORMATS, EXAMPLE)
+    targets = outputs(given.get("output", ()), OUTPUT_FORMATS, EXAMPLE)
     fallback = "full" if sys.stdout.isatty() else "concise"
     outcome = run(request(given, targets, fallback), _progress())
     if not targets:
-        targets = outputs(outcome.settings.output, FORMATS, EXAMPLE) or [Target(fallback, None)]
+        targets = outputs(outcome.settings.output, OUTPUT_FORMATS, EXAMPLE) or [Target(fallback, None)]
     from .report.escape import visible
 
     for note in outcome.notes:

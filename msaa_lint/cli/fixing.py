@@ -5,10 +5,10 @@ from __future__ import annotations
 import sys
 
 from msaa_lint.core.finding import Finding, Result
-from msaa_lint.linter.fixes.diff import unified
 from msaa_lint.linter.fixes.file_fixes import FixedText
 from msaa_lint.linter.run import Outcome
 
+from .report.diff import unified
 from .report.escape import visible
 
 

@@ -9,7 +9,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-FORMATS = ("full", "concise", "json", "sarif", "github", "gitlab", "junit", "markdown")
+from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
+
+_OUTPUTS = ", ".join(OUTPUT_FORMATS)
 LEVELS = ("note", "warning", "error")
 CONFIDENCES = ("low", "medium", "high")
 
@@ -60,7 +62,13 @@ CHECK = (
     Option("diff", "flag", "Print what --fix would change and write nothing; exit with 1 if that is anything."),
     Option("exit_zero", "flag", "Exit with 0 whatever is found."),
     Option("min_severity", "choice", "Leave out what is below.  [default: note]", choices=LEVELS),
-    Option("output", "text", f"{', '.join(FORMATS)}; =FILE writes there.  [default: full; concise in a pipe]", "FORMAT[=FILE]", many=True),
+    Option(
+        "output",
+        "text",
+        f"{', '.join(OUTPUT_FORMATS)}; =FILE writes there.  [default: full; concise in a pipe]",
+        "FORMAT[=FILE]",
+        many=True,
+    ),
     Option("sort", "choice", "Order of the findings; price is the dearest first.  [default: place]", choices=("place", "price")),
     Option("statistics", "flag", "Count findings and add up their prices by rule instead of listing them."),
     Option("baseline", "text", "Silence what this baseline file counts.", "FILE"),

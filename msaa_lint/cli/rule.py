@@ -8,7 +8,8 @@ from collections.abc import Sequence
 from msaa_lint.core.diagnostics import DIAGNOSTICS
 from msaa_lint.core.finding import RuleInfo
 from msaa_lint.frame.vulkan.names import nearest
-from msaa_lint.linter.rules.registry import load, markdown
+from msaa_lint.linter.engine import load_rules
+from msaa_lint.linter.rules.registry import markdown
 from msaa_lint.linter.rules.rule_file import APIS, Rule
 
 from .report.escape import visible
@@ -16,7 +17,7 @@ from .report.escape import visible
 
 def explain(name: str, own: Sequence[str], output: str) -> int:
     """Prints one rule's page; 2 where there is no such rule."""
-    catalogue = load(own)
+    catalogue = load_rules(own)
     for rule in catalogue.rules:
         if name in (rule.name, rule.code):
             _print(rule, output)
@@ -35,7 +36,7 @@ def explain(name: str, own: Sequence[str], output: str) -> int:
 
 def listing(own: Sequence[str], output: str) -> int:
     """Prints every rule, a line each."""
-    catalogue = load(own)
+    catalogue = load_rules(own)
     infos = [_info(rule) for rule in catalogue.rules] + list(DIAGNOSTICS.values())
     if output == "json":
         import json
@@ -105,7 +106,7 @@ def _head(rule: Rule) -> str:
         lines.append(f"About frames in the words of {' and '.join(api.capitalize() for api in rule.apis)}.")
     if rule.vendors:
         lines.append(f"A rule of {', '.join(rule.vendors)}: a note on other devices.")
-    lines += [f"Fix ({mend.safety}): {mend.title}." for mend in rule.mends]
+    lines += [f"Fix ({mend.safety}): {mend.title}." for mend in rule.fix_specs]
     return " ".join(lines)
 
 

@@ -62,7 +62,7 @@ def captured(stream: BinaryIO, format: str, name: str, path: str | None) -> Capt
     return CaptureInput(Source(name, text, origins), made.modules, made.frames, broken.message if broken is not None else "", tuple(notes))
 
 
-def of_capture(capture: CaptureInput, findings: Sequence[Finding]) -> list[Finding]:
+def capture_findings(capture: CaptureInput, findings: Sequence[Finding]) -> list[Finding]:
     """The findings as a capture's. One that ends in the middle has an error more, where it ends."""
     kept: dict[Hashable, Finding] = {}
     for found in findings:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Sequence
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.globs import Glob, excluding
 from msaa_lint.core.project import inside, project_root, shown
-from msaa_lint.linter.settings.settings import Settings, quoted
+from msaa_lint.core.quote import quoted
 
 STDIN = "-"
 ENDINGS = (".msaa.yaml", ".msaa.yml", ".msaa.json")
@@ -35,6 +35,15 @@ MAX_DEPTH = 64
 _PASSED_OVER = frozenset({"node_modules", "bower_components", "__pycache__", "__pypackages__", "site-packages", "venv", "CVS"})
 
 
+class Scope(Protocol):
+    """The settings that discovery needs: the globs of files to lint and to leave out."""
+
+    @property
+    def include(self) -> Sequence[Glob]: ...
+    @property
+    def exclude(self) -> Sequence[Glob]: ...
+
+
 class Discovered(NamedTuple):
     """The files, each once and in order, as findings name them; what cannot be linted; and what a person may want to know (one line
     each, for the standard error stream)."""
@@ -45,7 +54,7 @@ class Discovered(NamedTuple):
 
 
 def discover(
-    paths: Iterable[str], settings_for: Callable[[str], Settings], looks_like: Callable[[str], bool], sources: bool = False
+    paths: Iterable[str], settings_for: Callable[[str], Scope], looks_like: Callable[[str], bool], sources: bool = False
 ) -> Discovered:
     """The files to lint.
 
@@ -89,7 +98,7 @@ def _excluded(path: str, glob: Glob) -> str:
 class _Walk:
     """The folders of one run."""
 
-    def __init__(self, settings_for: Callable[[str], Settings], looks_like: Callable[[str], bool], sources: bool) -> None:
+    def __init__(self, settings_for: Callable[[str], Scope], looks_like: Callable[[str], bool], sources: bool) -> None:
         self.settings_for = settings_for
         self.looks_like = looks_like
         self.sources = sources

@@ -111,10 +111,10 @@ def _language(name: str, head: bytes, format: str | None) -> str | None:
 
 def _program(data: bytes, name: str, language: str) -> SourceFile:
     from .code.parsing import Missing
-    from .source_file import programmed
+    from .source_file import read_source_file
 
     try:
-        return programmed(data, name, language)
+        return read_source_file(data, name, language)
     except Missing as error:
         raise Uninstalled(str(error)) from None
 

@@ -20,7 +20,8 @@ from msaa_lint.input.discovery import STDIN, discover
 from msaa_lint.input.opening import load, refused
 from msaa_lint.input.readers import looks_like
 
-from .engine import DocumentResult, FileResult
+from .engine import LintOptions
+from .results import DocumentResult, FileResult
 from .run import Request, Run
 
 Fixed = Callable[[FileResult, DocumentResult, DeviceProfile | None, Terms], FrameCost | None]
@@ -56,7 +57,7 @@ def run_costs(request: Request, terms: Terms, counts: Sequence[int], fixed: Fixe
         if linted.source is None:
             continue
         this.sources[linted.file] = linted.source
-        usable = linted.judged if not wrong else _readable(linted)
+        usable = linted.documents if not wrong else _readable(linted)
         frames.extend(_costed(linted, judged, terms, counts, fixed) for judged in usable)
     errors = [finding for finding in dict.fromkeys(this.findings) if finding.fatal]
     files = list(dict.fromkeys([*(name_of(request, path) for path in found.files), *(finding.file for finding in errors)]))
@@ -80,15 +81,15 @@ def _linted(this: Run, path: str) -> FileResult | None:
         this.findings.append(refused(error, name))
         return None
     severity = governed.selection.for_file(name, device.vendor if device is not None else None)
-    return governed.engine.lint(data, name, severity, limits=limits, format=request.format, device=device, ignores=request.ignores)
+    return governed.engine.lint(data, name, LintOptions(severity, limits, request.format, device, request.ignores))
 
 
 def _readable(linted: FileResult) -> list[DocumentResult]:
     """Of an input with mistakes the documents that have none; where the text itself is broken, no document can be told."""
-    broken = {problem.span for judged in linted.judged for problem in judged.document.problems}
+    broken = {problem.span for judged in linted.documents for problem in judged.document.problems}
     if any(finding.fatal and finding.span not in broken for finding in linted.findings):
         return []
-    return [judged for judged in linted.judged if not judged.document.problems]
+    return [judged for judged in linted.documents if not judged.document.problems]
 
 
 def _costed(linted: FileResult, judged: DocumentResult, terms: Terms, counts: Sequence[int], fixed: Fixed | None) -> Costed:
@@ -96,7 +97,7 @@ def _costed(linted: FileResult, judged: DocumentResult, terms: Terms, counts: Se
     cost = frame_cost(Frame(document), device, terms)
     others = variants(document, device, terms, counts)
     mended = fixed(linted, judged, device, terms) if fixed is not None else None
-    return Costed(linted.file, judged.number, len(linted.judged), cost, others, mended)
+    return Costed(linted.file, judged.number, len(linted.documents), cost, others, mended)
 
 
 def with_fixes(linted: FileResult, judged: DocumentResult, device: DeviceProfile | None, terms: Terms) -> FrameCost | None:
@@ -105,9 +106,9 @@ def with_fixes(linted: FileResult, judged: DocumentResult, device: DeviceProfile
     from .fixes.document_fixes import DocumentFixes
     from .prices import Prices, merged
 
-    if linted.source is None or not judged.mends:
+    if linted.source is None or not judged.fix_specs:
         return None
-    offers = DocumentFixes(linted.source, judged, rewritten=not linted.code)
+    offers = DocumentFixes(linted.source, judged, rewritten=not linted.is_code)
     changes: list[tuple[Change, ...]] = []
     for found in linted.findings:
         own = offers.changes(found)

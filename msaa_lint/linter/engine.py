@@ -1,23 +1,24 @@
-"""Documents times rules: one input read, judged, and its suppressions applied."""
+"""Lints one input: reads its documents, runs the rules on them, applies suppression comments, and attaches fixes and prices."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+import re
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
-from msaa_lint.core.finding import Finding, Price, RuleInfo, Suppressed, Undecided
+from msaa_lint.core.finding import CONFIDENCES, Finding, RuleInfo, Suppressed, Undecided
 from msaa_lint.core.text.source import Source, Unreadable, decode
-from msaa_lint.core.text.tree import Limits, Node, parse
+from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.records import ShaderStage
 from msaa_lint.frame.devices import DeviceProfile
-from msaa_lint.frame.profiles import Problem as Unknown
-from msaa_lint.frame.profiles import device_for
+from msaa_lint.frame.profiles import Problem, device_for
 
-from .rules.registry import Registry
+from .results import CombinedPrice, DocumentResult, FileResult, Severity, location_order
+from .rules.registry import Registry, load
 from .rules.rule_file import Rule
-from .rules.rule_runner import FixSpecs, RuleRunner, Verdicts
+from .rules.rule_runner import RuleRunner, Verdicts, distinct
 
 if TYPE_CHECKING:
     from msaa_lint.core.text.comments import Comment
@@ -28,130 +29,135 @@ if TYPE_CHECKING:
     from msaa_lint.input.shader_modules import Modules
     from msaa_lint.input.source_file import SourceFile
 
-Severity = Callable[[Rule, str, str | None], str | None]
+UNLIMITED = Limits(depth=100, nodes=1 << 40, bytes=1 << 40)
+"""For text that msaa-lint itself wrote: the limits are for text that people write."""
 
-CombinedPrice = Callable[[Sequence[Finding]], Price | None]
-"""What some findings of an input cost together."""
+_COMMENT_MARKS = ("msaa-lint", "msaalint", "msaa_lint", "msaa lint")
+"""What a suppression comment contains, in lower case, misspelled ones included."""
+
+_LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n|\Z)")
 
 
-WITHOUT_LIMITS = Limits(depth=100, nodes=1 << 40, bytes=1 << 40)
-"""For a text that is our own."""
+class LintOptions(NamedTuple):
+    """How to lint one input.
 
+    `format` forces a reader; None detects the format from content. `device` is the profile for descriptions that do not name a device.
+    `ignores` applies suppression comments, `prices` computes the prices of findings.
+    """
 
-class DocumentResult(NamedTuple):
-    """A document of an input, the fixes of its findings, which document of a stream it is, and the device that it was judged for."""
-
-    document: Document
-    mends: FixSpecs
-    number: int = 0
+    severity: Severity
+    limits: Limits = Limits()
+    format: str | None = None
     device: DeviceProfile | None = None
-
-
-class FileResult(NamedTuple):
-    """What one input gave. `source` is None where it could not be decoded, `together` where no finding has a price; `code` says that it is
-    source code, which is not fixed."""
-
-    file: str
-    source: Source | None
-    findings: list[Finding]
-    undecided: list[Undecided]
-    suppressed: list[Suppressed]
-    together: CombinedPrice | None = None
-    judged: Sequence[DocumentResult] = ()
-    code: bool = False
+    ignores: bool = True
+    prices: bool = False
 
 
 class Engine:
-    """Rules made ready once, for any number of inputs."""
+    """A set of rules, compiled once for any number of inputs."""
 
-    def __init__(self, catalogue: Registry) -> None:
-        self.catalogue = catalogue
-        self.judge = RuleRunner(catalogue.rules)
+    def __init__(self, registry: Registry) -> None:
+        self.registry = registry
+        self._runner = RuleRunner(registry.rules)
 
-    def lint(
-        self,
-        data: bytes | CaptureInput | SourceFile,
-        file: str,
-        severity: Severity,
-        *,
-        limits: Limits | None = None,
-        format: str | None = None,
-        device: DeviceProfile | None = None,
-        ignores: bool = True,
-        prices: bool = False,
-    ) -> FileResult:
-        """The findings of one input, in the order of their places: the bytes of a file, or a capture or source code that was read.
-
-        `format` names a reader where content does not tell; `device` the profile for descriptions that state none; `ignores` says whether
-        suppression comments count; `prices` whether findings are priced.
-        """
-        capture: CaptureInput | None = None
-        if not isinstance(data, bytes):
-            from msaa_lint.input.source_file import SourceFile, linted
-
-            if isinstance(data, SourceFile):
-                return linted(self, data, file, severity, device, ignores, prices)
-            capture = data
-        if capture is not None:
-            # The limits are for what people write; a capture's own text is as long as what it was made of is varied.
-            source, limits, format, ignores = capture.source, WITHOUT_LIMITS, None, False
-        else:
-            assert isinstance(data, bytes)
+    def lint(self, data: bytes | CaptureInput | SourceFile, file: str, options: LintOptions) -> FileResult:
+        """The findings of one input in order of location. `data` is a file's bytes, or a capture or source code already read."""
+        if isinstance(data, bytes):
             try:
                 source = Source(file, decode(data))
             except Unreadable as error:
                 return FileResult(file, None, [diagnostic("MSAA901", str(error), file)], [], [])
-        parsed = parse(source, limits or Limits())
+            return self._lint_text(source, file, options)
+        from msaa_lint.input.source_file import SourceFile
+
+        if isinstance(data, SourceFile):
+            return self._lint_code(data, file, options)
+        from msaa_lint.input.capture_input import capture_findings
+
+        result = self._lint_text(data.source, file, options._replace(limits=UNLIMITED, format=None, ignores=False), data.modules)
+        return result._replace(findings=capture_findings(data, result.findings))
+
+    def _lint_text(self, source: Source, file: str, options: LintOptions, modules: Mapping[str, bytes] | None = None) -> FileResult:
+        """The findings of a text; `modules` are the shaders of a capture that the text was written from."""
+        from msaa_lint.input import readers
+
+        parsed = parse(source, options.limits)
         findings = [diagnostic(p.code, p.message, file, p.span, "", tuple(p.labels)) for p in parsed.problems]
         undecided: list[Undecided] = []
-        judged: list[DocumentResult] = []
+        results: list[DocumentResult] = []
         if not parsed.documents and not parsed.problems:
             findings.append(diagnostic("MSAA901", "the input is empty", file))
         for number, root in enumerate(parsed.documents):
-            document = _document(source, root, format)
-            if capture is not None:
-                document = _of_capture(document, capture, device)
+            document = readers.read(source, root, options.format)
+            if modules is not None:
+                document = _with_modules(document, modules, options.device)
             prefix = f"documents[{number}]." if len(parsed.documents) > 1 else ""
-            (found, unknown, mends), own = self.of_document(document, file, severity, device, bool(parsed.problems))
-            findings.extend(_within(found, prefix))
-            undecided.extend(u._replace(subject=prefix + u.subject) for u in unknown)
-            judged.append(DocumentResult(document, mends, number, own))
+            verdicts, device = self.lint_document(document, file, options, bool(parsed.problems))
+            findings.extend(_prefixed(verdicts.findings, prefix))
+            undecided.extend(rule._replace(subject=prefix + rule.subject) for rule in verdicts.undecided)
+            results.append(DocumentResult(document, verdicts.fix_specs, number, device))
         suppressed: list[Suppressed] = []
-        if ignores and "msaa-lint" in source.text.lower():
+        if options.ignores and _has_suppressions(source.text):
             from msaa_lint.core.text.comments import comments
 
-            said = comments(source, parsed.documents)
-            findings, suppressed = self.suppress(findings, said, source, severity, {u.rule for u in undecided})
-        findings.sort(key=place_order)
-        together = None
-        mended = [each for each in judged if each.mends]
-        if mended:
-            findings, together = _mended(source, mended, findings, prices, format)
-        if capture is not None:
-            from msaa_lint.input.capture_input import of_capture
+            findings, suppressed = self._suppress(
+                findings, comments(source, parsed.documents), source, options.severity, {rule.rule for rule in undecided}
+            )
+        findings.sort(key=location_order)
+        findings, combined = _with_fixes(source, results, findings, options)
+        return FileResult(file, source, findings, undecided, suppressed, combined, results)
 
-            findings = of_capture(capture, findings)
-        return FileResult(file, source, findings, undecided, suppressed, together, judged)
+    def _lint_code(self, code: SourceFile, file: str, options: LintOptions) -> FileResult:
+        """The findings of source code.
 
-    def of_document(
-        self, document: Document, file: str, severity: Severity, device: DeviceProfile | None, broken: bool = False
+        Its text alone does not determine what it does: confidence is low, fixes have no edits, and undecided rules are not reported.
+        """
+        source, program = code.source, code.program
+        findings: list[Finding] = []
+        undecided: set[str] = set()
+        results: list[DocumentResult] = []
+        for number, document in enumerate(program.documents):
+            verdicts, device = self.lint_document(document, file, options)
+            prefix = f"documents[{number}]." if len(program.documents) > 1 else ""
+            notes = program.assumed[number]
+            usable = (found._replace(notes=(*found.notes, *notes)) for found in verdicts.findings if not found.fatal)
+            findings.extend(_prefixed(usable, prefix))
+            undecided.update(rule.rule for rule in verdicts.undecided)
+            results.append(DocumentResult(document, verdicts.fix_specs, number, device))
+        # Functions that share a structure are separate documents with the same finding.
+        findings = distinct(findings)
+        suppressed: list[Suppressed] = []
+        if options.ignores and _has_suppressions(source.text):
+            from msaa_lint.input.code.comments import comments
+
+            found = comments(program.codes)
+            findings, suppressed = self._suppress(findings, found.comments, _code_only(code), options.severity, undecided, found.alone)
+        findings.sort(key=location_order)
+        combined = None
+        if options.prices:
+            findings, combined = _with_fixes(source, results, findings, options, rewritten=False)
+        suppressed = [each._replace(finding=_of_code(each.finding)) for each in suppressed]
+        return FileResult(file, source, [_of_code(found) for found in findings], [], suppressed, combined, results, True)
+
+    def lint_document(
+        self, document: Document, file: str, options: LintOptions, broken: bool = False
     ) -> tuple[Verdicts, DeviceProfile | None]:
-        """A document's own mistakes; where it has none, what the rules say, and the device they judge for.
+        """The verdicts on one document, and the device they are for.
 
-        What was misread is not judged.
+        No rule runs on a document with problems of its own, or on one from a `broken` text.
         """
         if document.problems or broken:
-            found = [diagnostic(p.code, p.message, file, p.span, p.path, p.labels, p.help) for p in document.problems]
-            return Verdicts(found, [], {}), None
+            problems = [diagnostic(p.code, p.message, file, p.span, p.path, p.labels, p.help) for p in document.problems]
+            return Verdicts(problems, [], {}), None
         from msaa_lint.frame.facts.subjects import subjects
 
-        own = device_for(document.description, file, device)
-        if isinstance(own, Unknown):
-            at = document.description.place("device")
-            return Verdicts([diagnostic(own.code, own.message, file, at, "device", help=own.help)], [], {}), None
+        device = device_for(document.description, file, options.device)
+        if isinstance(device, Problem):
+            span = document.description.place("device")
+            return Verdicts([diagnostic(device.code, device.message, file, span, "device", help=device.help)], [], {}), None
 
+        # Both are imported only if a rule asks: for a sample count above what devices do efficiently, and for a shader.
         def study(frame: Frame) -> Studied:
-            # Where a count is above what devices do efficiently; nothing of it is loaded otherwise.
             from .study_record import studied
 
             return studied(frame, file)
@@ -159,84 +165,105 @@ class Engine:
         modules: list[Modules] = []
 
         def shader(stage: ShaderStage, alpha: bool) -> Reflected | None:
-            # Where a rule may ask for a shader; nothing of it is loaded otherwise.
             from msaa_lint.input.shader_modules import Modules
 
             if not modules:
                 modules.append(Modules(document, file))
             return modules[0].reflected(stage, alpha)
 
-        verdicts = self.judge.judge(subjects(document, own, study, shader), file, severity, document.api)
-        verdicts.findings.extend(found for each in modules for found in each.findings)
-        return verdicts, own
+        verdicts = self._runner.judge(subjects(document, device, study, shader), file, options.severity, document.api)
+        for each in modules:
+            verdicts.findings.extend(each.findings)
+        return verdicts, device
 
-    def suppress(
+    def _suppress(
         self,
         findings: Sequence[Finding],
         comments: Sequence[Comment],
         source: Source,
         severity: Severity,
-        undecided: set[str],
-        alone: Collection[int] | None = None,
+        undecided: Collection[str],
+        comment_lines: Collection[int] | None = None,
     ) -> tuple[list[Finding], list[Suppressed]]:
-        """The findings that comments leave, what is wrong with the comments, and the findings that they silence.
+        """The findings that remain, with those about the comments, and the suppressed findings.
 
-        Of a rule that is off, or that stayed undecided, nothing can be said of a suppression being unused.
+        A suppression of a rule that is off or undecided is not reported as unused.
         """
         from .suppress.suppressions import apply
 
-        enabled = {rule.name for rule in self.catalogue.rules if severity(rule, rule.severity, None) is not None} - undecided
-        kept, suppressed, extra = apply(findings, comments, source, self.catalogue.rules, enabled, alone)
-        return [*kept, *extra], suppressed
+        enabled = {rule.name for rule in self.registry.rules if severity(rule, rule.severity, None) is not None}
+        kept, suppressed, about_comments = apply(
+            findings, comments, source, self.registry.rules, enabled.difference(undecided), comment_lines
+        )
+        return [*kept, *about_comments], suppressed
 
 
-def _mended(
-    source: Source, judged: Sequence[DocumentResult], findings: list[Finding], prices: bool, format: str | None
-) -> tuple[list[Finding], CombinedPrice | None]:
-    """The findings with the edits of their fixes, and their prices where asked for; then also what works out prices of several together."""
-    from .fixes.document_fixes import DocumentFixes
+def load_rules(paths: Sequence[str] = ()) -> Registry:
+    """The built-in rules and the user's own rules at `paths`, the latter checked."""
 
-    offers = [DocumentFixes(source, each, format) for each in judged]
-    together: CombinedPrice | None = None
-    if prices:
-        from .prices import priced
+    def check_fixes(rule: Rule) -> list[Finding]:
+        from .fixes.fix_checks import problems
 
-        findings, together = priced(offers, findings)
-    for each in offers:
-        findings = each.with_edits(findings)
-    return findings, together
+        return problems(rule)
+
+    return load(paths, check_fixes)
 
 
-def _of_capture(document: Document, capture: CaptureInput, device: DeviceProfile | None) -> Document:
-    """The document with the shaders that the capture holds. A device that is asked for stands in for the one that was captured on."""
-    if device is not None:
-        document.description.device = None
-    return document._replace(modules=capture.modules)
-
-
-def _document(source: Source, root: Node, format: str | None) -> Document:
-    from msaa_lint.input import readers
-
-    return readers.read(source, root, format)
-
-
-def _within(findings: list[Finding], prefix: str) -> list[Finding]:
-    return [found._replace(subject=prefix + found.subject) for found in findings] if prefix else findings
-
-
-def place_order(found: Finding) -> tuple[int, int, str, str]:
-    """Findings of one file by their place, then by code."""
-    span = found.span
-    return (span.start, span.end, found.code, found.message) if span is not None else (-1, -1, found.code, found.message)
-
-
-def rule_infos(catalogue: Registry, severity: Severity, full: bool) -> list[RuleInfo]:
-    """What reports say of the enabled rules, by code."""
+def rule_infos(registry: Registry, severity: Severity, full: bool) -> list[RuleInfo]:
+    """The enabled rules by code, as reports describe them; `full` includes their pages."""
     from .rules.registry import info
 
-    out = []
-    for rule in catalogue.rules:
-        weight = severity(rule, rule.severity, None)
-        if weight is not None:
-            out.append(info(rule, weight, full))
-    return out
+    severities = [(rule, severity(rule, rule.severity, None)) for rule in registry.rules]
+    return [info(rule, level, full) for rule, level in severities if level is not None]
+
+
+def _has_suppressions(text: str) -> bool:
+    lowered = text.lower()
+    return any(mark in lowered for mark in _COMMENT_MARKS)
+
+
+def _with_fixes(
+    source: Source, results: Iterable[DocumentResult], findings: list[Finding], options: LintOptions, rewritten: bool = True
+) -> tuple[list[Finding], CombinedPrice | None]:
+    """The findings with their prices if asked for and, if the text can be `rewritten`, the edits of their fixes."""
+    fixable = [result for result in results if result.fix_specs]
+    if not fixable:
+        return findings, None
+    from .fixes.document_fixes import DocumentFixes
+
+    fixes = [DocumentFixes(source, result, options.format, rewritten) for result in fixable]
+    combined: CombinedPrice | None = None
+    if options.prices:
+        from .prices import priced
+
+        findings, combined = priced(fixes, findings)
+    if rewritten:
+        for each in fixes:
+            findings = each.with_edits(findings)
+    return findings, combined
+
+
+def _with_modules(document: Document, modules: Mapping[str, bytes], device: DeviceProfile | None) -> Document:
+    """A captured document with the capture's shaders. A requested device replaces the one that the capture was made on."""
+    if device is not None:
+        document.description.device = None
+    return document._replace(modules=modules)
+
+
+def _prefixed(findings: Iterable[Finding], prefix: str) -> Iterable[Finding]:
+    return (found._replace(subject=prefix + found.subject) for found in findings) if prefix else findings
+
+
+def _of_code(finding: Finding) -> Finding:
+    fix = finding.fix and finding.fix._replace(edits=(), shown=True)
+    return finding._replace(confidence=CONFIDENCES[0], fix=fix)
+
+
+def _code_only(code: SourceFile) -> Source:
+    """The source with everything but its code blanked out, at the same offsets."""
+    texts = [each.text for each in code.program.codes]
+    if len(texts) > 1:
+        lines = zip(*(_LINE.findall(text) for text in texts), strict=True)
+        # No line belongs to two codes: at most one of them is not blank.
+        texts = [next((line for line in same if line.strip()), same[0]) for same in lines]
+    return Source(code.source.name, "".join(texts))

@@ -15,10 +15,10 @@ from msaa_lint.frame.description.records import BeginRenderPass, Command, Descri
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.facts.frame import Frame, Pass
 
-from .engine import CombinedPrice
 from .fixes.changes import PLAIN, Change, Refused, Structural, applied
 from .fixes.document_fixes import DocumentFixes
-from .rules.rule_runner import Key, key_of
+from .results import CombinedPrice
+from .rules.rule_runner import Key, finding_key
 
 Reread = Callable[[Sequence[Change]], Document | None]
 """A document with changes made in its text and read again; None where they cannot be written."""
@@ -233,7 +233,7 @@ def _figures(amount: Amount) -> tuple[float, float, float, float]:
 
 def priced(offers: Sequence[DocumentFixes], findings: Sequence[Finding], terms: Terms | None = None) -> tuple[list[Finding], CombinedPrice]:
     """The findings of an input with their prices, and what works out what some of them cost together. `offers` are its documents' fixes."""
-    books = [Prices(each.judged.document, each.judged.device, terms, each.reread) for each in offers]
+    books = [Prices(each.result.document, each.result.device, terms, each.reread) for each in offers]
     made: dict[Key, tuple[Prices, tuple[Change, ...]]] = {}
     out = []
     for found in findings:
@@ -241,15 +241,15 @@ def priced(offers: Sequence[DocumentFixes], findings: Sequence[Finding], terms: 
         if book is not None and changes is not None and not isinstance(changes, Refused):
             price = book.of(changes)
             if price is not None:
-                made[key_of(found)] = (book, changes)
+                made[finding_key(found)] = (book, changes)
                 found = found._replace(price=price, notes=(*found.notes, *book.assumed(price)))
         out.append(found)
 
     def together(some: Sequence[Finding]) -> Price | None:
         by_book: dict[int, list[tuple[Change, ...]]] = {}
         for found in some:
-            if key_of(found) in made:
-                book, changes = made[key_of(found)]
+            if finding_key(found) in made:
+                book, changes = made[finding_key(found)]
                 by_book.setdefault(books.index(book), []).append(changes)
         sums = [price for n, each in by_book.items() if (price := books[n].together(each)) is not None]
         return Price(*(sum(column) for column in zip(*sums, strict=True))) if sums else None

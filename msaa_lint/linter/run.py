@@ -18,8 +18,9 @@ from msaa_lint.input import opening as inputs
 from msaa_lint.input.discovery import STDIN, discover
 from msaa_lint.input.readers import looks_like
 
-from .engine import CombinedPrice, Engine, FileResult, rule_infos
-from .rules.registry import EDITIONS, Registry, load
+from .engine import Engine, LintOptions, load_rules, rule_infos
+from .results import CombinedPrice, FileResult
+from .rules.registry import EDITIONS, Registry
 from .settings import config
 from .settings.selection import Selection
 from .settings.selectors import unknown_selectors
@@ -130,7 +131,7 @@ class Run:
 
     def _catalogue(self, settings: Settings) -> Registry:
         if settings.rules not in self._catalogues:
-            made = load([path for path in settings.rules if os.path.exists(path)])
+            made = load_rules([path for path in settings.rules if os.path.exists(path)])
             self.findings.extend(made.problems)
             self.sources.update(made.sources)
             self._catalogues[settings.rules] = made
@@ -151,10 +152,10 @@ class Run:
         device = device_of(governed.settings.profile)
         severity = governed.selection.for_file(name, device.vendor if device is not None else None)
 
+        options = LintOptions(severity, limits, self.request.format, device, self.request.ignores)
+
         def judge(data: "bytes | CaptureInput | SourceFile", prices: bool = False) -> FileResult:
-            return governed.engine.lint(
-                data, name, severity, limits=limits, format=self.request.format, device=device, ignores=self.request.ignores, prices=prices
-            )
+            return governed.engine.lint(data, name, options._replace(prices=prices))
 
         linted = judge(data, self.prices)
         if not isinstance(data, bytes):
@@ -162,7 +163,7 @@ class Run:
             if self.request.fix is not None:
                 kind = "source code" if data.source.origins is None else "a capture"
                 self.notes.append(f"{name} is {kind}, and stays as it is: `msaa-lint convert` writes a description of it that can be fixed")
-                if stdin and linted.code:
+                if stdin and linted.is_code:
                     self.mended.append(_as_it_is(data, linted))
         elif self.request.fix is not None and (stdin or any(found.fix is not None for found in linted.findings)):
             from .fixes.file_fixes import mend
@@ -197,12 +198,12 @@ class Run:
             self.sources[linted.file] = linted.source
         settled = [found for found in map(governed.selection.settle, linted.findings) if found is not None]
         self.findings.extend(settled)
-        if linted.together is not None:
-            self.priced[linted.file] = self._together(linted.together, settled)
+        if linted.combined_price is not None:
+            self.priced[linted.file] = self._together(linted.combined_price, settled)
             here = self.settings(os.curdir)
             if here.fail_on_cost is not None:
                 certain = [found for found in settled if is_confident(found, here.fail_confidence)]
-                self.charged[linted.file] = self._together(linted.together, certain)
+                self.charged[linted.file] = self._together(linted.combined_price, certain)
         self.undecided.extend(linted.undecided)
         self.suppressed.extend(linted.suppressed)
 
@@ -240,7 +241,7 @@ def run(request: Request, progress: Progress | None = None) -> Outcome:
     order = {file: number for number, file in enumerate(files)}
     this.findings.sort(key=lambda f: (order.get(f.file, -1), f.file))
     severity = here.selection.for_file(os.curdir)
-    rules: list[RuleInfo] = rule_infos(here.engine.catalogue, severity, request.full_rules)
+    rules: list[RuleInfo] = rule_infos(here.engine.registry, severity, request.full_rules)
     findings = _once(this.findings)
     together = _together(this.priced, findings)
     charged = together

@@ -11,10 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint import __version__
-from msaa_lint.cli.options import CHECK, FORMATS, INPUT_FORMATS, SHARED, read
-from msaa_lint.cli.report import FORMATS as REPORTED
+from msaa_lint.cli.options import CHECK, INPUT_FORMATS, SHARED, read
+from msaa_lint.cli.report import FORMATS
 from msaa_lint.input import readers
 from msaa_lint.input.code import LANGUAGES
+from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
 from tests.cli.test_check import run
 from tests.strength import examples
 
@@ -70,7 +71,7 @@ def test_init_makes_a_project_that_lints(tmp_path: Path) -> None:
 
 
 def test_the_formats_are_those_there_are() -> None:
-    assert tuple(REPORTED) == FORMATS
+    assert tuple(FORMATS) == OUTPUT_FORMATS
     assert sorted(INPUT_FORMATS) == sorted([*readers.FORMATS, *readers.CAPTURES, *LANGUAGES])
 
 

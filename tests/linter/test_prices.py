@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from msaa_lint.core.finding import Finding, Price
 from msaa_lint.linter import prices as price
-from msaa_lint.linter.engine import Engine, FileResult
+from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.registry import load
 from msaa_lint.linter.rules.rule_file import Rule
 from tests.pages import all_examples
@@ -27,7 +28,7 @@ def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
 
 
 def lint(text: str) -> FileResult:
-    return ENGINE.lint(text.encode(), "frame.yaml", as_written, prices=True)
+    return ENGINE.lint(text.encode(), "frame.yaml", LintOptions(as_written, prices=True))
 
 
 def prices(linted: FileResult) -> dict[str, Price | None]:
@@ -35,7 +36,7 @@ def prices(linted: FileResult) -> dict[str, Price | None]:
 
 
 def together(linted: FileResult, some: list[Finding] | None = None) -> Price | None:
-    return linted.together(linted.findings if some is None else some) if linted.together is not None else None
+    return linted.combined_price(linted.findings if some is None else some) if linted.combined_price is not None else None
 
 
 ATTACHED = """
@@ -96,8 +97,8 @@ pipelines:
 
 
 def test_prices_are_not_worked_out_unless_asked_for() -> None:
-    linted = ENGINE.lint(ATTACHED.encode(), "frame.yaml", as_written)
-    assert linted.together is None
+    linted = ENGINE.lint(ATTACHED.encode(), "frame.yaml", LintOptions(as_written))
+    assert linted.combined_price is None
     assert {found.price for found in linted.findings} == {None}
 
 
@@ -236,7 +237,7 @@ def test_records_are_as_they_were() -> None:
     again = together(linted)
     assert again == together(linted)
     assert [found._replace(price=None) for found in linted.findings] == [
-        found._replace(price=None) for found in ENGINE.lint(ATTACHED.encode(), "frame.yaml", as_written).findings
+        found._replace(price=None) for found in ENGINE.lint(ATTACHED.encode(), "frame.yaml", LintOptions(as_written)).findings
     ]
 
 

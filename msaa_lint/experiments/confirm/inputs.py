@@ -20,8 +20,9 @@ from msaa_lint.input.discovery import STDIN, discover
 from msaa_lint.input.opening import load, refused
 from msaa_lint.input.readers import looks_like
 from msaa_lint.input.source_file import SourceFile
-from msaa_lint.linter.engine import DocumentResult, FileResult, Severity
+from msaa_lint.linter.engine import LintOptions
 from msaa_lint.linter.fixes.file_fixes import FixedText, mend
+from msaa_lint.linter.results import DocumentResult, FileResult, Severity
 from msaa_lint.linter.run import Request, ResolvedSettings, Run
 
 
@@ -95,15 +96,17 @@ def _of_file(this: Run, path: str) -> list[Input]:
     device = device_of(governed.settings.profile)
     severity = governed.selection.for_file(name, device.vendor if device is not None else None)
 
+    options = LintOptions(severity, limits, format, device, request.ignores)
+
     def judge(data: bytes) -> FileResult:
-        return governed.engine.lint(data, name, severity, limits=limits, format=format, device=device, ignores=request.ignores)
+        return governed.engine.lint(data, name, options)
 
     linted = judge(data)
     this.findings.extend(finding for finding in linted.findings if finding.fatal)
     if any(finding.fatal for finding in linted.findings) or linted.source is None:
         return []
     mended = mend(data, linted, judge, lambda _: True, False, None) if any(f.fix is not None for f in linted.findings) else None
-    found = [_input(name, linted, judged, mended, governed, device) for judged in linted.judged]
+    found = [_input(name, linted, judged, mended, governed, device) for judged in linted.documents]
     return [each if each.frame.document.metal is None else _as_vulkan(each, governed, severity) for each in found]
 
 
@@ -112,7 +115,7 @@ def _as_vulkan(input: Input, governed: ResolvedSettings, severity: Severity) -> 
     document, metal = input.frame.document, input.frame.document.metal
     assert metal is not None
     of_vulkan = document._replace(metal=metal._replace(api="VULKAN"))
-    verdicts, _ = governed.engine.of_document(of_vulkan, input.file, severity, input.device)
+    verdicts, _ = governed.engine.lint_document(of_vulkan, input.file, LintOptions(severity, device=input.device))
     return input._replace(by_vulkan=(verdicts.findings, verdicts.undecided))
 
 
@@ -124,7 +127,7 @@ def _input(
     governed: ResolvedSettings,
     device: DeviceProfile | None,
 ) -> Input:
-    many = len(linted.judged)
+    many = len(linted.documents)
     made = Input(name, Frame(judged.document), (), number=judged.number, many=many)
     settled = [found for found in map(governed.selection.settle, linted.findings) if found is not None]
     return made._replace(
@@ -143,11 +146,11 @@ def _input(
 
 def _fixed(before: Document, mended: FixedText | None, number: int) -> Frame | None:
     """The frame of a document after the fixes; None where they leave that document as it is."""
-    if mended is None or not mended.changed or number >= len(mended.linted.judged):
+    if mended is None or not mended.changed or number >= len(mended.linted.documents):
         return None
-    if not any(found.subject.startswith(f"documents[{number}].") for found in mended.fixed) and len(mended.linted.judged) > 1:
+    if not any(found.subject.startswith(f"documents[{number}].") for found in mended.fixed) and len(mended.linted.documents) > 1:
         return None
-    return Frame(mended.linted.judged[number].document)
+    return Frame(mended.linted.documents[number].document)
 
 
 def _own(findings: Sequence[Finding], prefix: str) -> tuple[Finding, ...]:

@@ -11,8 +11,8 @@ from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Edit
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.document import Document
-from msaa_lint.linter.engine import DocumentResult
-from msaa_lint.linter.rules.rule_runner import key_of
+from msaa_lint.linter.results import DocumentResult
+from msaa_lint.linter.rules.rule_runner import finding_key
 
 from .aliases import NOBODY, Wishes
 from .changes import Change, FixContext, Refused, changes
@@ -24,17 +24,17 @@ class DocumentFixes:
     """What is made once for the fixes of one document; `format` is the reader that was forced. One that is not `rewritten` was made of a
     text that edits cannot change: of source code."""
 
-    def __init__(self, source: Source, judged: DocumentResult, format: str | None = None, rewritten: bool = True) -> None:
+    def __init__(self, source: Source, result: DocumentResult, format: str | None = None, rewritten: bool = True) -> None:
         self.source = source
-        self.judged = judged
+        self.result = result
         self.format = format
         self.rewritten = rewritten
-        self._mending = FixContext(judged.document)
-        self._writing = Writing(source, judged.document)
+        self._mending = FixContext(result.document)
+        self._writing = Writing(source, result.document)
 
     def changes(self, found: Finding) -> tuple[Change, ...] | Refused | None:
         """What a finding's fix changes, in all places that the finding stands for; None where its rule has no fix for it."""
-        mends = self.judged.mends.get(key_of(found))
+        mends = self.result.fix_specs.get(finding_key(found))
         if mends is None:
             return None
         made: list[Change] = []
@@ -47,7 +47,7 @@ class DocumentFixes:
 
     def edits(self, made: Sequence[Change], wanted: Wishes = NOBODY) -> tuple[Edit, ...] | Refused:
         """As `text.edits`; what was made of a shorthand is changed in its words, or not at all."""
-        if self.judged.document.tree is not None:
+        if self.result.document.tree is not None:
             said = self._said(made)
             return said if isinstance(said, Refused) else (said.edit,)
         return self._writing.edits(made, wanted)
@@ -56,7 +56,7 @@ class DocumentFixes:
         """The findings of this document with the edits of their fixes; those that are only shown, or cannot be made, have none."""
         out = []
         for found in findings:
-            if self.judged.document.tree is not None:
+            if self.result.document.tree is not None:
                 out.append(self._in_shorthand(found))
                 continue
             if found.fix is not None and not found.fix.edits and not found.fix.shown:
@@ -87,13 +87,13 @@ class DocumentFixes:
     def _shorthand(self) -> Shorthand | None:
         if not self.rewritten:
             return None
-        return shorthand(self.source, self.judged.document, self.judged.number, self._wanted)
+        return shorthand(self.source, self.result.document, self.result.number, self._wanted)
 
     @cached_property
     def _wanted(self) -> tuple[list[Change], list[Change]]:
         """What the safe fixes of the document change, and what all change that may be made."""
         found: tuple[list[Change], list[Change]] = ([], [])
-        for mend, subject in (each for mends in self.judged.mends.values() for each in mends):
+        for mend, subject in (each for mends in self.result.fix_specs.values() for each in mends):
             made = changes(mend, subject, self._mending) if mend.safety != "shown" else ()
             if not isinstance(made, Refused):
                 found[1].extend(made)
@@ -114,7 +114,7 @@ class DocumentFixes:
         except Overlap:
             return None
         parsed = parse(source, Limits())
-        if parsed.problems or self.judged.number >= len(parsed.documents):
+        if parsed.problems or self.result.number >= len(parsed.documents):
             return None
-        document = readers.read(source, parsed.documents[self.judged.number], self.format)
+        document = readers.read(source, parsed.documents[self.result.number], self.format)
         return document if not document.problems else None

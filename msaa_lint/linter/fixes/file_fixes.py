@@ -8,7 +8,7 @@ from typing import NamedTuple
 from msaa_lint.core import atomic_write as write
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.text.source import encode
-from msaa_lint.linter.engine import FileResult
+from msaa_lint.linter.results import FileResult
 
 from . import fixer as rounds
 from .fixer import Unfixed

@@ -14,8 +14,8 @@ from typing import NamedTuple
 from msaa_lint.core.finding import Finding, rank
 from msaa_lint.core.text.edits import Overlap, apply
 from msaa_lint.core.text.span import Edit
-from msaa_lint.linter.engine import FileResult
-from msaa_lint.linter.rules.rule_runner import key_of
+from msaa_lint.linter.results import FileResult
+from msaa_lint.linter.rules.rule_runner import finding_key
 
 from .aliases import wishes
 from .changes import Change, Refused
@@ -95,9 +95,11 @@ class _Rounds:
         # Of two that want the same place otherwise, the graver has it.
         applicable = sorted((found for found in linted.findings if self.may(found)), key=lambda found: -rank(found.severity))
         # What a page says is worked out anew, with all that is wanted in this round; what is about comments has its edits.
-        stated = {key for judged in linted.judged for key in judged.mends}
-        made = [_Fix((found,), found.fix.edits) for found in applicable if found.fix and found.fix.edits and key_of(found) not in stated]
-        for judged in linted.judged:
+        stated = {key for judged in linted.documents for key in judged.fix_specs}
+        made = [
+            _Fix((found,), found.fix.edits) for found in applicable if found.fix and found.fix.edits and finding_key(found) not in stated
+        ]
+        for judged in linted.documents:
             offers = DocumentFixes(linted.source, judged)
             changed: list[tuple[Finding, tuple[Change, ...]]] = []
             for found in applicable:

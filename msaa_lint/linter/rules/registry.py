@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core import package
@@ -44,10 +44,15 @@ def pages(path: str) -> list[str]:
     return [os.path.join(path, name) for name in names if name.endswith(".md") and name != "README.md"]
 
 
-def load(own: Sequence[str] = ()) -> Registry:
-    """The built-in rules, and those of the given pages and folders of pages.
+CheckFixes = Callable[[Rule], list[Finding]]
+"""The problems of a rule's fixes."""
 
-    Built-in conditions are checked by the tests, a user's here: a misspelt fact is an error of the page, at its place.
+
+def load(paths: Sequence[str] = (), check_fixes: CheckFixes = lambda _: []) -> Registry:
+    """The built-in rules, and the rules of the given rule pages and folders of rule pages.
+
+    Only the user's own rules are checked here, fixes with `check_fixes`; the test suite checks the built-in rules. A rule with a problem
+    is left out.
     """
     rules: list[Rule] = []
     problems: list[Finding] = []
@@ -58,7 +63,7 @@ def load(own: Sequence[str] = ()) -> Registry:
         if page.rule is not None:
             rules.append(page.rule)
     given: dict[str, None] = {}
-    for each in own:
+    for each in paths:
         found_there = pages(each)
         given.update(dict.fromkeys(os.path.normpath(page) for page in found_there))
         if not found_there:
@@ -72,7 +77,7 @@ def load(own: Sequence[str] = ()) -> Registry:
             sources[shown] = page.source
         if page.rule is None:
             continue
-        found = [*conflicts(page.rule, rules), *misnamed(page.rule), *check_rule(page.rule)]
+        found = [*conflicts(page.rule, rules), *misnamed(page.rule), *check_rule(page.rule), *check_fixes(page.rule)]
         problems.extend(found)
         if not found:
             rules.append(page.rule)
@@ -103,7 +108,7 @@ def misnamed(rule: Rule) -> list[Finding]:
 
 
 def check_rule(rule: Rule) -> list[Finding]:
-    """What is wrong with a rule's conditions, its fixes and the facts that its texts name."""
+    """The problems of a rule's conditions, and the facts its texts name that do not exist. Fixes are not checked."""
     from msaa_lint.frame.facts.table import SUBJECTS
 
     found = []
@@ -116,17 +121,13 @@ def check_rule(rule: Rule) -> list[Finding]:
     known = {fact.name for fact in SUBJECTS[rule.subject]}
     named = [*rule.at, *(fact for fact, _ in rule.labels), *placeholders(rule.message), *placeholders(rule.help)]
     named.extend(name for case in rule.cases for text in (case.message, case.help) for name in placeholders(text or ""))
-    named.extend(name for mend in rule.mends for name in placeholders(mend.title))
+    named.extend(name for mend in rule.fix_specs for name in placeholders(mend.title))
     for text in (text for _, text in rule.labels):
         named.extend(placeholders(text))
     for name in dict.fromkeys(named):
         if name not in known:
             message = f"rule page `{rule.name}`: there is no fact {name} of {rule.subject}"
             found.append(diagnostic("MSAA921", message, rule.source.name, rule.condition_at, rule.name))
-    if rule.mends:
-        from .fix_checks import problems
-
-        found.extend(problems(rule))
     return found
 
 
@@ -156,4 +157,4 @@ def info(rule: Rule, severity: str | None = None, full: bool = True) -> RuleInfo
     """What reports say of a rule; `full` with its page."""
     text = markdown(rule) if full else ""
     severity = severity or rule.severity
-    return RuleInfo(rule.code, rule.name, severity, rule.confidence, rule.summary, text, rule.references, bool(rule.mends))
+    return RuleInfo(rule.code, rule.name, severity, rule.confidence, rule.summary, text, rule.references, bool(rule.fix_specs))

@@ -93,7 +93,7 @@ class Rule(NamedTuple):
     apis: tuple[str, ...] = APIS[:1]
 
     @property
-    def mends(self) -> "tuple[FixSpec, ...]":
+    def fix_specs(self) -> "tuple[FixSpec, ...]":
         """Its fixes: its own and those of its cases."""
         return tuple(dict.fromkeys(mend for mend in (self.fix, *(case.fix for case in self.cases)) if mend is not None))
 

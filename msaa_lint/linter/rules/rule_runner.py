@@ -30,7 +30,7 @@ class Verdicts(NamedTuple):
 
     findings: list[Finding]
     undecided: list[Undecided]
-    mends: FixSpecs
+    fix_specs: FixSpecs
 
 
 Rules = list[tuple[Rule, Condition]]
@@ -113,8 +113,8 @@ class RuleRunner:
             findings.extend(kept)
             for found in kept if fixes else ():
                 if found.code in fixes:
-                    mends.setdefault(key_of(found), []).append((fixes[found.code], subject))
-        return Verdicts(_distinct(findings), undecided, mends)
+                    mends.setdefault(finding_key(found), []).append((fixes[found.code], subject))
+        return Verdicts(distinct(findings), undecided, mends)
 
     def _condition(self, text: str) -> Condition:
         if text not in self._conditions:
@@ -193,7 +193,7 @@ class _Answers:
         return told[1]
 
 
-def key_of(found: Finding) -> Key:
+def finding_key(found: Finding) -> Key:
     """What tells a finding from the others of its file."""
     return (found.code, found.span, found.message)
 
@@ -250,12 +250,12 @@ def _one_cause(fired: list[tuple[Rule, Finding]]) -> list[Finding]:
     return kept
 
 
-def _distinct(findings: list[Finding]) -> list[Finding]:
-    """Each place and message of a rule once: a structure that two aspects share is one mistake."""
-    seen: dict[Key, Finding] = {}
+def distinct(findings: Iterable[Finding]) -> list[Finding]:
+    """The first of the findings with the same code, location and message: a structure that two subjects share is one mistake."""
+    by_key: dict[Key, Finding] = {}
     for found in findings:
-        seen.setdefault(key_of(found), found)
-    return list(seen.values())
+        by_key.setdefault(finding_key(found), found)
+    return list(by_key.values())
 
 
 def _failed(rule: Rule, error: ArithmeticError, file: str) -> Finding:

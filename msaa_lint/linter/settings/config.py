@@ -18,10 +18,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.project import NAMES, inside, project_root, shown
+from msaa_lint.core.quote import quoted
 from msaa_lint.core.text.span import Span
 
 from .selectors import unknown_selectors
-from .settings import Origin, Settings, override, quoted
+from .settings import Origin, Settings, override
 
 if TYPE_CHECKING:
     from msaa_lint.core.text.source import Source

@@ -9,8 +9,9 @@ from typing import Any
 
 from msaa_lint.core.finding import CONFIDENCES, SEVERITIES, Finding
 from msaa_lint.core.globs import Glob
+from msaa_lint.core.quote import quoted
 
-from .settings import Origin, quoted
+from .settings import OUTPUT_FORMATS, Origin
 
 LEVELS = (*reversed(SEVERITIES), "off")
 LIMITS = {"depth": 100, "nodes": 1_000_000, "bytes": 64 << 20}
@@ -262,8 +263,6 @@ def _limits(reading: Reading, key: str, value: object) -> dict[str, int]:
 
 
 def _output(reading: Reading, key: str, value: object) -> tuple[str, ...] | None:
-    from msaa_lint.cli.report import FORMATS
-
     items = reading.texts((key,), value, "output")
     if items is None:
         return None
@@ -271,7 +270,7 @@ def _output(reading: Reading, key: str, value: object) -> tuple[str, ...] | None
     for at, item in items:
         if "=" in item:
             reading.wrong(at, f"{quoted(item)} names a file", "only the command line can say what file to write")
-        elif reading.one_of(at, item, tuple(FORMATS)):
+        elif reading.one_of(at, item, OUTPUT_FORMATS):
             read.append(item)
     return tuple(read)
 

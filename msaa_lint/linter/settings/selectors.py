@@ -8,8 +8,9 @@ from typing import NamedTuple, Protocol
 
 from msaa_lint.core.diagnostics import DIAGNOSTICS, diagnostic
 from msaa_lint.core.finding import Finding
+from msaa_lint.core.quote import quoted
 
-from .settings import COMMAND_LINE, Origin, Settings, quoted
+from .settings import COMMAND_LINE, Origin, Settings
 
 ALL = "ALL"
 EXACT = 1000

@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 
 COMMAND_LINE = "<command line>"
 
+OUTPUT_FORMATS = ("full", "concise", "json", "sarif", "github", "gitlab", "junit", "markdown")
+"""The values of `output` and `--output`."""
+
 
 class Origin(NamedTuple):
     """Where a key was read: the text of the file, and the table that it stands in (`tool`, `msaa-lint`, or none)."""
@@ -140,8 +143,3 @@ def override(
         command_line=Choice(None if select is None else tuple(select), tuple(extend_select), tuple(ignore), dict(severity or {})),
         origin={path: origin for path, origin in settings.origin.items() if path[0] not in replaced},
     )
-
-
-def quoted(value: str) -> str:
-    """A word of the input as a message shows it."""
-    return f"`{value[:80]}…`" if len(value) > 80 else f"`{value}`"

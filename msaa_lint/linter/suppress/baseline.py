@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding, Suppressed
-from msaa_lint.linter.settings.settings import quoted
+from msaa_lint.core.quote import quoted
 
 if TYPE_CHECKING:
     from msaa_lint.core.text.source import Source

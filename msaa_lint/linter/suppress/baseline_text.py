@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
+from msaa_lint.core.quote import quoted
 from msaa_lint.core.text.span import Span
-from msaa_lint.linter.settings.settings import quoted
 
 if TYPE_CHECKING:
     from msaa_lint.core.text.source import Source

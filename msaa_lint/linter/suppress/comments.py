@@ -6,8 +6,8 @@ import re
 from collections.abc import Collection, Iterable
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
+from msaa_lint.core.quote import quoted
 from msaa_lint.core.text.span import Edit, Span
-from msaa_lint.linter.settings.settings import quoted
 
 if TYPE_CHECKING:
     from msaa_lint.core.text.comments import Comment

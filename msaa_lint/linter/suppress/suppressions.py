@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 from msaa_lint.core.diagnostics import DIAGNOSTICS, diagnostic
 from msaa_lint.core.finding import Finding, Fix, Suppressed
+from msaa_lint.core.quote import quoted
 from msaa_lint.core.text.span import Edit, Span
 from msaa_lint.linter.settings.selectors import Named, Words
-from msaa_lint.linter.settings.settings import quoted
 
 from .comments import Directive, Entry, read, without
 

@@ -22,13 +22,14 @@ from msaa_lint.experiments.confirm.noise import NOISE as LEFT_OUT
 from msaa_lint.experiments.confirm.noise import Noise
 from msaa_lint.experiments.confirm.verdict import Said
 from msaa_lint.frame.facts.frame import Frame
-from msaa_lint.linter.engine import Engine, FileResult
+from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.condition import check
 from msaa_lint.linter.rules.registry import load
 from tests.paths import ROOT
 
 ENGINE = Engine(load([]))
-RULES = {rule.name: rule for rule in ENGINE.catalogue.rules}
+RULES = {rule.name: rule for rule in ENGINE.registry.rules}
 BY_NAME = {family.name: family for family in FAMILIES}
 
 WITHOUT_NUMBER = re.compile(r"-\d{5}$")
@@ -232,14 +233,14 @@ def described(usage: str = "", load: str = "CLEAR", store: str = "DONT_CARE", mo
 
 @cache
 def linted_of(text: str) -> FileResult:
-    linted = ENGINE.lint(text.encode(), "frame", lambda rule, suggested, vendor: suggested)
+    linted = ENGINE.lint(text.encode(), "frame", LintOptions(lambda rule, suggested, vendor: suggested))
     assert not [found for found in linted.findings if found.fatal], linted.findings
     return linted
 
 
 def rows(text: str, *messages: Message, at: Looking = EVERYTHING) -> dict[int, list[Said]]:
     linted = linted_of(text)
-    (judged,) = linted.judged
+    (judged,) = linted.documents
     frame = Frame(judged.document)
     passes = {number: each.name for number, each in enumerate(frame.passes)}
     found = agreement(frame, passes, linted.findings, messages, at, linted.undecided, judged.device)

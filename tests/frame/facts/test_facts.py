@@ -16,7 +16,7 @@ from msaa_lint.frame.facts.table import FACTS, GLOBAL, SUBJECTS, WORDS, Fact
 from msaa_lint.frame.vulkan.enums import VALUES
 from msaa_lint.input import readers
 from msaa_lint.input.shader_modules import Modules
-from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.engine import Engine, LintOptions
 from msaa_lint.linter.rules.condition import named
 from msaa_lint.linter.rules.registry import load
 from tests.frame.description.shapes import Json
@@ -147,7 +147,7 @@ def test_random_frames_are_judged_without_a_failure(frame: Json) -> None:
     text = json.dumps(frame)
     for subject in found(text):
         assert undeclared(subject) == [], subject.path
-    linted = ENGINE.lint(text.encode(), "random.json", lambda rule, suggested, vendor: suggested)
+    linted = ENGINE.lint(text.encode(), "random.json", LintOptions(lambda rule, suggested, vendor: suggested))
     assert [finding for finding in linted.findings if finding.fatal] == []
     size = len(text)
     for finding in linted.findings:

@@ -15,7 +15,7 @@ from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.global_facts import profile
 from msaa_lint.frame.facts.subjects import subjects
-from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.engine import Engine, LintOptions
 from msaa_lint.linter.rules.registry import load
 from tests.frame.description.shapes import Json
 from tests.frame.metal.frames import ARTICLE, BEST, document
@@ -135,7 +135,7 @@ def found(document: Document) -> list[tuple[str, str, str]]:
     """What Vulkan's rules say of a frame."""
     if document.metal is not None:
         document = document._replace(metal=document.metal._replace(api="VULKAN"))
-    verdicts, _ = ENGINE.of_document(document, "given.yaml", lambda rule, suggested, vendor: suggested, None)
+    verdicts, _ = ENGINE.lint_document(document, "given.yaml", LintOptions(lambda rule, suggested, vendor: suggested))
     return sorted((finding.rule, finding.severity, finding.message) for finding in verdicts.findings)
 
 
@@ -152,7 +152,7 @@ def test_it_is_the_same_frame(metal: str, vulkan: str) -> None:
 
 
 def test_findings_stand_in_metals_text() -> None:
-    linted = ENGINE.lint(ARTICLE.encode(), "given.yaml", lambda rule, suggested, vendor: suggested)
+    linted = ENGINE.lint(ARTICLE.encode(), "given.yaml", LintOptions(lambda rule, suggested, vendor: suggested))
     stated = {(f.rule, ARTICLE[f.span.start : f.span.end], f.subject) for f in linted.findings if f.span is not None}
     assert stated == {
         ("metal-usage-blocks-memoryless", "shaderRead", "metal.textures.ms"),
@@ -160,7 +160,7 @@ def test_findings_stand_in_metals_text() -> None:
         ("metal-samples-stored-unread", "storeAndMultisampleResolve", "metal.renderPasses.forward.colorAttachments[0]"),
         ("metal-depth-stored-unread", "store", "metal.renderPasses.forward.depthAttachment"),
     }
-    assert ENGINE.lint(BEST.encode(), "given.yaml", lambda rule, suggested, vendor: suggested).findings == []
+    assert ENGINE.lint(BEST.encode(), "given.yaml", LintOptions(lambda rule, suggested, vendor: suggested)).findings == []
 
 
 def test_paths_are_metals() -> None:
@@ -303,12 +303,12 @@ def test_a_render_target_of_no_vulkan_format_is_what_it_is_attached_as() -> None
 def test_random_frames_are_judged_priced_and_fixed_without_a_failure(frame: Json) -> None:
     text = json.dumps(frame)
     severity = lambda rule, suggested, vendor: suggested  # noqa: E731
-    linted = ENGINE.lint(text.encode(), "random.json", severity, prices=True)
+    linted = ENGINE.lint(text.encode(), "random.json", LintOptions(severity, prices=True))
     assert [finding for finding in linted.findings if finding.fatal] == []
     for finding in linted.findings:
         assert finding.span is not None and 0 <= finding.span.start <= finding.span.end <= len(text)
         assert "{" not in finding.message, finding
-    (judged,) = linted.judged
+    (judged,) = linted.documents
     made = Frame(judged.document)
     frame_cost(made, judged.device)
     for each in made.passes:

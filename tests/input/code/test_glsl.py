@@ -17,8 +17,9 @@ from msaa_lint.input.code.glsl.description_trees import trees
 from msaa_lint.input.code.glsl.shader import shader
 from msaa_lint.input.code.glsl.text import NotRead, prepared
 from msaa_lint.input.code.parsing import Code
-from msaa_lint.input.source_file import programmed
-from msaa_lint.linter.engine import FileResult
+from msaa_lint.input.source_file import read_source_file
+from msaa_lint.linter.engine import LintOptions
+from msaa_lint.linter.results import FileResult
 from tests.cli.test_check import run
 from tests.frame.spirv.generate import RULES, SHADERS, compiled, sources
 from tests.frame.spirv.test_average import TERMS, Term
@@ -84,7 +85,7 @@ def test_specialisation() -> None:
 
 
 def linted(text: str, language: str = "glsl") -> FileResult:
-    return ENGINE.lint(programmed(text.encode(), f"shader.{language}", language), f"shader.{language}", as_written)
+    return ENGINE.lint(read_source_file(text.encode(), f"shader.{language}", language), f"shader.{language}", LintOptions(as_written))
 
 
 def findings(text: str, language: str = "glsl") -> list[tuple[str, str, str, int, str]]:
@@ -260,7 +261,7 @@ def of_frame(folder: Path, module: str) -> list[tuple[str, str, str]]:
     path = folder / "frame.msaa.yaml"
     text = FRAME.replace("MODULE", module)
     path.write_text(text, encoding="utf-8")
-    result = ENGINE.lint(text.encode(), str(path), as_written)
+    result = ENGINE.lint(text.encode(), str(path), LintOptions(as_written))
     told = [each for each in result.findings if each.code.startswith(("MSAA313", "MSAA314", "MSAA9"))]
     return [(each.code, each.severity, each.message) for each in told]
 
@@ -284,7 +285,7 @@ def test_a_page_is_converted(tmp_path: Path) -> None:
     assert done.returncode == 0
     assert (tmp_path / "resolve.frag").read_text() == PART
     text = (tmp_path / "page.msaa.yaml").read_text()
-    result = ENGINE.lint(text.encode(), str(tmp_path / "page.msaa.yaml"), as_written)
+    result = ENGINE.lint(text.encode(), str(tmp_path / "page.msaa.yaml"), LintOptions(as_written))
     assert {each.code for each in result.findings} == {"MSAA313", "MSAA314"}
 
 

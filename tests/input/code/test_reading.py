@@ -12,7 +12,7 @@ import pytest
 
 from msaa_lint.input import discovery
 from msaa_lint.input.code import LANGUAGES, language_of, parsing
-from msaa_lint.input.source_file import programmed
+from msaa_lint.input.source_file import read_source_file
 from tests.cli.test_check import run
 from tests.paths import ROOT
 
@@ -551,7 +551,7 @@ def test_what_is_assumed_is_a_note(monkeypatch: pytest.MonkeyPatch) -> None:
     stand_in.trees = trees  # type: ignore[attr-defined]
     monkeypatch.setitem(__import__("sys").modules, "msaa_lint.input.code.stand_in", stand_in)
     monkeypatch.setitem(programs.MODULES, "cpp", "stand_in")
-    program = programmed(b"// samples\nint m_samples;\n", "a.cpp", "cpp").program
+    program = read_source_file(b"// samples\nint m_samples;\n", "a.cpp", "cpp").program
     first = "the sample count `m_0` (line 2) is not known here: judged as 0"
     assert program.assumed[0] == (first,)
     assert program.assumed[1][0] == first

@@ -12,7 +12,8 @@ from msaa_lint.frame.description.models import SampleCountChoice
 from msaa_lint.input.code.parsing import Code, tree
 from msaa_lint.input.code.sample_counts.choices import choices
 from msaa_lint.input.code.sample_counts.masks import LIMITS
-from msaa_lint.input.source_file import programmed
+from msaa_lint.input.source_file import read_source_file
+from msaa_lint.linter.engine import LintOptions
 from tests.test_rules import ENGINE, as_written, lint
 
 COLOR, DEPTH, STENCIL = (f"framebuffer{aspect}SampleCounts" for aspect in ("Color", "Depth", "Stencil"))
@@ -45,7 +46,7 @@ def asked(found: dict[str, Any]) -> list[tuple[int, int]]:
 def fired(text: str, language: str = "cpp") -> list[tuple[str, int, str]]:
     """The findings about choices: code, line, and the text that is pointed at."""
     name = f"example.{language}"
-    linted = ENGINE.lint(programmed(text.encode(), name, language), name, as_written)
+    linted = ENGINE.lint(read_source_file(text.encode(), name, language), name, LintOptions(as_written))
     assert linted.source is not None
     found = []
     for each in linted.findings:

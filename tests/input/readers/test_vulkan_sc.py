@@ -17,7 +17,7 @@ from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.records import Pipeline, RenderPass, Subpass
 from msaa_lint.input.readers import read
-from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.engine import Engine, LintOptions
 from msaa_lint.linter.rules.registry import load
 from tests.frame.description.shapes import JUNK, paths, replaced
 from tests.frame.description.test_schema import value_of
@@ -229,7 +229,7 @@ def test_garbage_in_any_member_never_crashes(which: int, changes: list[tuple[int
     for number, junk in changes:
         every = paths(value)
         value = replaced(value, every[number % len(every)], junk)
-    linted = ENGINE.lint(json.dumps(value).encode(), "pipeline.json", lambda rule, suggested, vendor: suggested)
+    linted = ENGINE.lint(json.dumps(value).encode(), "pipeline.json", LintOptions(lambda rule, suggested, vendor: suggested))
     fatal = {found.code for found in linted.findings if found.fatal}
     assert fatal <= {"MSAA903", "MSAA902"}
 

@@ -11,9 +11,10 @@ from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.description.records import Command
-from msaa_lint.linter.engine import Engine, FileResult
+from msaa_lint.linter.engine import Engine, LintOptions
 from msaa_lint.linter.fixes import fixer as rounds
 from msaa_lint.linter.fixes.fixer import Fixed
+from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.registry import load
 from msaa_lint.linter.rules.rule_file import Rule
 from tests.pages import RULES
@@ -27,7 +28,7 @@ def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
 
 
 def lint(text: str) -> FileResult:
-    return ENGINE.lint(text.encode(), str(RULES / "frame.yaml"), as_written)
+    return ENGINE.lint(text.encode(), str(RULES / "frame.yaml"), LintOptions(as_written))
 
 
 def fixed(text: str, unsafe: bool = False) -> Fixed:
@@ -50,7 +51,7 @@ def rules(findings: tuple[Finding, ...] | list[Finding]) -> list[str]:
 
 def meaning(linted: FileResult) -> list[object]:
     """What the documents of a text state, their places and spellings aside."""
-    return [_meaning(judged.document.description) for judged in linted.judged]
+    return [_meaning(judged.document.description) for judged in linted.documents]
 
 
 def _meaning(value: object) -> object:

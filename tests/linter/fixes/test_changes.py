@@ -33,7 +33,7 @@ commands:
   - present: {image: out}
 """
 LINTED = lint(TEXT)
-(JUDGED,) = LINTED.judged
+(JUDGED,) = LINTED.documents
 DOCUMENT = JUDGED.document
 
 

@@ -33,7 +33,7 @@ def reasons(text: str, rule: str) -> list[str]:
     """Why the fixes of a rule's findings cannot be made."""
     linted = lint(text)
     assert linted.source is not None
-    offers = DocumentFixes(linted.source, linted.judged[0])
+    offers = DocumentFixes(linted.source, linted.documents[0])
     made = [offers.changes(found) for found in linted.findings if found.rule == rule]
     return [each.reason for each in made if isinstance(each, Refused)]
 

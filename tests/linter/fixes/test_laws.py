@@ -10,9 +10,9 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from msaa_lint.core.text.edits import apply
-from msaa_lint.linter.engine import FileResult
 from msaa_lint.linter.fixes.changes import METAL, PLAIN, Change, Refused, _after, applied
 from msaa_lint.linter.fixes.document_fixes import DocumentFixes
+from msaa_lint.linter.results import FileResult
 from tests.linter.fixes.judging import _meaning, comments_of, fixed, kinds, lint, meaning, rules
 from tests.linter.fixes.spelled import data_of, written
 from tests.pages import all_examples
@@ -85,7 +85,7 @@ def edits_make_changes(text: str) -> int:
     linted = lint(text)
     assert not [found for found in linted.findings if found.fatal], text
     assert linted.source is not None
-    (judged,) = linted.judged
+    (judged,) = linted.documents
     offers = DocumentFixes(linted.source, judged)
     count = 0
     for found in linted.findings:
@@ -109,7 +109,7 @@ def edits_make_changes(text: str) -> int:
 
 def stated(linted: FileResult) -> object:
     """What a frame in Metal's words states, and not what it is made into."""
-    return _meaning(linted.judged[0].document.description.metal)
+    return _meaning(linted.documents[0].document.description.metal)
 
 
 def stated_with(linted: FileResult, made: Sequence[Change]) -> object:

@@ -7,12 +7,12 @@ from pathlib import Path
 import pytest
 
 from msaa_lint.frame.facts.table import FACTS, SUBJECTS
-from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.engine import Engine, LintOptions
 from msaa_lint.linter.fixes.actions import DEEDS
 from msaa_lint.linter.fixes.fact_sources import CHANGEABLE, ONLY
+from msaa_lint.linter.fixes.fix_checks import problems
 from msaa_lint.linter.fixes.metal import CHANGEABLE as METAL_CHANGEABLE
 from msaa_lint.linter.fixes.metal import DEEDS as METAL_DEEDS
-from msaa_lint.linter.rules.fix_checks import problems
 from msaa_lint.linter.rules.registry import load
 from tests.linter.fixes.judging import fixed, lint
 from tests.marked import unmarked
@@ -35,7 +35,7 @@ def loaded(folder: Path, fix: str) -> tuple[list[tuple[str, str]], list[str]]:
     text, spans = unmarked(PAGE.format(fix=fix).rstrip("\n"))
     path = folder / "no-store.md"
     path.write_text(f"{text}\n", encoding="utf-8")
-    catalogue = load([str(path)])
+    catalogue = load([str(path)], problems)
     found = [
         (each.message.removeprefix("rule page `no-store`: "), text[each.span.start : each.span.end])
         for each in catalogue.problems
@@ -89,7 +89,7 @@ cases:
     engine = Engine(load([str(tmp_path / "no-store.md")]))
     entries = ", ".join(f"a{n}: {{format: R8_UNORM, samples: {n}, storeOp: STORE}}" for n in (1, 2, 4, 8, 16))
     text = f"renderPasses: {{p: {{attachments: {{{entries}}}}}}}"
-    findings = engine.lint(text.encode(), "x", lambda rule, suggested, vendor: suggested).findings
+    findings = engine.lint(text.encode(), "x", LintOptions(lambda rule, suggested, vendor: suggested)).findings
     fixes = [found.fix for found in findings if found.rule == "no-store"]
     assert [(each.title, each.safe, each.shown, bool(each.edits)) if each else None for each in fixes] == [
         ("store color: DONT_CARE", True, False, True),
@@ -108,14 +108,14 @@ def test_the_facts_that_can_be_changed_are_facts() -> None:
 def test_the_catalogue() -> None:
     rules = load().rules
     assert [each for rule in rules for each in problems(rule)] == []
-    assert {mend.do for rule in rules for mend in rule.mends if mend.do} == {*DEEDS, *METAL_DEEDS}
-    changed = {setting.fact for rule in rules for mend in rule.mends for setting in (*mend.set, *mend.add, *mend.remove)}
+    assert {mend.do for rule in rules for mend in rule.fix_specs if mend.do} == {*DEEDS, *METAL_DEEDS}
+    changed = {setting.fact for rule in rules for mend in rule.fix_specs for setting in (*mend.set, *mend.add, *mend.remove)}
     assert changed <= {*CHANGEABLE, *METAL_CHANGEABLE}
     for rule in rules:
         assert {fact.name for fact in SUBJECTS[rule.subject]}
 
 
-@pytest.mark.parametrize("rule", [rule for rule in load().rules if rule.mends], ids=lambda rule: rule.name)
+@pytest.mark.parametrize("rule", [rule for rule in load().rules if rule.fix_specs], ids=lambda rule: rule.name)
 def test_a_fixed_example_is_what_the_fix_writes(rule: object) -> None:
     """The page shows a bad example and, below it, exactly what this rule's fix makes of it."""
     from msaa_lint.core.text.edits import apply
@@ -131,7 +131,7 @@ def test_a_fixed_example_is_what_the_fix_writes(rule: object) -> None:
         text = "".join(line for line in example.text.splitlines(keepends=True) if not line.startswith("#") or "^" not in line)
         linted = lint(text)
         assert linted.source is not None
-        offers = DocumentFixes(linted.source, linted.judged[0])
+        offers = DocumentFixes(linted.source, linted.documents[0])
         made = [offers.changes(found) for found in linted.findings if found.rule == name]
         edits = [offers.edits(each) for each in made if each is not None and not isinstance(each, Refused)]
         results.append(apply(text, {edit for each in edits if not isinstance(each, Refused) for edit in each}))

@@ -182,8 +182,8 @@ def test_overlaps(taken: tuple[int, int, str], other: tuple[int, int, str], apar
 
 def test_what_a_refused_fix_stood_in_the_way_of_is_made() -> None:
     from msaa_lint.core.text.source import Source
-    from msaa_lint.linter.engine import FileResult
     from msaa_lint.linter.fixes import fixer as rounds
+    from msaa_lint.linter.results import FileResult
 
     def finding(code: str, severity: str, fix: Fix | None = None) -> Finding:
         return Finding(code, code.lower(), severity, "high", "", "f", Span(0, 1), code, fix=fix)

@@ -22,7 +22,7 @@ DATA = ROOT / "tests" / "data"
 
 def changed(text: str, *changes: tuple[str, str, str, object]) -> str:
     """A text with changes made: the path of a record, a member, an action, a value; or the reason why not."""
-    (judged,) = lint(text).judged
+    (judged,) = lint(text).documents
     made = [Change(_record(judged.document.description, path), member, action, value) for path, member, action, value in changes]
     edits = Writing(Source("", text), judged.document).edits(made)
     return f"refused: {edits.reason}" if isinstance(edits, Refused) else apply(text, edits)
@@ -269,7 +269,7 @@ def test_a_dumped_pointer_that_goes_is_null() -> None:
 )
 def test_a_dumped_enumerant_may_be_a_number(written: str, after: str) -> None:
     text = json.dumps({"GraphicsPipelineState": {"Renderpass": {"pAttachments": [{"storeOp": "X", "samples": 4}]}}}).replace('"X"', written)
-    (judged,) = lint(text).judged
+    (judged,) = lint(text).documents
     record = judged.document.description.renderPasses["Renderpass"].attachments[0]
     edits = Writing(Source("", text), judged.document).edits([Change(record, "storeOp", "set", "DONT_CARE")])
     assert not isinstance(edits, Refused)
@@ -311,7 +311,7 @@ def test_of_several_items_with_comments_none_goes() -> None:
 
 
 def test_a_frame_is_joined_once_for_all_fixes() -> None:
-    (judged,) = lint(ALIASED).judged
+    (judged,) = lint(ALIASED).documents
     mending = FixContext(judged.document)
     assert mending.frame is mending.frame
 

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 
 from msaa_lint.core.finding import Finding
 from msaa_lint.frame.facts.events import MAX_STEPS
-from msaa_lint.linter.engine import FileResult
 from msaa_lint.linter.fixes import fixer as rounds
+from msaa_lint.linter.results import FileResult
 from tests.linter.lifetimes import watched as given_frames
 from tests.linter.lifetimes.watched import given_text, lint
 from tests.strength import examples

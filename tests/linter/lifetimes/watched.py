@@ -8,7 +8,8 @@ from collections.abc import Set
 from string import Template
 
 from msaa_lint.core.finding import Finding
-from msaa_lint.linter.engine import Engine, FileResult
+from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.registry import load
 from msaa_lint.linter.rules.rule_file import Rule
 
@@ -31,7 +32,7 @@ def given_text(text: str, **values: str) -> str:
 
 def lint(text: str, prices: bool = False) -> FileResult:
     """What is found in a text without mistakes of its own."""
-    linted = ENGINE.lint(text.encode(), "frame.yaml", as_written, prices=prices)
+    linted = ENGINE.lint(text.encode(), "frame.yaml", LintOptions(as_written, prices=prices))
     assert not [found.message for found in linted.findings if found.fatal]
     return linted
 

@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.core.finding import Finding
-from msaa_lint.linter.engine import Engine, FileResult
+from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.registry import Registry, load, markdown
 from msaa_lint.linter.rules.rule_file import KEYS, MAX_CONDITION, Rule, first_sentence, read_page, split
 from tests.marked import unmarked
@@ -38,7 +39,7 @@ def own(catalogue: Registry) -> list[str]:
 
 
 def lint(catalogue: Registry, text: str) -> FileResult:
-    return Engine(catalogue).lint(text.encode(), "frame.yaml", lambda rule, suggested, vendor: suggested)
+    return Engine(catalogue).lint(text.encode(), "frame.yaml", LintOptions(lambda rule, suggested, vendor: suggested))
 
 
 def said(linted: FileResult) -> list[tuple[str, str, str, str]]:
@@ -114,7 +115,7 @@ def test_a_rule_is_asked_of_its_apis_alone(tmp_path: Path, apis: str, vulkan: bo
     # One engine for both: what it remembers of one API's frames it does not tell of the other's.
     engine = Engine(catalogue)
     for text, asked in ((VULKAN, vulkan), (METAL, metal), (VULKAN, vulkan), ("metal: {textures: {a: {}}}", metal)):
-        linted = engine.lint(text.encode(), "frame.yaml", as_suggested)
+        linted = engine.lint(text.encode(), "frame.yaml", LintOptions(as_suggested))
         told = [(found.severity, found.message) for found in linted.findings if found.code == "ACME001"]
         undecided = [unknown.missing for unknown in linted.undecided if unknown.code == "ACME001"]
         stated = "4" in text

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from msaa_lint.linter.engine import Engine, FileResult
+from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules import rule_runner as judge
 from msaa_lint.linter.rules.condition import Condition
 from msaa_lint.linter.rules.registry import load
@@ -19,7 +20,10 @@ def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
 
 
 def verdicts(engine: Engine, texts: list[bytes]) -> list[FileResult]:
-    return [engine.lint(text, "example.yaml", as_written)._replace(source=None, judged=(), together=None) for text in texts]
+    return [
+        engine.lint(text, "example.yaml", LintOptions(as_written))._replace(source=None, documents=(), combined_price=None)
+        for text in texts
+    ]
 
 
 def test_verdicts_are_the_same_whatever_is_remembered(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,17 +9,17 @@ from msaa_lint.core.finding import Finding
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.facts.table import FACTS, SUBJECTS, WORDS
 from msaa_lint.frame.vulkan.names import nearest
-from msaa_lint.linter.fixes.actions import DEEDS
-from msaa_lint.linter.fixes.fact_sources import CHANGEABLE, ONLY
-from msaa_lint.linter.fixes.metal import CHANGEABLE as OF_METAL
-from msaa_lint.linter.fixes.metal import DEEDS as METAL_DEEDS
+from msaa_lint.linter.rules.rule_file import FixSpec, Rule, Setting
 
-from .rule_file import FixSpec, Rule, Setting
+from .actions import DEEDS
+from .fact_sources import CHANGEABLE, ONLY
+from .metal import CHANGEABLE as OF_METAL
+from .metal import DEEDS as METAL_DEEDS
 
 
 def problems(rule: Rule) -> list[Finding]:
     """The facts that cannot be changed, the values that they never have, and what is to be done and nothing does (MSAA921)."""
-    found = dict.fromkeys(each for mend in rule.mends for each in _wrong(mend, rule))
+    found = dict.fromkeys(each for mend in rule.fix_specs for each in _wrong(mend, rule))
     return [diagnostic("MSAA921", f"rule page `{rule.name}`: {message}", rule.source.name, span, rule.name) for span, message in found]
 
 

@@ -6,8 +6,8 @@ import difflib
 import re
 from collections.abc import Iterator
 
-from msaa_lint.cli.report.color import paint
-from msaa_lint.cli.report.escape import visible
+from .color import paint
+from .escape import visible
 
 _LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n)|[^\r\n]+")
 _STYLES = {"+": "32", "-": "31", "@": "36"}
