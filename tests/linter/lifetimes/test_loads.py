@@ -12,7 +12,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from msaa_lint.linter.engine import FileResult
+from msaa_lint.linter.engine import LintOptions
+from msaa_lint.linter.results import FileResult
 from tests.linter.lifetimes import watched as given_frames
 from tests.linter.lifetimes.watched import ENGINE, as_written
 from tests.strength import examples
@@ -454,5 +455,5 @@ def test_more_uses_than_are_followed_leave_all_unknown() -> None:
     text += "      - {image: x, loadOp: CLEAR, storeOp: STORE}\n" * attachments
     text += "    subpasses: [{depthStencilAttachment: 0}]\ncommands:\n"
     text += "  - beginRenderPass: {renderPass: scene}\n  - endRenderPass\n" * begins
-    linted = ENGINE.lint(text.encode(), "frame.yaml", as_written)
+    linted = ENGINE.lint(text.encode(), "frame.yaml", LintOptions(as_written))
     assert "renderPasses.scene.attachments[0]" in undecided(linted, "MSAA208")

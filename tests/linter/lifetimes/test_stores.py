@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import pytest
 
-from msaa_lint.linter.engine import FileResult
+from msaa_lint.linter.results import FileResult
 from tests.linter.lifetimes import watched as given_frames
 
 WATCHED = {f"MSAA{number}" for number in (201, 202, 203, 204, 205, 206, 207, 210, 215, 602)}
