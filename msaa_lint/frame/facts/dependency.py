@@ -1,102 +1,138 @@
-"""Facts of what orders a frame's use of an attachment after the last frame's."""
+"""Facts of the dependencies that order a frame's use of an attachment after the last frame's."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.description.records import ImageBarrier, PipelineBarrier, RenderPass, SubpassDependency
 
 from .facts import Facts
 from .frame import RENDER_PASS, Attachment, Frame, Pass
 
-_INCLUDE_LATE_TESTS = frozenset({"LATE_FRAGMENT_TESTS", "ALL_GRAPHICS", "ALL_COMMANDS", "BOTTOM_OF_PIPE"})
+_ALL_STAGES = frozenset({"ALL_GRAPHICS", "ALL_COMMANDS", "BOTTOM_OF_PIPE"})
+_LATE_STAGES = frozenset({"LATE_FRAGMENT_TESTS"}) | _ALL_STAGES
+_COLOR_STAGES = frozenset({"COLOR_ATTACHMENT_OUTPUT"}) | _ALL_STAGES
 _ATTACHMENT_STAGES = frozenset({"COLOR_ATTACHMENT_OUTPUT", "EARLY_FRAGMENT_TESTS", "LATE_FRAGMENT_TESTS", "ALL_GRAPHICS", "ALL_COMMANDS"})
+
+COLOR_WRITE = "COLOR_ATTACHMENT_WRITE"
+DEPTH_STENCIL_WRITE = "DEPTH_STENCIL_ATTACHMENT_WRITE"
 
 
 class Masks(NamedTuple):
-    """What is waited for: source stages, and accesses made available."""
+    """The first scope of a barrier: the stages that it waits for, and the accesses that it makes available."""
 
-    srcStageMask: tuple[str, ...]
-    srcAccessMask: tuple[str, ...]
+    srcStageMask: tuple[str, ...] | None
+    srcAccessMask: tuple[str, ...] | None
 
 
-Barriers = dict[str | None, Masks]
+Wait = Masks | SubpassDependency
+
+Barriers = dict[str | None, list[Masks]]
+"""By image (None: all memory, where attachment stages wait): the recorded barriers."""
 
 
 def recorded_barriers(frame: Frame) -> Barriers:
-    """By image (None: for all memory, where attachments wait for it): what the recorded barriers wait for, taken together."""
+    """The recorded barriers that attachments may wait for."""
     found: Barriers = {}
     for command in frame.commands:
         body = command.body
-        if not isinstance(body, PipelineBarrier):
-            continue
-        images = {image.image if isinstance(image, ImageBarrier) else image for image in body.images}
-        for name in images or ({None} if not _ATTACHMENT_STAGES.isdisjoint(body.dstStageMask or ()) else set()):
-            before = found.get(name, Masks((), ()))
-            stages = dict.fromkeys((*before.srcStageMask, *(body.srcStageMask or ())))
-            accesses = dict.fromkeys((*before.srcAccessMask, *(body.srcAccessMask or ())))
-            found[name] = Masks(tuple(stages), tuple(accesses))
+        if isinstance(body, PipelineBarrier):
+            images = {image.image if isinstance(image, ImageBarrier) else image for image in body.images}
+            for name in images or ({None} if not _ATTACHMENT_STAGES.isdisjoint(body.dstStageMask or ()) else set()):
+                found.setdefault(name, []).append(Masks(body.srcStageMask or (), body.srcAccessMask or ()))
     return found
 
 
-def external_dependencies(each: Pass, barriers: Barriers, apart: bool = False) -> Iterator[tuple[Record, Facts]]:
-    """For every subpass with stated dependencies from EXTERNAL: the first of them, and the facts of all together.
+def external_dependencies(render_pass: Pass, barriers: Barriers, detached: bool = False) -> Iterator[tuple[Record, Facts]]:
+    """For every subpass with stated dependencies from EXTERNAL: the one to report, and the facts of all of them.
 
-    A subpass without any that is the first to use a multisampled attachment comes by itself: what orders it is not known. Nor is it known
-    of passes that stand `apart` from any frame: where commands are stated, and are none.
+    A subpass without any that is the first to use a multisampled attachment is yielded with its own record: what orders it is unknown.
+    It is unknown, too, for passes that are `detached` from a frame, which is where `commands` is stated and empty.
     """
-    if each.kind != RENDER_PASS or not isinstance(each.record, RenderPass):
+    if render_pass.kind != RENDER_PASS or not isinstance(render_pass.record, RenderPass):
         return
     into: dict[int, list[SubpassDependency]] = {}
-    for dependency in each.record.dependencies:
+    for dependency in render_pass.record.dependencies:
         if dependency.srcSubpass == "EXTERNAL" and isinstance(dependency.dstSubpass, int):
             into.setdefault(dependency.dstSubpass, []).append(dependency)
-    began: dict[int, list[Attachment]] = {}
-    for attachment in each.attachments:
+    first_used: dict[int, list[Attachment]] = {}
+    for attachment in render_pass.attachments:
         if attachment.drawn and _first_use(attachment) in attachment.color | attachment.depth_stencil:
-            began.setdefault(_first_use(attachment), []).append(attachment)
+            first_used.setdefault(_first_use(attachment), []).append(attachment)
     for subpass, dependencies in into.items():
-        names = dict.fromkeys(t.name for a in began.get(subpass, ()) if a.samples != 1 for t in a.targets if t.image is not None)
-        waits = [barriers[name] for name in (*names, None) if name in barriers] if each.begun else []
-        if apart:
-            yield dependencies[0], _use_facts(subpass, began.get(subpass, []))
-            continue
-        yield dependencies[0], _facts(subpass, began.get(subpass, []), dependencies, waits)
-    for subpass, attachments in began.items():
+        attachments = first_used.get(subpass, [])
+        if detached:
+            yield dependencies[0], _use_facts(subpass, attachments)
+        else:
+            yield _dependency_facts(subpass, attachments, dependencies, barriers if render_pass.begun else {})
+    for subpass, attachments in first_used.items():
         if subpass not in into and _any_multisampled(attachments):
-            yield each.subpasses[subpass].record, _use_facts(subpass, attachments)
+            yield render_pass.subpasses[subpass].record, _use_facts(subpass, attachments)
 
 
-def _use_facts(subpass: int, began: list[Attachment]) -> Facts:
+def _use_facts(subpass: int, attachments: list[Attachment]) -> Facts:
     facts = Facts()
     facts.put("dependency.subpass", subpass)
-    facts.put("dependency.multisampled", _any_multisampled(began))
-    facts.put("dependency.multisampled_depth_stencil", _any_multisampled([a for a in began if subpass in a.depth_stencil]))
+    facts.put("dependency.multisampled", _any_multisampled(attachments))
+    facts.put("dependency.multisampled_depth_stencil", _any_multisampled([a for a in attachments if subpass in a.depth_stencil]))
     return facts
 
 
-def _facts(subpass: int, began: list[Attachment], dependencies: list[SubpassDependency], barriers: list[Masks]) -> Facts:
-    facts = _use_facts(subpass, began)
-    first = dependencies[0]
-    stages_at, accesses_at = first.place("srcStageMask"), first.place("srcAccessMask")
-    stages = _union([*(d.srcStageMask for d in dependencies), *(b.srcStageMask for b in barriers)])
-    accesses = _union([*(d.srcAccessMask for d in dependencies), *(b.srcAccessMask for b in barriers)])
-    facts.places["dependency.subpass"] = first.place("dstSubpass")
+def _dependency_facts(
+    subpass: int, attachments: list[Attachment], dependencies: list[SubpassDependency], barriers: Barriers
+) -> tuple[SubpassDependency, Facts]:
+    """The dependency to report, and the facts of all that lead into a subpass."""
+    facts = _use_facts(subpass, attachments)
+    multisampled = [attachment for attachment in attachments if attachment.samples != 1]
+    names = dict.fromkeys(target.name for a in multisampled for target in a.targets if target.image is not None)
+    waits: list[Wait] = [*dependencies, *(masks for name in (*names, None) for masks in barriers.get(name, ()))]
+    stages = _union([wait.srcStageMask for wait in waits])
+    accesses = _union([wait.srcAccessMask for wait in waits])
+    reported = dependencies[0]
+    late = stages is not None and not _LATE_STAGES.isdisjoint(stages)
+    unavailable: dict[str, bool] = {}
+    if stages is not None and accesses is not None:
+        for attachment in multisampled:
+            access = COLOR_WRITE if subpass in attachment.color else DEPTH_STENCIL_WRITE
+            own = [masks for target in attachment.targets if target.image is not None for masks in barriers.get(target.name, ())]
+            if not any(_makes_available(access, wait) for wait in (*dependencies, *own, *barriers.get(None, ()))):
+                unavailable[access] = unavailable.get(access, False) or attachment.samples is not None
+        if list(unavailable) == [COLOR_WRITE]:
+            reported = next((each for each in dependencies if not _COLOR_STAGES.isdisjoint(each.srcStageMask or ())), reported)
+    stages_at, accesses_at = reported.place("srcStageMask"), reported.place("srcAccessMask")
+    missing_at: Span | None = None
+    facts.places["dependency.subpass"] = reported.place("dstSubpass")
     if stages is not None:
-        late = not _INCLUDE_LATE_TESTS.isdisjoint(stages)
         facts.put("dependency.stages", stages, stages_at)
         facts.put("dependency.waits_for_late_tests", late, stages_at)
         if not late and facts.values.get("dependency.multisampled_depth_stencil"):
-            facts.put("dependency.missing", "LATE_FRAGMENT_TESTS in srcStageMask", stages_at)
+            missing_at = stages_at
+            facts.put("dependency.missing", "LATE_FRAGMENT_TESTS in srcStageMask", missing_at)
     if accesses is not None:
-        writes = any("WRITE" in access for access in accesses)
         facts.put("dependency.accesses", accesses, accesses_at)
-        facts.put("dependency.makes_writes_available", writes, accesses_at)
-        if not writes:
-            facts.put("dependency.missing", "a write access in srcAccessMask", accesses_at)
-    return facts
+    if stages is not None and accesses is not None:
+        # Of an attachment whose sample count is unknown, it is unknown whether its writes must be available.
+        available = False if True in unavailable.values() else None if unavailable else True
+        facts.put("dependency.makes_writes_available", available, accesses_at)
+        facts.put("dependency.unavailable_writes", list(unavailable), accesses_at)
+        if available is False:
+            facts.put("dependency.missing", f"{' and '.join(unavailable)} in srcAccessMask", accesses_at)
+    return reported, facts
+
+
+def _makes_available(access: str, wait: Wait) -> bool:
+    """Whether a wait makes an attachment's writes available.
+
+    A specific access implies its stage (VUID-VkSubpassDependency-srcAccessMask-00868); MEMORY_WRITE goes with every stage. The stages that
+    write depth and stencil are judged by `dependency.waits_for_late_tests`.
+    """
+    accesses = wait.srcAccessMask or ()
+    if access in accesses:
+        return True
+    return "MEMORY_WRITE" in accesses and (access != COLOR_WRITE or not _COLOR_STAGES.isdisjoint(wait.srcStageMask or ()))
 
 
 def _first_use(attachment: Attachment) -> int:
@@ -110,8 +146,8 @@ def _any_multisampled(attachments: list[Attachment]) -> bool | None:
     return None if None in counts else False
 
 
-def _union(masks: list[tuple[str, ...] | None]) -> list[str] | None:
-    """The names of all masks; None where one could not be read."""
+def _union(masks: Sequence[tuple[str, ...] | None]) -> list[str] | None:
+    """The names in all masks; None where one could not be read."""
     if None in masks:
         return None
     return list(dict.fromkeys(name for mask in masks for name in mask or ()))

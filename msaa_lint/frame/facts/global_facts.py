@@ -8,6 +8,7 @@ from msaa_lint.frame.devices import DeviceProfile, builtin
 from .facts import Facts
 
 MIXED_SAMPLES = frozenset({"VK_AMD_mixed_attachment_samples", "VK_NV_framebuffer_mixed_samples"})
+SINGLE_SAMPLED = "VK_EXT_multisampled_render_to_single_sampled"
 
 DEFAULT_EFFICIENT_SAMPLES = 4
 """What Arm's and Imagination's guides advise as the most without a measurement, and the validation layer's constant for both."""
@@ -125,7 +126,8 @@ def _enabled(facts: Facts, description: Description, device: DeviceProfile | Non
     offered = device.extensions if device is not None and extensions is None else None
     facts.put("enabled.mixed_samples", not MIXED_SAMPLES.isdisjoint(extensions or ()))
     facts.put("device.mixed_samples", not MIXED_SAMPLES.isdisjoint(offered or ()))
-    facts.put("enabled.single_sampled_render", single_sampled_render(description))
+    facts.put("enabled.single_sampled_render", single_sampled_enabled(description))
+    facts.put("device.single_sampled_render", single_sampled_offered(description, device))
     version = enabled.apiVersion if enabled is not None else None
     if extensions is None and version is None and device is not None:
         extensions, version = device.extensions, device.api_version
@@ -134,10 +136,17 @@ def _enabled(facts: Facts, description: Description, device: DeviceProfile | Non
     facts.put("enabled.depth_stencil_resolve", _depth_stencil_resolve(extensions, version))
 
 
-def single_sampled_render(description: Description) -> bool:
+def single_sampled_enabled(description: Description) -> bool:
     """Whether the application enables the feature of VK_EXT_multisampled_render_to_single_sampled."""
     enabled = description.enabled
     return enabled is not None and "multisampledRenderToSingleSampled" in (enabled.features or ())
+
+
+def single_sampled_offered(description: Description, device: DeviceProfile | None) -> bool:
+    """Whether the device offers VK_EXT_multisampled_render_to_single_sampled and the description does not state what is enabled."""
+    enabled = description.enabled
+    stated = enabled is not None and (enabled.features is not None or enabled.extensions is not None)
+    return not stated and device is not None and SINGLE_SAMPLED in (device.extensions or ())
 
 
 def _depth_stencil_resolve(extensions: tuple[str, ...] | None, version: str | None) -> bool | None:

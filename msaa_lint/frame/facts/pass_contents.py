@@ -137,6 +137,7 @@ def _untouched(each: Pass, attachment: Attachment, aspect: Aspect, instances: li
     """Whether the draws and clears that are recorded leave an aspect as it was; false where that is not known."""
     enabled = frame.description.enabled
     fetches = enabled is not None and not _FETCHING.isdisjoint(enabled.extensions or ())
+    depth_bounds = enabled is not None and "depthBounds" in (enabled.features or ())
     if not instances or attachment.input or attachment.resolve or aspect.name is None or fetches:
         return False
     for instance in instances:
@@ -146,13 +147,17 @@ def _untouched(each: Pass, attachment: Attachment, aspect: Aspect, instances: li
             return False
         for index in attachment.color | attachment.depth_stencil:
             pipelines = instance.drawn.get(index, {}).values()
-            if any(_touches(pipeline, each.subpasses[index], attachment, aspect) is not False for pipeline in pipelines):
+            if any(_touches(pipeline, each.subpasses[index], attachment, aspect, depth_bounds) is not False for pipeline in pipelines):
                 return False
     return True
 
 
-def _touches(pipeline: Pipeline | None, subpass: PassSubpass, attachment: Attachment, aspect: Aspect) -> bool | None:
-    """Whether a draw may read or write an aspect by its state; None where that is not stated."""
+def _touches(pipeline: Pipeline | None, subpass: PassSubpass, attachment: Attachment, aspect: Aspect, depth_bounds: bool) -> bool | None:
+    """Whether a draw may read or write an aspect, by its pipeline's state; None where the state is not stated.
+
+    `depth_bounds`: the application enables the feature depthBounds, without which depthBoundsTestEnable is false
+    (VUID-VkPipelineDepthStencilStateCreateInfo-depthBoundsTestEnable-00598).
+    """
     if pipeline is None:
         return None
     dynamic, raster = pipeline.dynamicState, pipeline.rasterizationState
@@ -170,7 +175,11 @@ def _touches(pipeline: Pipeline | None, subpass: PassSubpass, attachment: Attach
         return None
     tests = [(state.stencilTestEnable, "STENCIL_TEST_ENABLE")]
     if aspect.name == "depth":
-        tests = [(state.depthTestEnable, "DEPTH_TEST_ENABLE"), (state.depthBoundsTestEnable, "DEPTH_BOUNDS_TEST_ENABLE")]
+        bounds = state.depthBoundsTestEnable
+        if bounds is None and state.depthWriteEnable is False and not depth_bounds:
+            # A pipeline that states both depth tests and depth writes as off has stated all that it does with depth.
+            bounds = False
+        tests = [(state.depthTestEnable, "DEPTH_TEST_ENABLE"), (bounds, "DEPTH_BOUNDS_TEST_ENABLE")]
     answers = [None if name in dynamic else enabled for enabled, name in tests]
     return True if True in answers else None if None in answers else False
 

@@ -8,7 +8,7 @@ from msaa_lint.frame.vulkan.formats import Format
 
 from .facts import Facts
 from .frame import Frame, PassSubpass
-from .global_facts import single_sampled_render
+from .global_facts import single_sampled_enabled, single_sampled_offered
 
 Drawn = dict[int, list[Pipeline | None]]
 """By the position of a vkCmdBeginRendering: the pipelines of the draws in it, None where a draw names none."""
@@ -33,7 +33,8 @@ def subpass_facts(subpass: PassSubpass, frame: Frame, drawn: Drawn, device: Devi
     facts.put("subpass.index", subpass.index, record.head)
     color = [attachment for attachment in subpass.color if attachment is not None]
     # Where multisampled rendering goes to single-sampled attachments, those have their own, private samples.
-    private = subpass.single_sampled or single_sampled_render(frame.description)
+    description = frame.description
+    private = subpass.single_sampled or single_sampled_enabled(description) or single_sampled_offered(description, device)
     counts = [a.samples for a in color if not (private and a.samples == 1)]
     below = [a.samples for a in subpass.depth_stencil if not (private and a.samples == 1)]
     known = sorted({count for count in counts if count is not None})

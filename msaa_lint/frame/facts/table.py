@@ -78,6 +78,11 @@ _DEVICE = (
         "BOOL",
         "it offers VK_AMD_mixed_attachment_samples or VK_NV_framebuffer_mixed_samples, and what is enabled is not stated; never unknown",
     ),
+    Fact(
+        "device.single_sampled_render",
+        "BOOL",
+        "it offers VK_EXT_multisampled_render_to_single_sampled, and what is enabled is not stated; never unknown",
+    ),
 )
 _ENABLED = (
     Fact("enabled.sample_rate_shading", "BOOL", "the application enables sampleRateShading"),
@@ -421,7 +426,13 @@ _DEPENDENCY = (
         "VkPipelineStageFlagBits2",
     ),
     Fact("dependency.accesses", "LIST", "their source accesses", "VkAccessFlagBits2"),
-    Fact("dependency.makes_writes_available", "BOOL", "a write access is among them"),
+    Fact(
+        "dependency.makes_writes_available",
+        "BOOL",
+        "they make the writes of every multisampled attachment that the subpass is the first to use available: its write access stands beside "
+        "a stage that writes it",
+    ),
+    Fact("dependency.unavailable_writes", "LIST", "the write accesses that they do not make available", "VkAccessFlagBits2"),
     Fact("dependency.waits_for_late_tests", "BOOL", "LATE_FRAGMENT_TESTS, or a stage that includes it, is among the source stages"),
     Fact("dependency.missing", "STRING", "what a multisampled attachment that is used again needs of them, and they do not state"),
     Fact("dependency.subpass", "INT", "the subpass they lead into"),
