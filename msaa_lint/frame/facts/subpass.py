@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from msaa_lint.frame.description.records import BeginRendering, Draw, Pipeline, Subpass
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.vulkan.formats import Format
 
 from .facts import Facts
-from .frame import Frame, PassSubpass
+from .frame import Attachment, Frame, PassSubpass
 from .global_facts import single_sampled_enabled, single_sampled_offered
 
 Drawn = dict[int, list[Pipeline | None]]
@@ -32,30 +34,43 @@ def subpass_facts(subpass: PassSubpass, frame: Frame, drawn: Drawn, device: Devi
     record = subpass.record
     facts.put("subpass.index", subpass.index, record.head)
     color = [attachment for attachment in subpass.color if attachment is not None]
-    # Where multisampled rendering goes to single-sampled attachments, those have their own, private samples.
+    # Multisampled rendering to single-sampled attachments gives those private samples of their own.
     description = frame.description
-    private = subpass.single_sampled or single_sampled_enabled(description) or single_sampled_offered(description, device)
-    counts = [a.samples for a in color if not (private and a.samples == 1)]
-    below = [a.samples for a in subpass.depth_stencil if not (private and a.samples == 1)]
-    known = sorted({count for count in counts if count is not None})
-    depth = sorted({count for count in below if count is not None})
-    facts.put("subpass.color_samples", known, record.place("colorAttachments"))
-    if depth:
-        facts.put("subpass.depth_stencil_samples", depth[0], record.place("depthStencilAttachment", "depthAttachment", "stencilAttachment"))
-    facts.put("subpass.mixed_color_samples", _decided(len(known) > 1, counts))
-    facts.put("subpass.depth_below_color", _decided(bool(known and depth) and depth[0] < known[-1], [*counts, *below]))
-    facts.put("subpass.depth_above_color", _decided(bool(known and depth) and depth[-1] > known[0], [*counts, *below]))
-    facts.put("subpass.mixed_depth_stencil_samples", _decided(len(depth) > 1, below))
-    _odd(facts, subpass, private)
+    private = subpass.single_sampled or single_sampled_enabled(description)
+    color_counts, depth_counts = _known_counts(color, private), _known_counts(subpass.depth_stencil, private)
+    facts.put("subpass.color_samples", color_counts, record.place("colorAttachments"))
+    if depth_counts:
+        at = record.place("depthStencilAttachment", "depthAttachment", "stencilAttachment")
+        facts.put("subpass.depth_stencil_samples", depth_counts[0], at)
+    excused = private or single_sampled_offered(description, device)
+    _put_mixed(facts, color, subpass.depth_stencil, excused)
+    _odd(facts, subpass, excused)
     own = subpass.single_sampled_count
-    every = {*known, *depth}
-    odd = subpass.single_sampled and own is not None and any(count != own for count in every)
+    odd = subpass.single_sampled and own is not None and any(count != own for count in (*color_counts, *depth_counts))
     facts.put("subpass.differs_from_single_sampled_count", odd)
     shared = samples_of(subpass)
     facts.put("subpass.samples", shared, record.place("colorAttachments", "depthStencilAttachment", "depthAttachment", "stencilAttachment"))
     _tile(facts, subpass, device)
     _pipelines(facts, _own_pipelines(subpass, frame, drawn))
     return facts
+
+
+def _known_counts(attachments: Sequence[Attachment], private: bool) -> list[int]:
+    """The distinct known counts, ascending; without those of single-sampled attachments where these have private samples."""
+    counts = {attachment.samples for attachment in attachments}
+    return sorted(count for count in counts if count is not None and not (private and count == 1))
+
+
+def _put_mixed(facts: Facts, color: Sequence[Attachment], depth_stencil: Sequence[Attachment], private: bool) -> None:
+    """Whether the counts of a subpass's attachments differ."""
+    above, below = _known_counts(color, private), _known_counts(depth_stencil, private)
+    color_known = all(attachment.samples is not None for attachment in color)
+    depth_known = all(attachment.samples is not None for attachment in depth_stencil)
+    both_known = color_known and depth_known
+    facts.put("subpass.mixed_color_samples", _decided(len(above) > 1, color_known))
+    facts.put("subpass.depth_below_color", _decided(bool(above and below) and below[0] < above[-1], both_known))
+    facts.put("subpass.depth_above_color", _decided(bool(above and below) and below[-1] > above[0], both_known))
+    facts.put("subpass.mixed_depth_stencil_samples", _decided(len(below) > 1, depth_known))
 
 
 def samples_of(subpass: PassSubpass) -> int | None:
@@ -124,9 +139,9 @@ def _odd(facts: Facts, subpass: PassSubpass, private: bool) -> None:
             return
 
 
-def _decided(answer: bool, counts: list[int | None]) -> bool | None:
-    """A yes stands whatever else comes; a no only where every count is known."""
-    return True if answer else None if None in counts else False
+def _decided(answer: bool, known: bool) -> bool | None:
+    """A yes stands whatever the unknown counts are; a no only where every count is known."""
+    return True if answer else False if known else None
 
 
 def _own_pipelines(subpass: PassSubpass, frame: Frame, drawn: Drawn) -> list[Pipeline | None]:
