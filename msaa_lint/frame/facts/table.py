@@ -429,8 +429,8 @@ _DEPENDENCY = (
     Fact(
         "dependency.makes_writes_available",
         "BOOL",
-        "they make the writes of every multisampled attachment that the subpass is the first to use available: its write access stands beside "
-        "a stage that writes it",
+        "they make the writes of every multisampled attachment available that the subpass is the first to use: COLOR_ATTACHMENT_WRITE for "
+        "color, DEPTH_STENCIL_ATTACHMENT_WRITE for depth and stencil, or MEMORY_WRITE",
     ),
     Fact("dependency.unavailable_writes", "LIST", "the write accesses that they do not make available", "VkAccessFlagBits2"),
     Fact("dependency.waits_for_late_tests", "BOOL", "LATE_FRAGMENT_TESTS, or a stage that includes it, is among the source stages"),
