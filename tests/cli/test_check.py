@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import json
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
-from tests.paths import ROOT
+from tests.command import run
 
 BAD = """\
 images:
@@ -26,21 +23,6 @@ renderPasses:
 """
 GOOD = BAD.replace("loadOp: DONT_CARE, storeOp: DONT_CARE", "loadOp: DONT_CARE, storeOp: STORE")
 RULE = "resolve-target-not-stored"
-
-
-def run(folder: Path, *arguments: str, stdin: bytes | None = None, **environment: str) -> subprocess.CompletedProcess[str]:
-    kept = {name: os.environ[name] for name in ("PATH", "HOME", "SYSTEMROOT") if name in os.environ}
-    done = subprocess.run(
-        [sys.executable, "-m", "msaa_lint", *arguments],
-        cwd=folder,
-        input=stdin if stdin is not None else b"",
-        capture_output=True,
-        env={**kept, "PYTHONPATH": str(ROOT), **environment},
-        check=False,
-    )
-    decoded = subprocess.CompletedProcess(done.args, done.returncode, done.stdout.decode(), done.stderr.decode())
-    assert "Traceback" not in decoded.stderr
-    return decoded
 
 
 @pytest.fixture

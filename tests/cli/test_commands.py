@@ -16,7 +16,7 @@ from msaa_lint.cli.report import FORMATS
 from msaa_lint.input import readers
 from msaa_lint.input.code import LANGUAGES
 from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
-from tests.cli.test_check import run
+from tests.command import run
 from tests.strength import examples
 
 

@@ -8,8 +8,9 @@ from typing import Any
 
 import pytest
 
-from tests.cli.test_check import ROOT, run
+from tests.command import run
 from tests.frame.cost.test_reports import validator
+from tests.paths import ROOT
 
 EXAMPLES = ROOT / "examples" / "khronos-msaa"
 INLINE, SEPARATE = str(EXAMPLES / "inline.msaa.yaml"), str(EXAMPLES / "color-separate.msaa.yaml")

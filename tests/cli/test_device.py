@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from tests.cli.test_check import run
+from tests.command import run
 from tests.frame.devices import reported
 from tests.paths import ROOT
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.test_check import run
+from tests.command import run
 
 FRAME = """\
 frame: {width: 1920, height: 1080, fps: 60}

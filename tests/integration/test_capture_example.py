@@ -7,12 +7,12 @@ import json
 import os
 import re
 import subprocess
-import sys
 from collections import Counter
 from pathlib import Path
 
 import pytest
 
+from tests.command import run
 from tests.paths import ROOT
 
 EXAMPLE = ROOT / "examples" / "capture"
@@ -22,8 +22,7 @@ WIDTH, HEIGHT = 320, 180
 
 def findings(path: Path) -> Counter[tuple[str, str, str]]:
     """Rule, severity and subject of what is found. Numbers of commands and passes depend on how many frames a capture has."""
-    command = [sys.executable, "-m", "msaa_lint", "check", "--isolated", "--output", "json", str(path)]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    done = run(ROOT, "check", "--isolated", "--output", "json", str(path))
     assert done.returncode in (0, 1), done.stderr
     return Counter((each["rule"], each["severity"], each["subject"]) for each in json.loads(done.stdout)["findings"])
 

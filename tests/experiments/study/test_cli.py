@@ -20,6 +20,8 @@ from msaa_lint.experiments.study import measure
 from msaa_lint.experiments.study.points import MSAA, Point, Technique, techniques
 from msaa_lint.experiments.study.scenes import NAMES
 from msaa_lint.experiments.study.scenes.scene import Scene
+from tests.command import Done
+from tests.command import run as run_command
 from tests.paths import ROOT
 
 SCHEMA = json.loads((ROOT / "msaa_lint" / "cli" / "report" / "study_v1.schema.json").read_text())
@@ -42,11 +44,8 @@ scene: {edges: true}
 """
 
 
-def run(folder: Path, *arguments: str, text: str | None = None, **environment: str) -> subprocess.CompletedProcess[str]:
-    given = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1", **environment}
-    done = subprocess.run([*COMMAND, *arguments], cwd=folder, env=given, input=text, capture_output=True, text=True, check=False)
-    assert "Traceback" not in done.stderr
-    return done
+def run(folder: Path, *arguments: str, text: str = "", **environment: str) -> Done:
+    return run_command(folder, "study", "--isolated", *arguments, stdin=text.encode(), NO_COLOR="1", **environment)
 
 
 def report(text: str) -> dict[str, Any]:
@@ -215,10 +214,7 @@ def test_a_record_lies_beside_its_description(tmp_path: Path) -> None:
     done = run(tmp_path, "frame.msaa.yaml", "--jobs", "1", "--record", "--techniques", "msaa")
     assert done.returncode == 0
     assert "written: frame.msaa.yaml.msaa-study.json" in done.stdout
-    checked = subprocess.run(
-        [sys.executable, "-m", "msaa_lint", "check", "--isolated", "--select", "MSAA101", "frame.msaa.yaml"],
-        cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, check=False,
-    )  # fmt: skip
+    checked = run_command(tmp_path, "check", "--isolated", "--select", "MSAA101", "frame.msaa.yaml")
     assert checked.returncode == 1
     assert "which its study does not justify: it leaves " in checked.stdout
     assert "its time was not measured, which `--device NAME` does" in checked.stdout

@@ -26,6 +26,7 @@ from msaa_lint.frame.facts.study import JUSTIFIES, STALE, UNUSABLE, Studied
 from msaa_lint.frame.facts.subjects import subjects
 from msaa_lint.input import readers
 from msaa_lint.linter.study_record import MAX_BYTES, PARTS, digests, path_of, studied
+from tests.command import run
 from tests.experiments.study.fakes import point, timed
 from tests.paths import ROOT
 from tests.strength import examples
@@ -344,9 +345,7 @@ def test_what_is_no_file_is_not_read(beside: Path, tmp_path_factory: pytest.Temp
 
 
 def check(path: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1"}
-    command = [sys.executable, "-m", "msaa_lint", "check", "--isolated", "--select", "MSAA101", *arguments, path.name]
-    return subprocess.run(command, cwd=path.parent, env=environment, capture_output=True, text=True, check=False)
+    return run(path.parent, "check", "--isolated", "--select", "MSAA101", *arguments, path.name, NO_COLOR="1")
 
 
 def test_check_accepts_what_a_current_record_justifies_and_says_so(beside: Path) -> None:
@@ -415,10 +414,7 @@ def test_a_record_is_read_without_anything_heavy(beside: Path) -> None:
 
 
 def test_a_folder_s_records_are_no_inputs(beside: Path) -> None:
-    done = subprocess.run(
-        [sys.executable, "-m", "msaa_lint", "check", "--isolated", "--output", "json", "."],
-        cwd=beside.parent, env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, check=False,
-    )  # fmt: skip
+    done = run(beside.parent, "check", "--isolated", "--output", "json", ".")
     assert json.loads(done.stdout)["summary"]["files"] == 1
 
 

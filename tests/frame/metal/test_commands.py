@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from tests import command
 from tests.frame.metal.frames import ARTICLE, BEST
-from tests.paths import ROOT
 
 ONE = 1920 * 1080 * 60 / 1e6
 """MB/s of one byte a pixel."""
@@ -20,10 +18,8 @@ ONE = 1920 * 1080 * 60 / 1e6
 def run(folder: Path, *arguments: str, code: int = 0) -> str:
     (folder / "article.msaa.yaml").write_text(ARTICLE)
     (folder / "best.msaa.yaml").write_text(BEST)
-    command = [sys.executable, "-m", "msaa_lint", *arguments]
-    done = subprocess.run(command, cwd=folder, env={"PYTHONPATH": str(ROOT), "NO_COLOR": "1"}, capture_output=True, text=True, check=False)
+    done = command.run(folder, *arguments, NO_COLOR="1")
     assert done.returncode == code, done.stderr
-    assert "Traceback" not in done.stderr
     return done.stdout
 
 

@@ -12,7 +12,7 @@ from msaa_lint.frame.facts.subjects import subjects
 from msaa_lint.linter.fixes.changes import METAL, Change, FixContext, Refused, Structural, applied, changes
 from msaa_lint.linter.fixes.text_edits import edits
 from msaa_lint.linter.rules.rule_file import FixSpec, Setting
-from tests.cli.test_check import run
+from tests.command import run
 from tests.frame.metal.frames import ARTICLE, BEST, document
 from tests.linter.fixes.judging import fixed, kinds, lint
 

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 import yaml
 
 from msaa_lint.core.finding import Finding
+from tests.command import run
 from tests.input.captures.program import COLOR, D32, DEPTH, Program, attachment, codes, info, lint
 from tests.input.captures.test_frames import forward, history
 from tests.input.readers import dialects_binary
 from tests.paths import ROOT
-
-MSAA_LINT = [sys.executable, "-m", "msaa_lint"]
 
 
 def several() -> Program:
@@ -45,50 +42,48 @@ def said(findings: list[Finding]) -> set[tuple[str, str, str, str]]:
 def test_the_description_of_a_capture_has_the_capture_s_findings(name: str, tmp_path: Path) -> None:
     capture = tmp_path / "p.jsonl"
     capture.write_bytes(PROGRAMS[name].text())
-    made = subprocess.run([*MSAA_LINT, "convert", str(capture)], capture_output=True, check=True)
-    assert said(lint(made.stdout)) == said(lint(capture.read_bytes()))
+    made = run(tmp_path, "convert", "p.jsonl")
+    assert said(lint(made.stdout.encode())) == said(lint(capture.read_bytes()))
 
 
 def test_a_description_can_be_edited_and_fixed(tmp_path: Path) -> None:
     (tmp_path / "p.jsonl").write_bytes(PROGRAMS["forward"].text())
-    subprocess.run([*MSAA_LINT, "convert", "p.jsonl", "-o", "frame.yaml"], cwd=tmp_path, check=True)
+    assert run(tmp_path, "convert", "p.jsonl", "-o", "frame.yaml").returncode == 0
     assert "MSAA201" in codes(lint((tmp_path / "frame.yaml").read_bytes()))
-    subprocess.run([*MSAA_LINT, "check", "--fix", "--isolated", "frame.yaml"], cwd=tmp_path, capture_output=True)
+    run(tmp_path, "check", "--fix", "--isolated", "frame.yaml")
     assert "MSAA201" not in codes(lint((tmp_path / "frame.yaml").read_bytes()))
 
 
 def test_a_file_that_exists_is_not_written_over(tmp_path: Path) -> None:
     (tmp_path / "p.jsonl").write_bytes(PROGRAMS["forward"].text())
     (tmp_path / "frame.yaml").write_text("mine")
-    command = [*MSAA_LINT, "convert", "p.jsonl", "-o", "frame.yaml"]
-    made = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    command = ["convert", "p.jsonl", "-o", "frame.yaml"]
+    made = run(tmp_path, *command)
     assert made.returncode == 2
     assert made.stderr == "msaa-lint: frame.yaml: it exists already: --force writes over it\n"
     assert (tmp_path / "frame.yaml").read_text() == "mine"
-    assert subprocess.run([*command, "--force"], cwd=tmp_path).returncode == 0
+    assert run(tmp_path, *command, "--force").returncode == 0
     assert "renderPasses:" in (tmp_path / "frame.yaml").read_text()
 
 
 def test_what_is_no_capture_needs_no_conversion(tmp_path: Path) -> None:
     (tmp_path / "frame.yaml").write_text("images: {}\n")
-    made = subprocess.run([*MSAA_LINT, "convert", "frame.yaml"], cwd=tmp_path, capture_output=True, text=True)
+    made = run(tmp_path, "convert", "frame.yaml")
     assert made.returncode == 2
     assert "this is no capture" in made.stderr
 
 
 def test_a_capture_that_ends_in_the_middle_is_written_up_to_there(tmp_path: Path) -> None:
     (tmp_path / "p.jsonl").write_bytes(PROGRAMS["forward"].text() + b'{"index":')
-    made = subprocess.run([*MSAA_LINT, "convert", "p.jsonl"], cwd=tmp_path, capture_output=True, text=True)
+    made = run(tmp_path, "convert", "p.jsonl")
     assert made.returncode == 2
     assert "ends in the middle" in made.stderr
     assert "renderPasses" in yaml.safe_load(made.stdout)
 
 
 def test_standard_input_is_told_by_its_content(tmp_path: Path) -> None:
-    made = subprocess.run(
-        [*MSAA_LINT, "check", "-", "--isolated", "--stdin-filename", "game.jsonl", "--output", "json"],
-        input=PROGRAMS["forward"].text(), capture_output=True,
-    )  # fmt: skip
+    arguments = ["check", "-", "--isolated", "--stdin-filename", "game.jsonl", "--output", "json"]
+    made = run(tmp_path, *arguments, stdin=PROGRAMS["forward"].text())
     found = json.loads(made.stdout)["findings"]
     assert made.returncode == 1
     assert {(each["file"], each["code"]) for each in found} >= {("game.jsonl", "MSAA201")}
@@ -101,8 +96,7 @@ def test_standard_input_is_told_by_its_content(tmp_path: Path) -> None:
 def test_a_person_sees_the_call_and_the_structure(tmp_path: Path) -> None:
     program = PROGRAMS["forward"]
     (tmp_path / "game.jsonl").write_bytes(program.text())
-    command = [*MSAA_LINT, "check", "--isolated", "--fix", "--output", "full", "--select", "MSAA201", "game.jsonl"]
-    made = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    made = run(tmp_path, "check", "--isolated", "--fix", "--output", "full", "--select", "MSAA201", "game.jsonl")
     index = next(number for number, (name, _) in enumerate(program.calls, 1) if name == "vkCreateRenderPass")
     lines = made.stdout.splitlines()
     assert lines[0] == "warning[multisampled-attachment-stored]: `image_0 (attachment 0)` stores 4 samples a pixel that nothing reads"
@@ -127,7 +121,7 @@ def test_a_person_sees_the_call_and_the_structure(tmp_path: Path) -> None:
 )
 def test_what_a_tool_wrote_for_itself_is_told_with_what_to_run(head: bytes, said: str, tmp_path: Path) -> None:
     (tmp_path / "capture").write_bytes(head)
-    made = subprocess.run([*MSAA_LINT, "check", "--isolated", "--output", "json", "capture"], cwd=tmp_path, capture_output=True, text=True)
+    made = run(tmp_path, "check", "--isolated", "--output", "json", "capture")
     (found,) = json.loads(made.stdout)["findings"]
     assert made.returncode == 2
     assert found["code"] == "MSAA901"
@@ -137,7 +131,7 @@ def test_what_a_tool_wrote_for_itself_is_told_with_what_to_run(head: bytes, said
 def test_a_folder_s_captures_are_found(tmp_path: Path) -> None:
     (tmp_path / "game.jsonl").write_bytes(PROGRAMS["forward"].text())
     (tmp_path / "log.jsonl").write_text('{"message": "no capture"}\n')
-    made = subprocess.run([*MSAA_LINT, "check", "--isolated", "--output", "json", "."], cwd=tmp_path, capture_output=True, text=True)
+    made = run(tmp_path, "check", "--isolated", "--output", "json", ".")
     assert {each["file"] for each in json.loads(made.stdout)["findings"]} == {"game.jsonl"}
     assert json.loads(made.stdout)["summary"]["files"] == 1
 
@@ -170,10 +164,10 @@ def test_shaders_of_a_capture_are_written_beside_the_description(tmp_path: Path)
     stage = {"stage": "VK_SHADER_STAGE_FRAGMENT_BIT", "module": 900, "pName": "main", "pSpecializationInfo": None}
     program.calls[-1][1]["pCreateInfos"][0]["pStages"] = [stage]
     (tmp_path / "game.foz").write_bytes(dialects_binary.fossilize(program.calls))
-    subprocess.run([*MSAA_LINT, "convert", "game.foz", "-o", "frame.yaml"], cwd=tmp_path, check=True)
+    run(tmp_path, "convert", "game.foz", "-o", "frame.yaml")
     (written,) = (tmp_path / "shaders").iterdir()
     assert written.read_bytes() == code
     # The shader runs for every sample, and the pipeline does not say so.
     for name in ("game.foz", "frame.yaml"):
-        made = subprocess.run([*MSAA_LINT, "check", "--isolated", "--output", "json", name], cwd=tmp_path, capture_output=True)
+        made = run(tmp_path, "check", "--isolated", "--output", "json", name)
         assert "MSAA504" in [found["code"] for found in json.loads(made.stdout)["findings"]], name

@@ -20,7 +20,7 @@ from msaa_lint.input.code.parsing import Code
 from msaa_lint.input.source_file import read_source_file
 from msaa_lint.linter.engine import LintOptions
 from msaa_lint.linter.results import FileResult
-from tests.cli.test_check import run
+from tests.command import run
 from tests.frame.spirv.generate import RULES, SHADERS, compiled, sources
 from tests.frame.spirv.test_average import TERMS, Term
 from tests.input.code.glsl_shaders import HEAD

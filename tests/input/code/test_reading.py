@@ -13,7 +13,7 @@ import pytest
 from msaa_lint.input import discovery
 from msaa_lint.input.code import LANGUAGES, language_of, parsing
 from msaa_lint.input.source_file import read_source_file
-from tests.cli.test_check import run
+from tests.command import run
 from tests.paths import ROOT
 
 RULE = "resolve-target-not-stored"
@@ -79,7 +79,7 @@ def write(folder: Path, name: str, text: str | bytes = CODE) -> str:
     return name
 
 
-def without_extra(folder: Path, *arguments: str, stdin: bytes | None = None) -> subprocess.CompletedProcess[str]:
+def without_extra(folder: Path, *arguments: str, stdin: bytes = b"") -> subprocess.CompletedProcess[str]:
     """A run of an installation without the extra."""
     blocked = folder / "blocked"
     write(blocked, "sitecustomize.py", "import sys\nsys.modules['tree_sitter'] = None\n")

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-import subprocess
-import sys
 
 import pytest
 
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.input.readers import description
+from tests.command import run
 from tests.paths import ROOT
 
 EXAMPLES = ROOT / "examples" / "impeller"
@@ -19,8 +18,7 @@ PAGE = (ROOT / "docs" / "impeller.md").read_text(encoding="utf-8")
 
 @pytest.mark.parametrize(("number", "name"), [(0, "engine-vulkan"), (1, "engine-metal")])
 def test_the_engines_examples_are_what_convert_writes(number: int, name: str) -> None:
-    command = [sys.executable, "-m", "msaa_lint", "convert", str(EXAMPLES / "engine-shorthand.msaa.yaml")]
-    made = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split("---\n")
+    made = run(EXAMPLES, "convert", "engine-shorthand.msaa.yaml").stdout.split("---\n")
     comment, _, text = (EXAMPLES / f"{name}.msaa.yaml").read_text(encoding="utf-8").partition("\n")
     assert comment.startswith("# ")
     assert text == made[number]

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +17,7 @@ from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.records import BeginRenderPass
 from msaa_lint.input.impeller.words import sample_count
 from msaa_lint.input.readers import description
+from tests.command import run
 from tests.marked import unmarked
 
 LAZY = "{memoryTypes: [[DEVICE_LOCAL], [DEVICE_LOCAL, LAZILY_ALLOCATED]]}"
@@ -272,9 +271,7 @@ def test_findings_stand_at_the_members_of_the_shorthand(tmp_path: Path) -> None:
 def test_the_expansion_has_the_same_findings(tmp_path: Path) -> None:
     text, _ = unmarked(MARKED)
     (tmp_path / "a.msaa.yaml").write_text(text, encoding="utf-8")
-    made = subprocess.run(
-        [sys.executable, "-m", "msaa_lint", "convert", "a.msaa.yaml"], cwd=tmp_path, capture_output=True, text=True, check=True
-    )
+    made = run(tmp_path, "convert", "a.msaa.yaml")
     (tmp_path / "b.msaa.yaml").write_text(made.stdout, encoding="utf-8")
     assert "renderTargets" not in made.stdout
     assert max(map(len, made.stdout.splitlines())) <= 140
@@ -284,11 +281,10 @@ def test_the_expansion_has_the_same_findings(tmp_path: Path) -> None:
 def test_the_expansion_costs_the_same(tmp_path: Path) -> None:
     text, _ = unmarked(MARKED)
     (tmp_path / "a.msaa.yaml").write_text(text, encoding="utf-8")
-    run = [sys.executable, "-m", "msaa_lint"]
-    subprocess.run([*run, "convert", "a.msaa.yaml", "-o", "b.msaa.yaml"], cwd=tmp_path, check=True)
+    assert run(tmp_path, "convert", "a.msaa.yaml", "-o", "b.msaa.yaml").returncode == 0
     costs = []
     for name in ("a.msaa.yaml", "b.msaa.yaml"):
-        done = subprocess.run([*run, "cost", "--output", "json", name], cwd=tmp_path, capture_output=True, text=True, check=True)
+        done = run(tmp_path, "cost", "--output", "json", name)
         costs.append(json.loads(re.sub(r'"(file|line|column)": [^,}\n]+', r'"\1": 0', done.stdout)))
     assert costs[0] == costs[1]
     # Colour and depth with stencil, 4 samples each of 4 bytes, and the picture: 1080 * 2400 * 60 Hz * 36 B.
@@ -308,8 +304,7 @@ def fixed(tmp_path: Path, text: str, *arguments: str) -> tuple[str, list[dict[st
     """A description after `check --fix`, and what is still found."""
     path = tmp_path / "a.msaa.yaml"
     path.write_text(text, encoding="utf-8")
-    command = [sys.executable, "-m", "msaa_lint", "check", "--isolated", "--fix", *arguments, "--output", "json", str(path)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    done = run(tmp_path, "check", "--isolated", "--fix", *arguments, "--output", "json", str(path))
     found: list[dict[str, Any]] = json.loads(done.stdout)["findings"]
     return path.read_text(encoding="utf-8"), found
 
@@ -373,20 +368,18 @@ def test_suppressions_work_in_the_shorthand(tmp_path: Path) -> None:
 
 def test_convert_tells_mistakes_and_where(tmp_path: Path) -> None:
     (tmp_path / "a.yaml").write_text("renderTargets:\n  a: {api: vulcan}\n", encoding="utf-8")
-    made = subprocess.run(
-        [sys.executable, "-m", "msaa_lint", "convert", "a.yaml"], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
+    made = run(tmp_path, "convert", "a.yaml")
     assert (made.returncode, made.stdout) == (2, "")
     assert made.stderr == "a.yaml:2:12: one of vulkan, metal is due here, not `vulcan` (MSAA903)\n"
 
 
 def test_convert_of_a_stream_has_every_document(tmp_path: Path) -> None:
     (tmp_path / "a.yaml").write_text("renderTargets: {a: {api: vulkan}}\n---\nimages: {b: {samples: 4}}\n", encoding="utf-8")
-    command = [sys.executable, "-m", "msaa_lint", "convert", "a.yaml", "-o", "out.yaml"]
-    subprocess.run(command, cwd=tmp_path, check=True)
+    command = ["convert", "a.yaml", "-o", "out.yaml"]
+    assert run(tmp_path, *command).returncode == 0
     text = (tmp_path / "out.yaml").read_text(encoding="utf-8")
     assert re.findall(r"^(?:---|images:)$", text, re.MULTILINE) == ["images:", "---", "images:"]
-    again = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    again = run(tmp_path, *command)
     assert again.returncode == 2
     assert "it exists already" in again.stderr
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.test_check import run
+from tests.command import run
 from tests.linter.fixes.test_laws import EXAMPLES
 from tests.linter.fixes.test_rounds import MENDED, STORED
 from tests.pages import all_examples

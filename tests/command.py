@@ -1,0 +1,69 @@
+"""The command `msaa-lint`, called from tests.
+
+It runs in the process of the tests where only what it prints, writes and returns matters, else in one of its own.
+"""
+
+from __future__ import annotations
+
+import gc
+import io
+import os
+import subprocess
+import sys
+from pathlib import Path
+from unittest import mock
+
+from msaa_lint.__main__ import main
+from msaa_lint.linter.settings import config
+from tests.paths import ROOT
+
+Done = subprocess.CompletedProcess[str]
+
+
+def environment_of(stated: dict[str, str]) -> dict[str, str]:
+    """An environment without what a developer's own may hold."""
+    kept = {name: os.environ[name] for name in ("PATH", "HOME", "SYSTEMROOT") if name in os.environ}
+    return {**kept, "PYTHONPATH": str(ROOT), **stated}
+
+
+def run(folder: Path, *arguments: str, stdin: bytes = b"", **environment: str) -> Done:
+    """Runs the command in a folder, in this process unless a `PYTHONPATH` for it is stated."""
+    if "PYTHONPATH" in environment:
+        return run_process(folder, *arguments, stdin=stdin, **environment)
+    streams = [io.TextIOWrapper(io.BytesIO(given), encoding="utf-8") for given in (stdin, b"", b"")]
+    here = os.getcwd()
+    code: object = 0
+    with (
+        mock.patch.multiple(sys, argv=["msaa-lint", *arguments], stdin=streams[0], stdout=streams[1], stderr=streams[2]),
+        mock.patch.dict(os.environ, environment_of(environment), clear=True),
+    ):
+        os.chdir(folder)
+        config.forget()
+        try:
+            main()
+        except SystemExit as ended:
+            code = ended.code
+        finally:
+            os.chdir(here)
+            # The command turns the collector off for the rest of its process.
+            gc.unfreeze()
+            gc.enable()
+    for stream in streams[1:]:
+        stream.flush()
+    out, errors = (stream.buffer.getvalue().decode() for stream in streams[1:])  # type: ignore[attr-defined]
+    returned = code if isinstance(code, int) else int(code is not None)
+    return subprocess.CompletedProcess(["msaa-lint", *arguments], returned, out, errors)
+
+
+def run_process(folder: Path, *arguments: str, stdin: bytes = b"", **environment: str) -> Done:
+    """Runs the command in a process of its own, for tests of imports, pipes and signals."""
+    done = subprocess.run(
+        [sys.executable, "-m", "msaa_lint", *arguments],
+        cwd=folder,
+        input=stdin,
+        capture_output=True,
+        env=environment_of(environment),
+        check=False,
+    )
+    assert b"Traceback" not in done.stderr
+    return subprocess.CompletedProcess(done.args, done.returncode, done.stdout.decode(), done.stderr.decode())
