@@ -11,7 +11,7 @@ from .names import elements, structure
 from .objects import COUNTS, VIEW, Objects
 from .scope import MEMBER, MOST_CALLS, MOST_WAYS, Around
 from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, Function, Parameter, Term
-from .values import MOST, NOTHING, UNKNOWN_VALUE, Alternative, Cell, Closure, Ref, Struct, Symbol, Value, copied, one
+from .values import MOST, UNKNOWN, UNKNOWN_VALUE, Alternative, Cell, Closure, Ref, Struct, Symbol, Value, copies, one, pointee
 
 _CAST = re.compile(
     r"(?:std::)?u?int(?:8|16|32|64|ptr)?_t$|(?:std::)?size_t$|(?:unsigned|int|float|bool)$|(?:Vk|vk::)\w+(?:FlagBits2?|Flags2?|Bool32)(?:KHR|EXT)?$"
@@ -106,7 +106,7 @@ class Calls(Objects):
         short = own.within.rpartition("::")[2]
         if kind and kind != "auto" and short not in kind and self.run.class_of(kind, around.space) != own.within:
             return OTHERS
-        known = cell.kind == MEMBER or isinstance(self.run.aimed(one(cell.read(around.guards))), Struct)
+        known = cell.kind == MEMBER or isinstance(pointee(one(cell.read(around.guards))), Struct)
         return cell if known else None
 
     def object_made(self, kind: str, term: Term, around: Around) -> Value | None:
@@ -181,7 +181,7 @@ class Calls(Objects):
         self.run.block(body, inner)
         base = around.guards
         returned = [Alternative(a.value, a.at, a.guards - base) for a in inner.returned]
-        if len(returned) > MOST or not returned or all(a.value is NOTHING for a in returned):
+        if len(returned) > MOST or not returned or all(a.value is UNKNOWN for a in returned):
             return UNKNOWN_VALUE
         return tuple(returned)
 
@@ -196,9 +196,9 @@ class Calls(Objects):
         if parameter.by_reference:
             made.writes = value
         else:
-            made.writes = tuple(Alternative(copied(a.value), a.at, a.guards) for a in value)
+            made.writes = copies(value)
         if not value:
-            made.writes = (Alternative(NOTHING, given[-1]),)
+            made.writes = (Alternative(UNKNOWN, given[-1]),)
         return made
 
     def least(self, name: str, arguments: Sequence[Term], place: Span, around: Around) -> Value:

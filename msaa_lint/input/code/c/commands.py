@@ -9,13 +9,13 @@ from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
 
 from .members import Item, Members, head_of
-from .values import NOTHING, Made, Struct, Symbol, Value, one
+from .values import UNKNOWN, Struct, Symbol, Value, VulkanObject, one
 
 
 class Commands(Members):
     """Renderings and resolves as nodes."""
 
-    def rendering(self, made: Made, attached: dict[int, Made]) -> Node | None:
+    def rendering(self, made: VulkanObject, attached: dict[int, VulkanObject]) -> Node | None:
         """A dynamic rendering."""
         info = made.info
         assert info is not None
@@ -39,7 +39,7 @@ class Commands(Members):
             return None
         return mapping([("beginRendering", head, mapping(items, head))], head)
 
-    def rendered(self, struct: Struct, attached: dict[int, Made]) -> Node | None:
+    def rendered(self, struct: Struct, attached: dict[int, VulkanObject]) -> Node | None:
         """An attachment of a rendering; None where it is not known whether it resolves."""
         head = head_of(struct.at)
         view, at = self.get(struct, "imageView")
@@ -47,7 +47,7 @@ class Commands(Members):
             return scalar(None, head)
         items: list[Item] = [("image", at, self.named(view, at, attached))]
         mode, place = self.get(struct, "resolveMode")
-        if mode is NOTHING:
+        if mode is UNKNOWN:
             return None
         target, target_at = self.get(struct, "resolveImageView")
         if target is not None and target != 0:
@@ -61,7 +61,7 @@ class Commands(Members):
             items += self.item(struct, member)
         return mapping(items, head)
 
-    def named(self, view: Any, at: Span, attached: dict[int, Made]) -> Node:
+    def named(self, view: Any, at: Span, attached: dict[int, VulkanObject]) -> Node:
         """The name of the image of a view; an image of which nothing is known has one of its own."""
         image = self.image_in(view)
         if image is None:
@@ -72,20 +72,26 @@ class Commands(Members):
     def stranger(self, value: Any, at: Span) -> str:
         """The name of an image that the file does not make."""
         value = self.aimed(value)
-        key = value.key if isinstance(value, Symbol) else f"image of {id(value)}" if isinstance(value, Made) else f"image at {at.start}"
+        key = (
+            value.key
+            if isinstance(value, Symbol)
+            else f"image of {id(value)}"
+            if isinstance(value, VulkanObject)
+            else f"image at {at.start}"
+        )
         if key not in self.strangers:
-            said = value.name if isinstance(value, (Symbol, Made)) else ""
+            said = value.name if isinstance(value, (Symbol, VulkanObject)) else ""
             name = self.unique(said.rpartition("::")[2].strip("*&") or "image")
             self.strangers[key] = (name, at, mapping((), at))
         return self.strangers[key][0]
 
-    def resolve(self, at: Span, ends: tuple[Value, Value], attached: dict[int, Made]) -> Node | None:
+    def resolve(self, at: Span, ends: tuple[Value, Value], attached: dict[int, VulkanObject]) -> Node | None:
         """A vkCmdResolveImage of an image that the file makes."""
         head = head_of(at)
         items: list[Item] = []
         for name, value in zip(("srcImage", "dstImage"), ends, strict=True):
             known = self.aimed(one(self.settle(value)))
-            image = self.first(known) if isinstance(known, Made) and known.kind == "image" else None
+            image = self.first(known) if isinstance(known, VulkanObject) and known.kind == "image" else None
             if image is None and name == "srcImage":
                 return None
             if image is not None:

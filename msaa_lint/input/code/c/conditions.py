@@ -10,7 +10,7 @@ from .directives import tested
 from .places import Places
 from .scope import Around
 from .terms import ADDRESS, BINARY, CALL, FIELD, INDEX, LITERAL, NAME, TARGET, UNARY, Term
-from .values import MOST, Guards, Made, Symbol, one
+from .values import MOST, Guards, Symbol, VulkanObject, one
 
 
 def opposite(guards: Guards) -> Guards:
@@ -100,7 +100,7 @@ class Conditions(Places):
                 return way
         if known is None and value:
             return False
-        if isinstance(known, Made):
+        if isinstance(known, VulkanObject):
             return True
         return frozenset({(key_of(known) or self.said(term, around), True)})
 

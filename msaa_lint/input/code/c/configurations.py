@@ -10,7 +10,7 @@ from msaa_lint.core.text.span import Span
 
 from .calls import Calls
 from .names import first_version
-from .values import NOTHING, Array, Cell, Made, Ref, Struct, Symbol, Value, one, settled
+from .values import UNKNOWN, Array, Cell, Ref, Struct, Symbol, Value, VulkanObject, one, settled
 
 ASSUMED = 4
 """The count above 1 that every device offers for colour, depth and stencil (specification, "Required Limits")."""
@@ -49,8 +49,8 @@ class World:
         self.assumed: dict[str, tuple[str, Span, str]] = {}
         self.names: dict[int, str] = {}
         self.taken: set[str] = set()
-        self.bound: dict[int, list[Made | None]] = {}
-        self.alike: dict[tuple[Any, ...], Made] = {}
+        self.bound: dict[int, list[VulkanObject | None]] = {}
+        self.alike: dict[tuple[Any, ...], VulkanObject] = {}
         self.strangers: dict[str, tuple[str, Span, Node]] = {}
 
     def choose(self) -> None:
@@ -136,37 +136,37 @@ class World:
                     if image is not None and image.info is not None and "samples" in image.info.fields:
                         yield image.info.fields["samples"].writes
 
-    def excluded(self, made: Made) -> bool:
+    def excluded(self, made: VulkanObject) -> bool:
         """Whether something is only made in another world."""
-        return any(self.world.get(text, way) is not way for text, way in made.within)
+        return any(self.world.get(text, way) is not way for text, way in made.guards)
 
     def settle(self, value: Value) -> Value:
         return settled(value, self.world)
 
     def get(self, struct: Struct, name: str) -> tuple[Any, Span]:
-        """A member and its place; NOTHING where it is not known. What nobody set in a zeroed structure is None."""
+        """A member and its place; UNKNOWN where it is not known. What nobody set in a zeroed structure is None."""
         cell = struct.fields.get(name)
         if cell is None or not cell.writes:
             # A structure without what it cannot do without was filled in in some way that is not understood.
             needs = NEEDS.get(first_version(struct.kind), ())
             told = struct.zeroed and cell is None and all(need in struct.fields for need in needs)
-            return (None if told else NOTHING), struct.at
+            return (None if told else UNKNOWN), struct.at
         value = self.settle(cell.writes)
         if struct.zeroed and value and all(a.guards for a in value):
-            return NOTHING, struct.at
+            return UNKNOWN, struct.at
         known = one(value)
         return known, value[-1].at if value else struct.at
 
     def known(self, struct: Struct, name: str) -> Any:
         value = self.get(struct, name)[0]
-        return None if value is NOTHING else value
+        return None if value is UNKNOWN else value
 
     def aimed(self, value: Any) -> Any:
         for _ in range(4):
             if not isinstance(value, Ref):
                 return value
             value = one(self.settle(value.cell.writes))
-        return NOTHING
+        return UNKNOWN
 
     def struct(self, struct: Struct, name: str) -> Struct | None:
         value = self.aimed(self.get(struct, name)[0])
@@ -219,18 +219,18 @@ class World:
         found = {count for count, _ in counts}
         return (found.pop() if len(found) == 1 else None), max(at for _, at in counts) if counts else struct.at
 
-    def image_of(self, struct: Struct, name: str) -> Made | None:
+    def image_of(self, struct: Struct, name: str) -> VulkanObject | None:
         """The image of a view that a member names."""
         return self.image_in(self.get(struct, name)[0])
 
-    def image_in(self, view: Any) -> Made | None:
+    def image_in(self, view: Any) -> VulkanObject | None:
         view = self.aimed(view)
-        if isinstance(view, Made) and view.kind == "view" and view.info is not None:
+        if isinstance(view, VulkanObject) and view.kind == "view" and view.info is not None:
             image = self.aimed(self.get(view.info, "image")[0])
-            return self.first(image) if isinstance(image, Made) and image.kind == "image" and not self.excluded(image) else None
+            return self.first(image) if isinstance(image, VulkanObject) and image.kind == "image" and not self.excluded(image) else None
         return None
 
-    def first(self, made: Made) -> Made:
+    def first(self, made: VulkanObject) -> VulkanObject:
         """The first of the objects that one call makes alike, wherever the function around it is called."""
         return self.alike.setdefault((made.name, made.signature()), made)
 

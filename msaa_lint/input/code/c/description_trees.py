@@ -30,7 +30,7 @@ def trees(code: Code) -> list[Read]:
         root = tree(code).root_node
     run = Run(unit(code, root, sections), code.fragments, code.language == "cpp")
     run.through()
-    read = Writer(run.calls, code.fragments, _WAITS.search(code.text) is not None or _FRAMES.search(code.text) is None).read()
+    read = Writer(run.program, code.fragments, _WAITS.search(code.text) is not None or _FRAMES.search(code.text) is None).read()
     # Masks of sample counts have such a name, wherever they come from.
     chosen = choices(root, code) if "ampleCounts" in code.text else []
     if not chosen:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
+from collections.abc import Sequence
 from typing import Any
 
 from msaa_lint.core.text.span import Span
@@ -11,7 +13,7 @@ from .names import constant
 from .places import an_element
 from .scope import MEMBER, Around
 from .terms import ADDRESS, ASSIGN, BINARY, BRACES, CALL, CHOICE, FIELD, INDEX, LAMBDA, LITERAL, NAME, TARGET, UNARY, Term, at
-from .values import MOST, NOTHING, UNKNOWN_VALUE, Alternative, Array, Cell, Closure, Flags, Ref, Struct, Symbol, Value, one
+from .values import MOST, UNKNOWN, UNKNOWN_VALUE, Alternative, Array, Cell, Closure, Flags, Ref, Struct, Symbol, Value, one, pointee
 
 
 class Values(Conditions):
@@ -58,6 +60,10 @@ class Values(Conditions):
             return (Alternative(Closure(term[1], term[2], around.scopes), place),)
         return UNKNOWN_VALUE
 
+    @abstractmethod
+    def block(self, statements: Sequence[Term], around: Around) -> None:
+        """Goes through statements."""
+
     def read(self, term: Term, around: Around) -> Value:
         cell = self.place(term, around)
         if cell is None:
@@ -102,15 +108,15 @@ class Values(Conditions):
         for a in left:
             for b in right:
                 result = _calculated(sign, a, b, term[-1])
-                if result is not NOTHING and not clash(a.guards, b.guards):
+                if result is not UNKNOWN and not clash(a.guards, b.guards):
                     made.append(Alternative(result, term[-1], a.guards | b.guards))
-                elif result is NOTHING:
-                    made.append(Alternative(NOTHING, term[-1], a.guards | b.guards))
+                elif result is UNKNOWN:
+                    made.append(Alternative(UNKNOWN, term[-1], a.guards | b.guards))
         return tuple(made) if 0 < len(made) <= MOST else UNKNOWN_VALUE
 
     def moved(self, left: Value, right: Value, place: Span) -> Value | None:
         """A pointer into a list, some elements further."""
-        array, count = self.aimed(one(left)), one(right)
+        array, count = pointee(one(left)), one(right)
         if not isinstance(array, Array) or type(count) is not int or not 0 <= count < len(array.items):
             return None
         rest = Array(array.kind, array.at, array.whole)
@@ -126,13 +132,13 @@ class Values(Conditions):
             return (Alternative(True, term[-1], found), Alternative(False, term[-1], opposite(found)))
         if sign in ("++", "--", "post++", "post--"):
             cell = self.place(term[2], around)
-            before = one(cell.read(around.guards)) if cell is not None else NOTHING
+            before = one(cell.read(around.guards)) if cell is not None else UNKNOWN
             if cell is None:
                 return UNKNOWN_VALUE
             if isinstance(before, Ref) and sign.endswith("++") and not around.loops:
                 return self.next(cell, before, sign, term[-1], around)
             if type(before) is not int or around.loops:
-                cell.writes = (Alternative(NOTHING, term[-1]),)
+                cell.writes = (Alternative(UNKNOWN, term[-1]),)
                 return UNKNOWN_VALUE
             after = before + (1 if sign.endswith("++") else -1)
             cell.write((Alternative(after, term[-1]),), term[-1], around.guards)
@@ -147,8 +153,8 @@ class Values(Conditions):
 
     def next(self, cell: Cell, before: Ref, sign: str, place: Span, around: Around) -> Value:
         """A pointer into a list, one element further."""
-        array = self.aimed(before)
-        after: Any = NOTHING
+        array = pointee(before)
+        after: Any = UNKNOWN
         if isinstance(array, Array) and len(array.items) > 1:
             rest = Array(array.kind, array.at, array.whole)
             rest.items = array.items[1:]
@@ -165,7 +171,7 @@ class Values(Conditions):
         for guards, each in ((condition, term[2]), (opposite(condition), term[3])):
             if any(known.get(text) is (not way) for text, way in guards):
                 continue
-            value = self.value(each, around, kind) or (Alternative(NOTHING, at(each)),)
+            value = self.value(each, around, kind) or (Alternative(UNKNOWN, at(each)),)
             made += [Alternative(a.value, a.at, a.guards | guards) for a in value if not clash(a.guards, guards)]
         return tuple(made) if len(made) <= MOST else UNKNOWN_VALUE
 
@@ -240,9 +246,9 @@ def _calculated(sign: str, left: Alternative, right: Alternative, place: Span) -
             return Flags((*first, *second))
     if type(a) is int and type(b) is int and abs(a) < 2**40 and abs(b) < 2**40:
         if sign == "<<":
-            return a << b if 0 <= b < 40 else NOTHING
+            return a << b if 0 <= b < 40 else UNKNOWN
         results = {"+": a + b, "-": a - b, "*": a * b, "|": a | b, "&": a & b}
-        return results.get(sign, a // b if sign == "/" and b else NOTHING)
+        return results.get(sign, a // b if sign == "/" and b else UNKNOWN)
     if isinstance(a, (int, float)) and isinstance(b, (int, float)) and not isinstance(a, bool):
-        return {"+": a + b, "-": a - b, "*": a * b}.get(sign, NOTHING)
-    return NOTHING
+        return {"+": a + b, "-": a - b, "*": a * b}.get(sign, UNKNOWN)
+    return UNKNOWN

@@ -26,7 +26,7 @@ from .terms import (
     SOME,
     TARGET,
     UNARY,
-    UNKNOWN,
+    UNPARSED,
     Parameter,
     Term,
 )
@@ -77,7 +77,7 @@ class Expressions(ABC):
     def expression(self, node: Node | None, depth: int) -> Term:
         """An expression's term."""
         if node is None or depth > DEEPEST:
-            return (UNKNOWN, "", Span(node.start_byte, node.end_byte) if node is not None else Span(0, 0))
+            return (UNPARSED, "", Span(node.start_byte, node.end_byte) if node is not None else Span(0, 0))
         kind = node.type
         at = Span(node.start_byte, node.end_byte)
         deeper = depth + 1
@@ -87,7 +87,7 @@ class Expressions(ABC):
         if kind == "field_expression":
             member, of = node.child_by_field_name("field"), node.child_by_field_name("argument")
             if member is None:
-                return (UNKNOWN, self.of(node), at)
+                return (UNPARSED, self.of(node), at)
             return (
                 FIELD,
                 self.expression(of, deeper),
@@ -137,7 +137,7 @@ class Expressions(ABC):
             return (INDEX, self.expression(of, deeper), self.expression(index, deeper), at)
         if kind == "number_literal":
             counted = number(self.of(node))
-            return (LITERAL, counted, at) if counted is not None else (UNKNOWN, self.of(node)[:40], at)
+            return (LITERAL, counted, at) if counted is not None else (UNPARSED, self.of(node)[:40], at)
         if kind in ("true", "false"):
             return (LITERAL, kind == "true", at)
         if kind == "null":
@@ -157,7 +157,7 @@ class Expressions(ABC):
             if typed is not None:
                 items = tuple(self.expression(c, deeper) for c in (without_comments(given) if given is not None else ()))
                 return (CALL, (NAME, self.type_text(typed), at), items, at)
-        return (UNKNOWN, self.of(node) if node.end_byte - node.start_byte < 200 else "", at)
+        return (UNPARSED, self.of(node) if node.end_byte - node.start_byte < 200 else "", at)
 
     def call(self, node: Node, depth: int, at: Span) -> Term:
         function, listed = node.child_by_field_name("function"), node.child_by_field_name("arguments")
@@ -187,7 +187,7 @@ class Expressions(ABC):
         if self.torn(nodes):
             # What the preprocessor makes of them is not known.
             at = Span(node.start_byte, node.end_byte)
-            yield None, (SOME, "#", True, (UNKNOWN, "", at), at)
+            yield None, (SOME, "#", True, (UNPARSED, "", at), at)
             return
         for child in nodes:
             if child.type == "comment" or depth > DEEPEST:
@@ -216,7 +216,7 @@ class Expressions(ABC):
         """An item of a list with the conditions that it is there under; of one that is half of it under some, nothing is known."""
         for section in self.sections:
             if node.start_byte < section.start < node.end_byte and term[0] not in (BRACES, CALL, LAMBDA):
-                return (UNKNOWN, "", term[-1])
+                return (UNPARSED, "", term[-1])
             if section.start <= node.start_byte < section.end:
                 term = (SOME, section.text, section.way, term, term[-1])
         return term
@@ -227,4 +227,4 @@ class Expressions(ABC):
         for node, term in zip(nodes, terms, strict=True):
             given = self.in_sections(node, term)
             shifted = shifted or given[0] == SOME
-            yield (UNKNOWN, "", term[-1]) if shifted else given
+            yield (UNPARSED, "", term[-1]) if shifted else given

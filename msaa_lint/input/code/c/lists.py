@@ -10,7 +10,7 @@ from .names import MEMBERS, member, set_by, structure
 from .scope import Around
 from .structures import Structures, member_type
 from .terms import CALL, FIELD, INDEX, LITERAL, NAME, Term
-from .values import ALWAYS, NOTHING, UNKNOWN_VALUE, Alternative, Array, Cell, Ref, Struct, Value, copied, one
+from .values import ALWAYS, UNKNOWN, UNKNOWN_VALUE, Alternative, Array, Cell, Ref, Struct, Value, copied, copies, one, pointee
 
 APPEND = frozenset({"push_back", "emplace_back", "append", "add", "pushBack", "Add", "PushBack", "push"})
 
@@ -26,8 +26,8 @@ class Lists(Structures):
         """A method of a structure or a list; None where it is another's."""
         cell = self.run.place(owner, around) if owner[0] != CALL else None
         held = cell.read(around.guards) if cell is not None else self.run.value(owner, around)
-        value = self.run.aimed(one(held))
-        if len(held) > 1 and any(isinstance(self.run.aimed(each.value), Array) for each in held):
+        value = pointee(one(held))
+        if len(held) > 1 and any(isinstance(pointee(each.value), Array) for each in held):
             return self.of_several(held, name, place)
         setter = set_by(name)
         if isinstance(value, Struct) and value.kind and setter is not None:
@@ -37,7 +37,7 @@ class Lists(Structures):
             given = self.run.value(arguments[0], around, kind)
             # A setter of a list takes its address.
             given = self.run.by_pointer("p" + name[3:], given, arguments[0], around)
-            value.cell(setter).write(tuple(Alternative(copied(a.value), a.at, a.guards) for a in given), place, around.guards)
+            value.cell(setter).write(copies(given), place, around.guards)
             return held
         if setter is not None and len(arguments) == 1 and self.run.fragments and owner[0] == NAME and not isinstance(value, Array):
             target = self.run.field(owner, setter, around)
@@ -58,11 +58,11 @@ class Lists(Structures):
         """What a method gives of a list that is one or another: nobody can tell which of them others change."""
         found: list[Alternative] = []
         for each in held:
-            array = self.run.aimed(each.value)
+            array = pointee(each.value)
             if name in ("data", "begin", "cbegin"):
                 found.append(Alternative(Ref(Cell(writes=(Alternative(each.value, each.at),))), place, each.guards))
             elif name in COUNTED:
-                found += [a._replace(guards=each.guards) for a in self.counted(array, place)] or [Alternative(NOTHING, place, each.guards)]
+                found += [a._replace(guards=each.guards) for a in self.counted(array, place)] or [Alternative(UNKNOWN, place, each.guards)]
             elif isinstance(array, Array):
                 array.whole = False
         return tuple(found)
@@ -79,7 +79,7 @@ class Lists(Structures):
                 array.whole = False
                 return UNKNOWN_VALUE
             item = Cell(kind)
-            item.write(tuple(self.run.calls.named_copy(a, arguments) for a in value), place, around.guards)
+            item.write(tuple(self.named_copy(a, arguments) for a in value), place, around.guards)
             array.items.append(item)
             return (Alternative(Ref(item), place),)
         if name in ("data", "begin", "cbegin", "get"):
@@ -128,7 +128,7 @@ class Lists(Structures):
         """Something was written to a place that cannot be told: of a list's element, the list is no longer known."""
         if target[0] in (FIELD, INDEX):
             for each in self.run.value(target[1], around):
-                value = self.run.aimed(each.value)
+                value = pointee(each.value)
                 if isinstance(value, Array):
                     value.whole = False
                 elif isinstance(value, Struct) and target[0] == FIELD:

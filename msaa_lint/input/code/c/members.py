@@ -11,7 +11,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.names import parse_enum, parse_flags
 
 from .configurations import World
-from .values import Array, Flags, Made, Struct
+from .values import Array, Flags, Struct, VulkanObject
 
 Item = tuple[str, Span, Node]
 
@@ -63,7 +63,7 @@ class Members(World):
             return scalar(bool(value), at)
         return None
 
-    def name(self, made: Made, otherwise: str) -> str:
+    def name(self, made: VulkanObject, otherwise: str) -> str:
         """A name that no other object of the tree has."""
         if id(made) not in self.names:
             self.names[id(made)] = self.unique(made.name.rpartition("::")[2].strip("*&") or otherwise)

@@ -14,27 +14,28 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.enums import VALUES
 
 from .conditions import worded
+from .escapes import forget, forget_captures, mark_escaped, mark_used, settled_under
 from .lists import Lists
 from .names import first_version, structure
 from .scope import Around
 from .terms import ADDRESS, CALL, FIELD, INDEX, NAME, Function, Term
 from .values import (
     ALWAYS,
-    NOTHING,
+    UNKNOWN,
     UNKNOWN_VALUE,
     Alternative,
     Array,
     Cell,
     Closure,
     Flags,
-    Made,
     Ref,
     Struct,
     Symbol,
     Value,
+    VulkanObject,
     copied,
     one,
-    settled,
+    pointee,
 )
 
 MAKES = {
@@ -99,9 +100,9 @@ class Objects(Lists):
             return UNKNOWN_VALUE
         if not _LOOKS.search(name):
             for n, value in enumerate(values):
-                known = self.run.aimed(one(value))
+                known = pointee(one(value))
                 if isinstance(known, Array) and len(known.items) == 1:
-                    known = self.run.aimed(one(known.items[0].writes))
+                    known = pointee(one(known.items[0].writes))
                 if isinstance(known, Struct) and first_version(known.kind) in MAKES:
                     return self.makes(known, n, term, name, values, around)
         if _MEMORY.search(name):
@@ -115,22 +116,22 @@ class Objects(Lists):
         for given in term[2]:
             if given[0] == ADDRESS:
                 cell = self.run.place(given[1], around)
-                held = self.run.aimed(one(cell.read(around.guards))) if cell is not None else None
+                held = pointee(one(cell.read(around.guards))) if cell is not None else None
                 if isinstance(held, Struct):
                     # What only asks Vulkan fills the structure in.
                     kept = name.startswith(("vk", "vma")) and not name.startswith(("vkGet", "vkEnumerate"))
                     if not kept and not self.keeps(name, given, term):
                         held.zeroed = False
                         held.fields.clear()
-                elif cell is not None and not isinstance(held, (Array, Made)):
+                elif cell is not None and not isinstance(held, (Array, VulkanObject)):
                     # The function gives it a value that is not known here.
-                    cell.write((Alternative(NOTHING, place),), place, around.guards)
+                    cell.write((Alternative(UNKNOWN, place),), place, around.guards)
             elif not name.startswith(("vk", "vma")):
                 self.handed(name, given, term, around)
         if name and not name.startswith(("vk", "vma")) and not name.isupper() and not _HARMLESS.search(name):
             for value in values:
                 for each in value:
-                    self.leaves(each.value)
+                    mark_escaped(each.value)
         if not name or (name[0].isupper() and owner is None and structure(name)):
             return UNKNOWN_VALUE
         helped = self.initialised(term, name, values, place)
@@ -148,9 +149,9 @@ class Objects(Lists):
         """A list, or a structure, that is handed to somebody else's function, which may change it if it takes a reference."""
         for known in [each.value for each in self.run.value(given, around)]:
             if isinstance(known, Closure):
-                self.captured(known)
+                forget_captures(known)
                 continue
-            value = self.run.aimed(known)
+            value = pointee(known)
             if not isinstance(value, (Array, Struct)) or self.keeps(name, given, term):
                 continue
             stated = self.run.unit.prototypes.get(name, ())
@@ -160,54 +161,7 @@ class Objects(Lists):
                 by_reference = stated[position].by_reference if position < len(stated) else self.run.plus or name.isupper()
                 if not by_reference:
                     continue
-            self.unknown_now(value)
-
-    def leaves(self, value: Any, depth: int = 0) -> None:
-        """Notes that an object goes where nobody can follow it, and the image of a view with it."""
-        if isinstance(value, Made):
-            value.gone = True
-            if value.kind == "view" and value.info is not None and "image" in value.info.fields:
-                for write in value.info.fields["image"].writes:
-                    self.leaves(write.value, depth + 1)
-            return
-        cells: Sequence[Cell] = ()
-        if isinstance(value, Struct) and not value.kind:
-            cells = list(value.fields.values())
-        elif isinstance(value, Array):
-            cells = value.items
-        elif isinstance(value, Ref):
-            cells = [value.cell]
-        for cell in cells if depth < 4 else ():
-            for write in cell.writes:
-                self.leaves(write.value, depth + 1)
-
-    def captured(self, closure: Closure) -> None:
-        """A lambda that is handed to somebody else's function: what it names it may change."""
-        names: set[str] = set()
-        waiting: list[Any] = list(closure.body)
-        while waiting:
-            term = waiting.pop()
-            if isinstance(term, tuple) and term and not isinstance(term, Span):
-                if term[0] == NAME and len(term) == 3 and isinstance(term[1], str):
-                    names.add(term[1])
-                else:
-                    waiting.extend(term)
-        for scope in closure.scopes:
-            for name in names & scope.keys():
-                for write in scope[name].writes:
-                    self.unknown_now(self.run.aimed(write.value))
-
-    @staticmethod
-    def unknown_now(value: Any) -> None:
-        """Forgets what is known of a structure or a list."""
-        if isinstance(value, Array):
-            value.whole = False
-        for each in (
-            [value] if isinstance(value, Struct) else [one(cell.writes) for cell in value.items] if isinstance(value, Array) else []
-        ):
-            if isinstance(each, Struct):
-                each.zeroed = False
-                each.fields.clear()
+            forget(value)
 
     def initialised(self, term: Term, name: str, values: Sequence[Value], place: Span) -> Value | None:
         """The helpers of Sascha Willems's examples, which many samples use: a structure by its name, zeroed but for its arguments."""
@@ -233,7 +187,7 @@ class Objects(Lists):
             target = given[1] if given[0] == ADDRESS else given if plain and given[0] in (NAME, FIELD, INDEX) else None
             if target is None:
                 continue
-            held = self.run.aimed(one(values[position]))
+            held = pointee(one(values[position]))
             if isinstance(held, Struct) and (held.kind or "requiredFlags" in held.fields or "usage" in held.fields):
                 if kind == "image":
                     made.memory = made.memory or self.allocated(held)
@@ -247,36 +201,19 @@ class Objects(Lists):
         # What the function itself gives is a VkResult.
         return (Alternative(0, term[3]),) if plain else result
 
-    def make(self, kind: str, info: Struct, term: Term, around: Around) -> Made:
+    def make(self, kind: str, info: Struct, term: Term, around: Around) -> VulkanObject:
         """The object that a call makes."""
         key = (kind, term[3], around.calls, around.turns)
         made = self.made.get(key)
         if made is None:
-            made = self.made[key] = Made(kind, key, term[3])
-        self.mark(info, 0)
-        made.info = _seen(copied(info, through=True), dict(around.guards), 0)
-        made.within = around.guards
+            made = self.made[key] = VulkanObject(kind, key, term[3])
+        mark_used(info)
+        made.info = settled_under(copied(info, through=True), dict(around.guards))
+        made.guards = around.guards
         made.memory = ()
         made.deep = 99
         self.met[key] = made
         return made
-
-    def mark(self, value: Any, depth: int) -> None:
-        """Notes that a structure was used, and those that it points to."""
-        if depth > 8:
-            return
-        if isinstance(value, Struct):
-            self.used.add(id(value))
-            cells = list(value.fields.values())
-        elif isinstance(value, Array):
-            cells = value.items
-        elif isinstance(value, Ref):
-            cells = [value.cell]
-        else:
-            return
-        for cell in cells:
-            for write in cell.writes:
-                self.mark(write.value, depth + 1)
 
     def allocated(self, info: Struct) -> Value:
         """The memory that VMA is asked for (VmaAllocationCreateInfo)."""
@@ -290,16 +227,16 @@ class Objects(Lists):
 
     def binding(self, values: Sequence[Value], owner: Term | None, around: Around) -> None:
         every = [*values, self.run.value(owner, around)] if owner is not None else list(values)
-        known = [self.run.aimed(one(value)) for value in every]
-        image = next((v for v in known if isinstance(v, Made) and v.kind == "image"), None)
-        memory = next((v for v in known if isinstance(v, Made) and v.kind == "memory"), None)
+        known = [pointee(one(value)) for value in every]
+        image = next((v for v in known if isinstance(v, VulkanObject) and v.kind == "image"), None)
+        memory = next((v for v in known if isinstance(v, VulkanObject) and v.kind == "memory"), None)
         if image is not None and memory is not None and memory.info is not None and "memoryTypeIndex" in memory.info.fields:
             index = memory.info.fields["memoryTypeIndex"].writes
             image.memory = index if index and all(_of_memory(a.value) for a in index) else ()
 
     def viewed(self, values: Sequence[Value], term: Term, around: Around) -> Value | None:
         """A view of the one image among some arguments."""
-        images = [v for v in values if any(isinstance(a.value, Made) and a.value.kind == "image" for a in v)]
+        images = [v for v in values if any(isinstance(a.value, VulkanObject) and a.value.kind == "image" for a in v)]
         if len(images) != 1:
             return None
         info = Struct("ImageViewCreateInfo", term[3], False)
@@ -308,7 +245,7 @@ class Objects(Lists):
 
     def resolving(self, name: str, values: Sequence[Value], place: Span) -> None:
         if name.endswith(("2", "2KHR")):
-            info = next((v for v in (self.run.aimed(one(value)) for value in values) if isinstance(v, Struct)), None)
+            info = next((v for v in (pointee(one(value)) for value in values) if isinstance(v, Struct)), None)
             if info is not None:
                 self.resolves[place] = (info.cell("srcImage").writes, info.cell("dstImage").writes)
             return
@@ -321,16 +258,15 @@ class Objects(Lists):
         """Names what a call made after the variable that it goes to: the outermost function's."""
         for alternative in value:
             made = alternative.value
-            if isinstance(made, Made) and name and len(around.calls) < made.deep:
+            if isinstance(made, VulkanObject) and name and len(around.calls) < made.deep:
                 made.name, made.deep = name, len(around.calls)
 
     def ended(self, around: Around) -> None:
         """At the end of a beginning: structures that no call was seen to take."""
         for info, guards in self.born:
             kind = first_version(info.kind)
-            if id(info) in self.used or not info.fields or not (kind in ALONE or (self.run.fragments and kind in MAKES)):
+            if info.used or not info.fields or not (kind in ALONE or (self.run.fragments and kind in MAKES)):
                 continue
-            self.used.add(id(info))
             term = (CALL, (NAME, "", info.at), (), info.at)
             around.guards = guards
             made = self.make(MAKES.get(kind, "state"), info, term, around)
@@ -355,9 +291,9 @@ class Objects(Lists):
                 made.name = owner.rpartition("::")[2]
 
     def of_views(self, cell: Cell) -> bool:
-        array = self.run.aimed(one(cell.writes))
+        array = pointee(one(cell.writes))
         items = [one(item.writes) for item in array.items] if isinstance(array, Array) else []
-        return any(isinstance(item, Made) and item.kind == "view" for item in items)
+        return any(isinstance(item, VulkanObject) and item.kind == "view" for item in items)
 
     def by_types(self, function: Function, term: Term, around: Around) -> Value | None:
         """An image that a function makes whose body a page leaves out: its parameters' types say what they are."""
@@ -381,24 +317,6 @@ class Objects(Lists):
             cell.write((Alternative(made, term[3]),), term[3], around.guards)
             self.called_by((Alternative(made, term[3]),), cell.name, around)
         return UNKNOWN_VALUE
-
-
-def _seen(value: Any, world: dict[str, bool], depth: int) -> Any:
-    """What a call was handed, without the conditions that held where it was made."""
-    if depth > 10:
-        return value
-    cells: Sequence[Cell] = ()
-    if isinstance(value, Struct):
-        cells = list(value.fields.values())
-    elif isinstance(value, Array):
-        cells = value.items
-    elif isinstance(value, Ref):
-        cells = [value.cell]
-    for cell in cells:
-        cell.writes = settled(cell.writes, world) if world else cell.writes
-        for write in cell.writes:
-            _seen(write.value, world, depth + 1)
-    return value
 
 
 def _of_memory(value: Any) -> bool:

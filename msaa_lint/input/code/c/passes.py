@@ -9,7 +9,7 @@ from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
 
 from .members import Item, Members, head_of
-from .values import NOTHING, Array, Made, Struct, one
+from .values import UNKNOWN, Array, Struct, VulkanObject, one
 
 NOTHING_SAID = mapping((), Span(0, 0))
 
@@ -17,20 +17,20 @@ NOTHING_SAID = mapping((), Span(0, 0))
 class Passes(Members):
     """Render passes as nodes."""
 
-    def bind(self, passes: Sequence[Made]) -> None:
+    def bind(self, passes: Sequence[VulkanObject]) -> None:
         """The images that framebuffers give to the attachments of render passes."""
         for made in self.met:
             if made.kind != "framebuffer" or made.info is None:
                 continue
             views = self.aimed(self.get(made.info, "attachments")[0])
-            if isinstance(views, Made):
+            if isinstance(views, VulkanObject):
                 images = [self.image_in(views)]
             elif isinstance(views, Array) and views.whole:
                 images = [self.image_in(one(self.settle(cell.writes))) for cell in views.items]
             else:
                 continue
             target = self.aimed(self.get(made.info, "renderPass")[0])
-            if not isinstance(target, Made):
+            if not isinstance(target, VulkanObject):
                 fitting = [p for p in passes if p.info is not None and len(self.structs(p.info, "attachments") or ()) == len(images)]
                 target = fitting[0] if len(fitting) == 1 and len(passes) == 1 else None
             if target is None:
@@ -41,7 +41,9 @@ class Passes(Members):
             else:
                 self.bound[id(target)] = [a if a is b else None for a, b in zip(before, images, strict=False)]
 
-    def attachment(self, struct: Struct | None, image: Made | None, attached: dict[int, Made], head: Span, resolved: bool) -> Node:
+    def attachment(
+        self, struct: Struct | None, image: VulkanObject | None, attached: dict[int, VulkanObject], head: Span, resolved: bool
+    ) -> Node:
         if struct is None:
             return mapping((), head)
         items: list[Item] = []
@@ -57,7 +59,7 @@ class Passes(Members):
             items.insert(min(1, len(items)), ("samples", at, scalar(count, at)))
         return mapping(items, head)
 
-    def render_pass(self, made: Made, attached: dict[int, Made]) -> Item | None:
+    def render_pass(self, made: VulkanObject, attached: dict[int, VulkanObject]) -> Item | None:
         info = made.info
         assert info is not None
         structs = self.structs(info, "attachments")
@@ -98,7 +100,7 @@ class Passes(Members):
                 items.append(("dependencies", head, sequence([node for node in made_nodes if node is not None], head)))
         return self.name(made, "renderPass"), head, mapping(items, head)
 
-    def single(self, structs: Sequence[Struct | None], images: Sequence[Made | None]) -> bool:
+    def single(self, structs: Sequence[Struct | None], images: Sequence[VulkanObject | None]) -> bool:
         """Whether the multisampled images of a pass are known, and one each: with one for each frame in flight none waits for another."""
         for n, struct in enumerate(structs):
             image = images[n] if n < len(images) else None
@@ -139,7 +141,7 @@ class Passes(Members):
                 items.append((name, at, sequence(references, head_of(at))))
         if struct.zeroed or "depthStencilAttachment" in struct.fields or self.fragments:
             value, at = self.get(struct, "depthStencilAttachment")
-            if value is not None and not (value is NOTHING and "depthStencilAttachment" not in struct.fields):
+            if value is not None and not (value is UNKNOWN and "depthStencilAttachment" not in struct.fields):
                 reference = self.struct(struct, "depthStencilAttachment")
                 node = self.reference(reference, names) if reference is not None else None
                 if node is None:
@@ -190,10 +192,10 @@ class Passes(Members):
 
     def reference(self, struct: Struct, names: Sequence[str]) -> Node | None:
         index, at = self.get(struct, "attachment")
-        if index is NOTHING and self.fragments:
+        if index is UNKNOWN and self.fragments:
             # A page that changes a program does not repeat that `colorAttachmentRef` is of `colorAttachment`.
             said = [n for n, name in enumerate(names) if struct.name and struct.name.startswith(name) and struct.name != name]
-            index = said[-1] if len(said) == 1 else NOTHING
+            index = said[-1] if len(said) == 1 else UNKNOWN
         if index is None:
             index = 0
         if index == 2**32 - 1 or index == "VK_ATTACHMENT_UNUSED":

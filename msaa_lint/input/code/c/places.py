@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
+from typing import Any, Protocol
+
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.names import parse_enum
 
-from .machine import Machine
-from .names import constant, elements, member, structure
-from .scope import MEMBER, Around
-from .terms import ADDRESS, CALL, FIELD, INDEX, NAME, TARGET, Term, at
-from .values import ALWAYS, UNKNOWN_VALUE, Alternative, Array, Cell, Flags, Ref, Struct, Value, one
+from .names import constant, elements, extent, member, structure
+from .scope import MEMBER, MOST_STEPS, Around, Stop
+from .terms import ADDRESS, CALL, DECLARE, FIELD, INDEX, NAME, TARGET, Function, Term, Unit, at
+from .values import ALWAYS, UNKNOWN_VALUE, Alternative, Array, Cell, Flags, Ref, Struct, Value, copied, one, pointee
 
 
 def _lasts(value: object) -> bool:
@@ -24,8 +26,78 @@ def an_element(term: Term) -> bool:
     return bool(term[0] == CALL and term[1][0] == FIELD and term[1][2] in ("front", "back", "at"))
 
 
-class Places(Machine):
-    """What expressions name."""
+class CallHandler(Protocol):
+    """What the evaluation of expressions needs of the calls in them."""
+
+    def call(self, term: Term, around: Around) -> Value:
+        """The value of a call."""
+
+    def braces(self, term: Term, around: Around, kind: str) -> Value:
+        """The value of a list in braces, for a type."""
+
+    def object_made(self, kind: str, term: Term, around: Around) -> Value | None:
+        """The object of a class that a constructor makes; None for other types."""
+
+    def called_by(self, value: Value, name: str, around: Around) -> None:
+        """Names Vulkan objects after the variable that they are assigned to."""
+
+    def lost(self, target: Term, around: Around) -> None:
+        """Forgets what a write to an unknown place may have changed."""
+
+
+class Places(ABC):
+    """The variables and members of one file, and what expressions name of them."""
+
+    calls: CallHandler
+
+    def __init__(self, unit: Unit, fragments: bool, plus: bool) -> None:
+        self.unit = unit
+        self.fragments = fragments
+        """Whether it is pieces of a page, not a whole program."""
+        self.plus = plus
+        """Whether it is C++, where an argument may be a reference."""
+        self.functions: dict[str, list[Function]] = {}
+        for function in unit.functions:
+            self.functions.setdefault(function.name, []).append(function)
+        self.globals: dict[str, Term] = {}
+        for term in unit.outside:
+            if term[0] == DECLARE:
+                # Of two, under different conditions of the preprocessor for one, neither is known.
+                before = self.globals.get(term[2])
+                again = before is not None and before[3] is not None and term[3] is not None and before[3][:-1] != term[3][:-1]
+                self.globals[term[2]] = (*term[:3], None, *term[4:]) if again and not fragments else term
+        self.members = {name: {term[2]: term for term in terms if term[0] == DECLARE} for name, terms in unit.members.items()}
+        self.summary: dict[str, Value] = {}
+        """What members hold, by what all functions write to them."""
+        self.overlay: dict[str, Cell] = {}
+        """What they hold in the function that is gone through."""
+        self.initial: dict[str, Value] = {}
+        """What the members of the overlay held when the function began."""
+        self.known: dict[str, Value] = {}
+        self.parts: dict[str, dict[str, None]] = {}
+        """By a member, the members of it that are named anywhere."""
+        self.steps = 0
+
+    @abstractmethod
+    def value(self, term: Term, around: Around, kind: str = "") -> Value:
+        """What an expression may be. `kind` is the type that it is for, where braces need one."""
+
+    def step(self) -> None:
+        self.steps += 1
+        if self.steps > MOST_STEPS:
+            raise Stop
+
+    @staticmethod
+    def taken(value: Any, kind: str, name: str) -> Any:
+        """A value as a variable has it: structures are copied, and called by the variable's name."""
+        value = copied(value)
+        if isinstance(value, Struct):
+            value.kind = value.kind or structure(kind)
+            value.name = name or value.name
+        if isinstance(value, Array):
+            value.kind = value.kind or elements(kind) or ""
+            value.name = name or value.name
+        return value
 
     def place(self, term: Term, around: Around) -> Cell | None:
         """The cell that an expression names; None where it names none that can be told."""
@@ -39,7 +111,7 @@ class Places(Machine):
             return self.indexed(term, around)
         if kind == TARGET:
             value = one(self.value(term[1], around))
-            array = self.aimed(value)
+            array = pointee(value)
             if isinstance(array, Array) and array.items:
                 return array.items[0]
             return value.cell if isinstance(value, Ref) else self.place(term[1], around)
@@ -63,7 +135,7 @@ class Places(Machine):
 
     def mine(self, name: str, me: Cell, around: Around) -> Cell:
         """A member of the object whose method is gone through."""
-        value = self.aimed(one(me.read(around.guards)))
+        value = pointee(one(me.read(around.guards)))
         if isinstance(value, Struct):
             return value.cell(name)
         if me.kind == MEMBER:
@@ -162,12 +234,12 @@ class Places(Machine):
             return self.path(self.member_key(name, around))
         cell = self.place(of, around)
         if cell is None:
-            value = self.aimed(one(self.value(of, around)))
+            value = pointee(one(self.value(of, around)))
             return value.cell(name) if isinstance(value, Struct) else None
-        value = self.aimed(one(cell.read(around.guards)))
+        value = pointee(one(cell.read(around.guards)))
         if isinstance(value, Array) and value.items:
             # A pointer to the first of a list.
-            value = self.aimed(one(value.items[0].writes))
+            value = pointee(one(value.items[0].writes))
         if isinstance(value, Struct):
             return value.cell(name)
         if cell.kind == MEMBER:
@@ -209,7 +281,7 @@ class Places(Machine):
         index = one(self.value(term[2], around))
         if cell is None:
             return None
-        value = self.aimed(one(cell.read(around.guards)))
+        value = pointee(one(cell.read(around.guards)))
         if isinstance(value, Array):
             if type(index) is not int or not 0 <= index < 64:
                 value.whole = False
@@ -226,3 +298,37 @@ class Places(Machine):
         if isinstance(value, Struct) and index == 0:
             return cell
         return None
+
+    def filled(self, array: Array, kind: str, around: Around) -> None:
+        """Gives an array as many elements as its type has."""
+        said = extent(kind)
+        count = (int(said) if said.isdecimal() else one(self.value((NAME, said, array.at), around))) if said else 0
+        if not said:
+            return
+        if type(count) is not int or not 0 <= count <= 64:
+            array.whole = False
+            return
+        found = structure(array.kind)
+        while len(array.items) < count:
+            item = Cell(array.kind)
+            if found:
+                item.writes = (Alternative(Struct(found, array.at, array.zeroed), array.at),)
+            array.items.append(item)
+
+    def bare(self, kind: str, name: str, place: Span, indirect: bool, around: Around) -> Value:
+        """A variable without a value. vulkan.hpp's structures are as their constructors leave them."""
+        if indirect:
+            return UNKNOWN_VALUE
+        found = structure(kind)
+        if found:
+            made = Struct(found, place, kind.startswith("vk::"), name)
+            return (Alternative(made, place),)
+        inner = elements(kind)
+        if inner is not None:
+            array = Array(inner, place)
+            array.name = name
+            self.filled(array, kind, around)
+            return (Alternative(array, place),)
+        if kind[:1].isupper() and not kind.startswith(("Vk", "VK", "PFN")):
+            return (Alternative(Struct("", place, False, name), place),)
+        return UNKNOWN_VALUE

@@ -14,48 +14,28 @@ from msaa_lint.core.text.span import Span
 
 from .calls import Calls
 from .conditions import clash, opposite
+from .escapes import mark_escaped
 from .evaluate import Values
-from .names import elements, extent, structure
 from .places import an_element
 from .scope import MOST_PASSES, MOST_TURNS, Around, Stop
 from .terms import BINARY, BLOCK, DECLARE, DO, FIELD, IF, INDEX, LEAVE, LOOP, NAME, RETURN, SOME, UNARY, Function, Term, Unit, at
-from .values import ALWAYS, MOST, NOTHING, UNKNOWN_VALUE, Alternative, Array, Cell, Closure, Guards, Made, Ref, Struct, Symbol, Value, one
+from .values import ALWAYS, MOST, UNKNOWN, Alternative, Array, Cell, Closure, Guards, Ref, Struct, Symbol, Value, VulkanObject, one, pointee
 
 
 class Run(Values):
     """One file while it is gone through."""
 
     def __init__(self, unit: Unit, fragments: bool, plus: bool = True) -> None:
-        self.plus = plus
-        self.unit = unit
-        self.fragments = fragments
-        self.functions: dict[str, list[Function]] = {}
-        for function in unit.functions:
-            self.functions.setdefault(function.name, []).append(function)
-        self.globals: dict[str, Term] = {}
-        for term in unit.outside:
-            if term[0] == DECLARE:
-                # Of two, under different conditions of the preprocessor for one, neither is known.
-                before = self.globals.get(term[2])
-                again = before is not None and before[3] is not None and term[3] is not None and before[3][:-1] != term[3][:-1]
-                self.globals[term[2]] = (*term[:3], None, *term[4:]) if again and not fragments else term
-        self.members = {name: {term[2]: term for term in terms if term[0] == DECLARE} for name, terms in unit.members.items()}
-        self.summary: dict[str, Value] = {}
-        self.overlay: dict[str, Cell] = {}
-        self.initial: dict[str, Value] = {}
-        """What the members of the overlay held when the function began."""
-        self.known: dict[str, Value] = {}
-        self.parts: dict[str, dict[str, None]] = {}
-        self.steps = 0
-        self.called: set[str] = set()
-        self.calls = Calls(self)
+        super().__init__(unit, fragments, plus)
+        self.program = Calls(self)
+        self.calls = self.program
 
     def through(self) -> None:
         """Goes through the file until what members hold is the same as before."""
         roots = self.roots()
         try:
             for _ in range(MOST_PASSES):
-                self.calls.begin()
+                self.program.begin()
                 found: dict[str, dict[tuple[Any, ...], Alternative]] = {}
                 for function in roots:
                     self.overlay, self.initial = {}, {}
@@ -65,11 +45,11 @@ class Run(Values):
                         for write in cell.writes:
                             if id(write) in before:
                                 continue
-                            if write.value is NOTHING:
+                            if write.value is UNKNOWN:
                                 write = Alternative(Symbol(key, key.rpartition("::")[2]), write.at, write.guards)
                             found.setdefault(key, {}).setdefault(_mark(write), write)
                 if self.fragments:
-                    self.calls.pieces(self.overlay)
+                    self.program.pieces(self.overlay)
                 last, self.summary = self.summary, {key: _joined(list(writes.values())) for key, writes in found.items()}
                 if _marks(last) == _marks(self.summary):
                     break
@@ -92,8 +72,8 @@ class Run(Values):
                 around.scopes[-1][parameter.name] = cell
         self.block(function.body, around)
         for returned in around.returned:
-            self.calls.leaves(returned.value)
-        self.calls.ended(around)
+            mark_escaped(returned.value)
+        self.program.ended(around)
 
     def block(self, statements: Sequence[Term], around: Around) -> None:
         for statement in statements:
@@ -122,7 +102,7 @@ class Run(Values):
             if term[1] is not None:
                 value = self.value(term[1], around, around.returns)
                 base = around.guards
-                around.returned += [Alternative(a.value, a.at, a.guards | base) for a in value] or [Alternative(NOTHING, term[-1], base)]
+                around.returned += [Alternative(a.value, a.at, a.guards | base) for a in value] or [Alternative(UNKNOWN, term[-1], base)]
             around.gone = True
         elif kind == LEAVE:
             around.gone = True
@@ -210,7 +190,7 @@ class Run(Values):
 
     def elements(self, over: Term, around: Around) -> list[Cell] | None:
         """The elements of a list that is known whole."""
-        value = self.aimed(one(self.value(over, around)))
+        value = pointee(one(self.value(over, around)))
         return value.items if isinstance(value, Array) and value.whole else None
 
     def declare(self, term: Term, around: Around) -> None:
@@ -234,7 +214,7 @@ class Run(Values):
             value = tuple(Alternative(self.taken(a.value, kind, name), a.at, a.guards) for a in value)
         cell.write(value, place, around.guards)
         self.calls.called_by(value, name, around)
-        self.calls.born += [(a.value, around.guards) for a in value if isinstance(a.value, Struct) and a.value.kind]
+        self.program.born += [(a.value, around.guards) for a in value if isinstance(a.value, Struct) and a.value.kind]
 
     @staticmethod
     def declared_elsewhere(name: str, kind: str, around: Around) -> Cell | None:
@@ -244,51 +224,17 @@ class Run(Values):
             return None
         return before if all(clash(write.guards, around.guards) for write in before.writes) else None
 
-    def filled(self, array: Array, kind: str, around: Around) -> None:
-        """Gives an array as many elements as its type has."""
-        said = extent(kind)
-        count = (int(said) if said.isdecimal() else one(self.value((NAME, said, array.at), around))) if said else 0
-        if not said:
-            return
-        if type(count) is not int or not 0 <= count <= 64:
-            array.whole = False
-            return
-        found = structure(array.kind)
-        while len(array.items) < count:
-            item = Cell(array.kind)
-            if found:
-                item.writes = (Alternative(Struct(found, array.at, array.zeroed), array.at),)
-            array.items.append(item)
-
-    def bare(self, kind: str, name: str, place: Span, indirect: bool, around: Around) -> Value:
-        """A variable without a value. vulkan.hpp's structures are as their constructors leave them."""
-        if indirect:
-            return UNKNOWN_VALUE
-        found = structure(kind)
-        if found:
-            made = Struct(found, place, kind.startswith("vk::"), name)
-            return (Alternative(made, place),)
-        inner = elements(kind)
-        if inner is not None:
-            array = Array(inner, place)
-            array.name = name
-            self.filled(array, kind, around)
-            return (Alternative(array, place),)
-        if kind[:1].isupper() and not kind.startswith(("Vk", "VK", "PFN")):
-            return (Alternative(Struct("", place, False, name), place),)
-        return UNKNOWN_VALUE
-
 
 def _mark(write: Alternative) -> tuple[Any, ...]:
     value = write.value
-    if isinstance(value, Made):
+    if isinstance(value, VulkanObject):
         return (value.signature(), write.guards)
     return (id(value) if isinstance(value, (Struct, Array, Closure)) else repr(value), write.at, write.guards)
 
 
 def _joined(writes: list[Alternative]) -> Value:
     """What all functions write to a member: that it is null until then, and again in the end, is no news."""
-    made = [write for write in writes if isinstance(write.value, (Made, Struct, Array))]
+    made = [write for write in writes if isinstance(write.value, (VulkanObject, Struct, Array))]
     return tuple(made or writes)[:MOST]
 
 

@@ -8,7 +8,7 @@ from msaa_lint.core.text.span import Span
 
 from .declarations import Declarations
 from .kinds import CHAIN_TESTS, DEEPEST, without_comments
-from .terms import BINARY, BLOCK, DECLARE, DO, IF, LEAVE, LOOP, RETURN, SOME, UNKNOWN, Term
+from .terms import BINARY, BLOCK, DECLARE, DO, IF, LEAVE, LOOP, RETURN, SOME, UNPARSED, Term
 
 if TYPE_CHECKING:
     from tree_sitter import Node
@@ -98,7 +98,7 @@ class Statements(Declarations):
                 start = test.child_by_field_name("initializer")
                 first = self.block(start, depth) if start is not None else []
                 test = test.child_by_field_name("value") or test
-            condition = self.expression(test, depth) if test is not None else (UNKNOWN, "", at)
+            condition = self.expression(test, depth) if test is not None else (UNPARSED, "", at)
             links.append((condition, tuple(self.inside(then, depth)), first, at))
             current = None
             if other is not None:
@@ -130,14 +130,14 @@ class Statements(Declarations):
     def cases(self, node: Node, depth: int) -> list[Term]:
         """A switch, as blocks each under the condition that the value is the case's."""
         test, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
-        value = self.expression(test, depth) if test is not None else (UNKNOWN, "", Span(0, 0))
+        value = self.expression(test, depth) if test is not None else (UNPARSED, "", Span(0, 0))
         made: list[Term] = []
         for child in body.named_children if body is not None and depth < DEEPEST else ():
             if child.type != "case_statement":
                 continue
             at = Span(child.start_byte, child.end_byte)
             given = child.child_by_field_name("value")
-            condition: Term = (BINARY, "==", value, self.expression(given, depth), at) if given is not None else (UNKNOWN, "default", at)
+            condition: Term = (BINARY, "==", value, self.expression(given, depth), at) if given is not None else (UNPARSED, "default", at)
             inside: list[Term] = []
             for inner in child.named_children:
                 if inner != given and inner.type != "break_statement":

@@ -2,16 +2,32 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from typing import Any
 
 from msaa_lint.core.text.span import Span
 
-from .calling import Calling
+from .evaluate import Values
 from .names import MEMBERS, WITHOUT_TYPE, elements, first_version, is_scalar, member, structure
 from .scope import Around
-from .terms import ADDRESS, BRACES, CALL, FIELD, INDEX, LITERAL, NAME, SOME, UNKNOWN, Term
-from .values import ALWAYS, NOTHING, UNKNOWN_VALUE, Alternative, Array, Cell, Guards, Struct, Value, copied, one
+from .terms import ADDRESS, BRACES, CALL, FIELD, INDEX, LITERAL, NAME, SOME, UNPARSED, Term
+from .values import (
+    ALWAYS,
+    UNKNOWN,
+    UNKNOWN_VALUE,
+    Alternative,
+    Array,
+    Cell,
+    Guards,
+    Struct,
+    Value,
+    VulkanObject,
+    copied,
+    copies,
+    one,
+    pointee,
+)
 
 
 def member_type(kind: str, name: str) -> str:
@@ -37,8 +53,27 @@ def _hpp_defaults(made: Struct) -> None:
         made.cell("rasterizationSamples").writes = (Alternative(1, made.at),)
 
 
-class Structures(Calling):
-    """Structures of one file."""
+class Structures(ABC):
+    """What the calls of one file make: its structures and lists."""
+
+    def __init__(self, run: Values) -> None:
+        self.run = run
+        self.made: dict[tuple[Any, ...], VulkanObject] = {}
+        self.met: dict[tuple[Any, ...], VulkanObject] = {}
+        self.born: list[tuple[Struct, Guards]] = []
+        self.resolves: dict[Span, tuple[Value, Value]] = {}
+        self.followed: dict[Span, int] = {}
+
+    def begin(self) -> None:
+        """Forgets what an earlier turn made, but not which object is which."""
+        self.met = {}
+        self.born.clear()
+        self.resolves.clear()
+        self.followed.clear()
+
+    @abstractmethod
+    def object_made(self, kind: str, term: Term, around: Around) -> Value | None:
+        """An object of a class of the file's, by its constructor."""
 
     def constructed(self, kind: str, arguments: Sequence[Term], place: Span, around: Around, hpp: bool) -> Value:
         """A structure made with arguments in the order of its members. vulkan.hpp takes lists for a count and a pointer."""
@@ -46,7 +81,7 @@ class Structures(Calling):
         if hpp:
             _hpp_defaults(made)
         if len(arguments) == 1 and arguments[0][0] in (NAME, FIELD):
-            value = self.run.aimed(one(self.run.value(arguments[0], around)))
+            value = pointee(one(self.run.value(arguments[0], around)))
             if isinstance(value, Struct) and first_version(value.kind) == first_version(kind):
                 return (Alternative(copied(value), place),)
         self.positional(made, [(None, a) for a in arguments], around, hpp)
@@ -74,11 +109,11 @@ class Structures(Calling):
                 return
             name = names[n]
             value = self.run.by_pointer(name, self.run.value(given, around, member_type(made.kind, name)), given, around)
-            known = self.run.aimed(one(value))
+            known = pointee(one(value))
             if name.endswith("Count") and hpp and (isinstance(known, (Array, Struct)) or given[0] == BRACES):
                 n += 1
                 name = names[n] if n < len(names) else name
-            made.cell(member(name)).write(tuple(Alternative(copied(a.value), a.at, a.guards) for a in value), given[-1], ALWAYS)
+            made.cell(member(name)).write(copies(value), given[-1], ALWAYS)
             n += 1
 
     def designated(self, made: Struct, path: Sequence[str | int], given: Term, around: Around) -> None:
@@ -96,7 +131,7 @@ class Structures(Calling):
             target = value
         name = str(path[-1])
         value = self.run.by_pointer(name, self.run.value(given, around, member_type(target.kind, name)), given, around)
-        target.cell(member(name)).write(tuple(Alternative(copied(a.value), a.at, a.guards) for a in value), given[-1], guards)
+        target.cell(member(name)).write(copies(value), given[-1], guards)
 
     def sometimes(self, term: Term) -> tuple[Guards, Term]:
         """The conditions of an item of braces, and the item."""
@@ -117,7 +152,7 @@ class Structures(Calling):
             if hpp:
                 _hpp_defaults(made)
             if len(items) == 1 and items[0][0] is None and items[0][1][0] in (NAME, FIELD):
-                value = self.run.aimed(one(self.run.value(items[0][1], around)))
+                value = pointee(one(self.run.value(items[0][1], around)))
                 if isinstance(value, Struct):
                     return (Alternative(copied(value), place),)
             self.positional(made, [i for i in items if i[0] is not None or i[1][:2] != (LITERAL, 0) or len(items) > 1], around, hpp)
@@ -162,7 +197,7 @@ class Structures(Calling):
             value = self.run.value(given, around, kind)
             cell = Cell(kind)
             cell.writes = tuple(Alternative(copied(a.value), a.at, a.guards | guards) for a in value) or (
-                Alternative(NOTHING, given[-1], guards),
+                Alternative(UNKNOWN, given[-1], guards),
             )
             index = path[0] if path else len(array.items)
             if isinstance(index, str):
@@ -186,15 +221,15 @@ class Structures(Calling):
         array = Array(kind, place)
         count = one(self.run.value(arguments[0], around)) if arguments else 0
         if type(count) is not int or not 0 <= count <= 64 or len(arguments) > 2:
-            value = self.run.aimed(count)
-            if isinstance(value, Array) and all(value is self.run.aimed(one(self.run.value(a, around))) for a in arguments[1:]):
+            value = pointee(count)
+            if isinstance(value, Array) and all(value is pointee(one(self.run.value(a, around))) for a in arguments[1:]):
                 return (Alternative(copied(value), place),)
             array.whole = False
             return (Alternative(array, place),)
         for _ in range(count):
             item = Cell(kind)
             if len(arguments) == 2:
-                item.writes = tuple(Alternative(copied(a.value), a.at, a.guards) for a in self.run.value(arguments[1], around, kind))
+                item.writes = copies(self.run.value(arguments[1], around, kind))
             elif structure(kind):
                 item.writes = (Alternative(Struct(structure(kind), place, True), place),)
             array.items.append(item)
@@ -211,31 +246,31 @@ class Structures(Calling):
         for name, (path, given) in zip(names, items, strict=False):
             if not path:
                 value = self.run.value(given, around)
-                made.cell(member(name)).writes = tuple(Alternative(copied(a.value), a.at, a.guards) for a in value)
+                made.cell(member(name)).writes = copies(value)
         return (Alternative(made, place),)
 
     def of_kind(self, term: Term, kind: str, around: Around) -> bool:
         if term[0] == BRACES:
             return True
-        value = self.run.aimed(one(self.run.value(term, around)))
+        value = pointee(one(self.run.value(term, around)))
         return isinstance(value, Struct) and first_version(value.kind) == first_version(structure(kind))
 
     def counted(self, value: Any, place: Span) -> Value:
-        value = self.run.aimed(value)
+        value = pointee(value)
         return (Alternative(len(value.items), place),) if isinstance(value, Array) and value.whole else UNKNOWN_VALUE
 
     def zeroed(self, arguments: Sequence[Term], around: Around) -> Value:
         """`memset(&x, 0, sizeof x)`."""
         if one(self.run.value(arguments[1], around)) == 0:
-            value = self.run.aimed(one(self.run.value(arguments[0], around)))
+            value = pointee(one(self.run.value(arguments[0], around)))
             first = arguments[0]
             if isinstance(value, Array) and first[0] == ADDRESS and first[1][0] == INDEX:
-                size = arguments[2][1] if arguments[2][0] == UNKNOWN else ""
+                size = arguments[2][1] if arguments[2][0] == UNPARSED else ""
                 if "[" in size or "sizeof(Vk" in size.replace("struct", "").replace(" ", ""):
-                    value = self.run.aimed(one(value.items[0].writes)) if value.items else None
+                    value = pointee(one(value.items[0].writes)) if value.items else None
                 elif not size.startswith("sizeof"):
                     for cell in value.items:
-                        cell.writes = (Alternative(NOTHING, first[-1]),)
+                        cell.writes = (Alternative(UNKNOWN, first[-1]),)
                     return UNKNOWN_VALUE
             for each in [value] if isinstance(value, Struct) else [one(c.writes) for c in value.items] if isinstance(value, Array) else []:
                 if isinstance(each, Struct):

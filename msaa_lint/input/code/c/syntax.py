@@ -1,6 +1,6 @@
 """C and C++ syntax trees to terms.
 
-What no rule asks for stays UNKNOWN, and what the parser could not make sense of is passed over: macros break the grammar in most real
+What no rule asks for stays UNPARSED, and what the parser could not make sense of is passed over: macros break the grammar in most real
 files, and hardly ever where a structure is filled in.
 """
 

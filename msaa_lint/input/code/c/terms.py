@@ -13,7 +13,7 @@ A term is a tuple whose first item is its kind and whose last is its place. Expr
     (BRACES, type or "", items, at)       items are (path of members or None, expression); `type` is the one that stands before
     (LAMBDA, parameters, body, at)
     (SOME, text, way, expression, at)     in braces: there if a condition of the preprocessor holds, or does not
-    (UNKNOWN, text, at)
+    (UNPARSED, text, at)
 
 Statements:
 
@@ -33,7 +33,7 @@ from msaa_lint.core.text.span import Span
 
 Term = tuple[Any, ...]
 
-NAME, LITERAL, FIELD, INDEX, ADDRESS, TARGET, UNARY, BINARY, ASSIGN, CHOICE, CALL, BRACES, LAMBDA, UNKNOWN = range(14)
+NAME, LITERAL, FIELD, INDEX, ADDRESS, TARGET, UNARY, BINARY, ASSIGN, CHOICE, CALL, BRACES, LAMBDA, UNPARSED = range(14)
 DECLARE, DO, RETURN, LEAVE, IF, LOOP, SOME, BLOCK = range(20, 28)
 
 

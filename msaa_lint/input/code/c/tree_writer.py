@@ -18,7 +18,7 @@ from .commands import Commands
 from .members import FLAGS, Item, flags_of, head_of
 from .names import first_version
 from .passes import Passes
-from .values import NOTHING, Array, Flags, Made, Struct, Symbol, one
+from .values import UNKNOWN, Array, Flags, Struct, Symbol, VulkanObject, one
 
 
 class Writer(Passes, Commands):
@@ -31,7 +31,7 @@ class Writer(Passes, Commands):
         passes = [made for made in self.met if made.kind == "renderPass" and made.info is not None]
         self.bind(passes)
         rendered: list[Item] = []
-        attached: dict[int, Made] = {}
+        attached: dict[int, VulkanObject] = {}
         kept: dict[int, str] = {}
         for made in passes:
             item = self.render_pass(made, attached)
@@ -59,15 +59,15 @@ class Writer(Passes, Commands):
             return None
         return Read(mapping(sections, Span(0, 0)), tuple(self.assumed.values()))
 
-    def many(self, made: Made) -> bool:
+    def many(self, made: VulkanObject) -> bool:
         return made.info is not None and (self.samples(made.info)[0] or 1) > 1
 
-    def image(self, made: Made) -> Item:
+    def image(self, made: VulkanObject) -> Item:
         info = made.info
         assert info is not None
         items: list[Item] = []
         for name in ("format", "imageType", "tiling", "sharingMode", "usage"):
-            if name == "usage" and made.gone and not self.transient(info):
+            if name == "usage" and made.escaped and not self.transient(info):
                 # Other code may use it as it likes.
                 continue
             if name == "imageType" and info.zeroed and name not in info.fields:
@@ -91,7 +91,7 @@ class Writer(Passes, Commands):
         bits = [bit for bit, _ in value.bits] if isinstance(value, Flags) else [value]
         return any(isinstance(bit, str) and "TRANSIENT" in bit for bit in bits)
 
-    def pipeline(self, made: Made, passes: dict[int, str]) -> Iterator[Item]:
+    def pipeline(self, made: VulkanObject, passes: dict[int, str]) -> Iterator[Item]:
         info = made.info
         assert info is not None
         state = info if made.kind == "state" else self.struct(info, "multisampleState")
@@ -113,7 +113,7 @@ class Writer(Passes, Commands):
         if made.kind == "pipeline":
             target = self.aimed(self.get(info, "renderPass")[0])
             # Of a page the listings come one after the other, and need not be of one program.
-            if isinstance(target, Made) and id(target) in passes and not self.fragments:
+            if isinstance(target, VulkanObject) and id(target) in passes and not self.fragments:
                 at = self.get(info, "renderPass")[1]
                 members.append(("renderPass", at, scalar(passes[id(target)], at)))
                 subpass, place = self.get(info, "subpass")
@@ -166,7 +166,7 @@ class Writer(Passes, Commands):
         if value is None:
             return []
         state = self.aimed(value)
-        listed = self.aimed(self.get(state, "dynamicStates")[0]) if isinstance(state, Struct) else NOTHING
+        listed = self.aimed(self.get(state, "dynamicStates")[0]) if isinstance(state, Struct) else UNKNOWN
         if not isinstance(listed, Array) or not listed.whole:
             return None
         names = [parse_enum("VkDynamicState", str(one(self.settle(cell.writes)))) for cell in listed.items]

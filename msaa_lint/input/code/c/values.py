@@ -60,7 +60,7 @@ class Cell:
 
     def write(self, value: Value, at: Span, guards: Guards) -> None:
         """A write under conditions, which ends what was there wherever they hold."""
-        fresh = tuple(Alternative(a.value, a.at, a.guards | guards) for a in value) or (Alternative(NOTHING, at, guards),)
+        fresh = tuple(Alternative(a.value, a.at, a.guards | guards) for a in value) or (Alternative(UNKNOWN, at, guards),)
         before = tuple(w for w in self.writes if not guards <= w.guards) if guards else ()
         self.writes = (*before, *fresh)[-MOST:]
 
@@ -69,14 +69,14 @@ class Cell:
         return settled(self.writes, dict(guards)) if self.writes else UNKNOWN_VALUE
 
 
-class Nothing:
+class Unknown:
     """What is known of a value of which nothing is known; it stands beside others that are."""
 
     def __repr__(self) -> str:
-        return "NOTHING"
+        return "UNKNOWN"
 
 
-NOTHING = Nothing()
+UNKNOWN = Unknown()
 
 
 def settled(writes: Value, world: Mapping[str, bool]) -> Value:
@@ -102,13 +102,15 @@ def settled(writes: Value, world: Mapping[str, bool]) -> Value:
 class Struct:
     """A structure, Vulkan's or the program's. `zeroed`: what no one set is zero. `name` is the variable's that it was first in."""
 
-    __slots__ = ("at", "fields", "kind", "name", "zeroed")
+    __slots__ = ("at", "fields", "kind", "name", "used", "zeroed")
 
     def __init__(self, kind: str, at: Span, zeroed: bool = False, name: str = "") -> None:
         self.kind = kind
         self.at = at
         self.zeroed = zeroed
         self.name = name
+        self.used = False
+        """Whether a call takes it."""
         self.fields: dict[str, Cell] = {}
 
     def cell(self, name: str) -> Cell:
@@ -138,10 +140,10 @@ class Ref(NamedTuple):
     cell: Cell
 
 
-class Made:
+class VulkanObject:
     """An object of Vulkan's that a call made: an image, a view, a render pass. `info` is what it was made with, copied at the call."""
 
-    __slots__ = ("at", "deep", "gone", "info", "key", "kind", "memory", "name", "within")
+    __slots__ = ("at", "deep", "escaped", "guards", "info", "key", "kind", "memory", "name")
 
     def __init__(self, kind: str, key: tuple[Any, ...], at: Span) -> None:
         self.kind = kind
@@ -150,11 +152,11 @@ class Made:
         self.name = ""
         self.deep = 99
         """How many calls deep it was named."""
-        self.gone = False
+        self.escaped = False
         """Whether it is handed to code that is not the file's."""
         self.info: Struct | None = None
         self.memory: Value = ()
-        self.within: Guards = ALWAYS
+        self.guards: Guards = ALWAYS
 
     def signature(self) -> tuple[Any, ...]:
         """What it has in common with what the same call makes again alike."""
@@ -164,7 +166,7 @@ class Made:
 
 
 def _said(value: Any) -> str:
-    if isinstance(value, Made):
+    if isinstance(value, VulkanObject):
         return f"{value.kind} at {value.at}"
     return f"at {value.at}" if isinstance(value, (Struct, Array)) else "reference" if isinstance(value, (Ref, Closure)) else repr(value)
 
@@ -177,13 +179,27 @@ class Closure(NamedTuple):
     scopes: tuple[dict[str, Cell], ...]
 
 
+def inner_cells(value: Any) -> list[Cell]:
+    """The cells that a value leads to: a structure's members, a list's elements, what a pointer points to."""
+    if isinstance(value, Struct):
+        return list(value.fields.values())
+    if isinstance(value, Array):
+        return value.items
+    return [value.cell] if isinstance(value, Ref) else []
+
+
 DEEPEST = 10
+
+
+def copies(value: Value, guards: Guards = ALWAYS) -> Value:
+    """The alternatives of a value, with structures and lists copied, under further conditions."""
+    return tuple(Alternative(copied(a.value), a.at, a.guards | guards) for a in value)
 
 
 def copied(value: Any, depth: int = 0, through: bool = False) -> Any:
     """A copy of what is in a value. `through` follows pointers as well: what a call is handed, as it is at that moment."""
     if depth > DEEPEST:
-        return NOTHING
+        return UNKNOWN
     if isinstance(value, Struct):
         made = Struct(value.kind, value.at, value.zeroed, value.name)
         for name, cell in value.fields.items():
@@ -209,18 +225,27 @@ def copied_cell(cell: Cell, depth: int = 0, through: bool = False) -> Cell:
 
 
 def one(value: Value) -> Any:
-    """What a value is, where it is one thing alone; NOTHING otherwise."""
+    """What a value is, where it is one thing alone; UNKNOWN otherwise."""
     if len(value) == 1:
         return value[0].value
     if value and all(same(a.value, value[0].value) for a in value):
         return value[0].value
-    return NOTHING
+    return UNKNOWN
+
+
+def pointee(value: Any) -> Any:
+    """What a pointer points to; any other value is itself."""
+    for _ in range(4):
+        if not isinstance(value, Ref):
+            return value
+        value = one(value.cell.writes)
+    return value
 
 
 def same(left: Any, right: Any) -> bool:
     """Whether two values are alike for sure."""
     if isinstance(left, Flags) and isinstance(right, Flags):
         return {bit for bit, _ in left.bits} == {bit for bit, _ in right.bits}
-    if isinstance(left, (Struct, Array, Nothing)):
-        return left is right and left is not NOTHING
+    if isinstance(left, (Struct, Array, Unknown)):
+        return left is right and left is not UNKNOWN
     return type(left) is type(right) and bool(left == right)

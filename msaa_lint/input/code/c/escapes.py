@@ -1,0 +1,73 @@
+"""Values that leave the code that is read: what calls outside the file may change or keep."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from msaa_lint.core.text.span import Span
+
+from .terms import NAME
+from .values import Array, Closure, Struct, VulkanObject, inner_cells, one, pointee, settled
+
+MAX_DEPTH = 10
+"""Levels of structures, lists and pointers that are followed."""
+
+
+def mark_escaped(value: Any, depth: int = 0) -> None:
+    """Marks the Vulkan objects in a value as used by code outside the file, and the image of an image view with it."""
+    if isinstance(value, VulkanObject):
+        value.escaped = True
+        if value.kind == "view" and value.info is not None and "image" in value.info.fields:
+            for write in value.info.fields["image"].writes:
+                mark_escaped(write.value, depth + 1)
+    elif depth < 4 and not (isinstance(value, Struct) and value.kind):
+        for cell in inner_cells(value):
+            for write in cell.writes:
+                mark_escaped(write.value, depth + 1)
+
+
+def forget(value: Any) -> None:
+    """Forgets what is known of a structure or a list."""
+    if isinstance(value, Array):
+        value.whole = False
+    for struct in (value,) if isinstance(value, Struct) else (one(cell.writes) for cell in value.items) if isinstance(value, Array) else ():
+        if isinstance(struct, Struct):
+            struct.zeroed = False
+            struct.fields.clear()
+
+
+def forget_captures(closure: Closure) -> None:
+    """Forgets the variables that a lambda names: a function outside the file may call it and change them."""
+    names: set[str] = set()
+    waiting: list[Any] = list(closure.body)
+    while waiting:
+        term = waiting.pop()
+        if isinstance(term, tuple) and term and not isinstance(term, Span):
+            if term[0] == NAME and len(term) == 3 and isinstance(term[1], str):
+                names.add(term[1])
+            else:
+                waiting.extend(term)
+    for variables in closure.scopes:
+        for name in names & variables.keys():
+            for write in variables[name].writes:
+                forget(pointee(write.value))
+
+
+def mark_used(value: Any, depth: int = 0) -> None:
+    """Marks the structures that a value contains or points to as used by a call."""
+    if isinstance(value, Struct):
+        value.used = True
+    for cell in inner_cells(value) if depth < 8 else ():
+        for write in cell.writes:
+            mark_used(write.value, depth + 1)
+
+
+def settled_under(value: Any, conditions: Mapping[str, bool], depth: int = 0) -> Any:
+    """Reduces every cell of a value, in place, to the writes that are possible under some conditions; returns the value."""
+    if depth <= MAX_DEPTH and conditions:
+        for cell in inner_cells(value):
+            cell.writes = settled(cell.writes, conditions)
+            for write in cell.writes:
+                settled_under(write.value, conditions, depth + 1)
+    return value
