@@ -8,7 +8,7 @@ from msaa_lint.frame.spirv import numbers as op
 
 from .expressions import FETCHES, Expressions
 from .text import NotRead
-from .types import EXTREMES, FLOAT, FUSED, INT, VOID, Type, multisampled, result, scalar_of, size_of, texel, vector
+from .types import EXTREMES, FLOAT, FUSED, INT, VOID, Type, is_image, multisampled, result, scalar_of, size_of, texel, vector
 from .values import Function, Place, Value
 
 if TYPE_CHECKING:
@@ -22,9 +22,7 @@ _OUT = {"modf": 1, "frexp": 1}
 
 def called(to: Expressions, node: Node, depth: int) -> Value:
     """What a call gives."""
-    function, listed = node.child_by_field_name("function"), node.child_by_field_name("arguments")
-    if function is None or listed is None:
-        raise to.no(node, "is not followed")
+    function, listed = to.parts(node, "function", "arguments")
     given = [child for child in listed.named_children if child.type != "comment"]
     if function.type == "subscript_expression":
         return _array(to, function, given, depth)
@@ -56,7 +54,7 @@ def _constructed(to: Expressions, kind: Type, given: list[Node], depth: int) -> 
         if len(members) != len(values):
             raise NotRead("a structure is made of too little")
         made = [to.as_type(v, t) if size_of(t) else v for v, (_, t) in zip(values, members, strict=True)]
-        return Value(to.out.made(op.COMPOSITE_CONSTRUCT, kind, *(each.id for each in made)), kind)
+        return to.result(op.COMPOSITE_CONSTRUCT, kind, *(each.id for each in made))
     return to.opaque("construct", kind, values)
 
 
@@ -69,7 +67,7 @@ def _array(to: Expressions, function: Node, given: list[Node], depth: int) -> Va
     values = [to.value(each, depth) for each in given]
     kind: Type = ("array", inner, len(values))
     made = [to.as_type(each, inner) if size_of(inner) else each for each in values]
-    return Value(to.out.made(op.COMPOSITE_CONSTRUCT, kind, *(each.id for each in made)), kind)
+    return to.result(op.COMPOSITE_CONSTRUCT, kind, *(each.id for each in made))
 
 
 def _length(to: Expressions, function: Node, depth: int) -> Value:
@@ -82,7 +80,7 @@ def _length(to: Expressions, function: Node, depth: int) -> Value:
     size = size_of(kind) or (kind[2] if kind[0] == "array" else 0)
     if not isinstance(size, int) or not size:
         return to.opaque("length", INT, ())
-    return Value(to.out.number(INT, size), INT)
+    return to.constant_value(INT, size)
 
 
 def _image(to: Expressions, given: list[Node], depth: int) -> Place | Value | None:
@@ -97,10 +95,10 @@ def _of_samples(to: Expressions, node: Node, name: str, given: list[Node], image
     """A fetch of a sample, or a query for how many there are."""
     loaded = to.loaded(image) if isinstance(image, Place) else image
     if name in _QUERIES:
-        return Value(to.out.made(op.IMAGE_QUERY_SAMPLES, INT, loaded.id), INT)
+        return to.result(op.IMAGE_QUERY_SAMPLES, INT, loaded.id)
     if name == "subpassLoad":
         sample = to.value(given[1], depth) if len(given) == 2 else None
-        at = to.splat(Value(to.out.number(INT, 0), INT), 2)
+        at = to.splat(to.constant_value(INT, 0), 2)
     else:
         at = to.value(given[1], depth) if len(given) == 3 else to.opaque("", INT, ())
         sample = to.value(given[2], depth) if len(given) == 3 else None
@@ -109,7 +107,7 @@ def _of_samples(to: Expressions, node: Node, name: str, given: list[Node], image
     to.fetches.append((to.of(given[0]), node.start_byte, node.end_byte))
     kind = texel(image.type)
     number = op.IMAGE_FETCH if name.startswith("texel") else op.IMAGE_READ
-    return Value(to.out.made(number, kind, loaded.id, at.id, op.SAMPLE_OPERAND, to.as_type(sample, INT).id), kind)
+    return to.result(number, kind, loaded.id, at.id, op.SAMPLE_OPERAND, to.as_type(sample, INT).id)
 
 
 def _built_in(to: Expressions, node: Node, name: str, given: list[Node], depth: int) -> Value:
@@ -121,10 +119,10 @@ def _built_in(to: Expressions, node: Node, name: str, given: list[Node], depth: 
         one, other = (to.splat(each, size) if size_of(each.type) == 1 else each for each in (one, other))
         number = EXTREMES[name].get(str(scalar_of(one.type)[0]))
         if number is not None and size:
-            return Value(to.out.made(op.EXT_INST, one.type, to.out.extended, number, one.id, other.id), one.type)
+            return to.result(op.EXT_INST, one.type, to.out.extended, number, one.id, other.id)
     if name == "fma" and len(values) == 3:
         ids = [to.as_type(each, values[0].type).id for each in values]
-        return Value(to.out.made(op.EXT_INST, values[0].type, to.out.extended, FUSED, *ids), values[0].type)
+        return to.result(op.EXT_INST, values[0].type, to.out.extended, FUSED, *ids)
     if name in _OUT:
         target = to.place(given[1], depth)
         if target is None:
@@ -137,8 +135,7 @@ def _built_in(to: Expressions, node: Node, name: str, given: list[Node], depth: 
         # What is stored to an image is used, and the result is nothing that is the same again.
         for each in values:
             to.opaque("used", each.type if size_of(each.type) else INT, (each,))
-        made = to.out.variable(op.FUNCTION_LOCAL, INT if kind == VOID else kind)
-        return to.loaded(Place(made, INT if kind == VOID else kind, op.FUNCTION_LOCAL))
+        return to.loaded(to.temporary(INT if kind == VOID else kind))
     return to.opaque(name, kind, values)
 
 
@@ -157,7 +154,7 @@ def _own(to: Expressions, node: Node, name: str, given: list[Node], depth: int) 
     passed: list[int] = []
     back: list[tuple[Place, Place]] = []
     for (place, value), (kind, written, _) in zip(kinds, function.parameters, strict=True):
-        if kind[0] == "opaque" or (kind[0] == "array" and isinstance(kind[1], tuple) and kind[1][0] == "opaque"):
+        if is_image(kind):
             if place is None:
                 raise to.no(node, "is not followed")
             passed.append(place.pointer)
@@ -170,7 +167,7 @@ def _own(to: Expressions, node: Node, name: str, given: list[Node], depth: int) 
             continue
         if place is None:
             raise to.no(node, "is not followed")
-        kept = Place(to.out.variable(op.FUNCTION_LOCAL, kind), kind, op.FUNCTION_LOCAL)
+        kept = to.temporary(kind)
         to.stored(kept, to.as_type(value, kind) if size_of(kind) else value)
         passed.append(kept.pointer)
         back.append((place, kept))

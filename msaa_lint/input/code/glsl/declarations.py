@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 from typing import TYPE_CHECKING
 
 from msaa_lint.frame.spirv import numbers as op
 from msaa_lint.input.code.parsing import Code, tree
 from msaa_lint.input.code.sample_counts.arithmetic import whole
 
+from .calls import called
 from .expressions import Expressions
 from .text import Text
 from .types import BOOL, FLOAT, INPUTS, INT, OUTPUTS, UINT, VOID, Type, multisampled, vector
@@ -35,6 +37,7 @@ class Declarations(Expressions):
         super().__init__(source.text)
         self.source = source
         self.built_in = self.of_language
+        self.call = partial(called, self)
         self.root = tree(Code(source.text, "glsl")).root_node
         self.starts: list[tuple[Place, Node]] = []
         """Variables outside of functions with what they begin with."""
@@ -165,7 +168,7 @@ class Declarations(Expressions):
             self.constant(name, kind, given, layout, node, "const" in words)
             return
         storage = next((_STORAGE[word] for word in ("in", "varying", "out", "uniform", "buffer", "shared") if word in words), op.PRIVATE)
-        made = Place(self.out.variable(storage, kind), kind, storage)
+        made = self.variable(storage, kind)
         self.scopes[0][name] = made
         inner = kind[1] if kind[0] == "array" else kind
         samples = isinstance(inner, tuple) and multisampled(inner)
@@ -227,7 +230,7 @@ class Declarations(Expressions):
             return
         if special is not None:
             raise self.no(node, "is not understood")
-        made_place = Place(self.out.variable(op.PRIVATE, kind), kind, op.PRIVATE)
+        made_place = self.variable(op.PRIVATE, kind)
         self.scopes[0][name] = made_place
         self.starts.append((made_place, given))
 
@@ -244,7 +247,7 @@ class Declarations(Expressions):
         kind: Type = ("struct", f"{label} {node.start_byte}", tuple((name, own) for name, own, _ in members))
         instance = next((child for child in children[at + 1 :] if child.type in ("identifier", "array_declarator")), None)
         name, whole_kind = self.declarator(instance, kind) if instance is not None else ("", kind)
-        made = Place(self.out.variable(storage, whole_kind), whole_kind, storage)
+        made = self.variable(storage, whole_kind)
         self.decorated(made.pointer, {key: value for key, value in layout.items() if key != "location" or storage == op.INPUT}, storage)
         type_id = self.out.type(kind)
         for n, (member, _, own) in enumerate(members):
@@ -261,13 +264,13 @@ class Declarations(Expressions):
         storage = op.INPUT if name in INPUTS else op.OUTPUT
         found = INPUTS.get(name) or OUTPUTS.get(name)
         if name == "gl_FragColor":
-            made = Place(self.out.variable(op.OUTPUT, vector(FLOAT, 4)), vector(FLOAT, 4), op.OUTPUT)
+            made = self.variable(op.OUTPUT, vector(FLOAT, 4))
             self.out.decorate(made.pointer, op.LOCATION, 0)
         elif found is None:
             return None
         else:
             kind, number = found
-            made = Place(self.out.variable(storage, kind), kind, storage)
+            made = self.variable(storage, kind)
             self.out.decorate(made.pointer, op.BUILT_IN, number)
             if name in _SAMPLE_BUILT_INS:
                 self.out.capabilities.add(op.SAMPLE_RATE_SHADING)

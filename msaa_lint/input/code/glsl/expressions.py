@@ -23,6 +23,11 @@ _REAL = re.compile(r"[-+]?(?:\d+\.\d*|\.\d+|\d+)(?:[eE][+-]?\d+)?")
 class Expressions(Values):
     """The expressions of one shader."""
 
+    ended = False
+    """Whether the current block has its last instruction."""
+    call: Callable[[Node, int], Value]
+    """Evaluates a call."""
+
     def value(self, node: Node, depth: int = 0) -> Value:
         """What an expression gives."""
         if depth > DEEPEST:
@@ -31,7 +36,7 @@ class Expressions(Values):
         if kind == "number_literal":
             return self.literal(node)
         if kind in ("true", "false"):
-            return Value(self.out.number(BOOL, kind == "true"), BOOL)
+            return self.constant_value(BOOL, kind == "true")
         if kind == "parenthesized_expression" and node.named_child_count == 1:
             return self.value(node.named_children[0], deeper)
         if kind == "identifier":
@@ -42,9 +47,7 @@ class Expressions(Values):
             place = self.place(node, depth)
             return self.loaded(place) if place is not None else self.taken(node, deeper)
         if kind == "call_expression":
-            from .calls import called
-
-            return called(self, node, deeper)
+            return self.call(node, deeper)
         if kind == "binary_expression":
             return self.binary(node, deeper)
         if kind == "assignment_expression":
@@ -61,21 +64,17 @@ class Expressions(Values):
 
     def taken(self, node: Node, depth: int) -> Value:
         """A part of a value."""
-        argument = node.child_by_field_name("argument")
-        if argument is None:
-            raise self.no(node, "is not followed")
+        (argument,) = self.parts(node, "argument")
         base = self.value(argument, depth)
         if node.type == "subscript_expression":
-            given = node.child_by_field_name("index")
+            (given,) = self.parts(node, "index")
             kind = self.element(base.type, node)
-            index = self.value(given, depth) if given is not None else None
-            if index is None:
-                raise self.no(node, "is not followed")
+            index = self.value(given, depth)
             if base.type[0] == "array":
-                variable = Place(self.out.variable(op.FUNCTION_LOCAL, base.type), base.type, op.FUNCTION_LOCAL)
+                variable = self.temporary(base.type)
                 self.stored(variable, base)
                 return self.loaded(self.chained(variable, kind, index.id))
-            return Value(self.out.made(77, kind, base.id, index.id), kind)
+            return self.result(77, kind, base.id, index.id)
         field = node.child_by_field_name("field")
         name = self.of(field) if field is not None else ""
         if base.type[0] != "struct":
@@ -83,22 +82,20 @@ class Expressions(Values):
         members = base.type[2]
         assert isinstance(members, tuple)
         n = self.index(base.type, name, node)
-        return Value(self.out.made(op.COMPOSITE_EXTRACT, members[n][1], base.id, n), members[n][1])
+        return self.result(op.COMPOSITE_EXTRACT, members[n][1], base.id, n)
 
     def binary(self, node: Node, depth: int) -> Value:
-        left, right, sign = (node.child_by_field_name(each) for each in ("left", "right", "operator"))
-        if left is None or right is None or sign is None:
-            raise self.no(node, "is not followed")
+        left, right, sign = self.parts(node, "left", "right", "operator")
         operator = self.of(sign)
         one = self.value(left, depth)
         if operator in ("&&", "||"):
             if self.has_effects(right):
                 return self.guarded(one, operator, right, depth)
             other = self.value(right, depth)
-            return Value(self.out.made(LOGICAL_AND if operator == "&&" else LOGICAL_OR, BOOL, one.id, other.id), BOOL)
+            return self.result(LOGICAL_AND if operator == "&&" else LOGICAL_OR, BOOL, one.id, other.id)
         other = self.value(right, depth)
         if operator == "^^":
-            return Value(self.out.made(LOGICAL_NOT_EQUAL, BOOL, one.id, other.id), BOOL)
+            return self.result(LOGICAL_NOT_EQUAL, BOOL, one.id, other.id)
         if operator not in SIGNS:
             raise self.no(node, "is not followed")
         return self.arithmetic(operator, one, other)
@@ -120,7 +117,7 @@ class Expressions(Values):
 
     def guarded(self, one: Value, operator: str, right: Node, depth: int) -> Value:
         """`&&` and `||` whose second part is worked out only where it decides."""
-        kept = Place(self.out.variable(op.FUNCTION_LOCAL, BOOL), BOOL, op.FUNCTION_LOCAL)
+        kept = self.temporary(BOOL)
         self.stored(kept, one)
         condition = one.id if operator == "&&" else self.out.made(LOGICAL_NOT, BOOL, one.id)
         self.branch(condition, lambda: self.stored(kept, self.value(right, depth)), None)
@@ -128,43 +125,51 @@ class Expressions(Values):
 
     def branch(self, condition: int, then: Callable[[], None], other: Callable[[], None] | None) -> None:
         """What is done where a condition holds, and where it does not."""
-        out = self.out
-        yes, no, merge = out.id(), out.id(), out.id()
-        out.do(op.SELECTION_MERGE, merge, 0)
-        out.do(op.BRANCH_CONDITIONAL, condition, yes, no if other is not None else merge)
-        out.do(op.LABEL, yes)
+        yes, no, merge = self.out.id(), self.out.id(), self.out.id()
+        self.out.do(op.SELECTION_MERGE, merge, 0)
+        self.go(op.BRANCH_CONDITIONAL, condition, yes, no if other is not None else merge)
+        self.label(yes)
         then()
-        out.do(op.BRANCH, merge)
+        self.go(op.BRANCH, merge)
         if other is not None:
-            out.do(op.LABEL, no)
+            self.label(no)
             other()
-            out.do(op.BRANCH, merge)
-        out.do(op.LABEL, merge)
+            self.go(op.BRANCH, merge)
+        self.label(merge)
+
+    def go(self, number: int, *operands: int) -> None:
+        """Ends a block, unless it has ended."""
+        if not self.ended:
+            self.out.do(number, *operands)
+        self.ended = True
+
+    def label(self, label: int) -> None:
+        """Begins a block; the one before leads to it, unless it has ended."""
+        if not self.ended:
+            self.out.do(op.BRANCH, label)
+        self.out.do(op.LABEL, label)
+        self.ended = False
 
     def chosen(self, node: Node, depth: int) -> Value:
-        test, then, other = (node.child_by_field_name(each) for each in ("condition", "consequence", "alternative"))
-        if test is None or then is None or other is None:
-            raise self.no(node, "is not followed")
+        test, then, other = self.parts(node, "condition", "consequence", "alternative")
         condition = self.value(test, depth)
         if not self.has_effects(then) and not self.has_effects(other):
             one, two = self.value(then, depth), self.value(other, depth)
             one, two = self.alike(one, two)
-            return Value(self.out.made(SELECT, one.type, condition.id, one.id, two.id), one.type)
+            return self.result(SELECT, one.type, condition.id, one.id, two.id)
         kept: list[Place] = []
 
         def keep(part: Node) -> None:
             value = self.value(part, depth)
             if not kept:
-                kept.append(Place(self.out.variable(op.FUNCTION_LOCAL, value.type), value.type, op.FUNCTION_LOCAL))
+                kept.append(self.temporary(value.type))
             self.stored(kept[0], value)
 
         self.branch(condition.id, lambda: keep(then), lambda: keep(other))
         return self.loaded(kept[0])
 
     def assigned(self, node: Node, depth: int) -> Value:
-        left, right, sign = (node.child_by_field_name(each) for each in ("left", "right", "operator"))
-        if left is None or right is None or sign is None:
-            raise self.no(node, "is not followed")
+        left, right, sign = self.parts(node, "left", "right", "operator")
         operator = self.of(sign)
         value = self.value(right, depth)
         place = self.place(left, depth)
@@ -179,9 +184,7 @@ class Expressions(Values):
         return value
 
     def unary(self, node: Node, depth: int) -> Value:
-        inner, sign = node.child_by_field_name("argument"), node.child_by_field_name("operator")
-        if inner is None or sign is None:
-            raise self.no(node, "is not followed")
+        inner, sign = self.parts(node, "argument", "operator")
         operator = self.of(sign)
         if operator in ("++", "--"):
             place = self.place(inner, depth)
@@ -196,21 +199,21 @@ class Expressions(Values):
         if operator == "+":
             return value
         if operator == "!":
-            return Value(self.out.made(LOGICAL_NOT, BOOL, value.id), BOOL)
+            return self.result(LOGICAL_NOT, BOOL, value.id)
         if not size_of(value.type):
             return self.opaque(operator, value.type, (value,))
         if operator == "~":
-            return Value(self.out.made(200, value.type, value.id), value.type)
-        return Value(self.out.made(127 if scalar_of(value.type) in (FLOAT, DOUBLE) else 126, value.type, value.id), value.type)
+            return self.result(200, value.type, value.id)
+        return self.result(127 if scalar_of(value.type) in (FLOAT, DOUBLE) else 126, value.type, value.id)
 
     def literal(self, node: Node) -> Value:
         text = self.of(node)
         number = whole(text)
         if number is not None:
             kind = UINT if text[-1] in "uU" else INT
-            return Value(self.out.number(kind, number), kind)
+            return self.constant_value(kind, number)
         kind = DOUBLE if text.endswith(("lf", "LF")) else FLOAT
-        return Value(self.out.number(kind, self.real(node)), kind)
+        return self.constant_value(kind, self.real(node))
 
     def real(self, node: Node) -> float:
         """The number that a literal is."""

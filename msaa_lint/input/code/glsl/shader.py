@@ -13,7 +13,7 @@ from msaa_lint.input.code.parsing import ascii_only
 from .statements import Statements
 from .text import NotRead, prepared
 from .types import VOID, multisampled, size_of
-from .values import Place, Value
+from .values import Value
 
 _WORD = re.compile(r"\w+")
 _MODES = {
@@ -115,7 +115,7 @@ class _Lowering(Statements):
             passed: list[int] = []
             for kind, written, parameter in function.parameters:
                 storage = op.UNIFORM_CONSTANT if kind[0] == "opaque" else op.FUNCTION_LOCAL if written else op.INPUT
-                made = Place(self.out.variable(storage, kind), kind, storage)
+                made = self.variable(storage, kind)
                 if multisampled(kind):
                     self.decorated(made.pointer, self.bound(parameter, {}), storage)
                     self.images.setdefault(parameter, (function.node.start_byte, function.node.start_byte))
@@ -123,7 +123,7 @@ class _Lowering(Statements):
             self.called.append(function)
             result = self.out.made(op.FUNCTION_CALL, function.returns, function.id, *passed)
             if function.returns != VOID:
-                output = Place(self.out.variable(op.OUTPUT, function.returns), function.returns, op.OUTPUT)
+                output = self.variable(op.OUTPUT, function.returns)
                 self.stored(output, Value(result, function.returns))
             found = found or name
         if not found:

@@ -9,7 +9,7 @@ from msaa_lint.input.code.sample_counts.arithmetic import whole
 
 from .declarations import Declarations, is_unsized
 from .text import NotRead, Text
-from .types import BOOL, VOID, Type, size_of
+from .types import BOOL, VOID, Type, is_image, size_of
 from .values import Function, Place, Value
 
 if TYPE_CHECKING:
@@ -27,7 +27,6 @@ class Statements(Declarations):
         self.leaves: list[tuple[int, int]] = []
         """Of the loops and switches around: where `break` and `continue` lead."""
         self.returns: Type = VOID
-        self.ended = False
 
     def function(self, function: Function) -> None:
         """The body of a function."""
@@ -40,14 +39,14 @@ class Statements(Declarations):
         self.scopes.append({})
         for kind, written, name in function.parameters:
             given = self.out.id()
-            image = kind[0] == "opaque" or (kind[0] == "array" and isinstance(kind[1], tuple) and kind[1][0] == "opaque")
+            image = is_image(kind)
             if image or written:
                 storage = op.UNIFORM_CONSTANT if image else op.FUNCTION_LOCAL
                 passed.append((self.out.pointer(storage, kind), given))
                 self.scopes[-1][name] = Place(given, kind, storage)
                 continue
             passed.append((self.out.type(kind), given))
-            own = Place(self.out.variable(op.FUNCTION_LOCAL, kind), kind, op.FUNCTION_LOCAL)
+            own = self.temporary(kind)
             self.out.do(op.STORE, own.pointer, given)
             self.scopes[-1][name] = own
         self.statements(body, 0)
@@ -58,19 +57,6 @@ class Statements(Declarations):
             else:
                 self.out.do(op.UNREACHABLE)
         self.out.end(function.id, function.returns, passed)
-
-    def go(self, number: int, *operands: int) -> None:
-        """Ends a block, unless it has ended."""
-        if not self.ended:
-            self.out.do(number, *operands)
-        self.ended = True
-
-    def label(self, label: int) -> None:
-        """Begins a block; the one before leads to it, unless it has ended."""
-        if not self.ended:
-            self.out.do(op.BRANCH, label)
-        self.out.do(op.LABEL, label)
-        self.ended = False
 
     def live(self) -> None:
         """What follows an end is a block that nothing leads to."""
@@ -151,7 +137,7 @@ class Statements(Declarations):
                 raise self.no(node, "is not understood")
             name, own = self.declarator(target, own)
             value = self.value(given) if given is not None and given.type != "initializer_list" else None
-            place = Place(self.out.variable(op.FUNCTION_LOCAL, own), own, op.FUNCTION_LOCAL)
+            place = self.temporary(own)
             self.scopes[-1][name] = place
             if value is not None:
                 self.stored(place, self.as_type(value, own) if size_of(own) else value)
@@ -169,21 +155,18 @@ class Statements(Declarations):
 
     def conditional(self, node: Node, depth: int) -> None:
         then, other = node.child_by_field_name("consequence"), node.child_by_field_name("alternative")
-        condition = self.truth(node.child_by_field_name("condition"))
-        yes, no, merge = self.out.id(), self.out.id(), self.out.id()
-        self.out.do(op.SELECTION_MERGE, merge, 0)
-        self.go(op.BRANCH_CONDITIONAL, condition, yes, no if other is not None else merge)
-        self.label(yes)
-        if then is not None:
-            self.statements(then, depth)
-        self.go(op.BRANCH, merge)
-        if other is not None:
-            self.label(no)
-            inner = next((child for child in other.named_children if child.type != "comment"), None)
-            if inner is not None:
+        inner = next((child for child in other.named_children if child.type != "comment"), None) if other is not None else None
+
+        def consequence() -> None:
+            if then is not None:
+                self.statements(then, depth)
+
+        def alternative() -> None:
+            if other is not None and inner is not None:
                 self.statements(inner if other.type == "else_clause" else other, depth)
-            self.go(op.BRANCH, merge)
-        self.label(merge)
+
+        condition = self.truth(node.child_by_field_name("condition"))
+        self.branch(condition, consequence, alternative if other is not None else None)
 
     def loop(self, node: Node, depth: int) -> None:
         out = self.out

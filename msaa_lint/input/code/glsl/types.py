@@ -55,6 +55,12 @@ def multisampled(kind: Type) -> bool:
     return kind[0] == "opaque" and _MULTISAMPLED.fullmatch(str(kind[1])) is not None
 
 
+def is_image(kind: Type) -> bool:
+    """Whether it is a sampler or image, or an array of them."""
+    inner = kind[1] if kind[0] == "array" else kind
+    return isinstance(inner, tuple) and inner[0] == "opaque"
+
+
 def scalar_of(kind: Type) -> Type:
     """The type of the components of a scalar, vector or matrix."""
     inner = kind[1] if kind[0] == "vec" else FLOAT if kind[0] == "mat" else kind

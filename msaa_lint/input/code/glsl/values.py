@@ -79,6 +79,28 @@ class Values:
     def no(self, node: "Node", why: str) -> NotRead:
         return NotRead(f"`{' '.join(self.of(node)[:40].split())}` {why}")
 
+    def parts(self, node: "Node", *fields: str) -> "list[Node]":
+        """The children of a node in some fields. NotRead where one is missing."""
+        found = [child for field in fields if (child := node.child_by_field_name(field)) is not None]
+        if len(found) < len(fields):
+            raise self.no(node, "is not followed")
+        return found
+
+    def result(self, number: int, kind: Type, *operands: int) -> Value:
+        """The result of an instruction."""
+        return Value(self.out.made(number, kind, *operands), kind)
+
+    def constant_value(self, kind: Type, number: float | bool) -> Value:
+        return Value(self.out.number(kind, number), kind)
+
+    def variable(self, storage: int, kind: Type) -> Place:
+        """A new variable."""
+        return Place(self.out.variable(storage, kind), kind, storage)
+
+    def temporary(self, kind: Type) -> Place:
+        """A new variable of the current function."""
+        return self.variable(op.FUNCTION_LOCAL, kind)
+
     def kind(self, name: str) -> Type | None:
         """The type of a name."""
         return self.structs.get(name) or named(name)
@@ -167,7 +189,7 @@ class Values:
         return parts
 
     def loaded(self, place: Place) -> Value:
-        whole = Value(self.out.made(op.LOAD, place.type, place.pointer), place.type)
+        whole = self.result(op.LOAD, place.type, place.pointer)
         return self.swizzled(whole, place.parts) if place.parts else whole
 
     def swizzled(self, value: Value, parts: tuple[int, ...]) -> Value:
@@ -175,8 +197,8 @@ class Values:
             return self.constructed(vector(value.type, len(parts)), [value]) if len(parts) > 1 else value
         kind = vector(scalar_of(value.type), len(parts))
         if len(parts) == 1:
-            return Value(self.out.made(op.COMPOSITE_EXTRACT, kind, value.id, parts[0]), kind)
-        return Value(self.out.made(op.VECTOR_SHUFFLE, kind, value.id, value.id, *parts), kind)
+            return self.result(op.COMPOSITE_EXTRACT, kind, value.id, parts[0])
+        return self.result(op.VECTOR_SHUFFLE, kind, value.id, value.id, *parts)
 
     def stored(self, place: Place, value: Value) -> None:
         out = self.out
@@ -208,22 +230,22 @@ class Values:
         if not size or size_of(value.type) != size:
             raise NotRead(f"a {shown(value.type)} is made a {shown(kind)}, which is not followed")
         if one == BOOL:
-            yes, no = (self.splat(Value(self.out.number(other, like(other, n)), other), size).id for n in (1, 0))
-            return Value(self.out.made(SELECT, kind, value.id, yes, no), kind)
+            yes, no = (self.splat(self.constant_value(other, like(other, n)), size).id for n in (1, 0))
+            return self.result(SELECT, kind, value.id, yes, no)
         if other == BOOL:
-            zero = self.splat(Value(self.out.number(one, like(one, 0)), one), size)
-            return Value(self.out.made(SIGNS["!="][column(one)], kind, value.id, zero.id), kind)
+            zero = self.splat(self.constant_value(one, like(one, 0)), size)
+            return self.result(SIGNS["!="][column(one)], kind, value.id, zero.id)
         real, made_real = one in (FLOAT, DOUBLE), other in (FLOAT, DOUBLE)
         number = 115 if real and made_real else 111 if one == INT and made_real else 112 if made_real else 110 if other == INT else 109
         if not real and not made_real:
             number = 124
-        return Value(self.out.made(number, kind, value.id), kind)
+        return self.result(number, kind, value.id)
 
     def splat(self, value: Value, size: int) -> Value:
         if size == 1:
             return value
         kind = vector(value.type, size)
-        return Value(self.out.made(op.COMPOSITE_CONSTRUCT, kind, *[value.id] * size), kind)
+        return self.result(op.COMPOSITE_CONSTRUCT, kind, *[value.id] * size)
 
     def constructed(self, kind: Type, given: Sequence[Value]) -> Value:
         """What a constructor of a scalar or vector makes."""
@@ -241,7 +263,7 @@ class Values:
             parts = single[:size]
             if len(parts) < size:
                 raise NotRead(f"a {shown(kind)} is made of too little")
-        return Value(self.out.made(op.COMPOSITE_CONSTRUCT, kind, *(each.id for each in parts)), kind)
+        return self.result(op.COMPOSITE_CONSTRUCT, kind, *(each.id for each in parts))
 
     def opaque(self, name: str, kind: Type, given: Sequence[Value]) -> Value:
         """What is made of values in a way that is not followed, the same of the same."""
@@ -249,11 +271,10 @@ class Values:
         number = 1000 + zlib.crc32(name.encode()) % 1_000_000
         if len(given) > 64:
             raise NotRead("a function has too many arguments")
-        return Value(self.out.made(op.EXT_INST, kind, self.out.extended, number, *(each.id for each in given)), kind)
+        return self.result(op.EXT_INST, kind, self.out.extended, number, *(each.id for each in given))
 
     def arithmetic(self, sign: str, one: Value, other: Value) -> Value:
         """What an operator gives."""
-        out = self.out
         if "mat" in (one.type[0], other.type[0]):
             return self.opaque(sign, _of_matrix(sign, one.type, other.type), (one, other))
         if not size_of(one.type) or not size_of(other.type):
@@ -270,16 +291,16 @@ class Values:
         one, other = (self.as_type(each, vector(scalar, size_of(each.type))) for each in (one, other))
         if sign == "*" and scalar == FLOAT and size_of(one.type) != size_of(other.type):
             wide, narrow = (one, other) if size_of(one.type) > 1 else (other, one)
-            return Value(out.made(142, wide.type, wide.id, narrow.id), wide.type)
+            return self.result(142, wide.type, wide.id, narrow.id)
         one, other = (self.splat(each, size) if size_of(each.type) == 1 else each for each in (one, other))
         if size_of(one.type) != size_of(other.type):
             raise NotRead(f"`{sign}` of vectors of different sizes")
         if sign in _COMPARES:
             number = SIGNS[sign][column(scalar)] if scalar != BOOL else LOGICAL_EQUAL if sign == "==" else LOGICAL_NOT_EQUAL
-            made = Value(out.made(number, vector(BOOL, size), one.id, other.id), vector(BOOL, size))
-            return made if size == 1 else Value(out.made(155 if sign == "==" else 154, BOOL, made.id), BOOL)
+            made = self.result(number, vector(BOOL, size), one.id, other.id)
+            return made if size == 1 else self.result(155 if sign == "==" else 154, BOOL, made.id)
         kind = vector(scalar, size)
-        return Value(out.made(SIGNS[sign][column(scalar)], kind, one.id, other.id), kind)
+        return self.result(SIGNS[sign][column(scalar)], kind, one.id, other.id)
 
     def alike(self, one: Value, other: Value) -> tuple[Value, Value]:
         """Two values made of one type."""
