@@ -25,8 +25,8 @@ HEAVY = frozenset({
     "importlib.resources", "inspect", "jsonschema", "logging", "multiprocessing", "numpy", "pathlib", "pathspec", "pydantic",
     "pydantic_core", "rich", "shellingham", "socket", "sqlite3", "ssl", "subprocess", "tempfile", "tomllib", "tree_sitter",
     "tree_sitter_c", "tree_sitter_cpp", "tree_sitter_glsl", "tree_sitter_swift", "typer", "unicodedata", "urllib", "vulkan", "xml",
-    "msaa_lint.cli.app", "msaa_lint.frame.description.fields", "msaa_lint.frame.description.generate",
-    "msaa_lint.frame.description.models", "msaa_lint.frame.facts.metal", "msaa_lint.frame.metal", "msaa_lint.frame.spirv",
+    "msaa_lint.cli.app", "msaa_lint.frame.description.pydantic_models",
+    "msaa_lint.frame.facts.metal", "msaa_lint.frame.metal", "msaa_lint.frame.spirv",
     "msaa_lint.frame.vulkan.generate", "msaa_lint.input.code", "msaa_lint.input.impeller", "msaa_lint.input.readers.metal",
     "msaa_lint.input.shader_modules", "msaa_lint.input.source_file", "msaa_lint.linter.settings.config_keys",
     "msaa_lint.linter.settings.toml_text", "msaa_lint.linter.suppress.baseline",
@@ -134,7 +134,7 @@ TREES = {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in MOD
 """By name below the package, `report.full` or `report.__init__`; each parsed once."""
 
 ONLY_IN = {
-    "pydantic": {"cli.schema", "frame.description"},
+    "pydantic": {"frame.description.pydantic_models"},
     "typer": {"cli.app"},
     "yaml": {"core.text"},
     "cel_expr_python": {"linter.rules.condition"},

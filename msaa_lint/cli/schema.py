@@ -25,9 +25,10 @@ def schema(which: str) -> int:
 def description_schema() -> dict[str, object]:
     """The JSON Schema of a description, from the models."""
     from msaa_lint.frame.description.models import Description
+    from msaa_lint.frame.description.pydantic_models import model_of
 
     enums: dict[str, object] = {}
-    made = _spelled(Description.model_json_schema(), enums)
+    made = _spelled(model_of(Description).model_json_schema(), enums)
     assert isinstance(made, dict)
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -40,7 +41,7 @@ def description_schema() -> dict[str, object]:
 
 def _spelled(node: object, enums: dict[str, object]) -> object:
     """A schema with references to the spellings of its enums, which it adds to `enums`."""
-    from msaa_lint.frame.description.fields import ENUMERANT, FLAGS
+    from msaa_lint.frame.description.pydantic_models import ENUMERANT, FLAGS
 
     if isinstance(node, list):
         return [_spelled(item, enums) for item in node]

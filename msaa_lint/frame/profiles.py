@@ -19,7 +19,7 @@ from .facts.table import WORDS
 from .vulkan.names import nearest
 
 if TYPE_CHECKING:
-    from .description.records import Description
+    from .description.models import Description
     from .devices.reports import Report
 
 MAX_LISTED = 1000
@@ -66,7 +66,7 @@ def device_for(description: "Description", file: str, default: DeviceProfile | N
     stay in its project with all symbolic links followed: a description may come from a stranger's branch. A Problem is one of the
     description, at its `device`.
     """
-    from .description.records import Device
+    from .description.models import Device
     from .facts.global_facts import described, of_family
 
     stated = description.device

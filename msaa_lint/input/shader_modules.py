@@ -16,7 +16,7 @@ from msaa_lint.core.text.node import Limits
 from msaa_lint.core.text.source import Unreadable
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import Document
-from msaa_lint.frame.description.records import ShaderStage
+from msaa_lint.frame.description.models import ShaderStage
 from msaa_lint.frame.spirv.module import MAX_BYTES, Module
 from msaa_lint.frame.spirv.reflect import Reflected, reflected
 from msaa_lint.frame.spirv.words import SpirvError

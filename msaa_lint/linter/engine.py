@@ -11,7 +11,7 @@ from msaa_lint.core.finding import CONFIDENCES, Finding, RuleInfo, Suppressed, U
 from msaa_lint.core.text.source import Source, Unreadable, decode
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.document import Document
-from msaa_lint.frame.description.records import ShaderStage
+from msaa_lint.frame.description.models import ShaderStage
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.profiles import Problem, device_for
 

@@ -10,8 +10,8 @@ from msaa_lint.frame.cost.amounts import Amount, FrameCost, Terms
 from msaa_lint.frame.cost.model import frame_cost
 from msaa_lint.frame.cost.power import ASSUMED_FPS
 from msaa_lint.frame.description.document import Document
+from msaa_lint.frame.description.models import BeginRenderPass, Command, Description, RenderPass
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import BeginRenderPass, Command, Description, RenderPass
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.facts.frame import Frame, Pass
 
@@ -178,8 +178,7 @@ def _within(description: Description, part: Part, images: set[str]) -> tuple[Des
     """A description with the passes of a part alone, and the commands that begin them or name its images; and the names of all its images,
     some among them."""
     made = Description.__new__(Description)
-    for name in (*Record.__slots__, *Description.__slots__):
-        setattr(made, name, getattr(description, name))
+    vars(made).update(vars(description))
     made.renderPasses = {name: record for name, record in description.renderPasses.items() if record.path in part.passes}
     made.pipelines = {}
     if description.commands is not None:

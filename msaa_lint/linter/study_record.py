@@ -123,9 +123,8 @@ def _canonical(value: object) -> object:
     shape = getattr(type(value), "SHAPE", None)
     if shape is not None:
         record: Record = value  # type: ignore[assignment]
-        absent = record.ABSENT
         members = [(name, getattr(record, name)) for name in sorted(shape) if name not in _LEFT_OUT]
-        return [(name, _canonical(member)) for name, member in members if member != absent.get(name)]
+        return [(name, _canonical(member)) for name, member in members if member != getattr(type(record), name, None)]
     if isinstance(value, dict):
         return sorted((str(key), _canonical(member)) for key, member in value.items())
     if isinstance(value, (list, tuple)):

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
-from msaa_lint.frame.description.records import Command
-from msaa_lint.frame.description.records import Pipeline as Described
+from msaa_lint.frame.description.models import Command
+from msaa_lint.frame.description.models import Pipeline as Described
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.frame import Pass as Joined
 

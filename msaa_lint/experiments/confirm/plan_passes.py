@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from msaa_lint.frame.description.records import (
+from msaa_lint.frame.description.models import (
     AttachmentDescription,
     AttachmentReference,
     BeginRendering,
@@ -13,7 +13,7 @@ from msaa_lint.frame.description.records import (
     RenderPass,
     SubpassDependency,
 )
-from msaa_lint.frame.description.records import Subpass as DescribedSubpass
+from msaa_lint.frame.description.models import Subpass as DescribedSubpass
 from msaa_lint.frame.facts.frame import RENDERING, Attachment, Frame, PassSubpass
 from msaa_lint.frame.facts.frame import Pass as Joined
 from msaa_lint.frame.facts.pass_begin import targets_at

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
-from msaa_lint.frame.description.records import ColorBlendAttachment
-from msaa_lint.frame.description.records import Pipeline as Described
+from msaa_lint.frame.description.models import ColorBlendAttachment
+from msaa_lint.frame.description.models import Pipeline as Described
 from msaa_lint.frame.vulkan.enums import VALUES
 from msaa_lint.frame.vulkan.formats import format_of
 

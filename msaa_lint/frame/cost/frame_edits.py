@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import TypeVar
 
+from msaa_lint.frame.description.models import BeginRendering, BeginRenderPass, Command, Image
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import BeginRendering, BeginRenderPass, Command, Image
 from msaa_lint.frame.facts.frame import Attachment, Frame, Pass, Resolve, Target
 
 Kind = TypeVar("Kind", bound=Record)
@@ -19,19 +19,14 @@ Order = list[tuple[Command, Pass | None]]
 
 def blank(kind: type[Kind], like: Record, key: str) -> Kind:
     """A record of which nothing is stated, at the place of another."""
-    made = kind(like.node, like.path, key, like.head)
-    for member in kind.SHAPE:
-        setattr(made, member, kind.ABSENT.get(member))
-    return made
+    return kind(like.node, like.path, key, like.head)
 
 
 def copied(record: Kind) -> Kind:
     """A record with the members of another."""
     kind = type(record)
     made = kind.__new__(kind)
-    for each in kind.__mro__:
-        for member in getattr(each, "__slots__", ()):
-            setattr(made, member, getattr(record, member))
+    vars(made).update(vars(record))
     return made
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from msaa_lint.frame.description.records import Description
+from msaa_lint.frame.description.models import Description
 from msaa_lint.frame.devices import DeviceProfile
 
 from .amounts import Amount, Terms

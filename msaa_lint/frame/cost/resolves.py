@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from msaa_lint.frame.description.records import AttachmentDescription, Command, Image, TwoImages
+from msaa_lint.frame.description.models import AttachmentDescription, Command, Image, TwoImages
 from msaa_lint.frame.facts.frame import RENDERING, Aspect, Attachment, Frame, Pass, Resolve, Target
 from msaa_lint.frame.facts.timeline import Timeline
 

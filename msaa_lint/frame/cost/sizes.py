@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from msaa_lint.frame.description.records import BeginRendering, BeginRenderPass, Framebuffer
+from msaa_lint.frame.description.models import BeginRendering, BeginRenderPass, Framebuffer
 from msaa_lint.frame.facts.frame import RENDERING, Attachment, Frame, Pass, Target
 
 from .amounts import Terms

@@ -8,7 +8,7 @@ moves nothing, whatever its operations (VkAttachmentDescription).
 from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.records import BeginRendering, Command, ReadImage
+from msaa_lint.frame.description.models import BeginRendering, Command, ReadImage
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.facts.frame import RENDERING, Attachment, Frame, Pass, Target
 from msaa_lint.frame.vulkan.formats import Format

@@ -13,9 +13,10 @@ from msaa_lint.core.text.span import Label, Span
 from msaa_lint.core.text.tree import Node
 from msaa_lint.frame.vulkan.names import from_value, nearest
 
-from .record import Record, Shape
-from .records import RECORDS, AttachmentDescription, AttachmentReference, Command, SubpassDependency
-from .scalars import ATTACHMENT_UNUSED, EXTERNAL, UNUSED, enumerant, finite, flags, nearest_enumerant, sample_count
+from .models import AttachmentDescription, AttachmentReference, Command, SubpassDependency
+from .record import Record
+from .scalars import ATTACHMENT_UNUSED, EXTERNAL, UNUSED, caseless, enumerant, finite, flags, nearest_enumerant, sample_count
+from .shapes import Shape
 
 MAX_PROBLEMS = 50
 """Problems of one document that are told; the rest would only bury them."""
@@ -78,9 +79,6 @@ class Binder:
     def record(self, kind: type[Record], node: Node, path: str, key: str, head: Span | None = None) -> Any:
         """The record of that kind that a mapping holds."""
         made = kind(node, path, key, head if head is not None else head_of(node))
-        absent = kind.ABSENT
-        for member in kind.SHAPE:
-            setattr(made, member, absent.get(member))
         if node.kind != "mapping":
             self.wrong(node, path, "a mapping")
             return made
@@ -152,7 +150,7 @@ class Binder:
         if kind == "flags":
             return self.flags(shape[1], node, path)
         if kind == "record":
-            return self.record(RECORDS[shape[1]], node, path, key, head)
+            return self.record(shape[1], node, path, key, head)
         if kind == "list":
             return self.items(shape[1], node, path, shape[2] if len(shape) > 2 else None)
         if kind == "slot":
@@ -189,7 +187,9 @@ class Binder:
             return None if node.kind == "scalar" and node.value is None else self.value(shape[1], node, path, key, head)
         if kind == "either":
             return self.either(shape[1:], node, path, key, head)
-        return self.command(node, path, key, RECORDS[shape[1]] if len(shape) > 1 else Command)
+        if kind == "caseless":
+            return caseless(shape[1], node.value) or self.word(shape[1], node, path)
+        return self.command(node, path, key, shape[1])
 
     def items(self, shape: Shape, node: Node, path: str, most: int | None = None) -> tuple[Any, ...]:
         if node.kind != "sequence":
@@ -311,7 +311,6 @@ class Binder:
             made: AttachmentReference = self.record(AttachmentReference, node, path, key, head)
         else:
             made = AttachmentReference(node, path, key, node.span)
-            made.attachment, made.layout = None, None
             if node.kind != "scalar" or isinstance(node.value, (bool, float)):
                 self.wrong(node, path, "an attachment: a name, an index, {attachment, layout} or null")
             elif isinstance(node.value, int):
@@ -335,7 +334,7 @@ class Binder:
         index = self.integer(0, ATTACHMENT_UNUSED, node, path)
         return "EXTERNAL" if index == ATTACHMENT_UNUSED else index
 
-    def command(self, node: Node, path: str, key: str, of: type[Record] = Command) -> Command | None:
+    def command(self, node: Node, path: str, key: str, of: type[Command]) -> Command | None:
         """A recorded command: a mapping with one key, or a bare word for one without parameters."""
         kind, parameters, span = "", None, head_of(node)
         if node.kind == "mapping" and len(node.value) == 1:
@@ -353,7 +352,6 @@ class Binder:
             self.report("MSAA902", f"unknown command `{shortened(kind)}`", span, path, help)
             return None
         made = of(node, f"{path}.{kind}", key, span)
-        assert isinstance(made, Command)
         made.kind = kind
         made.body = None
         if parameters is None or (parameters.kind == "scalar" and parameters.value is None):

@@ -9,8 +9,8 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.source import Source
 
 from .bind import Problem
+from .models import Description, MetalStencilAttachment
 from .record import Record
-from .records import Description, MetalStencilAttachment
 
 
 class StencilApart(NamedTuple):

@@ -4,30 +4,37 @@ from __future__ import annotations
 
 from collections.abc import Container
 from itertools import pairwise
-from typing import Any, ClassVar
+from typing import ClassVar
 
+from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
-from msaa_lint.core.text.tree import Node
 
 from .scalars import enumerant
+from .shapes import Shape, member_shapes
 
-Shape = tuple[Any, ...]
-"""What a member may hold: a kind and its parameters, as `generate` writes them and `bind` reads them."""
+
+class MemberShapes:
+    """The shapes of a record class's members, worked out from their types when first read."""
+
+    def __get__(self, record: Record | None, kind: type[Record]) -> dict[str, Shape]:
+        shapes = member_shapes(kind)
+        type.__setattr__(kind, "SHAPE", shapes)
+        return shapes
 
 
 class Record:
-    """One structure. The members of the subclasses are Vulkan's; what is not stated is None, or empty where absent means none.
+    """One structure. A subclass declares the members with their types; the value in the class is what an absent member is.
 
-    `key` is the name or index it stands under, `path` its structural path (`renderPasses.forward.attachments.color`), `head` where a reader
-    sees it begin (its key, or its first member), `spelled` the key and the value of each member that the input states.
+    None is unknown; an empty list or mapping is none. `key` is the name or index of the structure, `path` its structural path
+    (`renderPasses.forward.attachments.color`), `head` the place that stands for it in a message (its key, or its first member), and
+    `spelled` the key and the value of each member that the input states.
     """
 
-    __slots__ = ("head", "key", "node", "path", "spelled")
+    SHAPE: ClassVar[dict[str, Shape]]
 
-    SHAPE: ClassVar[dict[str, Shape]] = {}
-
-    ABSENT: ClassVar[dict[str, object]] = {}
-    """What the members are that mean none, not unknown, where they are absent."""
+    def __init_subclass__(cls) -> None:
+        if "SHAPE" not in vars(cls):
+            type.__setattr__(cls, "SHAPE", MemberShapes())
 
     def __init__(self, node: Node, path: str, key: str, head: Span) -> None:
         self.node = node
@@ -41,9 +48,9 @@ class Record:
         return name in self.spelled
 
     def place(self, *names: str) -> Span:
-        """Where the first of the members that is stated has its value (a structure, or a list of several lines: its key).
+        """The place of the value of the first stated member (of its key, for a structure or a list that may take several lines).
 
-        The record's head where none is stated.
+        The record's head if none of them is stated.
         """
         for name in names:
             if name in self.spelled:
@@ -52,7 +59,7 @@ class Record:
         return self.head
 
     def flag_place(self, name: str, flags: Container[str]) -> Span:
-        """Where the first of some flags stands in a list that states the member; the member's place where it is written otherwise."""
+        """The place of the first of some flags in the list that states a member; the member's place if it is not written as a list."""
         if name in self.spelled and self.spelled[name][1].kind == "sequence":
             items: list[Node] = self.spelled[name][1].value
             for item in items:
@@ -62,7 +69,7 @@ class Record:
 
 
 def _is_wide(value: Node) -> bool:
-    """Whether a value goes, or may go, over several lines: a structure, a list of structures, a list with more than `, ` between items."""
+    """Whether a value takes, or may take, several lines: a structure, a list of structures, a list with more than `, ` between items."""
     if value.kind != "sequence":
         return value.kind == "mapping"
     items: list[Node] = value.value
@@ -70,6 +77,6 @@ def _is_wide(value: Node) -> bool:
         return True
     if not items or value.anchor is not None:
         return False
-    # A list with an item a line and no brackets ends with its last item.
+    # A block list, which has no brackets, ends with its last item.
     gaps = [items[0].start - value.start, *(after.start - item.end for item, after in pairwise(items))]
     return value.end == items[-1].end or value.end - items[-1].end > 2 or max(gaps) > 2

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Collection
 
 from msaa_lint.frame.vulkan.names import nearest, parse_enum, parse_flags
 
@@ -65,6 +66,12 @@ def nearest_enumerant(enums: str, text: str) -> str | None:
     from msaa_lint.frame.vulkan.enums import ENUMS
 
     return nearest(text, [name for each in enums.split("|") for name in dict.fromkeys(ENUMS[each].values())])
+
+
+def caseless(words: Collection[str], value: object) -> str | None:
+    """The word that a value is in any case, in lower case; None if it is none of the words."""
+    word = value.lower() if isinstance(value, str) else None
+    return word if word in words else None
 
 
 def finite(value: float) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from msaa_lint.frame.description.records import AttachmentDescription, BeginRendering
+from msaa_lint.frame.description.models import AttachmentDescription, BeginRendering
 
 from .facts import Facts
 from .frame import RENDERING, Aspect, Attachment, Pass, Resolve

@@ -9,8 +9,8 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from typing import NamedTuple
 
+from msaa_lint.frame.description.models import Command, ImageBarrier, PipelineBarrier, ReadImage, RenderPass, SubpassDependency
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import Command, ImageBarrier, PipelineBarrier, ReadImage, RenderPass, SubpassDependency
 
 from .events import COPY, DRAW, INPUT, LOAD, READ, READS, TAKE, Begun, Event, Events, Spot
 from .facts import Facts

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from msaa_lint.frame.description.records import BeginRenderPass
+from msaa_lint.frame.description.models import BeginRenderPass
 
 from .facts import Facts
 from .frame import RENDER_PASS, Frame, Pass

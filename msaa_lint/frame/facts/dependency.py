@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.frame.description.models import ImageBarrier, PipelineBarrier, RenderPass, SubpassDependency
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import ImageBarrier, PipelineBarrier, RenderPass, SubpassDependency
 
 from .facts import Facts
 from .frame import RENDER_PASS, Attachment, Frame, Pass

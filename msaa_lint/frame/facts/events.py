@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from msaa_lint.frame.description.records import BeginRendering, Command, ImageBarrier
+from msaa_lint.frame.description.models import BeginRendering, Command, ImageBarrier
 
 from .frame import Attachment, Frame, Pass, Resolve
 from .pass_begin import MAX_USES, covers, one_surface, targets_at, uses_at_most

@@ -9,8 +9,7 @@ from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import Document, StencilApart
-from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import (
+from msaa_lint.frame.description.models import (
     AttachmentDescription,
     AttachmentReference,
     BeginRendering,
@@ -24,6 +23,7 @@ from msaa_lint.frame.description.records import (
     RenderPass,
     Subpass,
 )
+from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.vulkan.formats import Format, format_of
 
 RENDER_PASS = "renderPass"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from msaa_lint.frame.description.records import Description, Device
+from msaa_lint.frame.description.models import Description, Device
 from msaa_lint.frame.devices import DeviceProfile, builtin
 
 from .facts import Facts

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.records import Image, ReadImage
+from msaa_lint.frame.description.models import Image, ReadImage
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.devices.shares import sample_count_share
 

@@ -5,7 +5,7 @@ All instances of a pass are looked at: every time that a frame begins it, with e
 
 from __future__ import annotations
 
-from msaa_lint.frame.description.records import Command, ReadImage
+from msaa_lint.frame.description.models import Command, ReadImage
 
 from .facts import Facts
 from .frame import Aspect, Attachment, Pass, Target

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from msaa_lint.frame.description.document import Lowered
+from msaa_lint.frame.description.models import Metal, MetalDepthAttachment, MetalStencilAttachment
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import Metal, MetalDepthAttachment, MetalStencilAttachment
 from msaa_lint.frame.metal.families import counts, offers_count, offers_memoryless
 from msaa_lint.frame.metal.names import MULTISAMPLE_RESOLVES, MULTISAMPLE_TYPES
 

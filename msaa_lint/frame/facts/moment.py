@@ -10,7 +10,7 @@ from math import lcm
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.records import Command, ImageBarrier
+from msaa_lint.frame.description.models import Command, ImageBarrier
 
 from .frame import Attachment, Pass, Resolve
 from .pass_begin import MAX_USES

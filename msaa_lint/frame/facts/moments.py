@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from msaa_lint.frame.description.records import BeginRendering, BeginRenderPass, Command, ImageBarrier
+from msaa_lint.frame.description.models import BeginRendering, BeginRenderPass, Command, ImageBarrier
 
 from .frame import RENDERING, Aspect, Attachment, Frame, Pass, Target
 from .moment import (

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from msaa_lint.frame.description.models import BeginRenderPass, Framebuffer, Image
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import BeginRenderPass, Framebuffer, Image
 
 from .frame import RENDER_PASS, RENDERING, Attachment, Frame, Pass, Target
 

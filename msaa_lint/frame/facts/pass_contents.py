@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.records import BeginRenderPass, ClearAttachment, ClearAttachments, Draw, Pipeline, ReadImage, Rect
+from msaa_lint.frame.description.models import BeginRenderPass, ClearAttachment, ClearAttachments, Draw, Pipeline, ReadImage, Rect
 
 from .facts import Facts, known
 from .frame import RENDER_PASS, Aspect, Attachment, Frame, Pass, PassSubpass

@@ -7,8 +7,8 @@ from collections.abc import Container, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.records import ColorBlendAttachment, ColorBlendState, MultisampleState, Pipeline
-from msaa_lint.frame.description.records import Draw as DrawCommand
+from msaa_lint.frame.description.models import ColorBlendAttachment, ColorBlendState, MultisampleState, Pipeline
+from msaa_lint.frame.description.models import Draw as DrawCommand
 from msaa_lint.frame.vulkan.formats import Format, format_of
 
 from .facts import Facts

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.records import Command, ImageBarrier, PipelineBarrier
+from msaa_lint.frame.description.models import Command, ImageBarrier, PipelineBarrier
 from msaa_lint.frame.devices import DeviceProfile
 
 from .barriers import Waits

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.records import Description, SampleCountChoice, SampleCountTest
+from msaa_lint.frame.description.models import Description, SampleCountChoice, SampleCountTest
 from msaa_lint.frame.vulkan.formats import format_of
 
 from .facts import Facts, Subject
@@ -65,7 +65,8 @@ def _retested(facts: Facts, record: SampleCountChoice) -> None:
 def _asked(facts: Facts, record: SampleCountChoice) -> None:
     """Which limits are asked, and for which formats that is too little."""
     if record.limits is not None:
-        facts.put("choice.limits", [limit for limit in record.limits if limit is not None], record.place("limits"))
+        limits: list[str] = [limit for limit in record.limits if limit is not None]
+        facts.put("choice.limits", limits, record.place("limits"))
         facts.put("choice.depth_counts_asked", any(limit in DEPTH for limit in record.limits), _item(record, "limits", DEPTH))
         facts.put("choice.stencil_counts_asked", any(limit in STENCIL for limit in record.limits), _item(record, "limits", STENCIL))
     if record.formats is not None:

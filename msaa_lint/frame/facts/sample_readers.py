@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from msaa_lint.frame.description.records import Command, ReadImage
+from msaa_lint.frame.description.models import Command, ReadImage
 
 from .events import CLEAR, READ, READS, UNKNOWN, Events
 from .frame import Aspect, Attachment

@@ -4,7 +4,7 @@
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
-from msaa_lint.frame.description.records import Draw, Pipeline, ReadImage, ShaderStage, Subpass
+from msaa_lint.frame.description.models import Draw, Pipeline, ReadImage, ShaderStage, Subpass
 
 from .facts import Facts, Subject
 from .frame import RENDER_PASS, Attachment, Frame, Pass, PassSubpass, Resolve, Target

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from msaa_lint.frame.description.records import BeginRendering, Draw, Pipeline, Subpass
+from msaa_lint.frame.description.models import BeginRendering, Draw, Pipeline, Subpass
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.vulkan.formats import Format
 

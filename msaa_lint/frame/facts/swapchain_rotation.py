@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from msaa_lint.frame.description.records import BeginRenderPass, Framebuffer, Image
+from msaa_lint.frame.description.models import BeginRenderPass, Framebuffer, Image
 
 from .facts import Facts
 from .frame import Frame, Pass, Target

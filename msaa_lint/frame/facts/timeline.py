@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.records import BeginRendering
+from msaa_lint.frame.description.models import BeginRendering
 
 from .frame import RENDERING, Aspect, Attachment, Frame, Pass, Resolve, Target
 from .pass_begin import MAX_USES, covers, one_surface, targets_at, uses_at_most

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from msaa_lint.frame.description.records import BeginRendering, RenderingAttachment
+from msaa_lint.frame.description.models import BeginRendering, RenderingAttachment
 
 from . import values
 from .call import Call

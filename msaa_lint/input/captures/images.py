@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable
 from typing import Any
 
-from msaa_lint.frame.description.records import Image as ImageRecord
+from msaa_lint.frame.description.models import Image as ImageRecord
 from msaa_lint.frame.vulkan.formats import format_of
 
 from . import values

@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Mapping
 from typing import Any
 
-from msaa_lint.frame.description.records import Pipeline
+from msaa_lint.frame.description.models import Pipeline
 
 from . import values
 from .structures import Tree, described

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from msaa_lint.frame.description.records import RenderPass
+from msaa_lint.frame.description.models import RenderPass
 from msaa_lint.frame.vulkan.formats import format_of
 
 from . import values

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from msaa_lint.frame.description.bind import DECISIVE, OTHER_NAMES, PNEXT, WITHIN
-from msaa_lint.frame.description.record import Record, Shape
-from msaa_lint.frame.description.records import RECORDS
+from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.description.scalars import ATTACHMENT_UNUSED
+from msaa_lint.frame.description.shapes import Shape
 
 from . import values
 
@@ -28,7 +28,7 @@ def described(kind: type[Record], structure: object, depth: int = 0) -> Tree:
         stated = _stated(given, member)
         if stated is not None:
             value = _value(shape, stated, depth)
-            if value is not None and not (value in ([], ()) and member in kind.ABSENT):
+            if value is not None and not (value in ([], ()) and getattr(kind, member) is not None):
                 made[member] = value
     following = given.get("pNext")
     for _ in range(64):
@@ -58,7 +58,7 @@ def _chained(kind: type[Record], made: Tree, structure: dict[str, Any], depth: i
     if WITHIN.get(name) is kind:
         made.update(described(kind, {key: value for key, value in structure.items() if key != "pNext"}, depth + 1))
     elif member is not None and member in kind.SHAPE and kind.SHAPE[member][0] == "record":
-        made[member] = described(RECORDS[kind.SHAPE[member][1]], {**structure, "pNext": None}, depth + 1)
+        made[member] = described(kind.SHAPE[member][1], {**structure, "pNext": None}, depth + 1)
 
 
 def _value(shape: Shape, stated: object, depth: int) -> Any:
@@ -71,7 +71,7 @@ def _value(shape: Shape, stated: object, depth: int) -> Any:
     if kind == "flags":
         return _flags(shape[1], stated)
     if kind == "record":
-        return described(RECORDS[shape[1]], stated, depth + 1) if isinstance(stated, dict) and depth < MAX_DEPTH else None
+        return described(shape[1], stated, depth + 1) if isinstance(stated, dict) and depth < MAX_DEPTH else None
     if kind in ("list", "counted"):
         return _items(shape[1], stated, depth)
     if kind == "slot":

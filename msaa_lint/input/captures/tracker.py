@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable
 from typing import Any, NamedTuple
 
-from msaa_lint.frame.description.records import Framebuffer as FramebufferRecord
+from msaa_lint.frame.description.models import Framebuffer as FramebufferRecord
 
 from . import values
 from .call import Call, Mark

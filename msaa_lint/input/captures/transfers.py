@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from msaa_lint.frame.description.records import PipelineBarrier, Rect, SubpassDependency
+from msaa_lint.frame.description.models import PipelineBarrier, Rect, SubpassDependency
 
 from . import values
 from .call import Call

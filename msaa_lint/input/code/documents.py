@@ -7,7 +7,7 @@ from msaa_lint.core.text.node_builder import mapping
 from msaa_lint.core.text.source import Source
 from msaa_lint.frame.description.bind import Binder, Problem, shortened
 from msaa_lint.frame.description.document import Document
-from msaa_lint.frame.description.records import Description
+from msaa_lint.frame.description.models import Description
 from msaa_lint.input.readers import description
 
 MOST_ROUNDS = 4

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.frame.description.bind import Binder
-from msaa_lint.frame.description.records import Description, Device
+from msaa_lint.frame.description.models import Description, Device
 from msaa_lint.frame.devices import builtin
 
 from . import metal, vulkan

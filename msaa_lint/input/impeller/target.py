@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
+from msaa_lint.frame.description.models import FrameSize, RenderTarget
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import FrameSize, RenderTarget
 
 from . import words
 from .stated import Stated

@@ -7,7 +7,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.core.text.tree import Node
 from msaa_lint.frame.description.bind import Binder, Mention, shortened
 from msaa_lint.frame.description.document import Document
-from msaa_lint.frame.description.records import AttachmentReference, Description, Device, Framebuffer, RenderPass, Subpass
+from msaa_lint.frame.description.models import AttachmentReference, Description, Device, Framebuffer, RenderPass, Subpass
 from msaa_lint.frame.vulkan.names import nearest
 
 SECTIONS = frozenset(Description.SHAPE)

@@ -15,8 +15,7 @@ from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.bind import Binder
 from msaa_lint.frame.description.document import Lowered
-from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import (
+from msaa_lint.frame.description.models import (
     Command,
     Description,
     Image,
@@ -32,6 +31,7 @@ from msaa_lint.frame.description.records import (
     Pipeline,
     RenderPass,
 )
+from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.metal.formats import PIXEL_FORMATS
 from msaa_lint.frame.metal.names import MULTISAMPLE_TYPES
 from msaa_lint.frame.vulkan.formats import format_of
@@ -223,7 +223,7 @@ class _Lowering:
 
     def _command(self, kind: str, body: Node, origin: MetalCommand) -> Command:
         node = mapping([(kind, origin.head, body)], origin.node.span)
-        made = self.binder.command(node, "", origin.key)
+        made = self.binder.command(node, "", origin.key, Command)
         assert made is not None
         made.path = origin.path
         if isinstance(made.body, Record):

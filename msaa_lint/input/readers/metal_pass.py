@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.frame.description.document import StencilApart
+from msaa_lint.frame.description.models import MetalColorAttachment, MetalDepthAttachment, MetalRenderPass, MetalStencilAttachment
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import MetalColorAttachment, MetalDepthAttachment, MetalRenderPass, MetalStencilAttachment
 from msaa_lint.frame.description.scalars import UNUSED
 from msaa_lint.frame.metal.names import MULTISAMPLE_RESOLVES
 

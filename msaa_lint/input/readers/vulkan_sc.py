@@ -10,7 +10,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.core.text.tree import Node
 from msaa_lint.frame.description.bind import Binder, is_null
 from msaa_lint.frame.description.document import Document
-from msaa_lint.frame.description.records import Description, Enabled, Pipeline, RenderPass
+from msaa_lint.frame.description.models import Description, Enabled, Pipeline, RenderPass
 
 STATES = ("GraphicsPipelineState", "ComputePipelineState", "RayTracingPipelineState")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from msaa_lint.frame.description.document import Document
-from msaa_lint.frame.description.records import Image
+from msaa_lint.frame.description.models import Image
 from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.frame import Resolve, Target
 

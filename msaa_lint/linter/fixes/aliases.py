@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from msaa_lint.core.text.node import Node
+from msaa_lint.frame.description.models import Command
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import Command
 
 from .changes import Change
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import Document
+from msaa_lint.frame.description.models import Framebuffer, MetalRecord
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import RECORDS, Framebuffer
 from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.frame import Attachment, Frame, Pass
 from msaa_lint.frame.facts.image import Bindings
@@ -56,10 +56,6 @@ class Structural(Exception):
 
     Write it into the text (`text.edits`) and read that.
     """
-
-
-METAL = tuple(kind for name, kind in RECORDS.items() if name.startswith("Metal"))
-"""The structures of frames in Metal's words."""
 
 
 class FixContext:
@@ -180,7 +176,7 @@ def _after(change: Change, before: Any) -> Any:
     if change.action == "set":
         return change.value
     if change.action == "unset":
-        return change.record.ABSENT.get(change.member)
+        return getattr(type(change.record), change.member)
     if change.action == "add":
         return tuple(dict.fromkeys((*(before or ()), change.value)))
     return before if before is None else tuple(flag for flag in before if flag != change.value)
@@ -197,7 +193,7 @@ class applied:
         self._before: list[tuple[Record, str, Any]] = []
 
     def __enter__(self) -> None:
-        if any(change.action not in PLAIN or isinstance(change.record, METAL) for change in self._changes):
+        if any(change.action not in PLAIN or isinstance(change.record, MetalRecord) for change in self._changes):
             raise Structural
         for change in self._changes:
             before = getattr(change.record, change.member)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.records import BeginRenderPass, ClearAttachments
+from msaa_lint.frame.description.models import BeginRenderPass, ClearAttachments
 from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.frame import Aspect, Attachment, Pass
 

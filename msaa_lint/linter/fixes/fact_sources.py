@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from msaa_lint.frame.description.models import BeginRenderPass, Pipeline, SubpassDependency
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import BeginRenderPass, Pipeline, SubpassDependency
 from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.frame import RENDERING, Aspect, Attachment, Pass, Resolve, Target
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from bisect import bisect_left
 from typing import Any, NamedTuple
 
-from msaa_lint.frame.description.records import AttachmentDescription, Command, Image, RenderingAttachment, RenderPass, Subpass
+from msaa_lint.frame.description.models import AttachmentDescription, Command, Image, RenderingAttachment, RenderPass, Subpass
 from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.frame import RENDERING, Attachment, Pass, Resolve, Target
 from msaa_lint.frame.facts.pass_begin import targets_at

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.frame.description.models import Framebuffer, ImageBarrier, PipelineBarrier, Subpass, SubpassDependency
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import Framebuffer, ImageBarrier, PipelineBarrier, Subpass, SubpassDependency
 from msaa_lint.frame.facts.frame import Frame, Resolve
 
 _MEMBERS = ("image", "srcImage", "dstImage", "resolveImage")

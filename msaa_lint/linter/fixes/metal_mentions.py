@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 
+from msaa_lint.frame.description.models import Metal, MetalCopy
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import Metal, MetalCopy
 
 
 class MetalMentions:

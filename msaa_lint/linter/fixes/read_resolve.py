@@ -10,7 +10,7 @@ from bisect import bisect_left
 from copy import copy
 from typing import Any
 
-from msaa_lint.frame.description.records import ReadImage
+from msaa_lint.frame.description.models import ReadImage
 from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.frame import Target
 from msaa_lint.frame.facts.pass_begin import targets_at

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from msaa_lint.core.text.node import Node
-from msaa_lint.frame.description.record import Record, Shape
-from msaa_lint.frame.description.records import RECORDS
+from msaa_lint.frame.description.record import Record
+from msaa_lint.frame.description.shapes import Shape
 
 from .spelling import Spelling, quoted
 from .text_places import Text
@@ -29,7 +29,7 @@ class Rendering:
         if data is None:
             return "null"
         if isinstance(data, dict):
-            shapes = RECORDS[shape[1]].SHAPE if shape[0] == "record" else {}
+            shapes = shape[1].SHAPE if shape[0] == "record" else {}
             quote = '"' if self.json else ""
             inner = [f"{quoted(key, quote)}: {self.data(shapes.get(key, ('text',)), value, record)}" for key, value in data.items()]
             return "{" + ", ".join(inner) + "}"

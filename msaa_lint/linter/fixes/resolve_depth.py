@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from msaa_lint.frame.description.records import (
+from msaa_lint.frame.description.models import (
     AttachmentDescription,
     Framebuffer,
     Image,

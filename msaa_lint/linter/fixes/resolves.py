@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 
-from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import (
+from msaa_lint.frame.description.models import (
     AttachmentDescription,
     Command,
     DepthStencilResolve,
@@ -14,6 +13,7 @@ from msaa_lint.frame.description.records import (
     Subpass,
     TwoImages,
 )
+from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.frame import Attachment, Resolve
 

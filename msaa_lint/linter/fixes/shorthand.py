@@ -15,8 +15,8 @@ from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Edit, Span
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.document import Document
+from msaa_lint.frame.description.models import AttachmentConfig, AttachmentConfigMSAA, Description, Metal, RenderTarget
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import AttachmentConfig, AttachmentConfigMSAA, Description, Metal, RenderTarget
 
 from .aliases import records_of
 from .changes import PLAIN, Change, Refused

@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.scalars import resolve
-from msaa_lint.frame.description.record import Record, Shape
+from msaa_lint.frame.description.record import Record
+from msaa_lint.frame.description.shapes import Shape
 from msaa_lint.frame.vulkan.enums import BITLESS, PREFIXES, VALUES
 from msaa_lint.frame.vulkan.names import VENDORS, parse_enum
 

@@ -11,12 +11,14 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Edit, Span
 from msaa_lint.frame.description.document import Document
-from msaa_lint.frame.description.record import Record, Shape
+from msaa_lint.frame.description.models import MetalRecord
+from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.description.scalars import enumerant
+from msaa_lint.frame.description.shapes import Shape
 from msaa_lint.frame.vulkan.enums import VALUES
 
 from .aliases import NOBODY, Member, Sharing, Wishes, records_of, wish, wishes
-from .changes import METAL, PLAIN, Change, Refused
+from .changes import PLAIN, Change, Refused
 from .layout import Collection, Edits
 from .rendering import Rendering
 from .spelling import Spelling, quoted
@@ -99,7 +101,7 @@ class Writing:
     def _group(self, group: Sequence[Change], asked: _Asked) -> Edits | str:
         """The edits for the changes of one member; or its value, where it is to be inserted."""
         record, member = group[0].record, group[0].member
-        if self.document.metal is not None and not isinstance(record, METAL):
+        if self.document.metal is not None and not isinstance(record, MetalRecord):
             return Refused("the change is in Vulkan's words, and the frame in Metal's")
         if any(change.action not in PLAIN for change in group):
             return self._structural(group)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from msaa_lint.frame.description.records import Command, Image
+from msaa_lint.frame.description.models import Command, Image
 from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.frame import Target
 from msaa_lint.frame.facts.image import BESIDE_TRANSIENT

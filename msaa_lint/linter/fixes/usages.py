@@ -6,8 +6,8 @@ from bisect import bisect_left, bisect_right
 from collections import Counter
 from collections.abc import Iterator
 
+from msaa_lint.frame.description.models import Command, ImageBarrier
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import Command, ImageBarrier
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.pass_begin import MAX_USES, targets_at, uses_at_most
 

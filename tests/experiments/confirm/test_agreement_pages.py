@@ -14,7 +14,7 @@ from msaa_lint.experiments.confirm.planner import Plans
 from msaa_lint.experiments.confirm.session import Session, environment
 from msaa_lint.experiments.confirm.trial import Terms, trial
 from msaa_lint.experiments.confirm.verdict import CONFIRMED, DIED, REFUSED, SKIPPED, TIMED_OUT, Said, Verdict
-from msaa_lint.frame.description.records import RenderPass, Subpass
+from msaa_lint.frame.description.models import RenderPass, Subpass
 from msaa_lint.frame.facts.frame import Pass
 from msaa_lint.linter.run import Request
 from tests.pages import all_examples

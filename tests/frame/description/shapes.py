@@ -6,11 +6,10 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from msaa_lint.frame.description.generate import member
-from msaa_lint.frame.description.metal_models import MetalCommand
-from msaa_lint.frame.description.models import Command
-from msaa_lint.frame.description.records import RECORDS
-from msaa_lint.frame.description.struct import Struct
+from msaa_lint.frame.description import models
+from msaa_lint.frame.description.models import MetalRecord
+from msaa_lint.frame.description.pydantic_models import Structure, model_of
+from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.metal import names as metal_names
 from msaa_lint.frame.vulkan.enums import BITLESS, ENUMS, PREFIXES, VALUES
 from msaa_lint.frame.vulkan.names import VENDORS
@@ -20,11 +19,12 @@ Json = Any
 NAMES = st.sampled_from(["a", "b", "color_ms", "0", "ünï", "with space", "a.b"])
 TEXTS = st.text(st.characters(codec="utf-8", exclude_categories=("Cs", "Cc")), max_size=6)
 
-MODELS: dict[str, type[Struct]] = {
-    model.__name__: model
-    for model in Struct.__subclasses__()
-    if model.__module__ in (Command.__module__, MetalCommand.__module__) and model.__name__ in RECORDS
+RECORDS: dict[str, type[Record]] = {
+    kind.__name__: kind
+    for kind in vars(models).values()
+    if isinstance(kind, type) and issubclass(kind, Record) and kind not in (Record, MetalRecord)
 }
+MODELS: dict[str, type[Structure]] = {name: model_of(kind) for name, kind in RECORDS.items()}
 
 
 def spellings(enum: str) -> list[str]:
@@ -67,7 +67,7 @@ def by_shape(shape: tuple[Any, ...]) -> st.SearchStrategy[Json]:
         case "flags":
             return flags(shape[1])
         case "record":
-            return structure(shape[1])
+            return structure(shape[1].__name__)
         case "list":
             return st.lists(by_shape(shape[1]), max_size=3 if len(shape) == 2 else shape[2])
         case "counted":
@@ -95,10 +95,12 @@ def by_shape(shape: tuple[Any, ...]) -> st.SearchStrategy[Json]:
             return NAMES | st.integers(0, 9)
         case "word":
             return st.sampled_from(shape[1])
+        case "caseless":
+            return st.sampled_from(shape[1]).flatmap(lambda word: st.sampled_from([word, word.upper(), word.capitalize()]))
         case "either":
             return st.one_of(*(by_shape(arm) for arm in shape[1:]))
         case "command":
-            members = {name: member(field)[0] for name, field in MODELS[shape[1] if len(shape) > 1 else "Command"].model_fields.items()}
+            members = shape[1].SHAPE
             words = [name for name, found in members.items() if found[0] == "null"]
             bare = st.sampled_from(words) if words else st.nothing()
             return bare | st.one_of(*(by_shape(found).map(lambda value, name=name: {name: value}) for name, found in members.items()))
@@ -116,8 +118,7 @@ _structures: dict[str, st.SearchStrategy[dict[str, Json]]] = {}
 
 
 def _members(name: str) -> st.SearchStrategy[dict[str, Json]]:
-    shapes = {key: member(field)[0] for key, field in MODELS[name].model_fields.items()}
-    return st.fixed_dictionaries({}, optional={key: by_shape(shape) for key, shape in shapes.items()})
+    return st.fixed_dictionaries({}, optional={key: by_shape(shape) for key, shape in RECORDS[name].SHAPE.items()})
 
 
 def paths(value: Json, at: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:

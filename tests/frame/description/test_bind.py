@@ -8,7 +8,7 @@ from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.bind import MAX_PROBLEMS, Problem
 from msaa_lint.frame.description.document import Document
-from msaa_lint.frame.description.records import Description
+from msaa_lint.frame.description.models import Description, Device
 from msaa_lint.input.readers import description
 from tests.marked import unmarked
 
@@ -141,7 +141,7 @@ IS_NO = "MSAA903"
         ("images: {a: {usage: ⟦16⟧}}", "a list of VkImageUsageFlagBits is due here, not `16`", ""),
         ("images: {a: {encoding: ⟦SRGB⟧}}", "one of LINEAR, GAMMA, DATA is due here, not `SRGB`", ""),
         ("scene: {depth: ⟦reversed⟧}", "one of STANDARD, REVERSED is due here, not `reversed`", "did you mean `REVERSED`?"),
-        ("device: {vendor: ⟦ARM⟧}", None, "did you mean `arm`?"),
+        ("device: {vendor: ⟦ARMM⟧}", None, "did you mean `arm`?"),
         ("device: {vendor: ⟦Arm Ltd⟧}", None, ""),
         (
             "renderPasses: {r: {attachments: [{storeOp: ⟦DONT_CAER⟧}]}}",
@@ -389,6 +389,14 @@ def test_a_name_that_looks_like_an_index_is_a_name_in_every_spelling() -> None:
     document = read(text)
     assert document.problems == ()
     assert [each.attachment for each in document.description.renderPasses["r"].subpasses[0].colorAttachments] == ["1", "1", 1, 1]
+
+
+@pytest.mark.parametrize("written", ["amd", "AMD", "Amd"])
+def test_a_vendor_in_any_case(written: str) -> None:
+    document = read(f"device: {{vendor: {written}}}")
+    assert document.problems == ()
+    assert isinstance(document.description.device, Device)
+    assert document.description.device.vendor == "amd"
 
 
 def test_numbers_may_be_names() -> None:

@@ -1,10 +1,8 @@
-"""The models and what files are read by give the same answers: `records.py` is made from `models.py`, and the binder reads by it."""
+"""The pydantic models and the binder accept and refuse the same inputs, and read them to the same values."""
 
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from typing import Any
 
 import pytest
@@ -15,12 +13,10 @@ from pydantic import BaseModel, ValidationError
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.bind import Binder, Problem
-from msaa_lint.frame.description.models import Description
+from msaa_lint.frame.description.models import AttachmentReference
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import RECORDS, AttachmentReference
 from msaa_lint.frame.description.scalars import ATTACHMENT_UNUSED, UNUSED
-from tests.frame.description.shapes import JUNK, MODELS, Json, paths, replaced, structure
-from tests.paths import ROOT
+from tests.frame.description.shapes import JUNK, MODELS, RECORDS, Json, paths, replaced, structure
 
 UNHURRIED = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much]
 SOME = settings(max_examples=100, deadline=None, suppress_health_check=UNHURRIED)
@@ -99,13 +95,8 @@ def bare_commands(held: Any) -> Any:
     return held
 
 
-def test_records_are_fresh() -> None:
-    done = subprocess.run([sys.executable, "-m", "msaa_lint.frame.description.generate", "--check"], cwd=ROOT, check=False)
-    assert done.returncode == 0, "python -m msaa_lint.frame.description.generate writes records.py anew"
-
-
-def test_every_model_is_a_record() -> None:
-    assert set(MODELS) == set(RECORDS)
+def test_every_model_has_the_members_of_its_record() -> None:
+    assert set(MODELS) >= {"Description", "RenderPass", "Command", "Metal", "MetalCommand", "RenderTarget"}
     for name, model in MODELS.items():
         assert list(model.model_fields) == list(RECORDS[name].SHAPE)
 
@@ -203,5 +194,7 @@ def test_null_in_lists(value: Json, fine: bool) -> None:
 
 
 def test_a_model_is_made_of_what_a_program_hands_in() -> None:
-    made = Description.model_validate({"images": {"a": {"samples": "VK_SAMPLE_COUNT_4_BIT", "usage": "SAMPLED | COLOR_ATTACHMENT"}}})
+    made: Any = MODELS["Description"].model_validate(
+        {"images": {"a": {"samples": "VK_SAMPLE_COUNT_4_BIT", "usage": "SAMPLED | COLOR_ATTACHMENT"}}}
+    )
     assert (made.images["a"].samples, made.images["a"].usage) == (4, ("SAMPLED", "COLOR_ATTACHMENT"))

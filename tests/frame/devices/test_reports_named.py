@@ -11,7 +11,7 @@ import pytest
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame import profiles
-from msaa_lint.frame.description.records import Description
+from msaa_lint.frame.description.models import Description
 from msaa_lint.frame.devices import DeviceProfile, builtin, names
 from msaa_lint.frame.devices.mapping import description as mapping
 from msaa_lint.frame.devices.msaa_features import EXTENSIONS

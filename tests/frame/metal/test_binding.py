@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import pytest
 
 from msaa_lint import lint
-from msaa_lint.frame.description.metal_models import Metal
+from msaa_lint.frame.description.models import Metal
+from msaa_lint.frame.description.pydantic_models import model_of
 from tests.frame.description.test_schema import documents, mistakes
 from tests.frame.metal.frames import ARTICLE, BEST, read
 from tests.marked import unmarked
@@ -153,5 +155,7 @@ def test_programs_are_checked_alike() -> None:
     (value,) = documents(ARTICLE)
     found = lint(text=json.dumps(value)).findings
     assert "metal-samples-stored-unread" in {finding.rule for finding in found}
-    made = Metal.model_validate({"textures": {"a": {"usage": ".renderTarget | shaderRead", "storageMode": "MTLStorageModePrivate"}}})
+    made: Any = model_of(Metal).model_validate(
+        {"textures": {"a": {"usage": ".renderTarget | shaderRead", "storageMode": "MTLStorageModePrivate"}}}
+    )
     assert (made.textures["a"].usage, made.textures["a"].storageMode) == (("renderTarget", "shaderRead"), "private")

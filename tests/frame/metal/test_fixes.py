@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 
 from msaa_lint.core.text.edits import apply
+from msaa_lint.frame.description.models import MetalRecord
 from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.subjects import subjects
-from msaa_lint.linter.fixes.changes import METAL, Change, FixContext, Refused, Structural, applied, changes
+from msaa_lint.linter.fixes.changes import Change, FixContext, Refused, Structural, applied, changes
 from msaa_lint.linter.fixes.text_edits import edits
 from msaa_lint.linter.rules.rule_file import FixSpec, Setting
 from tests.command import run
@@ -150,7 +151,7 @@ def test_metals_words_are_never_written_into_vulkans() -> None:
 
 def test_records_of_metal_are_read_anew() -> None:
     texture = document(ARTICLE).description.metal
-    assert isinstance(texture, METAL)
+    assert isinstance(texture, MetalRecord)
     with pytest.raises(Structural), applied([Change(texture.textures["ms"], "storageMode", "set", "memoryless")]):
         pass
 

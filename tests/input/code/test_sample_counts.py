@@ -8,7 +8,7 @@ from typing import Any, get_args
 import pytest
 
 from msaa_lint.core.text.node import Node
-from msaa_lint.frame.description.models import SampleCountChoice
+from msaa_lint.frame.description.models import SampleCountChoice, SampleCountLimit
 from msaa_lint.input.code.parsing import Code, tree
 from msaa_lint.input.code.sample_counts.choices import choices
 from msaa_lint.input.code.sample_counts.masks import LIMITS
@@ -66,9 +66,8 @@ def function(body: str, name: str = "pick") -> str:
 
 
 def test_the_limits_are_those_of_the_format() -> None:
-    annotation = SampleCountChoice.model_fields["limits"].annotation
-    words = next(get_args(arm)[0] for arm in get_args(annotation) if get_args(arm))
-    assert set(get_args(words)) == LIMITS
+    assert SampleCountChoice.SHAPE["limits"] == ("list", ("word", get_args(SampleCountLimit)))
+    assert set(get_args(SampleCountLimit)) == LIMITS
 
 
 STYLES = {

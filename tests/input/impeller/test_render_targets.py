@@ -14,7 +14,7 @@ from msaa_lint.core.text.emitter import written
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.document import Document
-from msaa_lint.frame.description.records import BeginRenderPass
+from msaa_lint.frame.description.models import BeginRenderPass
 from msaa_lint.input.impeller.words import sample_count
 from msaa_lint.input.readers import description
 from tests.command import run

@@ -15,10 +15,11 @@ from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.bind import Binder
 from msaa_lint.frame.description.document import Document
+from msaa_lint.frame.description.models import Command, Description
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import RECORDS, Command, Description
 from msaa_lint.frame.facts.subjects import subjects
 from msaa_lint.input.readers import FORMATS, looks_like, read
+from tests.frame.description.shapes import RECORDS
 from tests.frame.description.test_schema import documents, mistakes
 from tests.paths import ROOT
 
@@ -38,7 +39,7 @@ def records(value: Any) -> Iterator[Record]:
     """A record and all within it."""
     if isinstance(value, Record):
         yield value
-        value = [getattr(value, name) for name in (value.__slots__ if not isinstance(value, Command) else ("body",))]
+        value = [getattr(value, name) for name in (value.SHAPE if not isinstance(value, Command) else ("body",))]
     if isinstance(value, dict):
         value = list(value.values())
     if isinstance(value, (list, tuple)):

@@ -15,7 +15,7 @@ from msaa_lint.core.finding import Finding, Result
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.document import Document
-from msaa_lint.frame.description.records import Pipeline, RenderPass, Subpass
+from msaa_lint.frame.description.models import Pipeline, RenderPass, Subpass
 from msaa_lint.input.readers import read
 from msaa_lint.linter.engine import Engine, LintOptions
 from msaa_lint.linter.rules.registry import load

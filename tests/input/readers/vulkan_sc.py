@@ -6,10 +6,10 @@ import json
 from collections.abc import Iterator
 from typing import Any
 
-from msaa_lint.frame.description.records import RECORDS
 from msaa_lint.frame.description.scalars import sample_count
 from msaa_lint.frame.vulkan.enums import BITLESS, PREFIXES
 from msaa_lint.frame.vulkan.names import VENDORS, parse_enum, parse_flags
+from tests.frame.description.shapes import RECORDS
 
 Json = Any
 

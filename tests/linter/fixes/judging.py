@@ -9,8 +9,8 @@ from msaa_lint.core.finding import Finding
 from msaa_lint.core.text.comments import comments
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
+from msaa_lint.frame.description.models import Command
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.records import Command
 from msaa_lint.linter.engine import Engine, LintOptions
 from msaa_lint.linter.fixes import fixer as rounds
 from msaa_lint.linter.fixes.fixer import Fixed

@@ -288,7 +288,7 @@ def test_dumped_flags(mask: str, after: str) -> None:
     from msaa_lint.core.text.span import Span
     from msaa_lint.frame.description.bind import Binder
     from msaa_lint.frame.description.document import Document
-    from msaa_lint.frame.description.records import Description
+    from msaa_lint.frame.description.models import Description
 
     text = f'{{"images": {{"a": {{"usage": {mask}}}}}}}'
     (root,) = parse(Source("", text), Limits()).documents

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from msaa_lint.frame.description.records import Pipeline
+from msaa_lint.frame.description.models import Pipeline
 from msaa_lint.frame.facts.frame import Frame
 
 from . import LEAST, depth, detail, edges, light
