@@ -11,8 +11,8 @@ from msaa_lint.core.finding import CaptureLocation, Finding
 from msaa_lint.core.text.source import Origin, Source
 from msaa_lint.core.text.span import Span
 
-from .captures.call import Broken
-from .captures.description_text import written
+from .captures.call import CaptureError
+from .captures.description_text import describe_capture
 from .captures.tracker import Tracker
 
 _DOCUMENT = re.compile(r"documents\[\d+\]\.")
@@ -42,22 +42,22 @@ def captured(stream: BinaryIO, format: str, name: str, path: str | None) -> Capt
     """
     module = import_module(f".readers.{format.replace('-', '_')}", __package__)
     tracker = Tracker()
-    broken: Broken | None = None
+    broken: CaptureError | None = None
     try:
         for call in module.calls(stream, tracker.wanted, path):
             tracker.feed(call)
-    except Broken as error:
+    except CaptureError as error:
         broken = error
     tracker.finish()
-    made = written(tracker)
+    made = describe_capture(tracker)
     text, origins = made.text, made.origins
     notes = []
     if tracker.frames.truncated:
-        notes.append(f"{name}: the last entry is cut off, and passed over")
-    if made.unkept:
-        notes.append(f"{name}: {made.unkept} of {made.frames} frames are of further kinds and not linted")
+        notes.append(f"{name}: the last entry is truncated and was skipped")
+    if made.dropped:
+        notes.append(f"{name}: {made.dropped} of {made.frames} frames were not linted because the capture has too many kinds of frames")
     if broken is not None:
-        text += "# the capture can be read up to here\n"
+        text += "# the capture is readable up to here\n"
         origins.append(Origin(*broken.place, ""))
     return CaptureInput(Source(name, text, origins), made.modules, made.frames, broken.message if broken is not None else "", tuple(notes))
 

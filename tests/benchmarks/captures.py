@@ -27,8 +27,8 @@ OBJECT_CALLS = re.compile(rb'"name":"vk(?:Create|Destroy|Allocate|Free)')
 PARSE = "import orjson, sys\nfor line in open(sys.argv[1], 'rb'): orjson.loads(line)"
 READ = """\
 import collections, sys
-from msaa_lint.captures.tracker import Tracker
-from msaa_lint.readers import gfxreconstruct
+from msaa_lint.input.captures.tracker import Tracker
+from msaa_lint.input.readers import gfxreconstruct
 with open(sys.argv[1], "rb") as file:
     collections.deque(gfxreconstruct.calls(file, Tracker().wanted, sys.argv[1]), maxlen=0)
 """

@@ -18,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 import atheris  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 with atheris.instrument_imports():
-    from msaa_lint.input.captures.call import Broken, Call
+    from msaa_lint.input.captures.call import Call, CaptureError
     from msaa_lint.input.readers import fossilize, fossilize_code, fossilize_objects  # noqa: F401
 
 from tests.input.readers.dialects_binary import MAGIC, entry, packed
@@ -55,7 +55,7 @@ def read(data: bytes) -> None:
             if isinstance(each, Call):
                 assert each.name in EVERYTHING
                 seen.add(each.at.call)
-    except Broken as error:
+    except CaptureError as error:
         assert error.message
         assert error.place.call is None or error.place.call >= 0
 
@@ -68,8 +68,8 @@ def one(data: bytes) -> None:
     read(whole(data))
     # What is packed unpacks to itself, and nothing unpacks to another size.
     code = data[: len(data) & ~3]
-    assert fossilize_code.decoded(packed(code), len(code)) == code
-    unpacked = fossilize_code.decoded(data, 4 * (len(data) // 2))
+    assert fossilize_code.unpack_code(packed(code), len(code)) == code
+    unpacked = fossilize_code.unpack_code(data, 4 * (len(data) // 2))
     assert unpacked is None or len(unpacked) == 4 * (len(data) // 2)
 
 

@@ -1,13 +1,13 @@
-"""What a reader of captures gives: calls in the order of the file, and where each stands."""
+"""What capture readers produce: calls in file order, each with its place."""
 
 # No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 from typing import Any, NamedTuple
 
 
 class Place(NamedTuple):
-    """Where a call stands: line and column of its first character (1-based; None in binary inputs), and its index.
+    """The place of a call: the line and column of its first character (1-based; None in binary inputs) and its index.
 
-    The index is the one that the tool itself gave the call, as gfxreconstruct does; else its number in the file, from 0.
+    The index is the tool's own if it numbers calls, as gfxreconstruct does; otherwise the call's position in the file, from 0.
     """
 
     line: int | None = None
@@ -16,10 +16,10 @@ class Place(NamedTuple):
 
 
 class Call(NamedTuple):
-    """One call of the API. `args` are by C's parameter names; `result` is the VkResult where the capture states it.
+    """A Vulkan call. `args` is keyed by C parameter name; `result` is the VkResult if the capture has it.
 
-    Structures are mappings with C's member names, arrays lists, null pointers None, handles integers (0 is null); a pNext chain is nested
-    mappings with `sType`. Enumerants, flags and numbers are as the capture spells them: `values` reads them.
+    Structures are mappings with C's member names, arrays are lists, null pointers are None, and handles are integers (0 is null); a pNext
+    chain is nested mappings with `sType`. Enumerants, flags and numbers keep the capture's spelling; `values` parses them.
     """
 
     name: str
@@ -29,15 +29,15 @@ class Call(NamedTuple):
 
 
 class Mark(NamedTuple):
-    """What a capture says that is no call: `frame`, where the tool itself marks a frame's end; `trimmed`, that calls before it are not
-    in the file; `frameless`, that the file is one frame by itself."""
+    """An event of a capture that is not a call. `frame`: a frame ends; `trimmed`: earlier calls are missing; `frameless`: the file is a
+    single frame; `truncated`: the last entry is incomplete."""
 
     kind: str
     at: Place
 
 
-class Broken(Exception):
-    """The input ends in the middle, or makes no sense from a place on: what is wrong in words, and where."""
+class CaptureError(Exception):
+    """The input is truncated or invalid from a place on. `message` says why."""
 
     def __init__(self, message: str, place: Place) -> None:
         super().__init__(message)

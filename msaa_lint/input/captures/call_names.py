@@ -1,4 +1,4 @@
-"""Calls by their names without the suffixes of vendors, and which of them somebody follows."""
+"""Names of calls without vendor suffixes."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ import re
 _SUFFIX = re.compile(r"(?:KHR|EXT|NV|AMD|QCOM|ARM|LUNARG)\Z")
 
 
-def bare(name: str) -> str:
-    """A call's name without its vendor's suffix."""
+def without_vendor(name: str) -> str:
+    """A call's name without its vendor suffix."""
     return _SUFFIX.sub("", name)
 
 
-def wants(wanted: frozenset[str], name: str) -> bool:
-    """Whether a call is among those wanted, which are named without the suffixes of vendors."""
-    return name in wanted or bare(name) in wanted
+def is_wanted(wanted: frozenset[str], name: str) -> bool:
+    """Whether `wanted` contains a call, with or without its vendor suffix."""
+    return name in wanted or without_vendor(name) in wanted

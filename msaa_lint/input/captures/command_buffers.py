@@ -1,4 +1,4 @@
-"""What command buffers record, as far as images and passes go."""
+"""The contents of command buffers that concern images and passes."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from . import values
 from .call import Call, Place
 from .objects import DescriptorSet, Framebuffer, Image, Pipeline, RenderPass
 
-FEW = 6
-"""So many vertices are a full-screen triangle or quad."""
+MAX_FULLSCREEN_VERTICES = 6
+"""A draw with at most this many vertices may be a full-screen triangle or quad."""
 
-MAX_RECORDED = 200_000
-"""So many commands of one command buffer are kept: draws and reads are noted once a subpass, the rest are passes and transfers."""
+MAX_COMMANDS = 200_000
+"""Maximum number of commands per command buffer: equal draws and reads are stored once per subpass, the rest are passes and transfers."""
 
-MAX_KNOWN = 100_000
-"""So many commands are remembered, to be known again."""
+MAX_CACHED_COMMANDS = 100_000
+"""Maximum number of distinct commands in the cache."""
 
 
-class Recorded:
-    """One recorded command: its name in a description, what it is about (objects and plain values), and the call that recorded it first.
+class RecordedCommand:
+    """A recorded command: its name in a description (`kind`), its objects and values (`key`), and the first call that recorded it.
 
-    Two that are alike, `kind` and `key` the same, are one object. `detail` is what tells the first of them from the others.
+    Equal commands, with the same `kind` and `key`, are one object. `detail` holds the counts of the first of them.
     """
 
     __slots__ = ("at", "by", "detail", "key", "kind")
@@ -35,15 +35,15 @@ class Recorded:
         self.detail = detail
 
 
-class Reads(NamedTuple):
-    """Descriptor sets that a draw or a dispatch may read; what they hold is looked up when the commands are submitted."""
+class DescriptorReads(NamedTuple):
+    """Descriptor sets that a draw or dispatch may read. Their contents are looked up when the commands are submitted."""
 
     sets: tuple[DescriptorSet, ...]
     stage: str
 
 
-class Begin(NamedTuple):
-    """vkCmdBeginRenderPass: `images` are those of the framebuffer, or of the begin where that is imageless."""
+class RenderPassBegin(NamedTuple):
+    """vkCmdBeginRenderPass. `images` come from the framebuffer, or from the call if the framebuffer is imageless."""
 
     render_pass: RenderPass
     framebuffer: Framebuffer | None
@@ -52,70 +52,71 @@ class Begin(NamedTuple):
     clear_values: int | None
 
 
-class Commands:
-    """The commands that were recorded so far, each once."""
+class CommandCache:
+    """The distinct commands of a capture."""
 
     def __init__(self) -> None:
-        self._known: dict[tuple[str, Hashable], Recorded] = {}
+        self._commands: dict[tuple[str, Hashable], RecordedCommand] = {}
 
-    def command(self, kind: str, key: Hashable, call: Call, detail: tuple[int | None, int | None] | None = None) -> Recorded:
-        """The command of a kind and key."""
-        known = self._known.get((kind, key))
-        if known is None:
-            if len(self._known) > MAX_KNOWN:
-                self._known.clear()
-            known = self._known[kind, key] = Recorded(kind, key, call.at, call.name, detail)
-        return known
+    def command(self, kind: str, key: Hashable, call: Call, detail: tuple[int | None, int | None] | None = None) -> RecordedCommand:
+        """The command with a kind and key, created on first use."""
+        command = self._commands.get((kind, key))
+        if command is None:
+            if len(self._commands) > MAX_CACHED_COMMANDS:
+                self._commands.clear()
+            command = self._commands[kind, key] = RecordedCommand(kind, key, call.at, call.name, detail)
+        return command
 
 
 class CommandBuffer:
-    """A command buffer while it is recorded, and what it holds then. `seen` are the draws and clears of the subpass that is recorded."""
+    """A command buffer: its state during recording, and its commands."""
 
-    __slots__ = ("bound", "compute_bound", "fresh", "many", "pipeline", "reads", "recorded", "samples", "seen")
+    __slots__ = ("bound", "commands", "compute_bound", "fresh", "many", "pipeline", "reads", "samples", "subpass_commands")
 
     def __init__(self) -> None:
-        self.recorded: list[Recorded] = []
+        self.commands: list[RecordedCommand] = []
         self.reads = False
-        """Whether descriptor sets are among what is recorded."""
+        """Whether `commands` contains DescriptorReads."""
         self.pipeline: Pipeline | None = None
         self.bound: dict[int, DescriptorSet] = {}
         self.compute_bound: dict[int, DescriptorSet] = {}
-        self.seen: set[Recorded] = set()
+        self.subpass_commands: set[RecordedCommand] = set()
+        """The draws and clears of the current subpass."""
         self.many: set[Pipeline | None] = set()
-        """The pipelines with which many vertices were drawn in the subpass."""
+        """The pipelines that drew many vertices in the current subpass."""
         self.fresh = True
-        """Whether descriptor sets were bound since the last draw of the subpass."""
+        """Whether descriptor sets were bound since the last draw of the current subpass."""
         self.samples: int | None = None
 
     @property
     def dynamic_samples(self) -> int | None:
-        """The sample count that was set, where the pipeline leaves it to the commands."""
+        """The sample count that commands set, if the pipeline leaves it dynamic."""
         return self.samples if self.pipeline is not None and self.pipeline.dynamic_samples else None
 
-    def record(self, command: Recorded) -> None:
+    def record(self, command: RecordedCommand) -> None:
         """Adds a command."""
-        if len(self.recorded) < MAX_RECORDED:
-            self.recorded.append(command)
+        if len(self.commands) < MAX_COMMANDS:
+            self.commands.append(command)
 
-    def once(self, command: Recorded) -> None:
-        """Adds a command unless its like was added since the subpass began."""
-        if command not in self.seen:
-            self.seen.add(command)
+    def record_once(self, command: RecordedCommand) -> None:
+        """Adds a command unless the current subpass already has it."""
+        if command not in self.subpass_commands:
+            self.subpass_commands.add(command)
             self.record(command)
 
-    def boundary(self) -> None:
-        """A pass or a subpass begins or ends: what is drawn from here on is noted anew."""
-        self.seen.clear()
+    def start_section(self) -> None:
+        """Starts a new subpass, or the space between passes: later draws are recorded again."""
+        self.subpass_commands.clear()
         self.many.clear()
         self.fresh = True
 
 
-def drawn(counted: str, args: Mapping[str, Any]) -> tuple[int | None, int | None]:
-    """How many vertices or indices a draw has, and how many instances."""
+def draw_counts(counted: str, args: Mapping[str, Any]) -> tuple[int | None, int | None]:
+    """The number of vertices or indices of a draw, and the number of instances."""
     return (values.count(args.get(counted)), values.count(args.get("instanceCount"))) if counted else (None, None)
 
 
 def draw_key(pipeline: Pipeline | None, counted: str, count: int | None, instances: int | None) -> tuple[Any, ...]:
-    """A draw, as far as rules tell draws apart: the few vertices of a full-screen triangle or quad, or many."""
-    few = count is not None and count <= FEW and instances == 1
+    """The properties that distinguish draws for the rules: the count of a full-screen triangle or quad matters, larger counts do not."""
+    few = count is not None and count <= MAX_FULLSCREEN_VERTICES and instances == 1
     return (pipeline, counted, count if few else None)

@@ -1,4 +1,4 @@
-"""The commands of a kind of frame, as a description records them."""
+"""Writes the commands of a kind of frame as the `commands` of a description."""
 
 from __future__ import annotations
 
@@ -7,109 +7,114 @@ from typing import Any
 
 from msaa_lint.core.text.source import Origin
 
-from .command_buffers import Begin, Recorded
-from .frame_boundary import Ends, ends_of
-from .frames import BEGINS, Kind, Role, role_of
+from .command_buffers import RecordedCommand, RenderPassBegin
+from .frame_boundary import AspectUse, aspect_uses
+from .frames import PASS_BEGINS, FrameKind, Role, role_of
 from .names import Names
 from .objects import Image
 from .yaml_text import Alias, Lines
 
 SOMETIMES = "SOMETIMES"
-"""In place of the stage of what reads an image in some of the frames."""
+"""Stands for the stage of a read that occurs only in some frames."""
 
 
-class Recording:
-    """Writes the commands of one kind of frame. `here` are the images that its document describes, `framebuffers` the names of framebuffers
-    by what they are begun with, `total` the frames of the capture."""
+class CommandWriter:
+    """Writes the commands of one kind of frame.
 
-    def __init__(self, lines: Lines, names: Names, kind: Kind, here: set[Image], framebuffers: Mapping[Hashable, str], total: int) -> None:
+    `described_images` are the images in its document, `framebuffers` the framebuffer names by pass begin, and `total` is the number of
+    frames in the capture.
+    """
+
+    def __init__(
+        self, lines: Lines, names: Names, kind: FrameKind, described_images: set[Image], framebuffers: Mapping[Hashable, str], total: int
+    ) -> None:
         self.lines = lines
         self.names = names
         self.kind = kind
-        self.here = here
+        self.described_images = described_images
         self.framebuffers = framebuffers
         self.total = total
         self.renderings: dict[Hashable, str] = {}
 
     def write(self) -> None:
-        """Adds them."""
+        """Writes the `commands` section."""
         self.lines.line("commands:")
-        before = len(self.lines.text)
+        start = len(self.lines.text)
         order = list(commands_of(self.kind))
-        ends = ends_of(_plain(self.kind, order))
-        for image in self._handed_on(ends):
+        uses_by_image = aspect_uses(_with_images(self.kind, order))
+        for image in self._from_earlier_frames(uses_by_image):
             self._note("writeImage", image, "by an earlier frame")
         samples: int | None = None
-        for each, number in order:
-            origin = Origin(*each.at, each.by, self.kind.count, self.total)
-            if each.kind == "draw":
-                key: Any = each.key
+        for command, number in order:
+            origin = Origin(*command.at, command.by, self.kind.count, self.total)
+            if command.kind == "draw":
+                key: Any = command.key
                 if key[3] is not None and key[3] != samples:
                     samples = key[3]
                     self.lines.item(2, {"setRasterizationSamples": samples}, origin)
-            body = self._command(each, number)
+            body = self._command(command, number)
             if body is not None:
-                comment = f"call {each.at.call}" if each.at.call is not None and each.kind in BEGINS else ""
+                comment = f"call {command.at.call}" if command.at.call is not None and command.kind in PASS_BEGINS else ""
                 self.lines.item(2, body, origin, comment)
-        for image in self._read_later(ends):
+        for image in self._for_later_frames(uses_by_image):
             self._note("readImage", image, "by a later frame")
-        for image, own in ends.items():
-            if image.shared and image in self.here and any(end.last == "unread" for end in own.values()):
-                self._note("readImage", image, "its memory is shared with others")
-        if len(self.lines.text) == before:
+        for image, uses in uses_by_image.items():
+            if image.shared and image in self.described_images and any(use.last == "unread" for use in uses.values()):
+                self._note("readImage", image, "its memory is shared")
+        if len(self.lines.text) == start:
             self.lines.text[-1] += " []"
 
     def _note(self, kind: str, image: Image, why: str) -> None:
-        """A use of an image that no command of this frame is."""
+        """Writes a use of an image by something outside this frame."""
         self.lines.item(2, {kind: {"image": self.names.image(image)}}, None, why)
 
-    def _command(self, each: Recorded, number: int) -> Any:
-        """A command as a description writes it; None where it is about nothing that is described."""
-        key: Any = each.key
-        if each.kind in ("nextSubpass", "endRenderPass", "endRendering"):
-            return each.kind
-        if each.kind == "beginRenderPass":
+    def _command(self, command: RecordedCommand, number: int) -> Any:
+        """A command in the form of a description; None if it affects no described image."""
+        key: Any = command.key
+        if command.kind in ("nextSubpass", "endRenderPass", "endRendering"):
+            return command.kind
+        if command.kind == "beginRenderPass":
             return {"beginRenderPass": self._begin(key, list(self.kind.alternates[number].values()))}
-        if each.kind == "beginRendering":
+        if command.kind == "beginRendering":
             name = self.renderings.setdefault(key, f"rendering_{len(self.renderings)}")
             return {"beginRendering": Alias(name, self._rendering(key))}
-        if each.kind == "draw":
-            return {"draw": _draw(each, self.names)}
-        if each.kind == "clearAttachments":
-            return {each.kind: thawed(key)}
-        if each.kind == "pipelineBarrier":
+        if command.kind == "draw":
+            return {"draw": _draw(command, self.names)}
+        if command.kind == "clearAttachments":
+            return {command.kind: thaw(key)}
+        if command.kind == "pipelineBarrier":
             return self._barrier(key)
         images = [self._name(part) for part in (key if isinstance(key, tuple) else (key,)) if not isinstance(part, str)]
         if None in images and len(images) == 2:
-            # An image that no pass draws to is at the other end.
+            # The other image is not an attachment of any pass.
             member = "readImage" if images[0] is not None else "writeImage"
-            known = images[0] or images[1]
-            return {member: {"image": known}} if known is not None else None
+            described = images[0] or images[1]
+            return {member: {"image": described}} if described is not None else None
         if None in images:
             return None
-        if each.kind in ("resolveImage", "copyImage", "blitImage"):
-            return {each.kind: dict(zip(("srcImage", "dstImage"), images, strict=True))}
-        if each.kind in ("copyImageToBuffer", "copyBufferToImage"):
-            return {each.kind: {"srcImage" if each.kind == "copyImageToBuffer" else "dstImage": images[0]}}
-        made: dict[str, Any] = {"image": images[0]}
-        if each.kind in ("readImage", "writeImage") and key[1] != SOMETIMES:
+        if command.kind in ("resolveImage", "copyImage", "blitImage"):
+            return {command.kind: dict(zip(("srcImage", "dstImage"), images, strict=True))}
+        if command.kind in ("copyImageToBuffer", "copyBufferToImage"):
+            return {command.kind: {"srcImage" if command.kind == "copyImageToBuffer" else "dstImage": images[0]}}
+        body: dict[str, Any] = {"image": images[0]}
+        if command.kind in ("readImage", "writeImage") and key[1] != SOMETIMES:
             stage = key[1]
-            made["stage"] = stage
-            # What a descriptor set holds a shader may read, or not: only a transfer is certain, and has an access.
+            body["stage"] = stage
+            # A shader may or may not read a descriptor set. Only a transfer is certain, so only it states an access.
             if stage == "RESOLVE":
-                made["access"] = "TRANSFER_READ" if each.kind == "readImage" else "TRANSFER_WRITE"
-        return {each.kind: made}
+                body["access"] = "TRANSFER_READ" if command.kind == "readImage" else "TRANSFER_WRITE"
+        return {command.kind: body}
 
     def _name(self, part: Any) -> str | None:
         image = self.kind.images[part.number] if isinstance(part, Role) else part
-        return self.names.image(image) if isinstance(image, Image) and image in self.here else None
+        return self.names.image(image) if isinstance(image, Image) and image in self.described_images else None
 
-    def _begin(self, begin: Begin, alternates: list[Begin]) -> dict[str, Any]:
+    def _begin(self, begin: RenderPassBegin, alternates: list[RenderPassBegin]) -> dict[str, Any]:
         tree: dict[str, Any] = {"renderPass": self.names.of("render_pass", begin.render_pass)}
-        names = [self.framebuffers.get((each.framebuffer, each.images, each.render_pass)) for each in alternates]
-        stated = list(dict.fromkeys(name for name in names if name is not None))
-        if stated:
-            tree["framebuffer"] = stated[0] if len(stated) == 1 else stated
+        names = [self.framebuffers.get((alternate.framebuffer, alternate.images, alternate.render_pass)) for alternate in alternates]
+        framebuffers = list(dict.fromkeys(name for name in names if name is not None))
+        if framebuffers:
+            tree["framebuffer"] = framebuffers[0] if len(framebuffers) == 1 else framebuffers
         if begin.area is not None:
             tree["renderArea"] = dict(zip(("x", "y", "width", "height"), begin.area, strict=True))
         if begin.clear_values is not None:
@@ -117,14 +122,14 @@ class Recording:
         return tree
 
     def _rendering(self, key: Hashable) -> dict[str, Any]:
-        tree: dict[str, Any] = thawed(key)
-        made = {member: value for member, value in tree.items() if value not in ([], None)}
-        if "colorAttachments" in made:
-            made["colorAttachments"] = [self._attachment(each) for each in made["colorAttachments"]]
+        tree: dict[str, Any] = thaw(key)
+        body = {member: value for member, value in tree.items() if value not in ([], None)}
+        if "colorAttachments" in body:
+            body["colorAttachments"] = [self._attachment(attachment) for attachment in body["colorAttachments"]]
         for member in ("depthAttachment", "stencilAttachment"):
-            if member in made:
-                made[member] = self._attachment(made[member])
-        return made
+            if member in body:
+                body[member] = self._attachment(body[member])
+        return body
 
     def _attachment(self, tree: dict[str, Any] | None) -> dict[str, Any] | None:
         if tree is None:
@@ -133,98 +138,98 @@ class Recording:
 
     def _barrier(self, key: Any) -> Any:
         masks, part, layouts = key
-        made: dict[str, Any] = thawed(masks)
+        body: dict[str, Any] = thaw(masks)
         if part is not None:
             name = self._name(part)
             if name is None:
                 return None
             barrier: dict[str, Any] = {"image": name}
             barrier.update({member: value for member, value in zip(("oldLayout", "newLayout"), layouts, strict=True) if value is not None})
-            made["images"] = [barrier]
-        return {"pipelineBarrier": made}
+            body["images"] = [barrier]
+        return {"pipelineBarrier": body}
 
-    def _handed_on(self, ends: dict[Image, dict[str, Ends]]) -> Iterator[Image]:
-        """What an earlier frame of another kind wrote, where this one, coming again, would read what it discarded itself."""
-        for image, own in ends.items():
-            lost = [aspect for aspect, end in own.items() if end.first == "read" and end.last == "discarded"]
-            known = {(self._role(image), aspect) for aspect in lost}
-            if image in self.here and known & self.kind.defined - self.kind.undefined:
+    def _from_earlier_frames(self, uses_by_image: dict[Image, dict[str, AspectUse]]) -> Iterator[Image]:
+        """Images written by an earlier frame of another kind, which a repetition of this frame would read after discarding them."""
+        for image, uses in uses_by_image.items():
+            discarded = [aspect for aspect, use in uses.items() if use.first == "read" and use.last == "discarded"]
+            roles = {(self._role(image), aspect) for aspect in discarded}
+            if image in self.described_images and roles & self.kind.defined - self.kind.undefined:
                 yield image
 
-    def _read_later(self, ends: dict[Image, dict[str, Ends]]) -> Iterator[Image]:
-        """What a later frame of another kind reads, where this one, coming again, would not."""
-        for image, own in ends.items():
-            left = [aspect for aspect, end in own.items() if end.last == "unread" and end.first != "read"]
-            if image in self.here and any((self._role(image), aspect) in self.kind.later for aspect in left):
+    def _for_later_frames(self, uses_by_image: dict[Image, dict[str, AspectUse]]) -> Iterator[Image]:
+        """Images read by a later frame of another kind, but not by a repetition of this frame."""
+        for image, uses in uses_by_image.items():
+            unread = [aspect for aspect, use in uses.items() if use.last == "unread" and use.first != "read"]
+            if image in self.described_images and any((self._role(image), aspect) in self.kind.later for aspect in unread):
                 yield image
 
     def _role(self, image: Image) -> Hashable:
-        """An image by its place in the frame's passes, where it has one."""
-        return next((role_of(number) for number, each in enumerate(self.kind.images) if each is image), image)
+        """The role of an image in the frame; the image itself if it has none."""
+        return next((role_of(number) for number, other in enumerate(self.kind.images) if other is image), image)
 
 
-def thawed(value: Any) -> Any:
-    """What was frozen, as plain data again: pairs are members, other tuples arrays."""
+def thaw(value: Any) -> Any:
+    """The inverse of `freeze`: tuples of pairs become mappings, other tuples lists."""
     if isinstance(value, tuple):
-        pairs = value and all(isinstance(each, tuple) and len(each) == 2 and isinstance(each[0], str) for each in value)
-        return {key: thawed(item) for key, item in value} if pairs else [thawed(each) for each in value]
+        pairs = value and all(isinstance(item, tuple) and len(item) == 2 and isinstance(item[0], str) for item in value)
+        return {key: thaw(item) for key, item in value} if pairs else [thaw(item) for item in value]
     return value
 
 
-def commands_of(kind: Kind) -> Iterator[tuple[Recorded, int]]:
-    """The commands of a kind of frame in order, each with the number of the pass that it is in or before."""
+def commands_of(kind: FrameKind) -> Iterator[tuple[RecordedCommand, int]]:
+    """The commands of a kind of frame in order, each with the number of the pass that contains or follows it."""
     for number in range(len(kind.passes) + 1):
-        ways = sorted(kind.between[number], key=lambda way: -way.count)
-        for each in ways[0].items if ways else ():
-            yield each, number
-        # What only some of the frames read here has a reader all the same.
-        read = {source for each in (ways[0].items if ways else ()) if (source := _read(each)) is not None}
-        for each in (each for way in ways[1:] for each in way.items):
-            source = _read(each)
+        variants = sorted(kind.gaps[number], key=lambda variant: -variant.count)
+        for command in variants[0].items if variants else ():
+            yield command, number
+        # Images that only some of the frames read here are read nevertheless.
+        read = {source for command in (variants[0].items if variants else ()) if (source := _source_image(command)) is not None}
+        for command in (command for variant in variants[1:] for command in variant.items):
+            source = _source_image(command)
             if source is not None and source not in read:
                 read.add(source)
-                yield Recorded("readImage", (source, SOMETIMES), each.at, each.by), number
+                yield RecordedCommand("readImage", (source, SOMETIMES), command.at, command.by), number
         if number == len(kind.passes):
             return
         begin = kind.passes[number]
         yield begin, number
-        within = sorted(kind.within[number].items(), key=lambda item: item[0][0])  # type: ignore[index]
-        for _, each in within:
-            yield each, number
+        pass_commands = sorted(kind.pass_commands[number].items(), key=lambda item: item[0][0])  # type: ignore[index]
+        for _, command in pass_commands:
+            yield command, number
         end = "endRenderPass" if begin.kind == "beginRenderPass" else "endRendering"
-        yield Recorded(end, None, begin.at, begin.by), number
+        yield RecordedCommand(end, None, begin.at, begin.by), number
 
 
-def _read(each: Recorded) -> Hashable | None:
-    """The image that a command between passes reads."""
-    key: Any = each.key
-    if each.kind in ("readImage", "resolveImage", "copyImage", "blitImage", "copyImageToBuffer"):
+def _source_image(command: RecordedCommand) -> Hashable | None:
+    """The image that a command between passes reads, if any."""
+    key: Any = command.key
+    if command.kind in ("readImage", "resolveImage", "copyImage", "blitImage", "copyImageToBuffer"):
         source: Hashable = key[0]
         return source
     return None
 
 
-def _plain(kind: Kind, order: Iterable[tuple[Recorded, int]]) -> list[Recorded]:
-    """Commands with images in place of their places."""
+def _with_images(kind: FrameKind, order: Iterable[tuple[RecordedCommand, int]]) -> list[RecordedCommand]:
+    """The commands with roles replaced by images."""
 
-    def of(part: Any) -> Any:
+    def image_of(part: Any) -> Any:
         return kind.images[part.number] if isinstance(part, Role) else part
 
-    made = []
-    for each, _ in order:
-        key: Any = each.key
-        if isinstance(key, tuple) and not isinstance(key, Begin):
-            key = tuple(map(of, key))
-        made.append(Recorded(each.kind, of(key), each.at, each.by))
-    return made
+    commands = []
+    for command, _ in order:
+        key: Any = command.key
+        if isinstance(key, tuple) and not isinstance(key, RenderPassBegin):
+            key = tuple(map(image_of, key))
+        commands.append(RecordedCommand(command.kind, image_of(key), command.at, command.by))
+    return commands
 
 
-def _draw(each: Recorded, names: Names) -> dict[str, Any]:
-    key: Any = each.key
+def _draw(command: RecordedCommand, names: Names) -> dict[str, Any]:
+    key: Any = command.key
     pipeline, counted, _, _ = key
-    count, instances = each.detail or (None, None)
-    made: dict[str, Any] = {}
+    count, instances = command.detail or (None, None)
+    body: dict[str, Any] = {}
     if pipeline is not None:
-        made["pipeline"] = names.of("pipeline", pipeline)
-    made.update({name: value for name, value in ((counted, count), ("instanceCount", instances)) if value is not None and value >= 0})
-    return made
+        body["pipeline"] = names.of("pipeline", pipeline)
+    body.update({name: value for name, value in ((counted, count), ("instanceCount", instances)) if value is not None and value >= 0})
+    return body

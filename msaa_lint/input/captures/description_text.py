@@ -1,6 +1,6 @@
-"""A capture as the text of a description: its kinds of frames, each a document, the commonest first.
+"""Writes a capture as the text of a description: one document for each kind of frame, the most frequent first.
 
-What is checked is this text, and it is what `msaa-lint convert` prints: the two cannot disagree.
+`msaa-lint check` checks this text and `msaa-lint convert` prints it, so the two cannot disagree.
 """
 
 from __future__ import annotations
@@ -10,33 +10,33 @@ from typing import Any, NamedTuple
 
 from msaa_lint.core.text.source import Origin
 
-from .command_buffers import Begin
-from .command_writer import Recording, commands_of
-from .frames import Kind
+from .command_buffers import RenderPassBegin
+from .command_writer import CommandWriter, commands_of
+from .frames import FrameKind
 from .names import Names
-from .objects import Created, Framebuffer, Image, Pipeline, RenderPass, frozen
+from .objects import CapturedObject, Framebuffer, Image, Pipeline, RenderPass, freeze
 from .tracker import Tracker
 from .yaml_text import Lines
 
-FRAMES_A_SECOND = 60
-"""What costs are reckoned by where a description states no rate: a kind of frame that is one of many comes that much more seldom."""
+DEFAULT_FPS = 60
+"""The default frame rate of cost estimates. A kind that is only part of the frames gets its share of this rate."""
 
 MAX_UNUSED = 500
-"""So many objects of a kind that no frame uses are written."""
+"""Maximum number of objects of a kind that are written although no frame uses them."""
 
 
-class Written(NamedTuple):
-    """The text, the call that each line is from, and the code of the shaders that it names, by the names they have there."""
+class DescriptionText(NamedTuple):
+    """The text, the call behind each line, the shader code by the names in the text, and the number of frames and of dropped frames."""
 
     text: str
     origins: list[Origin | None]
     modules: dict[str, bytes]
     frames: int
-    unkept: int
+    dropped: int
 
 
-def written(tracker: Tracker) -> Written:
-    """What a capture holds."""
+def describe_capture(tracker: Tracker) -> DescriptionText:
+    """The description of a capture."""
     lines = Lines()
     writer = _Writer(tracker, lines)
     kinds = sorted(tracker.frames.kinds.values(), key=lambda kind: (-kind.count, kind.number))
@@ -46,7 +46,7 @@ def written(tracker: Tracker) -> Written:
         writer.frame(kind, first=number == 0)
     if not kinds:
         writer.structures()
-    return Written("\n".join(lines.text) + "\n", lines.origins, writer.modules, tracker.frames.total, tracker.frames.unkept)
+    return DescriptionText("\n".join(lines.text) + "\n", lines.origins, writer.modules, tracker.frames.total, tracker.frames.dropped)
 
 
 class _Writer:
@@ -57,50 +57,50 @@ class _Writer:
         self.lines = lines
         self.names = Names()
         self.modules: dict[str, bytes] = {}
-        self.here: set[Image] = set()
-        """The images of the document that is written."""
+        self.described_images: set[Image] = set()
+        """The images of the current document."""
         self.total = tracker.frames.total
         self.used_images = {image for kind in tracker.frames.kinds.values() for image in _images(kind)}
-        alike = {image_key(image) for image in self.used_images}
-        unused = [each for each in tracker.multisampled.values() if image_key(each) not in alike]
+        used_keys = {image_key(image) for image in self.used_images}
+        unused = [each for each in tracker.multisampled.values() if image_key(each) not in used_keys]
         self.unused_images = unused[:MAX_UNUSED]
         distinct = list(tracker.distinct.values())
         self.unused_passes = [each for each in distinct if isinstance(each, RenderPass) and not each.frames][:MAX_UNUSED]
         self.unused_pipelines = [each for each in distinct if isinstance(each, Pipeline) and not each.frames][:MAX_UNUSED]
 
     def structures(self) -> None:
-        """A capture without a frame: what was created, by itself."""
+        """Writes a capture without frames: only the objects that it creates."""
         self._head(None)
         self._images(self.unused_images)
-        self._passes(list(dict.fromkeys([*self.unused_passes, *_behind(self.unused_pipelines)])))
+        self._passes(list(dict.fromkeys([*self.unused_passes, *_render_passes_of(self.unused_pipelines)])))
         self._pipelines(self.unused_pipelines)
-        # Which of the passes a frame begins, and with what around them, is not known.
+        # It is unknown which passes a frame begins.
         self.lines.line("commands: []")
 
-    def frame(self, kind: Kind, first: bool) -> None:
-        """One kind of frame; the first also has what no frame uses."""
-        begins = [each.key for each in kind.passes if isinstance(each.key, Begin)]
+    def frame(self, kind: FrameKind, first: bool) -> None:
+        """Writes one kind of frame. The first document also contains the objects that no frame uses."""
+        begins = [item.key for item in kind.passes if isinstance(item.key, RenderPassBegin)]
         passes = list(dict.fromkeys(begin.render_pass for begin in begins))
-        drawn = [each.key[0] for each, _ in commands_of(kind) if each.kind == "draw" and isinstance(each.key, tuple)]
-        pipelines = [each for each in dict.fromkeys(drawn) if isinstance(each, Pipeline)]
+        draw_counts = [item.key[0] for item, _ in commands_of(kind) if item.kind == "draw" and isinstance(item.key, tuple)]
+        pipelines = [item for item in dict.fromkeys(draw_counts) if isinstance(item, Pipeline)]
         images = _images(kind)
         if first:
-            images += [each for each in self.unused_images if each not in images]
-            passes += [each for each in self.unused_passes if each not in passes]
-            pipelines += [each for each in self.unused_pipelines if each not in pipelines]
-        passes = list(dict.fromkeys([*passes, *_behind(pipelines)]))
+            images += [item for item in self.unused_images if item not in images]
+            passes += [item for item in self.unused_passes if item not in passes]
+            pipelines += [item for item in self.unused_pipelines if item not in pipelines]
+        passes = list(dict.fromkeys([*passes, *_render_passes_of(pipelines)]))
         self._head(kind)
         self._images(images)
         self._passes(passes)
         framebuffers = self._framebuffers(kind)
         self._pipelines(pipelines)
-        Recording(self.lines, self.names, kind, self.here, framebuffers, self.total).write()
+        CommandWriter(self.lines, self.names, kind, self.described_images, framebuffers, self.total).write()
 
-    def _head(self, kind: Kind | None) -> None:
+    def _head(self, kind: FrameKind | None) -> None:
         lines = self.lines
         if kind is not None and kind.count < self.total:
-            rate = float(f"{FRAMES_A_SECOND * kind.count / self.total:.4g}")
-            lines.line(f"frame: {{fps: {rate!r}}}  # {kind.count} of {self.total} frames, at {FRAMES_A_SECOND} frames a second")
+            rate = float(f"{DEFAULT_FPS * kind.count / self.total:.4g}")
+            lines.line(f"frame: {{fps: {rate!r}}}  # {kind.count} of {self.total} frames, at {DEFAULT_FPS} frames per second")
         device = self.tracker.device()
         if device:
             for line in device.splitlines():
@@ -109,103 +109,103 @@ class _Writer:
         if enabled:
             lines.member(0, "enabled", enabled, None)
 
-    def origin(self, made: Created) -> Origin:
-        """The call that an object is from."""
-        return Origin(*made.at, made.by, made.frames or None, self.total)
+    def origin(self, created: CapturedObject) -> Origin:
+        """The call that created an object."""
+        return Origin(*created.at, created.by, created.frames or None, self.total)
 
     def _images(self, images: list[Image]) -> None:
-        self.here = set(images)
+        self.described_images = set(images)
         if images:
             self.lines.line("images:")
         for image in images:
-            self.lines.member(2, self.names.image(image), image.tree, self.origin(image), remark(image))
+            self.lines.member(2, self.names.image(image), image.tree, self.origin(image), origin_comment(image))
 
     def _passes(self, passes: list[RenderPass]) -> None:
         if passes:
             self.lines.line("renderPasses:")
-        for each in passes:
-            origin = self.origin(each)
-            self.lines.line(f"  {self.names.of('render_pass', each)}:  # {remark(each)}", origin)
-            if not each.tree:
+        for render_pass in passes:
+            origin = self.origin(render_pass)
+            self.lines.line(f"  {self.names.of('render_pass', render_pass)}:  # {origin_comment(render_pass)}", origin)
+            if not render_pass.tree:
                 self.lines.text[-1] = self.lines.text[-1].replace(":  #", ": {}  #", 1)
             for member in ("flags", "attachments", "subpasses", "dependencies"):
-                if member not in each.tree:
+                if member not in render_pass.tree:
                     continue
                 if member == "flags":
-                    self.lines.member(4, member, each.tree[member], origin)
+                    self.lines.member(4, member, render_pass.tree[member], origin)
                     continue
                 self.lines.line(f"    {member}:", origin)
-                for item in each.tree[member]:
+                for item in render_pass.tree[member]:
                     self.lines.item(6, item, origin)
 
-    def _framebuffers(self, kind: Kind) -> dict[Hashable, str]:
-        """The framebuffers of the kind's passes, by the begin they are for; one for each set of images."""
-        found: dict[Hashable, str] = {}
+    def _framebuffers(self, kind: FrameKind) -> dict[Hashable, str]:
+        """Writes the framebuffers of the kind's passes, one for each set of images, and returns their names."""
+        names: dict[Hashable, str] = {}
         for alternates in kind.alternates:
             for begin in alternates.values():
                 key = (begin.framebuffer, begin.images, begin.render_pass)
-                if begin.framebuffer is None or key in found:
+                if begin.framebuffer is None or key in names:
                     continue
-                if not found:
+                if not names:
                     self.lines.line("framebuffers:")
-                found[key] = self.names.framebuffer(begin.framebuffer, begin.images, begin.render_pass)
-                self._framebuffer(found[key], begin.framebuffer, begin)
-        return found
+                names[key] = self.names.framebuffer(begin.framebuffer, begin.images, begin.render_pass)
+                self._framebuffer(names[key], begin.framebuffer, begin)
+        return names
 
-    def _framebuffer(self, name: str, framebuffer: Framebuffer, begin: Begin) -> None:
+    def _framebuffer(self, name: str, framebuffer: Framebuffer, begin: RenderPassBegin) -> None:
         tree: dict[str, Any] = {"renderPass": self.names.of("render_pass", begin.render_pass)}
         tree["attachments"] = [self.names.image(image) if image is not None else None for image in begin.images]
         for member in ("width", "height", "layers"):
             if getattr(framebuffer, member) is not None:
                 tree[member] = getattr(framebuffer, member)
-        wanted = len(begin.render_pass.tree.get("attachments", []))
-        if len(begin.images) != wanted:
-            # Views that the capture does not tell: which image is whose is not known.
+        count = len(begin.render_pass.tree.get("attachments", []))
+        if len(begin.images) != count:
+            # The capture lacks some views, so it is unknown which image belongs to which attachment.
             del tree["attachments"]
-        self.lines.member(2, name, tree, self.origin(framebuffer), remark(framebuffer))
+        self.lines.member(2, name, tree, self.origin(framebuffer), origin_comment(framebuffer))
 
     def _pipelines(self, pipelines: list[Pipeline]) -> None:
         if pipelines:
             self.lines.line("pipelines:")
-        for each in pipelines:
+        for pipeline in pipelines:
             tree: dict[str, Any] = {}
-            if each.render_pass is not None:
-                tree["renderPass"] = self.names.of("render_pass", each.render_pass)
-            tree.update(each.tree)
-            self.modules.update(each.modules)
-            self.lines.member(2, self.names.of("pipeline", each), tree, self.origin(each), remark(each))
+            if pipeline.render_pass is not None:
+                tree["renderPass"] = self.names.of("render_pass", pipeline.render_pass)
+            tree.update(pipeline.tree)
+            self.modules.update(pipeline.modules)
+            self.lines.member(2, self.names.of("pipeline", pipeline), tree, self.origin(pipeline), origin_comment(pipeline))
 
 
-def remark(made: Created) -> str:
-    """What a comment says of where an object is from."""
-    return made.by if made.at.call is None else f"{made.by}, call {made.at.call}"
+def origin_comment(created: CapturedObject) -> str:
+    """A comment that names the call that created an object."""
+    return created.by if created.at.call is None else f"{created.by}, call {created.at.call}"
 
 
 def image_key(image: Image) -> Hashable:
-    """What two images that were created alike share."""
-    return frozen({key: value for key, value in image.tree.items() if key != "memory"})
+    """The creation parameters of an image, without its memory."""
+    return freeze({key: value for key, value in image.tree.items() if key != "memory"})
 
 
-def _behind(pipelines: list[Pipeline]) -> list[RenderPass]:
+def _render_passes_of(pipelines: list[Pipeline]) -> list[RenderPass]:
     """The render passes of pipelines."""
-    return [each.render_pass for each in pipelines if each.render_pass is not None]
+    return [pipeline.render_pass for pipeline in pipelines if pipeline.render_pass is not None]
 
 
-def _images(kind: Kind) -> list[Image]:
-    """The images that a kind of frame draws to, those of alternating framebuffers among them."""
-    found = dict.fromkeys(kind.images)
+def _images(kind: FrameKind) -> list[Image]:
+    """The images of a kind of frame, including those of alternating framebuffers."""
+    images = dict.fromkeys(kind.images)
     for alternates in kind.alternates:
         for begin in alternates.values():
-            found.update(dict.fromkeys(image for image in begin.images if image is not None))
-    for each, _ in commands_of(kind):
-        if each.kind not in ("beginRenderPass", "pipelineBarrier"):
-            found.update(dict.fromkeys(_images_in(each.key)))
-    return list(found)
+            images.update(dict.fromkeys(image for image in begin.images if image is not None))
+    for command, _ in commands_of(kind):
+        if command.kind not in ("beginRenderPass", "pipelineBarrier"):
+            images.update(dict.fromkeys(_images_in(command.key)))
+    return list(images)
 
 
 def _images_in(key: Any) -> Iterator[Image]:
     if isinstance(key, Image):
         yield key
     elif isinstance(key, tuple):
-        for each in key:
-            yield from _images_in(each)
+        for item in key:
+            yield from _images_in(item)

@@ -1,4 +1,4 @@
-"""Descriptor sets, as far as they hold images that passes draw to."""
+"""Tracks the images in descriptor sets."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .objects import DescriptorSet, Image
 
 _STORAGE_IMAGE = 3
 _IMAGES = (1, 2, _STORAGE_IMAGE)
-"""VkDescriptorType by number: COMBINED_IMAGE_SAMPLER, SAMPLED_IMAGE. A subpass reads its input attachments on the tile."""
+"""VkDescriptorType: COMBINED_IMAGE_SAMPLER, SAMPLED_IMAGE, STORAGE_IMAGE. Input attachments are read on the tile and omitted."""
 _NAMES = {
     "VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER": False,
     "VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE": False,
@@ -19,7 +19,7 @@ _NAMES = {
 
 
 class Descriptors:
-    """Follows the descriptor sets of a capture."""
+    """Tracks the descriptor sets of a capture."""
 
     views: dict[int, Image]
 
@@ -43,30 +43,29 @@ class Descriptors:
         for handle in self.set_pools.pop(values.handle(call.args.get("descriptorPool")), ()):
             self.sets.pop(handle, None)
 
-    def on_DestroyDescriptorPool(self, call: Call) -> None:
-        self.on_ResetDescriptorPool(call)
+    on_DestroyDescriptorPool = on_ResetDescriptorPool
 
     def on_UpdateDescriptorSets(self, call: Call) -> None:
         for item in values.items(call.args.get("pDescriptorWrites")):
             write = values.record(item)
-            known = self.sets.get(values.handle(write.get("dstSet")))
-            if known is not None:
-                self.write(known, write)
+            target_set = self.sets.get(values.handle(write.get("dstSet")))
+            if target_set is not None:
+                self.write(target_set, write)
         for item in values.items(call.args.get("pDescriptorCopies")):
             copy = values.record(item)
             source, target = (self.sets.get(values.handle(copy.get(name))) for name in ("srcSet", "dstSet"))
             if source is not None and target is not None:
-                # Which of them are copied matters less than that what they hold may be read.
+                # Copies all images, whichever descriptors are copied: the rules only ask what may be read.
                 target.images.update(source.images)
                 target.opaque = target.opaque or source.opaque
 
     def on_UpdateDescriptorSetWithTemplate(self, call: Call) -> None:
-        known = self.sets.get(values.handle(call.args.get("descriptorSet")))
-        if known is not None:
-            known.opaque = True
+        target = self.sets.get(values.handle(call.args.get("descriptorSet")))
+        if target is not None:
+            target.opaque = True
 
     def write(self, target: DescriptorSet, write: dict[str, Any]) -> None:
-        """A VkWriteDescriptorSet into a set."""
+        """Applies a VkWriteDescriptorSet to a set."""
         storage = _storage(write.get("descriptorType"))
         if storage is None:
             return
@@ -82,7 +81,7 @@ class Descriptors:
 
 
 def _storage(kind: object) -> bool | None:
-    """Whether a descriptor type is written to as well; None where it is no image, or an input attachment."""
+    """Whether shaders may write a descriptor type; None if it is an input attachment or not an image."""
     number = values.integer(kind)
     if number is not None:
         return number == _STORAGE_IMAGE if number in _IMAGES else None

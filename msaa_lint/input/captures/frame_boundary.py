@@ -1,7 +1,6 @@
-"""What a frame does with an image first, and what it leaves there: enough to tell what one frame has of another.
+"""How a frame first uses an image and what it leaves in it, to follow contents from one frame to the next.
 
-Within a frame the facts of its description say who reads what. From frame to frame a description only knows that the frame comes again; a
-capture knows what truly came next.
+A description covers a single frame, which is assumed to repeat. A capture shows which frame actually follows.
 """
 
 from __future__ import annotations
@@ -9,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from .command_buffers import Begin, Recorded
+from .command_buffers import RecordedCommand, RenderPassBegin
 from .objects import Image
 
 READ = "read"
@@ -18,20 +17,23 @@ STORE = "store"
 DISCARD = "discard"
 
 
-class Ends(NamedTuple):
-    """Of one aspect of an image in a frame: `first` is how it is first used, `read` or `overwrite`, None where neither; `last` what is left
-    of it: `unread` (stored, and not read since), `read`, or `discarded`; None where the frame does not write it."""
+class AspectUse(NamedTuple):
+    """The use of one aspect of an image in a frame.
+
+    `first` is its first use: `read`, `overwrite`, or None. `last` is its state at the end: `unread` (stored and not read since), `read`,
+    `discarded`, or None if the frame does not write it.
+    """
 
     first: str | None
     last: str | None
 
 
-def ends_of(recorded: list[Recorded]) -> dict[Image, dict[str, Ends]]:
-    """What the commands of a frame do to every aspect of the images that they use."""
-    found: dict[Image, dict[str, Ends]] = {}
-    for image, aspect, use in _uses(recorded):
-        for each in image.aspects if aspect is None else (aspect,):
-            first, last = found.setdefault(image, {}).get(each, (None, None))
+def aspect_uses(commands: list[RecordedCommand]) -> dict[Image, dict[str, AspectUse]]:
+    """The use of each aspect of each image by the commands of a frame."""
+    uses: dict[Image, dict[str, AspectUse]] = {}
+    for image, aspect, use in _uses(commands):
+        for used_aspect in image.aspects if aspect is None else (aspect,):
+            first, last = uses.setdefault(image, {}).get(used_aspect, (None, None))
             if first is None and use in (READ, OVERWRITE):
                 first = use
             if use == READ:
@@ -40,29 +42,29 @@ def ends_of(recorded: list[Recorded]) -> dict[Image, dict[str, Ends]]:
                 last = "unread"
             elif use == DISCARD:
                 last = "discarded"
-            found[image][each] = Ends(first, last)
-    return found
+            uses[image][used_aspect] = AspectUse(first, last)
+    return uses
 
 
 _SOURCES = ("readImage", "present", "copyImageToBuffer")
 
 
-def _uses(recorded: list[Recorded]) -> Iterator[tuple[Image, str | None, str]]:
-    """The uses of images in the order of the commands; what a pass leaves comes where it begins."""
-    for each in recorded:
-        key: Any = each.key
-        if isinstance(key, Begin):
+def _uses(commands: list[RecordedCommand]) -> Iterator[tuple[Image, str | None, str]]:
+    """The uses of images in command order: image, aspect (None for all) and use. The stores of a pass come at its beginning."""
+    for command in commands:
+        key: Any = command.key
+        if isinstance(key, RenderPassBegin):
             yield from _render_pass(key)
-        elif each.kind == "beginRendering":
+        elif command.kind == "beginRendering":
             yield from _rendering(key)
-        elif each.kind in _SOURCES:
+        elif command.kind in _SOURCES:
             yield _image(key), None, READ
-        elif each.kind in ("resolveImage", "copyImage", "blitImage"):
+        elif command.kind in ("resolveImage", "copyImage", "blitImage"):
             yield key[0], None, READ
-            if each.kind == "resolveImage":
+            if command.kind == "resolveImage":
                 yield key[1], None, OVERWRITE
             yield key[1], None, STORE
-        elif each.kind in ("clearColorImage", "clearDepthStencilImage", "copyBufferToImage", "writeImage"):
+        elif command.kind in ("clearColorImage", "clearDepthStencilImage", "copyBufferToImage", "writeImage"):
             yield _image(key), None, STORE
 
 
@@ -70,18 +72,18 @@ def _image(key: Any) -> Image:
     return key if isinstance(key, Image) else key[0]
 
 
-def _render_pass(begin: Begin) -> Iterator[tuple[Image, str | None, str]]:
+def _render_pass(begin: RenderPassBegin) -> Iterator[tuple[Image, str | None, str]]:
     attachments = begin.render_pass.tree.get("attachments", [])
-    resolved = _resolve_targets(begin.render_pass.tree)
+    targets = _resolve_targets(begin.render_pass.tree)
     pairs = [(index, tree, begin.images[index]) for index, tree in enumerate(attachments) if index < len(begin.images)]
-    whole = begin.framebuffer is not None
+    has_framebuffer = begin.framebuffer is not None
     for index, tree, image in pairs:
         if image is None:
             continue
-        covered = whole and _covers(image, begin)
+        covered = has_framebuffer and _covers(image, begin)
         for aspect in image.aspects:
             member = "stencilLoadOp" if aspect == "stencil" else "loadOp"
-            yield from _load(image, aspect, tree.get(member), covered or (index in resolved and covered))
+            yield from _load(image, aspect, tree.get(member), covered or (index in targets and covered))
     for _, tree, image in pairs:
         for aspect in image.aspects if image is not None else ():
             assert image is not None
@@ -102,44 +104,44 @@ def _rendering(key: Any) -> Iterator[tuple[Image, str | None, str]]:
     members = [("color", each) for each in tree.get("colorAttachments", ())]
     members += [("depth", tree.get("depthAttachment")), ("stencil", tree.get("stencilAttachment"))]
     stores: list[tuple[Image, str | None, str]] = []
-    for aspect, given in members:
-        attachment = dict(given or ())
+    for aspect, info in members:
+        attachment = dict(info or ())
         image = attachment.get("image")
         if image is None:
             continue
-        yield from _load(image, aspect, "LOAD" if "RESUMING" in flags else attachment.get("loadOp"), _plain(image))
+        yield from _load(image, aspect, "LOAD" if "RESUMING" in flags else attachment.get("loadOp"), _is_single_level(image))
         stored = attachment.get("storeOp") in ("STORE", None) or "SUSPENDING" in flags
         stores.append((image, aspect, STORE if stored else DISCARD))
         target = attachment.get("resolveImage")
         if target is not None and attachment.get("resolveMode") not in (None, "NONE"):
-            if _plain(target):
+            if _is_single_level(target):
                 yield target, aspect, OVERWRITE
             stores.append((target, aspect, STORE))
     yield from stores
 
 
 def _resolve_targets(tree: dict[str, Any]) -> set[int]:
-    found: set[int] = set()
+    targets: set[int] = set()
     for subpass in tree.get("subpasses", []):
         for reference in subpass.get("resolveAttachments", []):
             index = reference.get("attachment") if isinstance(reference, dict) else reference
             if isinstance(index, int):
-                found.add(index)
-    return found
+                targets.add(index)
+    return targets
 
 
-def _plain(image: Image) -> bool:
-    """Whether an image has one mip level and one layer, so that a pass can write all of it."""
+def _is_single_level(image: Image) -> bool:
+    """Whether an image has one mip level and one layer, so that one pass can write all of it."""
     return all(count == 1 for count in (image.tree.get("mipLevels", 1), image.tree.get("arrayLayers", 1), _depth(image)))
 
 
 def _depth(image: Image) -> int:
-    """How many slices an image of three dimensions has."""
+    """The depth of an image in texels; 1 unless it is 3D."""
     count: int = image.tree.get("extent", {}).get("depth", 1)
     return count
 
 
-def _covers(image: Image, begin: Begin) -> bool:
+def _covers(image: Image, begin: RenderPassBegin) -> bool:
     framebuffer = begin.framebuffer
     if framebuffer is None or image.tree.get("mipLevels", 1) > 1 or _depth(image) > 1:
         return False
@@ -147,8 +149,8 @@ def _covers(image: Image, begin: Begin) -> bool:
         return False
     extent = image.tree.get("extent", {})
     for number, side in ((2, "width"), (3, "height")):
-        whole = extent.get(side)
+        full = extent.get(side)
         sizes = [getattr(framebuffer, side), begin.area[number] if begin.area is not None else None]
-        if whole is not None and any(size is not None and size < whole for size in sizes):
+        if full is not None and any(size is not None and size < full for size in sizes):
             return False
     return begin.area is None or begin.area[:2] == (0, 0)

@@ -1,7 +1,7 @@
-"""Frames: the submitted commands from one present to the next, those alike counted once.
+"""Frames: the submitted commands from one present to the next, grouped into kinds.
 
-Two frames are alike where they begin the same passes in the same order on images of the same kind. What is drawn within a pass is joined
-over all of them; of what happens between passes the commonest stands for all.
+Frames are of the same kind if they begin the same passes in the same order on equally created images. The contents of a pass are merged
+over all frames of a kind; between passes, the most frequent sequence of commands represents the kind.
 """
 
 from __future__ import annotations
@@ -9,40 +9,40 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable
 from typing import NamedTuple
 
-from .command_buffers import Begin, Recorded
-from .frame_boundary import ends_of
-from .objects import Image, Pipeline, frozen
+from .command_buffers import RecordedCommand, RenderPassBegin
+from .frame_boundary import aspect_uses
+from .objects import Image, Pipeline, freeze
 
 MAX_KINDS = 32
-"""So many kinds of frames are kept."""
+"""Maximum number of frame kinds."""
 
 MAX_ALTERNATES = 8
-"""So many framebuffers that a pass is begun with in turns are kept."""
+"""Maximum number of framebuffers that a pass alternates between."""
 
-MAX_BETWEEN = 8
-"""So many different ways to go from a pass to the next are counted."""
+MAX_GAP_VARIANTS = 8
+"""Maximum number of different command sequences between two passes."""
 
-MAX_WITHIN = 4096
-"""So many different draws, reads and clears of one pass are kept."""
+MAX_PASS_COMMANDS = 4096
+"""Maximum number of different draws, reads and clears in a pass."""
 
-MAX_ALIKE = 8
-"""So many submissions alike, on other images each, are taken for one frame's where nothing tells frames apart."""
+MAX_SIMILAR_SUBMISSIONS = 8
+"""Maximum number of similar submissions, each on other images, that count as one frame if nothing marks the end of a frame."""
 
-MAX_SEEN = 1024
-"""So many different frames are remembered, to be known again."""
+MAX_DISTINCT_FRAMES = 1024
+"""Maximum number of different frames in the cache."""
 
-MAX_HELD = 1_000_000
-"""So many commands these may have together."""
+MAX_STORED_COMMANDS = 1_000_000
+"""Maximum total number of commands of these frames."""
 
-MAX_FRAME = 1_000_000
-"""So many commands of one frame are followed."""
+MAX_FRAME_COMMANDS = 1_000_000
+"""Maximum number of commands per frame."""
 
-BEGINS = ("beginRenderPass", "beginRendering")
-ENDS = ("endRenderPass", "endRendering")
+PASS_BEGINS = ("beginRenderPass", "beginRendering")
+PASS_ENDS = ("endRenderPass", "endRendering")
 
 
 class Role:
-    """An image by the place at which a frame's passes first draw to it. There is one object a place."""
+    """Stands for the image that a frame's passes use at this position, in order of first use. There is one object per position."""
 
     __slots__ = ("number",)
 
@@ -54,101 +54,103 @@ _ROLES: list[Role] = []
 
 
 def role_of(number: int) -> Role:
-    """The role of a place."""
+    """The role for a position."""
     while len(_ROLES) <= number:
         _ROLES.append(Role(len(_ROLES)))
     return _ROLES[number]
 
 
 class Segment:
-    """What is recorded between two passes, or within one: `begin` is the pass's, None between passes."""
+    """The commands within a pass or between two passes. `begin` is the command that begins the pass, None between passes."""
 
     __slots__ = ("begin", "items")
 
-    def __init__(self, begin: Recorded | None) -> None:
+    def __init__(self, begin: RecordedCommand | None) -> None:
         self.begin = begin
-        self.items: list[Recorded] = []
+        self.items: list[RecordedCommand] = []
 
 
-class Way:
-    """What is recorded between two passes, and in how many frames."""
+class GapVariant:
+    """A command sequence between two passes, and the number of frames that contain it."""
 
     __slots__ = ("count", "items")
 
-    def __init__(self, items: list[Recorded], count: int) -> None:
+    def __init__(self, items: list[RecordedCommand], count: int) -> None:
         self.items = items
         self.count = count
 
 
-class Kind:
-    """Frames that are alike: the first of them, how many there are, and what the others add."""
+class FrameKind:
+    """Frames of the same kind: the passes and images of the first, the number of frames, and the merged contents."""
 
-    __slots__ = ("alternates", "between", "count", "defined", "images", "later", "number", "passes", "undefined", "within")
+    __slots__ = ("alternates", "count", "defined", "gaps", "images", "later", "number", "pass_commands", "passes", "undefined")
 
-    def __init__(self, number: int, images: list[Image], passes: list[Recorded]) -> None:
+    def __init__(self, number: int, images: list[Image], passes: list[RecordedCommand]) -> None:
         self.number = number
         self.count = 0
         self.images = images
         self.passes = passes
-        self.alternates: list[dict[Hashable, Begin]] = [{} for _ in passes]
-        self.within: list[dict[Hashable, Recorded]] = [{} for _ in passes]
-        self.between: list[list[Way]] = [[] for _ in range(len(passes) + 1)]
+        self.alternates: list[dict[Hashable, RenderPassBegin]] = [{} for _ in passes]
+        self.pass_commands: list[dict[Hashable, RecordedCommand]] = [{} for _ in passes]
+        self.gaps: list[list[GapVariant]] = [[] for _ in range(len(passes) + 1)]
         self.later: set[tuple[Hashable, str]] = set()
-        """Images and aspects that a later frame reads as this one left them."""
+        """Images and aspects whose contents a later frame reads."""
         self.defined: set[tuple[Hashable, str]] = set()
         self.undefined: set[tuple[Hashable, str]] = set()
-        """Those that this one reads first, where what was left there was stored, or was not."""
+        """Images and aspects that the frame reads first: `defined` if an earlier frame stored them, `undefined` if it discarded them."""
 
 
-class Left(NamedTuple):
-    """What a frame left in an aspect of an image: whether that was stored and read, and the frame's kind with the image's place in it."""
+class AspectState(NamedTuple):
+    """The state in which a frame left an aspect of an image, with the frame's kind and the image's role in it."""
 
     state: str
-    kind: Kind
+    kind: FrameKind
     role: Hashable
 
 
-class Seen:
-    """A frame that came before, command for command: its kind, None where that is not kept, and how often it came since it was counted."""
+class DistinctFrame:
+    """A frame with a distinct command sequence: its kind (None above MAX_KINDS), and how often it occurred since the last count."""
 
-    __slots__ = ("between", "count", "images", "kind", "passes", "pipelines", "recorded")
+    __slots__ = ("commands", "count", "gaps", "images", "kind", "passes", "pipelines")
 
-    def __init__(self, kind: Kind | None, recorded: list[Recorded], roles: Iterable[Image], between: list[list[Recorded]]) -> None:
+    def __init__(
+        self, kind: FrameKind | None, commands: list[RecordedCommand], roles: Iterable[Image], gaps: list[list[RecordedCommand]]
+    ) -> None:
         self.kind = kind
-        self.between = between
-        self.recorded = recorded
+        self.gaps = gaps
+        self.commands = commands
         self.count = 0
         self.images = list(roles)
-        begins = [each.key for each in recorded if isinstance(each.key, Begin)]
+        begins = [command.key for command in commands if isinstance(command.key, RenderPassBegin)]
         self.passes = list(dict.fromkeys(begin.render_pass for begin in begins))
-        drawn = [each.key[0] for each in recorded if each.kind == "draw" and isinstance(each.key, tuple)]
-        self.pipelines = list(dict.fromkeys(pipeline for pipeline in drawn if isinstance(pipeline, Pipeline)))
+        draw_pipelines = [command.key[0] for command in commands if command.kind == "draw" and isinstance(command.key, tuple)]
+        self.pipelines = list(dict.fromkeys(pipeline for pipeline in draw_pipelines if isinstance(pipeline, Pipeline)))
 
 
 class Frames:
-    """The frames of a capture as they end."""
+    """Collects the frames of a capture."""
 
     def __init__(self) -> None:
-        self.current: list[Recorded] = []
-        self.kinds: dict[Hashable, Kind] = {}
+        self.current: list[RecordedCommand] = []
+        self.kinds: dict[Hashable, FrameKind] = {}
         self.total = 0
-        self.unkept = 0
-        """Frames of kinds that are not kept."""
+        self.dropped = 0
+        """The number of frames whose kind was not kept."""
         self.presents = False
         self.frameless = False
         self.truncated = False
-        self._submits: dict[Hashable, int] = {}
-        """The passes of the submissions of the frame, and how often each was submitted."""
-        self._alike: dict[Hashable, Hashable] = {}
-        self._seen: dict[Hashable, Seen] = {}
-        self._held = 0
-        """Commands of the frames that are remembered."""
-        self._last: Seen | None = None
-        self._repeated = 0
-        """How often the last frame came in a row."""
+        self._submissions: dict[Hashable, int] = {}
+        """How often the current frame submitted the same passes, or similar ones."""
+        self._shapes: dict[Hashable, Hashable] = {}
+        self._distinct: dict[Hashable, DistinctFrame] = {}
+        self._stored_commands = 0
+        """The number of commands in the cached frames."""
+        self._last: DistinctFrame | None = None
+        self._repetitions = 0
+        """How often the last frame repeated in a row."""
 
     def mark(self, kind: str) -> None:
-        """What the capture says of itself."""
+        """Processes a mark."""
         if kind == "frameless":
             self.frameless = True
         elif kind == "truncated":
@@ -156,208 +158,212 @@ class Frames:
         elif kind == "frame" and not self.presents:
             self.end()
 
-    def submit(self, recorded: list[Recorded]) -> None:
-        """Commands of one command buffer are submitted."""
+    def submit(self, commands: list[RecordedCommand]) -> None:
+        """Adds the submitted commands of a command buffer."""
         if not self.presents and not self.frameless:
-            self._divide(recorded)
-        if len(self.current) < MAX_FRAME:
-            self.current.extend(recorded)
+            self._split_frames(commands)
+        if len(self.current) < MAX_FRAME_COMMANDS:
+            self.current.extend(commands)
 
-    def _divide(self, recorded: list[Recorded]) -> None:
-        """Without presents a frame is over where it begins anew: with passes that it has already, on the same images; or on images made
-        anew, where that comes again and again."""
-        begins = [each for each in recorded if each.kind in BEGINS]
+    def _split_frames(self, commands: list[RecordedCommand]) -> None:
+        """Ends the frame if this submission starts a new one. Without presents, that is a submission that repeats the frame's passes on the
+        same images, or repeatedly on new images."""
+        begins = [command for command in commands if command.kind in PASS_BEGINS]
         if not begins:
             return
         same = tuple(map(id, begins))
-        alike = self._alike.get(same)
-        if alike is None:
-            if len(self._alike) > MAX_SEEN:
-                self._alike.clear()
-            alike = self._alike[same] = tuple(_shape(each, {}) for each in begins)
-        if same in self._submits or self._submits.get(alike, 0) >= MAX_ALIKE:
+        similar = self._shapes.get(same)
+        if similar is None:
+            if len(self._shapes) > MAX_DISTINCT_FRAMES:
+                self._shapes.clear()
+            similar = self._shapes[same] = tuple(_shape(command, {}) for command in begins)
+        if same in self._submissions or self._submissions.get(similar, 0) >= MAX_SIMILAR_SUBMISSIONS:
             self.end()
-        for shape in (same, alike):
-            self._submits[shape] = self._submits.get(shape, 0) + 1
+        for shape in (same, similar):
+            self._submissions[shape] = self._submissions.get(shape, 0) + 1
 
     def end_of_capture(self) -> None:
-        """The capture is over: what is left is a frame of its own where it begins a pass."""
-        if any(each.kind in BEGINS for each in self.current):
+        """Ends the capture. The remaining commands are a frame if they begin a pass."""
+        if any(command.kind in PASS_BEGINS for command in self.current):
             self.end()
-        for seen in self._seen.values():
-            _counted(seen)
+        for frame in self._distinct.values():
+            _add_counts(frame)
 
     def end(self) -> None:
-        """The frame is over."""
-        recorded, self.current = self.current, []
-        self._submits.clear()
+        """Ends the frame."""
+        commands, self.current = self.current, []
+        self._submissions.clear()
         self.total += 1
-        key = tuple(map(id, recorded))
-        seen = self._seen.get(key)
-        if seen is None:
-            seen = self._new(recorded)
-            if seen is None:
+        key = tuple(map(id, commands))
+        frame = self._distinct.get(key)
+        if frame is None:
+            frame = self._classify(commands)
+            if frame is None:
                 return
-            self._held += len(recorded)
-            if len(self._seen) >= MAX_SEEN or self._held > MAX_HELD:
-                for each in self._seen.values():
-                    _counted(each)
-                self._seen.clear()
-                self._held = len(recorded)
-            self._seen[key] = seen
-        elif seen.kind is not None and self._repeated < 2:
-            self._lifetimes(seen.kind, recorded, {image: role_of(number) for number, image in enumerate(seen.images)})
-        seen.count += 1
-        self.unkept += seen.kind is None
-        self._repeated = self._repeated + 1 if seen is self._last else 0
-        self._last = seen
+            self._stored_commands += len(commands)
+            if len(self._distinct) >= MAX_DISTINCT_FRAMES or self._stored_commands > MAX_STORED_COMMANDS:
+                for other in self._distinct.values():
+                    _add_counts(other)
+                self._distinct.clear()
+                self._stored_commands = len(commands)
+            self._distinct[key] = frame
+        elif frame.kind is not None and self._repetitions < 2:
+            self._track_contents(frame.kind, commands, {image: role_of(number) for number, image in enumerate(frame.images)})
+        frame.count += 1
+        self.dropped += frame.kind is None
+        self._repetitions = self._repetitions + 1 if frame is self._last else 0
+        self._last = frame
 
-    def _new(self, recorded: list[Recorded]) -> Seen | None:
-        """A frame that did not come before; None where it has no pass."""
-        segments = _segments(recorded)
+    def _classify(self, commands: list[RecordedCommand]) -> DistinctFrame | None:
+        """Classifies a new frame; None if it has no pass."""
+        segments = _segments(commands)
         if not any(segment.begin is not None for segment in segments):
             return None
-        self._repeated = 0
+        self._repetitions = 0
         roles: dict[Image, Role] = {}
         shape = tuple(_shape(segment.begin, roles) for segment in segments if segment.begin is not None)
         kind = self.kinds.get(shape)
         if kind is None and len(self.kinds) < MAX_KINDS:
             passes = [segment.begin for segment in segments if segment.begin is not None]
-            kind = self.kinds[shape] = Kind(len(self.kinds), list(roles), passes)
-        between: list[list[Recorded]] = []
+            kind = self.kinds[shape] = FrameKind(len(self.kinds), list(roles), passes)
+        gaps: list[list[RecordedCommand]] = []
         if kind is not None:
-            between = _join(kind, segments, roles)
-            self._lifetimes(kind, recorded, roles)
-        return Seen(kind, recorded, roles, between)
+            gaps = _merge(kind, segments, roles)
+            self._track_contents(kind, commands, roles)
+        return DistinctFrame(kind, commands, roles, gaps)
 
-    def _lifetimes(self, kind: Kind, recorded: list[Recorded], roles: dict[Image, Role]) -> None:
-        """What this frame reads of what others left, and what it leaves."""
-        for image, own in ends_of(recorded).items():
+    def _track_contents(self, kind: FrameKind, commands: list[RecordedCommand], roles: dict[Image, Role]) -> None:
+        """Updates what frames read from earlier ones, and the state in which this one leaves its images."""
+        for image, uses in aspect_uses(commands).items():
             role = roles.get(image, image)
-            for aspect, end in own.items():
-                left: Left | None = image.left.get(aspect)
-                if end.first == "read":
-                    if left is not None and left.state == "unread":
-                        left.kind.later.add((left.role, aspect))
-                    if left is not None and left.state == "discarded":
+            for aspect, use in uses.items():
+                state: AspectState | None = image.aspect_states.get(aspect)
+                if use.first == "read":
+                    if state is not None and state.state == "unread":
+                        state.kind.later.add((state.role, aspect))
+                    if state is not None and state.state == "discarded":
                         kind.undefined.add((role, aspect))
                     else:
                         kind.defined.add((role, aspect))
-                if end.last is not None:
-                    image.left[aspect] = Left(end.last, kind, role)
-                elif end.first == "read" and left is not None and left.state == "unread":
-                    image.left[aspect] = left._replace(state="read")
+                if use.last is not None:
+                    image.aspect_states[aspect] = AspectState(use.last, kind, role)
+                elif use.first == "read" and state is not None and state.state == "unread":
+                    image.aspect_states[aspect] = state._replace(state="read")
 
 
-def _counted(seen: Seen) -> None:
-    """Adds the times that a frame came to its kind's, and to those of what it uses."""
-    for made in (*seen.images, *seen.passes, *seen.pipelines):
-        made.frames += seen.count
-    if seen.kind is not None:
-        seen.kind.count += seen.count
-        for way, items in zip(seen.kind.between, seen.between, strict=True):
-            _way(way, items, seen.count)
-    seen.count = 0
+def _add_counts(frame: DistinctFrame) -> None:
+    """Adds a frame's count to its kind, its images, render passes and pipelines."""
+    for used in (*frame.images, *frame.passes, *frame.pipelines):
+        used.frames += frame.count
+    if frame.kind is not None:
+        frame.kind.count += frame.count
+        for variants, items in zip(frame.kind.gaps, frame.gaps, strict=True):
+            _count_gap(variants, items, frame.count)
+    frame.count = 0
 
 
-def _join(kind: Kind, segments: list[Segment], roles: dict[Image, Role]) -> list[list[Recorded]]:
-    """Adds what is recorded within the passes of a frame to its kind; what is recorded between them is the answer."""
+def _merge(kind: FrameKind, segments: list[Segment], roles: dict[Image, Role]) -> list[list[RecordedCommand]]:
+    """Merges the contents of a frame's passes into its kind, and returns the commands between them."""
     number = 0
-    between: list[list[Recorded]] = []
+    gaps: list[list[RecordedCommand]] = []
     for segment in segments:
         if segment.begin is None:
-            between.append([_with_roles(each, roles) for each in segment.items])
+            gaps.append([_with_roles(command, roles) for command in segment.items])
             continue
-        if isinstance(segment.begin.key, Begin):
+        if isinstance(segment.begin.key, RenderPassBegin):
             alternates = kind.alternates[number]
             begin = segment.begin.key
             imageless = begin.framebuffer is None or begin.framebuffer.images is None
             if len(alternates) < MAX_ALTERNATES:
                 alternates.setdefault(begin.images if imageless else begin.framebuffer, begin)
-        within = kind.within[number]
-        for part, each in _parts(segment.items):
-            made = _with_roles(each, roles)
-            identity = (part, made.kind, made.key)
-            if identity not in within and len(within) < MAX_WITHIN:
-                within[identity] = made
+        pass_commands = kind.pass_commands[number]
+        for part, command in _parts(segment.items):
+            command_with_roles = _with_roles(command, roles)
+            identity = (part, command_with_roles.kind, command_with_roles.key)
+            if identity not in pass_commands and len(pass_commands) < MAX_PASS_COMMANDS:
+                pass_commands[identity] = command_with_roles
         number += 1
-    return between
+    return gaps
 
 
-def _way(between: list[Way], items: list[Recorded], count: int) -> None:
-    """Counts one way from a pass to the next."""
-    bare = [(each.kind, each.key) for each in items]
-    for way in between:
-        if [(each.kind, each.key) for each in way.items] == bare:
-            way.count += count
+def _count_gap(variants: list[GapVariant], items: list[RecordedCommand], count: int) -> None:
+    """Counts a command sequence between two passes."""
+    sequence = [(command.kind, command.key) for command in items]
+    for variant in variants:
+        if [(command.kind, command.key) for command in variant.items] == sequence:
+            variant.count += count
             return
-    if len(between) < MAX_BETWEEN:
-        between.append(Way(items, count))
+    if len(variants) < MAX_GAP_VARIANTS:
+        variants.append(GapVariant(items, count))
 
 
-def _segments(recorded: list[Recorded]) -> list[Segment]:
-    """The passes of a frame and what stands before, between and after them, in turns."""
-    made = [Segment(None)]
-    within = False
-    for each in recorded:
-        if each.kind in BEGINS:
-            if within:
-                # A pass whose end is not in the capture.
-                made.append(Segment(None))
-            made.append(Segment(each))
-            within = True
-        elif each.kind in ENDS:
-            if within:
-                made.append(Segment(None))
-            within = False
-        elif each.kind == "nextSubpass" and not within:
+def _segments(commands: list[RecordedCommand]) -> list[Segment]:
+    """The commands before, within, between and after the passes of a frame."""
+    segments = [Segment(None)]
+    in_pass = False
+    for command in commands:
+        if command.kind in PASS_BEGINS:
+            if in_pass:
+                # The capture lacks the end of this pass.
+                segments.append(Segment(None))
+            segments.append(Segment(command))
+            in_pass = True
+        elif command.kind in PASS_ENDS:
+            if in_pass:
+                segments.append(Segment(None))
+            in_pass = False
+        elif command.kind == "nextSubpass" and not in_pass:
             continue
         else:
-            made[-1].items.append(each)
-    if within:
-        made.append(Segment(None))
-    return made
+            segments[-1].items.append(command)
+    if in_pass:
+        segments.append(Segment(None))
+    return segments
 
 
-def _parts(items: list[Recorded]) -> Iterable[tuple[int, Recorded]]:
-    """The commands of a pass with the subpass that each is recorded in; a change of subpass begins the next."""
-    part = 0
-    for each in items:
-        if each.kind == "nextSubpass":
-            part += 1
-        yield part, each
+def _parts(items: list[RecordedCommand]) -> Iterable[tuple[int, RecordedCommand]]:
+    """The commands of a pass, each with its subpass index; nextSubpass belongs to the following subpass."""
+    subpass = 0
+    for command in items:
+        if command.kind == "nextSubpass":
+            subpass += 1
+        yield subpass, command
 
 
-def _shape(begin: Recorded, roles: dict[Image, Role]) -> Hashable:
-    """A pass as far as frames are told apart by it: images by their kind and by when the frame first draws to them."""
-    if isinstance(begin.key, Begin):
-        begun = begin.key
-        size = (begun.framebuffer.width, begun.framebuffer.height, begun.framebuffer.layers) if begun.framebuffer is not None else None
-        images = tuple(_role(image, roles) if image is not None else None for image in begun.images)
-        return ("renderPass", id(begun.render_pass), images, size, begun.area)
-    return ("rendering", _placed(begin.key, roles))
+def _shape(begin: RecordedCommand, roles: dict[Image, Role]) -> Hashable:
+    """The properties of a pass that define the kind of a frame. Images are replaced by their roles and creation parameters."""
+    if isinstance(begin.key, RenderPassBegin):
+        pass_begin = begin.key
+        size = (
+            (pass_begin.framebuffer.width, pass_begin.framebuffer.height, pass_begin.framebuffer.layers)
+            if pass_begin.framebuffer is not None
+            else None
+        )
+        images = tuple(_role(image, roles) if image is not None else None for image in pass_begin.images)
+        return ("renderPass", id(pass_begin.render_pass), images, size, pass_begin.area)
+    return ("rendering", _rendering_shape(begin.key, roles))
 
 
 def _role(image: Image, roles: dict[Image, Role]) -> Hashable:
     if image not in roles:
         roles[image] = role_of(len(roles))
-    return (roles[image], image.swapchain is not None, frozen(image.tree))
+    return (roles[image], image.swapchain is not None, freeze(image.tree))
 
 
-def _placed(key: Hashable, roles: dict[Image, Role]) -> Hashable:
-    """A rendering with its images by their places."""
+def _rendering_shape(key: Hashable, roles: dict[Image, Role]) -> Hashable:
+    """The key of a beginRendering command with images replaced by their roles and creation parameters."""
     if isinstance(key, Image):
         return _role(key, roles)
-    return tuple(_placed(each, roles) for each in key) if isinstance(key, tuple) else key
+    return tuple(_rendering_shape(item, roles) for item in key) if isinstance(key, tuple) else key
 
 
-def _with_roles(each: Recorded, roles: dict[Image, Role]) -> Recorded:
-    """A command with the images that passes draw to by their places."""
+def _with_roles(command: RecordedCommand, roles: dict[Image, Role]) -> RecordedCommand:
+    """A command with the images of passes replaced by their roles."""
     key: Hashable
-    if isinstance(each.key, tuple) and not isinstance(each.key, Begin):
-        key = tuple(roles.get(item, item) if isinstance(item, Image) else item for item in each.key)
-    elif isinstance(each.key, Image):
-        key = roles.get(each.key, each.key)
+    if isinstance(command.key, tuple) and not isinstance(command.key, RenderPassBegin):
+        key = tuple(roles.get(item, item) if isinstance(item, Image) else item for item in command.key)
+    elif isinstance(command.key, Image):
+        key = roles.get(command.key, command.key)
     else:
-        return each
-    return Recorded(each.kind, key, each.at, each.by, each.detail)
+        return command
+    return RecordedCommand(command.kind, key, command.at, command.by, command.detail)

@@ -1,4 +1,4 @@
-"""Follows images: what they are, the memory they are bound to, their views, and swapchains with their presents."""
+"""Tracks images with their memory and views, and swapchains with their presents."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ from msaa_lint.frame.vulkan.formats import format_of
 
 from . import values
 from .call import Call
-from .command_buffers import Commands
+from .command_buffers import CommandCache
 from .devices import Devices
 from .frames import Frames
-from .objects import Image, Swapchain, frozen
-from .structures import described
+from .objects import Image, Swapchain, freeze
+from .structures import to_tree
 
 MAX_DISTINCT = 20_000
-"""So many objects that differ are kept; more of them are used, not judged by themselves."""
+"""Maximum number of distinct objects that are described even if no frame uses them."""
 
 
-SHARING = ("EXTERNAL_MEMORY_IMAGE_CREATE_INFO", "EXTERNAL_MEMORY_IMAGE_CREATE_INFO_NV", "NATIVE_BUFFER_ANDROID")
-"""Structures chained to a VkImageCreateInfo whose memory others may have."""
+EXTERNAL_MEMORY = ("EXTERNAL_MEMORY_IMAGE_CREATE_INFO", "EXTERNAL_MEMORY_IMAGE_CREATE_INFO_NV", "NATIVE_BUFFER_ANDROID")
+"""Structures chained to the VkImageCreateInfo of an image whose memory may be external."""
 
 
 class Images(Devices):
-    """The images of a capture by their handles, and by those of their views."""
+    """The images of a capture by image handle and by view handle."""
 
-    commands: Commands
+    commands: CommandCache
     frames: Frames
 
     def __init__(self) -> None:
@@ -36,13 +36,13 @@ class Images(Devices):
         self.views: dict[int, Image] = {}
         self.swapchains: dict[int, Swapchain] = {}
         self.memory: dict[int, int] = {}
-        """The type of each allocation."""
+        """The memory type index of each allocation."""
         self.multisampled: dict[Hashable, Image] = {}
-        """Multisampled images, one for each of those that were created alike."""
+        """Multisampled images; those created with the same parameters share one entry."""
         self.counts: dict[str, int] = {}
 
     def number(self, kind: str) -> int:
-        """The number of the next object of a kind."""
+        """The number for a new object of a kind."""
         count = self.counts.get(kind, 0)
         self.counts[kind] = count + 1
         return count
@@ -50,15 +50,15 @@ class Images(Devices):
     def on_CreateImage(self, call: Call) -> None:
         info = values.record(call.args.get("pCreateInfo"))
         handle = values.handle(call.args.get("pImage"))
-        made = self.images[handle] = self._image(call, described(ImageRecord, info))
-        made.shared = any(values.chained(info, kind) is not None for kind in SHARING)
+        image = self.images[handle] = self._image(call, to_tree(ImageRecord, info))
+        image.shared = any(values.chained(info, kind) is not None for kind in EXTERNAL_MEMORY)
 
     def _image(self, call: Call, tree: dict[str, Any]) -> Image:
         format = format_of(tree["format"]) if "format" in tree else None
-        made = Image(call, self.number("image"), tree, format.aspects if format is not None else ())
-        if made.samples > 1 and len(self.multisampled) < MAX_DISTINCT:
-            self.multisampled.setdefault(frozen(tree), made)
-        return made
+        image = Image(call, self.number("image"), tree, format.aspects if format is not None else ())
+        if image.samples > 1 and len(self.multisampled) < MAX_DISTINCT:
+            self.multisampled.setdefault(freeze(tree), image)
+        return image
 
     def on_DestroyImage(self, call: Call) -> None:
         self.images.pop(values.handle(call.args.get("image")), None)
@@ -73,7 +73,7 @@ class Images(Devices):
         self.views.pop(values.handle(call.args.get("imageView")), None)
 
     def view(self, value: object) -> Image | None:
-        """The image that a view shows."""
+        """The image of a view."""
         return self.views.get(values.handle(value))
 
     # Memory.
@@ -117,16 +117,16 @@ class Images(Devices):
             "imageType": "2D",
             "sharingMode": info.get("imageSharingMode"),
         }
-        tree = described(ImageRecord, structure)
+        tree = to_tree(ImageRecord, structure)
         handle = values.handle(call.args.get("pSwapchain"))
-        made = Swapchain(call, self.number("swapchain"), {**tree, "presentable": True})
-        self.swapchains[handle] = made
+        swapchain = Swapchain(call, self.number("swapchain"), {**tree, "presentable": True})
+        self.swapchains[handle] = swapchain
         self.frames.presents = True
 
     def on_DestroySwapchain(self, call: Call) -> None:
-        found = self.swapchains.pop(values.handle(call.args.get("swapchain")), None)
-        for image in found.images if found is not None else ():
-            for handle in [handle for handle, known in self.images.items() if known is image]:
+        swapchain = self.swapchains.pop(values.handle(call.args.get("swapchain")), None)
+        for image in swapchain.images if swapchain is not None else ():
+            for handle in [handle for handle, other in self.images.items() if other is image]:
                 del self.images[handle]
 
     def on_GetSwapchainImages(self, call: Call) -> None:
@@ -135,15 +135,15 @@ class Images(Devices):
             return
         for item in values.items(call.args.get("pSwapchainImages"))[:64]:
             handle = values.handle(item)
-            known = self.images.get(handle)
-            if known is not None and known.swapchain is swapchain:
+            existing = self.images.get(handle)
+            if existing is not None and existing.swapchain is swapchain:
                 continue
             format = format_of(swapchain.tree["format"]) if "format" in swapchain.tree else None
-            made = Image(call, len(swapchain.images), dict(swapchain.tree), format.aspects if format is not None else ())
-            made.by, made.at = swapchain.by, swapchain.at
-            made.swapchain = swapchain
-            swapchain.images.append(made)
-            self.images[handle] = made
+            image = Image(call, len(swapchain.images), dict(swapchain.tree), format.aspects if format is not None else ())
+            image.by, image.at = swapchain.by, swapchain.at
+            image.swapchain = swapchain
+            swapchain.images.append(image)
+            self.images[handle] = image
 
     def on_QueuePresent(self, call: Call) -> None:
         info = values.record(call.args.get("pPresentInfo"))

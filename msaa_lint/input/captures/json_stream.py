@@ -1,6 +1,6 @@
-"""JSON as it streams by: texts of values with their places, parsed one at a time, so that memory does not grow with the file.
+"""Streaming JSON: finds the text of each value and its place, so that memory does not grow with the file.
 
-The values between are not looked into: where one ends is told by its layout, and where that is unusual by its brackets.
+The end of a value is found from its indentation, or from its brackets if the indentation is unusual.
 """
 
 from __future__ import annotations
@@ -11,20 +11,20 @@ from typing import Any, BinaryIO
 
 import orjson
 
-from .call import Broken, Place
+from .call import CaptureError, Place
 
 BLOCK = 1 << 18
-"""Bytes read at once: what fits the second cache is fastest to look through."""
+"""Bytes read at a time. Blocks that fit the L2 cache are the fastest to search."""
 
 MAX_VALUE = 64 << 20
-"""Bytes of one line, or of one element."""
+"""Maximum size of a line or an array element, in bytes."""
 
 MAX_DEPTH = 100
 
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
-CUT = "the file ends in the middle"
+TRUNCATED = "the file is truncated"
 TOO_DEEP = f"nested deeper than {MAX_DEPTH}"
-TOO_LONG = f"a call of more than {MAX_VALUE >> 20} MiB"
+TOO_LONG = f"a call exceeds {MAX_VALUE >> 20} MiB"
 
 _SPACES = re.compile(rb"[ \t\r\n]*")
 _TOKEN = re.compile(rb'"(?:[^"\\]|\\.)*+"|["{}\[\]]', re.DOTALL)
@@ -34,25 +34,25 @@ _SCALAR = re.compile(rb'"(?:[^"\\]|\\.)*+"|[^\s"{}\[\],:]++', re.DOTALL)
 
 
 def loads(text: bytes, line: int, column: int = 1, call: int | None = None) -> Any:
-    """The value of a text that begins at a line and column. Broken names the place within it that is no JSON, or nested too deep."""
+    """Parses a value whose text starts at a line and column. Raises CaptureError at the place of a syntax error or of too deep nesting."""
     try:
         value = orjson.loads(text)
     except orjson.JSONDecodeError as error:
         if "limit" in error.msg.lower():
-            raise Broken(TOO_DEEP, Place(line, column, call)) from None
+            raise CaptureError(TOO_DEEP, Place(line, column, call)) from None
         try:
-            value = orjson.loads(_repaired(text))
+            value = orjson.loads(_repair(text))
         except orjson.JSONDecodeError:
             within = error.lineno - 1
             place = Place(line + within, error.colno if within else column + error.colno - 1, call)
-            raise Broken(f"no JSON: {error.msg}", place) from None
-    if text.count(b"{") + text.count(b"[") > MAX_DEPTH and _deep(value):
-        raise Broken(TOO_DEEP, Place(line, column, call))
+            raise CaptureError(f"invalid JSON: {error.msg}", place) from None
+    if text.count(b"{") + text.count(b"[") > MAX_DEPTH and is_too_deep(value):
+        raise CaptureError(TOO_DEEP, Place(line, column, call))
     return value
 
 
-def shallow(text: bytes, kind: str) -> tuple[Any, str | None] | None:
-    """The arguments and the result of a call that a text is, where it is JSON and has few brackets; None else: `loads` has the answer."""
+def parse_call(text: bytes, kind: str) -> tuple[Any, str | None] | None:
+    """The arguments and the result of a call. None if the text needs `loads`: it is not JSON, is not a call, or has many brackets."""
     try:
         body = orjson.loads(text)[kind]
         args = body["args"]
@@ -64,39 +64,33 @@ def shallow(text: bytes, kind: str) -> tuple[Any, str | None] | None:
     return args, result if type(result) is str else None
 
 
-def _repaired(text: bytes) -> str:
-    """A text as JSON, where the tools write what is none: gfxrecon-convert 0.9 `-nan` and `inf` for floats, all of them names as they are,
-    whatever their encoding and with control characters in them."""
-    return _UNUSUAL.sub(_usual, text.decode("utf-8", "replace"))
+def _repair(text: bytes) -> str:
+    """Valid JSON for the invalid JSON that the tools write: gfxrecon-convert 0.9 writes `-nan` and `inf` for floats, and all tools copy
+    names verbatim, in any encoding and with control characters."""
+    return _UNUSUAL.sub(_repair_token, text.decode("utf-8", "replace"))
 
 
-def _usual(found: re.Match[str]) -> str:
-    return _STRAY.sub(_escaped, found[0]) if found[0].startswith('"') else "null"
+def _repair_token(found: re.Match[str]) -> str:
+    return _STRAY.sub(_repair_character, found[0]) if found[0].startswith('"') else "null"
 
 
-def _escaped(found: re.Match[str]) -> str:
-    """An escape as it is; a control character as a space, and a backslash that escapes nothing as itself."""
+def _repair_character(found: re.Match[str]) -> str:
+    """Replaces a control character by a space and doubles a stray backslash; a valid escape is kept."""
     return " " if found[0] < " " else "\\\\" if found[0] == "\\" else found[0]
 
 
-def _deep(value: Any) -> bool:
-    """Whether anything stands more than MAX_DEPTH brackets deep."""
-    level = [value]
+def is_too_deep(value: Any) -> bool:
+    """Whether a value is nested more than MAX_DEPTH deep."""
+    level = [value] if isinstance(value, (dict, list)) else []
     for _ in range(MAX_DEPTH):
-        following: list[Any] = []
-        for item in level:
-            if isinstance(item, dict):
-                following.extend(each for each in item.values() if isinstance(each, (dict, list)))
-            elif isinstance(item, list):
-                following.extend(each for each in item if isinstance(each, (dict, list)))
-        if not following:
-            return False
-        level = following
-    return True
+        level = [
+            child for item in level for child in (item.values() if isinstance(item, dict) else item) if isinstance(child, (dict, list))
+        ]
+    return bool(level)
 
 
-class Joined:
-    """A stream whose beginning was looked at."""
+class PeekedStream:
+    """A stream that remembers its `head`, which can be inspected before anything is read."""
 
     def __init__(self, stream: BinaryIO) -> None:
         self.head = stream.read(1 << 16)
@@ -104,28 +98,28 @@ class Joined:
         self._stream = stream
 
     def read(self, size: int) -> bytes:
-        """So many bytes, or fewer; none at the end."""
+        """Up to `size` bytes; empty at the end."""
         if not self._unread:
             return self._stream.read(size)
-        given, self._unread = self._unread[:size], self._unread[size:]
-        return given
+        block, self._unread = self._unread[:size], self._unread[size:]
+        return block
 
 
-def _further(pending: int) -> int:
-    """How much is read where so many bytes wait for their end: as much again, so that to join them stays linear, and within the limit."""
+def _read_size(pending: int) -> int:
+    """How many bytes to read while `pending` bytes wait for their end: as many again, which keeps joining linear, up to the limit."""
     return min(max(BLOCK, pending), MAX_VALUE + 1 - pending)
 
 
 class Blocks:
-    """The text of a stream in blocks that end with a line's end; `rest` is what the last line holds where nothing ends it.
+    """The text of a stream in blocks of whole lines. `rest` is the last line if it has no line end.
 
-    Broken for a line of more than 64 MiB, with its number.
+    Raises CaptureError with the line number for a line of more than 64 MiB.
     """
 
-    def __init__(self, stream: BinaryIO | Joined) -> None:
+    def __init__(self, stream: BinaryIO | PeekedStream) -> None:
         self.stream = stream
         self.lines = 0
-        """Lines of the blocks given so far, to be counted up by who reads them."""
+        """Lines in the blocks so far. The consumer keeps this count."""
         self.rest = b""
 
     def __iter__(self) -> Iterator[bytes]:
@@ -139,22 +133,22 @@ class Blocks:
             else:
                 rest += more
             if len(rest) > MAX_VALUE:
-                raise Broken(TOO_LONG, Place(self.lines + 1, 1))
-            more = self.stream.read(_further(len(rest)))
+                raise CaptureError(TOO_LONG, Place(self.lines + 1, 1))
+            more = self.stream.read(_read_size(len(rest)))
         self.rest = rest
 
 
 def _indented(text: bytes) -> bool:
-    """Whether a text is an object whose closing brackets all stand at the beginning of their lines, but for those of empty objects."""
-    bare = text.translate(None, b" \t\r")
-    closed = bare.count(b"}")
-    return bare.endswith(b"\n}") and bare.count(b"{") == closed == bare.count(b"\n}") + bare.count(b"{}")
+    """Whether the text is an object whose closing brackets all start a line, apart from those of empty objects."""
+    brackets = text.translate(None, b" \t\r")
+    closed = brackets.count(b"}")
+    return brackets.endswith(b"\n}") and brackets.count(b"{") == closed == brackets.count(b"\n}") + brackets.count(b"{}")
 
 
 class Cursor:
-    """A position in a stream of JSON: values are taken one after another, each as its text."""
+    """A position in a JSON stream. Values are taken one after another, as text."""
 
-    def __init__(self, stream: BinaryIO | Joined) -> None:
+    def __init__(self, stream: BinaryIO | PeekedStream) -> None:
         self.stream = stream
         self.text = stream.read(BLOCK).removeprefix(BYTE_ORDER_MARK)
         self.at = 0
@@ -163,7 +157,7 @@ class Cursor:
         self._line_start = 0
 
     def place(self, call: int | None = None) -> Place:
-        """Where the next character stands."""
+        """The place of the next character."""
         ends = self.text.count(b"\n", self._counted, self.at)
         if ends:
             self._line += ends
@@ -172,7 +166,7 @@ class Cursor:
         return Place(self._line, self.at - self._line_start + 1, call)
 
     def next(self) -> bytes:
-        """The next character that is no space, not taken; nothing at the end."""
+        """The next character that is not white space, without taking it; empty at the end."""
         while True:
             found = _SPACES.match(self.text, self.at)
             self.at = found.end() if found is not None else self.at
@@ -182,41 +176,46 @@ class Cursor:
                 return b""
 
     def take(self, characters: bytes) -> bytes:
-        """Takes the next character, one of some."""
+        """Takes the next character, which must be one of `characters`."""
         found = self.next()
         if not found:
-            raise self.ends()
+            raise self.truncation()
         if found not in characters:
-            wanted = " or ".join(f"`{chr(each)}`" for each in characters)
-            raise Broken(f"no JSON: {wanted} is missing", self.place())
+            expected = " or ".join(f"`{chr(character)}`" for character in characters)
+            raise CaptureError(f"invalid JSON: expected {expected}", self.place())
         self.at += 1
         return found
 
-    def ends(self) -> Broken:
-        """That the file ends here, where something is missing yet."""
+    def expect_end(self) -> None:
+        """Raises CaptureError if anything follows."""
+        if self.next():
+            raise CaptureError("invalid JSON: unexpected text after the end of the document", self.place())
+
+    def truncation(self) -> CaptureError:
+        """The error for a file that ends here."""
         self.at = len(self.text)
-        return Broken(CUT, self.place())
+        return CaptureError(TRUNCATED, self.place())
 
     def value(self) -> bytes:
-        """Takes the text of the next value: an object, an array, or what has no parts."""
+        """Takes the text of the next value: an object, an array or a scalar."""
         first = self.next()
         if not first:
-            raise self.ends()
+            raise self.truncation()
         end = 0
         if first == b"{":
-            end = self._by_layout()
+            end = self._end_by_layout()
         if not end:
-            end = self._by_brackets() if first in b"{[" else self._scalar()
+            end = self._end_by_brackets() if first in b"{[" else self._scalar()
         if end - self.at > MAX_VALUE:
-            raise Broken(TOO_LONG, self.place())
+            raise CaptureError(TOO_LONG, self.place())
         text = self.text[self.at : end]
         self.at = end
         return text
 
-    def _by_layout(self) -> int:
-        """Where the object ends whose first bracket stands alone on its line: at the bracket below it. 0 where that is not so.
+    def _end_by_layout(self) -> int:
+        """The end of an object whose opening bracket is alone on its line: the closing bracket at the same indentation. 0 if that fails.
 
-        All tools that write captures as one array indent it so, and to look for the one bracket is ten times faster than for all of them.
+        All tools that write captures as one array indent them this way, and finding one bracket is ten times faster than finding all.
         """
         start = self.text.rfind(b"\n", 0, self.at) + 1
         indent = self.text[start : self.at]
@@ -235,8 +234,8 @@ class Cursor:
                 return 0
             since = self.at + max(0, searched - len(indent) - 2)
 
-    def _by_brackets(self) -> int:
-        """Where the object or array ends, by its brackets outside of texts."""
+    def _end_by_brackets(self) -> int:
+        """The end of an object or array, found by counting the brackets outside strings."""
         depth = 0
         since = self.at
         while True:
@@ -257,7 +256,7 @@ class Cursor:
                 since = max(since, len(self.text))
             distance = since - self.at
             if not self._more():
-                raise self.ends()
+                raise self.truncation()
             since = self.at + distance
 
     def _scalar(self) -> int:
@@ -267,16 +266,16 @@ class Cursor:
                 return found.end()
             if not self._more():
                 if found is None and self.text[self.at : self.at + 1] != b'"':
-                    raise Broken("no JSON: a value is missing", self.place())
-                raise self.ends()
+                    raise CaptureError("invalid JSON: expected a value", self.place())
+                raise self.truncation()
 
     def _more(self) -> bool:
-        """Reads on, and forgets what was taken but for the line that the position is in; False at the end."""
+        """Reads more and drops what was taken, except for the current line; False at the end."""
         self.place()
         pending = len(self.text) - self.at
         if pending > MAX_VALUE:
-            raise Broken(TOO_LONG, self.place())
-        more = self.stream.read(_further(pending))
+            raise CaptureError(TOO_LONG, self.place())
+        more = self.stream.read(_read_size(pending))
         if not more:
             return False
         kept = max(self._line_start, self.at - BLOCK)

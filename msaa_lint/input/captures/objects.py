@@ -1,4 +1,4 @@
-"""The objects of a capture that multisampling has to do with, as they were created."""
+"""The objects of a capture that matter for multisampling."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from .structures import Tree
 ATTACHMENT_USAGES = frozenset(("COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT", "INPUT_ATTACHMENT"))
 
 
-class Created:
-    """An object: the call that made it, its number among its kind (from 0), the name that the application gave it, or empty.
+class CapturedObject:
+    """An object: the call that created it, its number within its kind (from 0), and its debug name (`label`), empty if it has none.
 
-    `frames` counts the frames that it is in use in.
+    `frames` counts the frames that use it.
     """
 
     __slots__ = ("at", "by", "frames", "label", "number")
@@ -27,10 +27,10 @@ class Created:
         self.frames = 0
 
 
-class Image(Created):
-    """An image, or one of a swapchain's. `tree` is a description's; `left` what the last use of each aspect left behind."""
+class Image(CapturedObject):
+    """An image, possibly of a swapchain. `tree` describes it; `aspect_states` holds the state of each aspect after its last use."""
 
-    __slots__ = ("aspects", "attachable", "left", "shared", "swapchain", "tree")
+    __slots__ = ("aspect_states", "aspects", "attachable", "shared", "swapchain", "tree")
 
     def __init__(self, call: Call, number: int, tree: Tree, aspects: tuple[str, ...]) -> None:
         super().__init__(call, number)
@@ -38,20 +38,20 @@ class Image(Created):
         self.aspects = aspects
         self.swapchain: Swapchain | None = None
         self.shared = False
-        """Whether its memory may be shared with another process or another API, which may read it."""
+        """Whether another process or API may read its memory."""
         usage = tree.get("usage")
         self.attachable = usage is None or self.samples > 1 or not ATTACHMENT_USAGES.isdisjoint(usage)
-        """Whether a pass may draw to it: textures, which are most of a program's images, need no following."""
-        self.left: dict[str, Any] = {}
+        """Whether a pass may draw to it. Other textures, which are most images of a program, are not tracked."""
+        self.aspect_states: dict[str, Any] = {}
 
     @property
     def samples(self) -> int:
-        """Its sample count; 1 where the capture does not state it."""
+        """The sample count; 1 if the capture does not state it."""
         return self.tree.get("samples") or 1
 
 
-class Swapchain(Created):
-    """A swapchain: its images by their index."""
+class Swapchain(CapturedObject):
+    """A swapchain with its images, in order."""
 
     __slots__ = ("images", "tree")
 
@@ -61,8 +61,8 @@ class Swapchain(Created):
         self.images: list[Image] = []
 
 
-class RenderPass(Created):
-    """A render pass; those that were created alike are one."""
+class RenderPass(CapturedObject):
+    """A render pass. Render passes created with the same parameters are one object."""
 
     __slots__ = ("tree",)
 
@@ -71,8 +71,8 @@ class RenderPass(Created):
         self.tree = tree
 
 
-class Framebuffer(Created):
-    """A framebuffer with its images, None where one is not known; `images` is None where the begin names them (imageless)."""
+class Framebuffer(CapturedObject):
+    """A framebuffer with its images, None for an unknown one; `images` is None for an imageless framebuffer."""
 
     __slots__ = ("height", "images", "layers", "render_pass", "width")
 
@@ -85,8 +85,8 @@ class Framebuffer(Created):
         self.layers: int | None = None
 
 
-class Pipeline(Created):
-    """A graphics pipeline; those that were created alike are one."""
+class Pipeline(CapturedObject):
+    """A graphics pipeline. Pipelines created with the same parameters are one object."""
 
     __slots__ = ("dynamic_samples", "modules", "render_pass", "tree")
 
@@ -99,9 +99,9 @@ class Pipeline(Created):
 
 
 class DescriptorSet:
-    """The images of interest that a descriptor set shows to shaders, by binding and element, and whether shaders may write them too.
+    """The attachable images of a descriptor set, by binding and element, and whether shaders may also write them.
 
-    One that is `opaque` holds what the capture does not tell.
+    The contents of an `opaque` set are unknown.
     """
 
     __slots__ = ("images", "opaque")
@@ -111,11 +111,11 @@ class DescriptorSet:
         self.opaque = False
 
 
-def frozen(value: Any) -> Hashable:
-    """Plain data as something that can be a key."""
+def freeze(value: Any) -> Hashable:
+    """Plain data as a hashable value; `command_writer.thaw` is the inverse."""
     if isinstance(value, dict):
-        return tuple((key, frozen(item)) for key, item in value.items())
+        return tuple((key, freeze(item)) for key, item in value.items())
     if isinstance(value, (list, tuple)):
-        return tuple(map(frozen, value))
+        return tuple(map(freeze, value))
     made: Hashable = value
     return made

@@ -1,4 +1,4 @@
-"""VkGraphicsPipelineCreateInfo as a description states it, with the code of its shaders."""
+"""Converts VkGraphicsPipelineCreateInfo to the form of a description, with the code of its shaders."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from typing import Any
 from msaa_lint.frame.description.models import Pipeline
 
 from . import values
-from .structures import Tree, described
+from .structures import Tree, to_tree
 
 
-def pipelines_of(info: dict[str, Any], modules: Mapping[int, bytes]) -> tuple[Tree, dict[str, bytes]]:
-    """A pipeline's tree, and the code of the modules that its stages name, by the names they have there."""
+def pipeline_of(info: dict[str, Any], modules: Mapping[int, bytes]) -> tuple[Tree, dict[str, bytes]]:
+    """A pipeline's tree, and the code of the shader modules by the names that the tree uses."""
     structure = dict(info)
-    # In a description the dynamic states stand by themselves.
+    # A description lists the dynamic states directly.
     dynamic = values.record(info.get("pDynamicState") or info.get("dynamicState"))
     structure["dynamicState"] = dynamic.get("pDynamicStates", dynamic.get("dynamicState")) or []
     structure.pop("pDynamicState", None)
@@ -23,7 +23,7 @@ def pipelines_of(info: dict[str, Any], modules: Mapping[int, bytes]) -> tuple[Tr
     stages = values.items(info.get("pStages") or info.get("stages"))
     structure["pStages"] = None
     structure.pop("stages", None)
-    tree = described(Pipeline, structure)
+    tree = to_tree(Pipeline, structure)
     if not values.handle(info.get("renderPass")):
         tree.pop("subpass", None)
     made, code = _stages(stages, modules)
@@ -33,22 +33,22 @@ def pipelines_of(info: dict[str, Any], modules: Mapping[int, bytes]) -> tuple[Tr
 
 
 def _stages(stages: list[Any], modules: Mapping[int, bytes]) -> tuple[list[Tree], dict[str, bytes]]:
-    """The fragment stage, which is the one that rules ask about, where its code is known."""
-    made: list[Tree] = []
-    found: dict[str, bytes] = {}
+    """The fragment stage, the only one that rules need, if its code is known."""
+    trees: list[Tree] = []
+    modules_by_name: dict[str, bytes] = {}
     for stage in stages[:16]:
-        given = values.record(stage)
-        kind = values.enum("VkShaderStageFlagBits", given.get("stage"))
-        code = modules.get(values.handle(given.get("module")))
-        # With constants whose values the capture does not tell, it is not known what the code does.
-        specialized = given.get("pSpecializationInfo") or given.get("specializationInfo")
+        info = values.record(stage)
+        kind = values.enum("VkShaderStageFlagBits", info.get("stage"))
+        code = modules.get(values.handle(info.get("module")))
+        # The capture omits the values of specialization constants, so the behavior of the code is unknown.
+        specialized = info.get("pSpecializationInfo") or info.get("specializationInfo")
         if kind != "FRAGMENT" or code is None or specialized:
             continue
         name = f"shaders/{hashlib.sha256(code).hexdigest()[:16]}.spv"
-        found[name] = code
+        modules_by_name[name] = code
         tree: Tree = {"stage": kind, "module": name}
-        entry = values.text(given.get("pName") or given.get("name"))
+        entry = values.text(info.get("pName") or info.get("name"))
         if entry:
             tree["name"] = entry
-        made.append(tree)
-    return made, found
+        trees.append(tree)
+    return trees, modules_by_name

@@ -1,4 +1,4 @@
-"""Vulkan's structures, as calls pass them, in the words of a description: every member by the shape that descriptions are read by."""
+"""Converts Vulkan structures from calls to the form of a description, each member by its shape in the description format."""
 
 from __future__ import annotations
 
@@ -12,114 +12,114 @@ from msaa_lint.frame.description.shapes import Shape
 from . import values
 
 Tree = dict[str, Any]
-"""A structure of a description as plain data: mappings, lists, texts, numbers, booleans and None."""
+"""A structure of a description as plain data: mappings, lists, strings, numbers, booleans and None."""
 
 MAX_ITEMS = 4096
-"""So many elements of an array are taken; Vulkan's own arrays in structures of interest have some tens."""
+"""Maximum number of array elements; real arrays in these structures have a few dozen."""
 
 MAX_DEPTH = 8
 
 
-def described(kind: type[Record], structure: object, depth: int = 0) -> Tree:
-    """A structure as a description states it, its pNext chain included. Members that are unknown, or none, are left out."""
-    made: Tree = {}
-    given = values.record(structure)
+def to_tree(kind: type[Record], structure: object, depth: int = 0) -> Tree:
+    """A structure in the form of a description, including its pNext chain. Unknown and empty members are omitted."""
+    tree: Tree = {}
+    members = values.record(structure)
     for member, shape in kind.SHAPE.items():
-        stated = _stated(given, member)
-        if stated is not None:
-            value = _value(shape, stated, depth)
+        given_value = _member(members, member)
+        if given_value is not None:
+            value = _value(shape, given_value, depth)
             if value is not None and not (value in ([], ()) and getattr(kind, member) is not None):
-                made[member] = value
-    following = given.get("pNext")
+                tree[member] = value
+    chained = members.get("pNext")
     for _ in range(64):
-        if not isinstance(following, dict) or depth > MAX_DEPTH:
+        if not isinstance(chained, dict) or depth > MAX_DEPTH:
             break
-        _chained(kind, made, following, depth)
-        following = following.get("pNext")
-    return made
+        _add_chained(kind, tree, chained, depth)
+        chained = chained.get("pNext")
+    return tree
 
 
-def _stated(given: dict[str, Any], member: str) -> object:
-    """A member by its name in a description or in C."""
-    if member in given:
-        return given[member]
+def _member(members: dict[str, Any], member: str) -> object:
+    """A member by its description name or its C name."""
+    if member in members:
+        return members[member]
     pointer = "p" + member[0].upper() + member[1:]
-    if pointer in given:
-        return given[pointer]
+    if pointer in members:
+        return members[pointer]
     for other, name in OTHER_NAMES.items():
-        if name == member and other in given:
-            return given[other]
+        if name == member and other in members:
+            return members[other]
     return None
 
 
-def _chained(kind: type[Record], made: Tree, structure: dict[str, Any], depth: int) -> None:
+def _add_chained(kind: type[Record], tree: Tree, structure: dict[str, Any], depth: int) -> None:
     name = values.structure_type(structure)
     member = PNEXT.get(name)
     if WITHIN.get(name) is kind:
-        made.update(described(kind, {key: value for key, value in structure.items() if key != "pNext"}, depth + 1))
+        tree.update(to_tree(kind, {key: value for key, value in structure.items() if key != "pNext"}, depth + 1))
     elif member is not None and member in kind.SHAPE and kind.SHAPE[member][0] == "record":
-        made[member] = described(kind.SHAPE[member][1], {**structure, "pNext": None}, depth + 1)
+        tree[member] = to_tree(kind.SHAPE[member][1], {**structure, "pNext": None}, depth + 1)
 
 
-def _value(shape: Shape, stated: object, depth: int) -> Any:
-    """A value by its shape; None where it is unknown."""
+def _value(shape: Shape, value: object, depth: int) -> Any:
+    """A value by its shape; None if it is unknown."""
     kind = shape[0]
     if kind == "enum":
-        name = values.enum(shape[1], stated)
-        # A format that is none.
+        name = values.enum(shape[1], value)
+        # VK_FORMAT_UNDEFINED means that there is no format.
         return None if name == "UNDEFINED" and shape[1] == "VkFormat" else name
     if kind == "flags":
-        return _flags(shape[1], stated)
+        return _flags(shape[1], value)
     if kind == "record":
-        return described(shape[1], stated, depth + 1) if isinstance(stated, dict) and depth < MAX_DEPTH else None
+        return to_tree(shape[1], value, depth + 1) if isinstance(value, dict) and depth < MAX_DEPTH else None
     if kind in ("list", "counted"):
-        return _items(shape[1], stated, depth)
+        return _items(shape[1], value, depth)
     if kind == "slot":
-        return slot(stated)
+        return slot(value)
     if kind == "bool":
-        return values.boolean(stated)
+        return values.boolean(value)
     if kind == "samples":
-        return values.samples(stated)
+        return values.samples(value)
     if kind == "int":
-        found = values.integer(stated)
-        within = found is not None and (shape[1] is None or found >= shape[1]) and (shape[2] is None or found <= shape[2])
-        return found if within else None
+        number = values.integer(value)
+        in_range = number is not None and (shape[1] is None or number >= shape[1]) and (shape[2] is None or number <= shape[2])
+        return number if in_range else None
     if kind == "number":
-        return values.number(stated)
+        return values.number(value)
     if kind == "subpass":
-        found = values.integer(stated)
-        return "EXTERNAL" if found == ATTACHMENT_UNUSED else found
+        number = values.integer(value)
+        return "EXTERNAL" if number == ATTACHMENT_UNUSED else number
     if kind == "null":
-        return _value(shape[1], stated, depth)
-    return values.text(stated) if kind == "text" else None
+        return _value(shape[1], value, depth)
+    return values.text(value) if kind == "text" else None
 
 
-def _items(shape: Shape, stated: object, depth: int) -> list[Any] | None:
-    if not isinstance(stated, list):
+def _items(shape: Shape, value: object, depth: int) -> list[Any] | None:
+    if not isinstance(value, list):
         return None
-    made = [_value(shape, item, depth) for item in stated[:MAX_ITEMS]]
-    # An attachment that is unused stands as null; of other lists what is unknown may not shift what comes after it.
+    items = [_value(shape, item, depth) for item in value[:MAX_ITEMS]]
+    # An unused attachment is null. In other lists, leaving out an unknown item would shift those after it.
     nullable = shape[0] in ("slot", "null")
-    return made if nullable or None not in made else None
+    return items if nullable or None not in items else None
 
 
-def _flags(enums: str, stated: object) -> list[str] | None:
-    if isinstance(stated, list):
+def _flags(enums: str, value: object) -> list[str] | None:
+    if isinstance(value, list):
         # Dynamic states are an array of enumerants.
-        names = [values.enum(enums, item) for item in stated[:MAX_ITEMS]]
+        names = [values.enum(enums, item) for item in value[:MAX_ITEMS]]
         return list(dict.fromkeys(name for name in names if name is not None))
-    found = values.flags(enums, stated)
-    if found is None:
+    parsed = values.flags(enums, value)
+    if parsed is None:
         return None
-    names_known, whole = found
-    return names_known if whole or enums not in DECISIVE else None
+    known_names, complete = parsed
+    return known_names if complete or enums not in DECISIVE else None
 
 
-def slot(stated: object) -> Any:
-    """An attachment reference: its index with the layout where that is known; None for VK_ATTACHMENT_UNUSED."""
-    given = stated if isinstance(stated, dict) else {"attachment": stated}
-    index = values.integer(given.get("attachment"))
+def slot(value: object) -> Any:
+    """An attachment reference: its index, with the layout if it is known; None for VK_ATTACHMENT_UNUSED."""
+    reference = value if isinstance(value, dict) else {"attachment": value}
+    index = values.integer(reference.get("attachment"))
     if index is None or index == ATTACHMENT_UNUSED or index < 0:
         return None
-    layout = values.enum("VkImageLayout", given.get("layout")) if "layout" in given else None
+    layout = values.enum("VkImageLayout", reference.get("layout")) if "layout" in reference else None
     return {"attachment": index, "layout": layout} if layout is not None else index

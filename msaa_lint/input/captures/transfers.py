@@ -1,4 +1,4 @@
-"""Follows what command buffers record outside of draws: clears, copies, resolves, barriers."""
+"""Tracks clears, copies, resolves and barriers in command buffers."""
 
 from __future__ import annotations
 
@@ -8,71 +8,71 @@ from msaa_lint.frame.description.models import PipelineBarrier, Rect, SubpassDep
 
 from . import values
 from .call import Call
-from .commands import Recorder, area_of
-from .objects import Image, frozen
-from .structures import described
+from .command_tracker import CommandTracker, area_of
+from .objects import Image, freeze
+from .structures import to_tree
 
 
-class Transfers(Recorder):
-    """Follows the transfers and barriers of a capture. `Tracker` has the objects that they name."""
+class Transfers(CommandTracker):
+    """Tracks the transfers and barriers of a capture. `Tracker` provides the objects that they refer to."""
 
     def on_CmdClearAttachments(self, call: Call) -> None:
         attachments: list[dict[str, Any]] = []
         for item in values.items(call.args.get("pAttachments"))[:64]:
             clear = values.record(item)
             aspects = values.flags("VkImageAspectFlagBits", clear.get("aspectMask"))
-            made: dict[str, Any] = {"aspect": aspects[0] if aspects is not None else []}
+            attachment: dict[str, Any] = {"aspect": aspects[0] if aspects is not None else []}
             number = values.count(clear.get("colorAttachment"))
-            if "COLOR" in made["aspect"] and number is not None:
-                made["colorAttachment"] = number
-            attachments.append(made)
+            if "COLOR" in attachment["aspect"] and number is not None:
+                attachment["colorAttachment"] = number
+            attachments.append(attachment)
         rects = []
         for item in values.items(call.args.get("pRects"))[:64]:
             area = area_of(values.record(values.record(item).get("rect")))
             if area is not None:
-                rects.append(described(Rect, dict(zip(("x", "y", "width", "height"), area, strict=True))))
-        key = frozen({"attachments": attachments, "rects": rects})
-        self.buffer(call).once(self.commands.command("clearAttachments", key, call))
+                rects.append(to_tree(Rect, dict(zip(("x", "y", "width", "height"), area, strict=True))))
+        key = freeze({"attachments": attachments, "rects": rects})
+        self.buffer(call).record_once(self.commands.command("clearAttachments", key, call))
 
     def on_CmdClearColorImage(self, call: Call) -> None:
-        self._one(call, "clearColorImage", "image")
+        self._image_command(call, "clearColorImage", "image")
 
     def on_CmdClearDepthStencilImage(self, call: Call) -> None:
-        self._one(call, "clearDepthStencilImage", "image")
+        self._image_command(call, "clearDepthStencilImage", "image")
 
-    def _one(self, call: Call, kind: str, name: str) -> None:
+    def _image_command(self, call: Call, kind: str, name: str) -> None:
         image = self.images.get(values.handle(call.args.get(name)))
         if image is not None and image.attachable:
             self.buffer(call).record(self.commands.command(kind, (image,), call))
 
     def on_CmdResolveImage(self, call: Call) -> None:
         info = values.record(call.args.get("pResolveImageInfo")) or call.args
-        source, target = self._ends(info)
+        source, target = self._source_and_target(info)
         if source is None or target is None:
             return
         buffer = self.buffer(call)
-        if _covered(values.items(info.get("pRegions")), target):
+        if _covers_target(values.items(info.get("pRegions")), target):
             buffer.record(self.commands.command("resolveImage", (source, target), call))
         else:
-            # A resolve of a part is no overwrite of the whole.
+            # Resolving a part does not overwrite the whole image.
             buffer.record(self.commands.command("readImage", (source, "RESOLVE"), call))
             buffer.record(self.commands.command("writeImage", (target, "RESOLVE"), call))
 
     on_CmdResolveImage2 = on_CmdResolveImage
 
     def on_CmdCopyImage(self, call: Call) -> None:
-        self._two(call, "copyImage", values.record(call.args.get("pCopyImageInfo")) or call.args)
+        self._copy(call, "copyImage", values.record(call.args.get("pCopyImageInfo")) or call.args)
 
     on_CmdCopyImage2 = on_CmdCopyImage
 
     def on_CmdBlitImage(self, call: Call) -> None:
-        self._two(call, "blitImage", values.record(call.args.get("pBlitImageInfo")) or call.args)
+        self._copy(call, "blitImage", values.record(call.args.get("pBlitImageInfo")) or call.args)
 
     on_CmdBlitImage2 = on_CmdBlitImage
 
     def on_CmdCopyImageToBuffer(self, call: Call) -> None:
         info = values.record(call.args.get("pCopyImageToBufferInfo")) or call.args
-        source, _ = self._ends(info)
+        source, _ = self._source_and_target(info)
         if source is not None and source.attachable:
             self.buffer(call).record(self.commands.command("copyImageToBuffer", (source,), call))
 
@@ -80,17 +80,17 @@ class Transfers(Recorder):
 
     def on_CmdCopyBufferToImage(self, call: Call) -> None:
         info = values.record(call.args.get("pCopyBufferToImageInfo")) or call.args
-        _, target = self._ends(info)
+        _, target = self._source_and_target(info)
         if target is not None and target.attachable:
             self.buffer(call).record(self.commands.command("copyBufferToImage", (target,), call))
 
     on_CmdCopyBufferToImage2 = on_CmdCopyBufferToImage
 
-    def _ends(self, info: dict[str, Any]) -> tuple[Image | None, Image | None]:
+    def _source_and_target(self, info: dict[str, Any]) -> tuple[Image | None, Image | None]:
         return self.images.get(values.handle(info.get("srcImage"))), self.images.get(values.handle(info.get("dstImage")))
 
-    def _two(self, call: Call, kind: str, info: dict[str, Any]) -> None:
-        source, target = self._ends(info)
+    def _copy(self, call: Call, kind: str, info: dict[str, Any]) -> None:
+        source, target = self._source_and_target(info)
         if source is not None and target is not None and (source.attachable or target.attachable):
             self.buffer(call).record(self.commands.command(kind, (source, target), call))
 
@@ -104,8 +104,7 @@ class Transfers(Recorder):
     def on_CmdPipelineBarrier2(self, call: Call) -> None:
         self._barriers(call, values.record(call.args.get("pDependencyInfo")), None)
 
-    def on_CmdWaitEvents(self, call: Call) -> None:
-        self.on_CmdPipelineBarrier(call)
+    on_CmdWaitEvents = on_CmdPipelineBarrier
 
     def on_CmdWaitEvents2(self, call: Call) -> None:
         for info in values.items(call.args.get("pDependencyInfos"))[:64]:
@@ -119,21 +118,21 @@ class Transfers(Recorder):
                 image = self.images.get(values.handle(barrier.get("image")))
                 if name == "pImageMemoryBarriers" and (image is None or not image.attachable):
                     continue
-                # The masks of a dependency are spelled as a subpass dependency's.
-                masks = described(SubpassDependency, {**barrier, **(stages or {})})
+                # The mask members have the same names in a subpass dependency.
+                masks = to_tree(SubpassDependency, {**barrier, **(stages or {})})
                 tree = {key: masks[key] for key in PipelineBarrier.SHAPE if key in masks}
                 layouts = tuple(values.enum("VkImageLayout", barrier.get(each)) for each in ("oldLayout", "newLayout"))
-                buffer.record(self.commands.command("pipelineBarrier", (frozen(tree), image, layouts), call))
+                buffer.record(self.commands.command("pipelineBarrier", (freeze(tree), image, layouts), call))
 
 
-def _covered(regions: list[Any], target: Image) -> bool:
-    """Whether the regions of a resolve write all of its target; also where sizes are not known."""
+def _covers_target(regions: list[Any], target: Image) -> bool:
+    """Whether the regions of a resolve cover its target; True if the sizes are unknown."""
     extent = target.tree.get("extent", {})
     for item in regions[:1024]:
         region = values.record(item)
         offset, size = values.record(region.get("dstOffset")), values.record(region.get("extent"))
-        at = [values.integer(offset.get(axis)) or 0 for axis in ("x", "y")]
-        wide = [(values.integer(size.get(side)), extent.get(side)) for side in ("width", "height")]
-        if at == [0, 0] and all(own is None or whole is None or own >= whole for own, whole in wide):
+        origin = [values.integer(offset.get(axis)) or 0 for axis in ("x", "y")]
+        sides = [(values.integer(size.get(side)), extent.get(side)) for side in ("width", "height")]
+        if origin == [0, 0] and all(size_ is None or full is None or size_ >= full for size_, full in sides):
             return True
     return not regions

@@ -1,4 +1,4 @@
-"""Captures in a form that is not read, told by their beginning, with what a person runs to have one that is."""
+"""Detects captures in unsupported forms from their first bytes, and says how to convert them."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ _COMPRESSED = ((b"\x1f\x8b", "gzip -d"), (b"\x28\xb5\x2f\xfd", "zstd -d"), (b"\x
 
 
 def hint(head: bytes) -> str | None:
-    """What the beginning of a file is, and how to convert that; None where it is nothing known."""
+    """The form of a file and how to convert it; None if it is not a known form."""
     if head.startswith(b"GFXR"):
         return (
-            "a binary capture of gfxreconstruct: convert it with `gfxrecon-convert --format jsonl FILE.gfxr`, "
-            "or by version 0.9 with `gfxrecon-convert FILE.gfxr`"
+            "a binary gfxreconstruct capture: convert it with `gfxrecon-convert --format jsonl FILE.gfxr`, "
+            "or `gfxrecon-convert FILE.gfxr` for version 0.9"
         )
     if head.startswith(b"RDOC"):
-        return "a binary capture of RenderDoc: convert it with `renderdoccmd convert -f FILE.rdc -o FILE.xml -c xml`"
+        return "a binary RenderDoc capture: convert it with `renderdoccmd convert -f FILE.rdc -o FILE.xml -c xml`"
     beginning = head[:4096].lower()
     if beginning.lstrip().startswith(b"<!doctype html") and b"<title>vulkan api dump" in beginning:
         return _dump("HTML")
@@ -27,9 +27,9 @@ def hint(head: bytes) -> str | None:
         if head.startswith(magic):
             return f"a compressed file: decompress it with `{command} FILE`"
     if head.startswith((b"\xff\xfe", b"\xfe\xff")) and any(word in head.replace(b"\0", b"") for word in _WORDS):
-        return "text in UTF-16, as PowerShell's `>` writes it: let the tool write the file itself (`--output FILE`), or convert it to UTF-8"
+        return "UTF-16 text, as written by PowerShell's `>`: let the tool write the file itself (`--output FILE`), or convert it to UTF-8"
     return None
 
 
 def _dump(form: str) -> str:
-    return f"{form} of api_dump: run the program again with VK_APIDUMP_OUTPUT_FORMAT=json in its environment"
+    return f"api_dump output in {form} format: run the program again with VK_APIDUMP_OUTPUT_FORMAT=json in its environment"

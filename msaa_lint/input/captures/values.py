@@ -1,7 +1,7 @@
-"""Values as captures spell them: one reading for every dialect.
+"""Parses the values of all capture formats.
 
-A number may be a number or a text (`256`, `"256"`, `"0x11"`), a boolean `true`, `1`, `"1"` or `"VK_TRUE"`, an enumerant its name or number
-or `4 (VK_SAMPLE_COUNT_4_BIT)`, flags a number, `0x00000011`, `VK_A|VK_B` or `17 (VK_A | VK_B)`. What is none of these is None: unknown.
+A number may be a number or a string (`256`, `"256"`, `"0x11"`); a boolean `true`, `1`, `"1"` or `"VK_TRUE"`; an enumerant its name, its
+number or `4 (VK_SAMPLE_COUNT_4_BIT)`; flags a number, `0x00000011`, `VK_A|VK_B` or `17 (VK_A | VK_B)`. Anything else is None: unknown.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from msaa_lint.frame.vulkan.enums import VALUES
 from msaa_lint.frame.vulkan.names import flag_names, from_value
 
 MAX_TEXT = 4096
-"""Longer texts are no number, name or mask."""
+"""Longer strings are not parsed."""
 
 
 def integer(value: object) -> int | None:
-    """A whole number."""
+    """An integer."""
     if type(value) is int:
         return value
     if isinstance(value, str):
@@ -30,12 +30,12 @@ def integer(value: object) -> int | None:
 
 def count(value: object) -> int | None:
     """A uint32_t."""
-    found = integer(value)
-    return found if found is not None and 0 <= found < 1 << 32 else None
+    result = integer(value)
+    return result if result is not None and 0 <= result < 1 << 32 else None
 
 
 def handle(value: object) -> int:
-    """A handle: 0 is null, and what cannot be read."""
+    """A handle; 0 if it is null or invalid."""
     if type(value) is int:
         return value
     if value is None or value == "VK_NULL_HANDLE":
@@ -66,78 +66,78 @@ def boolean(value: object) -> bool | None:
         return True
     if value in ("VK_FALSE", "false"):
         return False
-    found = integer(value)
-    return None if found is None else found != 0
+    bit = integer(value)
+    return None if bit is None else bit != 0
 
 
 def text(value: object) -> str | None:
-    """A text."""
+    """A string."""
     return value[:MAX_TEXT] if isinstance(value, str) else None
 
 
 def enum(enums: str, value: object) -> str | None:
-    """The canonical short name of an enumerant of one of the enums, joined by `|`."""
+    """The canonical short name of an enumerant. `enums` is one enum name, or several joined by `|`."""
     if isinstance(value, str) and len(value) <= MAX_TEXT:
-        found = enumerant(enums, value)
-        if found is not None:
-            return found
-        found = enumerant(enums, named(value))
-        if found is not None:
-            return found
-    known = integer(value)
-    return from_value(enums.partition("|")[0], known) if known is not None else None
+        name = enumerant(enums, value)
+        if name is not None:
+            return name
+        name = enumerant(enums, enumerant_name(value))
+        if name is not None:
+            return name
+    value_ = integer(value)
+    return from_value(enums.partition("|")[0], value_) if value_ is not None else None
 
 
-def named(value: object) -> str:
-    """The name of an enumerant as it is written: of `4 (VK_SAMPLE_COUNT_4_BIT)` what is in parentheses. Empty where it is no text."""
+def enumerant_name(value: object) -> str:
+    """The name of an enumerant as written, or in parentheses as in `4 (VK_SAMPLE_COUNT_4_BIT)`; empty if it is not a string."""
     if not isinstance(value, str):
         return ""
     return value[value.find("(") + 1 : -1].strip() if value.endswith(")") and "(" in value else value
 
 
 def flags(enums: str, value: object) -> tuple[list[str], bool] | None:
-    """The canonical short names of the bits that are known, and whether all bits are; None where it is no mask."""
-    whole = value if type(value) is int else mask(value)
-    if whole is None:
+    """The canonical short names of the known bits, and whether all bits are known; None if the value is not a mask."""
+    bits_ = value if type(value) is int else mask(value)
+    if bits_ is None:
         return _names(enums, value) if isinstance(value, str) and len(value) <= MAX_TEXT else None
-    if whole < 0 or whole >= 1 << 64:
+    if bits_ < 0 or bits_ >= 1 << 64:
         return None
-    known = flag_names(enums, whole)
-    if known is not None:
-        return known, True
-    return [name for name, bit in VALUES[enums].items() if bit and bit & (bit - 1) == 0 and whole & bit], False
+    names = flag_names(enums, bits_)
+    if names is not None:
+        return names, True
+    return [name for name, bit in VALUES[enums].items() if bit and bit & (bit - 1) == 0 and bits_ & bit], False
 
 
 def bits(enums: str, value: object) -> int | None:
-    """The bits of flags, by number or by names; None where one of them is unknown."""
-    found = mask(value)
-    if found is not None:
-        return found
-    named = flags(enums, value)
-    return sum(VALUES[enums][name] for name in named[0]) if named is not None and named[1] else None
+    """The bits of flags, from a number or names; None if one of them is unknown."""
+    number_ = mask(value)
+    if number_ is not None:
+        return number_
+    names = flags(enums, value)
+    return sum(VALUES[enums][name] for name in names[0]) if names is not None and names[1] else None
 
 
 def samples(value: object) -> int | None:
     """A sample count."""
     if isinstance(value, str):
-        found = sample_count(value)
-        if found is not None:
-            return found
+        parsed = sample_count(value)
+        if parsed is not None:
+            return parsed
         value = mask(value)
     return sample_count(value)
 
 
 def sample_counts(value: object) -> list[int] | None:
-    """The counts of a VkSampleCountFlags mask, in rising order."""
-    found = flags("VkSampleCountFlagBits", value)
-    if found is None:
+    """The counts of a VkSampleCountFlags mask, in ascending order."""
+    parsed = flags("VkSampleCountFlagBits", value)
+    if parsed is None:
         return None
-    counts = (sample_count(name) for name in found[0])
+    counts = (sample_count(name) for name in parsed[0])
     return sorted(count for count in counts if count is not None)
 
 
 def record(value: object) -> dict[str, Any]:
-    """A structure; an empty one where there is none."""
+    """A structure; an empty one if there is none."""
     return value if isinstance(value, dict) else {}
 
 
@@ -147,7 +147,7 @@ def items(value: object) -> list[Any]:
 
 
 def chained(structure: dict[str, Any], kind: str) -> dict[str, Any] | None:
-    """The structure of a pNext chain whose sType, without prefix and vendor, is `kind`."""
+    """The structure in a pNext chain whose sType, without prefix and vendor suffix, is `kind`."""
     following = structure.get("pNext")
     for _ in range(64):
         if not isinstance(following, dict):
@@ -159,12 +159,12 @@ def chained(structure: dict[str, Any], kind: str) -> dict[str, Any] | None:
 
 
 def structure_type(structure: dict[str, Any]) -> str:
-    """The sType of a structure without its prefix and vendor."""
-    return named(structure.get("sType")).removeprefix("VK_STRUCTURE_TYPE_").removesuffix("_KHR").removesuffix("_EXT")
+    """The sType of a structure without its prefix and vendor suffix."""
+    return enumerant_name(structure.get("sType")).removeprefix("VK_STRUCTURE_TYPE_").removesuffix("_KHR").removesuffix("_EXT")
 
 
 def _number_in(value: str) -> int | None:
-    """The number that a text is, or begins with where a name follows in parentheses."""
+    """The number in a string, which may be followed by a name in parentheses."""
     if len(value) > MAX_TEXT:
         return None
     head = value.partition(" (")[0]
@@ -177,23 +177,23 @@ def _number_in(value: str) -> int | None:
 
 
 def mask(value: object) -> int | None:
-    """The bits of flags that are a number; None where they are names alone."""
+    """The bits of flags written as a number; None if they are only names."""
     if isinstance(value, str):
-        found = _number_in(value)
-        # RenderDoc names no bits `VkImageCreateFlagBits(0)`.
-        if found is None and value.endswith("(0)") and value[:2] == "Vk":
+        bits_ = _number_in(value)
+        # RenderDoc writes an empty mask as `VkImageCreateFlagBits(0)`.
+        if bits_ is None and value.endswith("(0)") and value[:2] == "Vk":
             return 0
-        return found
+        return bits_
     return integer(value)
 
 
 def _names(enums: str, value: str) -> tuple[list[str], bool] | None:
-    found: dict[str, None] = {}
-    whole = True
+    names: dict[str, None] = {}
+    complete = True
     for part in value.split("|"):
         name = enumerant(enums, part.strip())
         if name is None:
-            whole = False
+            complete = False
         elif VALUES[enums][name]:
-            found[name] = None
-    return (list(found), whole) if found or whole else None
+            names[name] = None
+    return (list(names), complete) if names or complete else None

@@ -1,4 +1,4 @@
-"""Plain data as the YAML of a description: a structure a line where it is short, and which call every line is from."""
+"""Writes plain data as the YAML of a description, short structures on one line, and records the call behind each line."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from typing import Any
 from msaa_lint.core.text.source import Origin
 
 WIDTH = 110
-"""Longer structures are written over several lines."""
+"""Maximum line width; longer structures take several lines."""
 
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _NOT_PLAIN = frozenset(("true", "false", "null", "yes", "no", "on", "off"))
 
 
 class Alias:
-    """A value that stands under an anchor: written whole the first time, as an alias from then on."""
+    """A value with an anchor: written in full the first time, then as an alias."""
 
     __slots__ = ("name", "value")
 
@@ -26,7 +26,7 @@ class Alias:
 
 
 class Lines:
-    """The text as it grows. `origins` has one entry a line."""
+    """The lines written so far. `origins` has one entry per line."""
 
     def __init__(self) -> None:
         self.text: list[str] = []
@@ -39,16 +39,16 @@ class Lines:
         self.origins.append(origin)
 
     def document(self) -> None:
-        """Begins a further document."""
+        """Begins another document."""
         self.line("---")
         self._anchors.clear()
 
     def member(self, indent: int, key: str, value: Any, origin: Origin | None, comment: str = "") -> None:
-        """`key: value` at an indentation, in one line where it fits."""
+        """Writes `key: value`, on one line if it fits."""
         self._put(" " * indent + f"{scalar(key)}:", indent, value, origin, comment)
 
     def item(self, indent: int, value: Any, origin: Origin | None, comment: str = "") -> None:
-        """`- value` at an indentation. A mapping too long for a line has its first member on the dash's line."""
+        """Writes `- value`. A mapping that is too long for one line has its first member on the line of the dash."""
         head = " " * indent + "-"
         if isinstance(value, dict) and value and (len(value) == 1 or not self._fits(head, value)):
             (key, first), *rest = value.items()
@@ -78,14 +78,14 @@ class Lines:
 
     @staticmethod
     def _fits(head: str, value: Any) -> bool:
-        """Whether a value may stand in the line of its key."""
+        """Whether a value fits on the line of its key."""
         if isinstance(value, (dict, list)) and _nested(value) > 2:
             return False
         return len(head) + 1 + len(flow(value)) <= WIDTH
 
 
 def _nested(value: Any) -> int:
-    """How deep structures stand in each other."""
+    """The nesting depth of a value."""
     inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
     depths = [_nested(each) for each in inner if isinstance(each, (dict, list))]
     return 1 + max(depths, default=0)
@@ -96,7 +96,7 @@ def _remark(comment: str) -> str:
 
 
 def flow(value: Any) -> str:
-    """A value in one line."""
+    """A value in flow style."""
     if isinstance(value, dict):
         return "{" + ", ".join(f"{scalar(key)}: {flow(item)}" for key, item in value.items()) + "}"
     if isinstance(value, (list, tuple)):
@@ -105,7 +105,7 @@ def flow(value: Any) -> str:
 
 
 def scalar(value: Any) -> str:
-    """A scalar that reads back as itself: what is not plain in double quotes."""
+    """A scalar that parses back to the same value; strings are quoted where necessary."""
     if value is None:
         return "null"
     if isinstance(value, bool):

@@ -8,29 +8,29 @@ from msaa_lint.frame.description.models import Description, Device
 from msaa_lint.frame.devices import builtin
 
 from . import metal, vulkan
-from .stated import Stated, tree
 from .target import Target, sections
+from .value_tree import Value, tree
 
-KEPT = ("frame", "device", "enabled", "scene", "sampleCountChoices")
+PASSTHROUGH_SECTIONS = ("frame", "device", "enabled", "scene", "sampleCountChoices")
 """Sections that stand beside `renderTargets`, and go on as they are."""
 
 METAL_MEMBERS = ("family", "supportedSampleCounts")
 """What a `metal` section may state beside `renderTargets`: the device."""
 
 
-MOST_TARGETS = 256
+MAX_TARGETS = 256
 """Targets of a description: each becomes some two hundred nodes."""
 
 
 def check(binder: Binder, description: Description) -> None:
     """What the engine cannot be asked for, and what cannot stand beside `renderTargets`, as problems."""
     targets = description.renderTargets
-    if len(targets) > MOST_TARGETS:
-        record = list(targets.values())[MOST_TARGETS]
-        binder.report("MSAA903", f"there are at most {MOST_TARGETS} render targets", record.head, record.path)
+    if len(targets) > MAX_TARGETS:
+        record = list(targets.values())[MAX_TARGETS]
+        binder.report("MSAA903", f"there are at most {MAX_TARGETS} render targets", record.head, record.path)
     apis = {record.api for record in targets.values() if record.api is not None}
     for section in description.spelled:
-        if section not in (*KEPT, "renderTargets") and not (section == "metal" and apis <= {"metal"}):
+        if section not in (*PASSTHROUGH_SECTIONS, "renderTargets") and not (section == "metal" and apis <= {"metal"}):
             message = f"`{section}` cannot stand beside `renderTargets`, which give the whole frame"
             help = "`msaa-lint convert` writes what they give, to be added to"
             binder.report("MSAA903", message, description.spelled[section][0].span, section, help)
@@ -54,18 +54,18 @@ def check(binder: Binder, description: Description) -> None:
             binder.report("MSAA903", message, record.place("enableStencil"), f"{record.path}.enableStencil")
 
 
-def expanded(description: Description) -> Node:
+def expand(description: Description) -> Node:
     """The tree of the description that the render targets of a sound one give. Its nodes stand where their reasons do."""
     root = description.node
     key = description.spelled["renderTargets"][0].span
     targets = [Target(name, record, description.frame) for name, record in description.renderTargets.items()]
-    made: dict[str, object] = {**sections(root, KEPT)}
+    made: dict[str, object] = {**sections(root, PASSTHROUGH_SECTIONS)}
     if any(record.api == "metal" for record in description.renderTargets.values()):
         stated = sections(root.value["metal"], METAL_MEMBERS) if "metal" in root.value else {}
         own = metal.section(targets, *_apple(description))
-        made["metal"] = Stated({**stated, **own}, key)
+        made["metal"] = Value({**stated, **own}, key)
     else:
-        made |= {name: Stated(entries, key) for name, entries in vulkan.description(targets, lazily_allocated(description)).items()}
+        made |= {name: Value(entries, key) for name, entries in vulkan.description(targets, lazily_allocated(description)).items()}
     return tree(made, root.span)
 
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 from typing import Any
 
 from . import words
-from .stated import Stated
 from .target import Target
+from .value_tree import Value
 
 Members = dict[str, Any]
 
@@ -24,18 +24,18 @@ def section(targets: list[Target], memoryless: bool | None, apple: bool | None) 
     made: Members = {"textures": {}, "renderPasses": {}, "renderPipelines": {}}
     for target in targets:
         made["textures"] |= _textures(target, memoryless, apple)
-        made["renderPasses"][target.name] = Stated(_render_pass(target), target.at)
-        made["renderPipelines"][target.name] = Stated(_pipeline(target), target.at)
+        made["renderPasses"][target.name] = Value(_render_pass(target), target.at)
+        made["renderPipelines"][target.name] = Value(_pipeline(target), target.at)
     if targets and all(target.onscreen for target in targets):
         # Of what is sampled later the frame says nothing: without commands a usage that allows it counts.
-        made["commands"] = [Stated(each, target.at) for target in targets for each in _commands(target)]
+        made["commands"] = [Value(each, target.at) for target in targets for each in _commands(target)]
     return {member: entries for member, entries in made.items() if entries}
 
 
 def _textures(target: Target, memoryless: bool | None, apple: bool | None) -> Members:
-    def texture(format: Stated, usage: list[str], samples: Stated | None, mode: Stated) -> Stated:
+    def texture(format: Value, usage: list[str], samples: Value | None, mode: Value) -> Value:
         members = {
-            "pixelFormat": Stated(words.METAL_FORMATS.get(format.value), format.at),
+            "pixelFormat": Value(words.METAL_FORMATS.get(format.value), format.at),
             "width": target.width,
             "height": target.height,
             "textureType": "type2DMultisample" if samples is not None and samples.value > 1 else "type2D",
@@ -43,7 +43,7 @@ def _textures(target: Target, memoryless: bool | None, apple: bool | None) -> Me
             "usage": usage,
             "storageMode": _storage(mode, memoryless, apple),
         }
-        return Stated(members, target.at)
+        return Value(members, target.at)
 
     color, at = target.color, target.at
     made: Members = {}
@@ -51,8 +51,11 @@ def _textures(target: Target, memoryless: bool | None, apple: bool | None) -> Me
     if target.multisampled:
         made[f"{target.name}_color_ms"] = texture(target.color_format, ["renderTarget"], target.samples, color.storage)
     if target.onscreen:
-        members = {"pixelFormat": Stated(words.METAL_FORMATS.get(target.color_format.value), target.color_format.at), "drawable": True}
-        made[f"{target.name}_color"] = Stated(members, at)
+        members = {
+            "pixelFormat": Value(words.METAL_FORMATS.get(target.color_format.value), target.color_format.at),
+            "drawable": True,
+        }
+        made[f"{target.name}_color"] = Value(members, at)
     else:
         made[f"{target.name}_color"] = texture(target.color_format, ["renderTarget", "shaderRead"], None, single)
     if target.has_depth_stencil:
@@ -60,13 +63,13 @@ def _textures(target: Target, memoryless: bool | None, apple: bool | None) -> Me
     return made
 
 
-def _storage(mode: Stated, memoryless: bool | None, apple: bool | None) -> Stated:
+def _storage(mode: Value, memoryless: bool | None, apple: bool | None) -> Value:
     """`ToMTLStorageMode`: what the host sees is shared with one memory and managed with two."""
     if mode.value == "kDevicePrivate":
-        return Stated("private", mode.at)
+        return Value("private", mode.at)
     if mode.value == "kHostVisible":
-        return Stated("shared" if apple else None, mode.at)
-    return Stated(None if memoryless is None else "memoryless" if memoryless else "private", mode.at)
+        return Value("shared" if apple else None, mode.at)
+    return Value(None if memoryless is None else "memoryless" if memoryless else "private", mode.at)
 
 
 def _render_pass(target: Target) -> Members:
@@ -74,17 +77,17 @@ def _render_pass(target: Target) -> Members:
     attachment: Members = {
         "texture": f"{target.name}_color_ms" if target.multisampled else f"{target.name}_color",
         # The engine gives a multisampled target a resolve texture whatever its store action is.
-        "resolveTexture": Stated(f"{target.name}_color", color.store.at) if target.multisampled else None,
-        "loadAction": Stated(words.METAL_LOADS[color.load.value], color.load.at),
-        "storeAction": Stated(words.METAL_STORES[color.store.value], color.store.at),
+        "resolveTexture": Value(f"{target.name}_color", color.store.at) if target.multisampled else None,
+        "loadAction": Value(words.METAL_LOADS[color.load.value], color.load.at),
+        "storeAction": Value(words.METAL_STORES[color.store.value], color.store.at),
     }
     made: Members = {"colorAttachments": [attachment]}
     if target.has_depth_stencil:
         config = target.depth_stencil
         aspect = {
             "texture": f"{target.name}_depth_stencil",
-            "loadAction": Stated(words.METAL_LOADS[config.load.value], config.load.at),
-            "storeAction": Stated(words.METAL_STORES[config.store.value], config.store.at),
+            "loadAction": Value(words.METAL_LOADS[config.load.value], config.load.at),
+            "storeAction": Value(words.METAL_STORES[config.store.value], config.store.at),
         }
         if target.has_depth:
             made["depthAttachment"] = aspect
@@ -94,11 +97,11 @@ def _render_pass(target: Target) -> Members:
 
 
 def _pipeline(target: Target) -> Members:
-    depth_stencil = Stated(words.METAL_FORMATS.get(target.depth_format.value), target.depth_format.at)
+    depth_stencil = Value(words.METAL_FORMATS.get(target.depth_format.value), target.depth_format.at)
     return {
         "renderPass": target.name,
         "rasterSampleCount": target.samples,
-        "colorAttachments": [{"pixelFormat": Stated(words.METAL_FORMATS.get(target.color_format.value), target.color_format.at)}],
+        "colorAttachments": [{"pixelFormat": Value(words.METAL_FORMATS.get(target.color_format.value), target.color_format.at)}],
         "depthAttachmentPixelFormat": depth_stencil if target.has_depth_stencil and target.has_depth else None,
         "stencilAttachmentPixelFormat": depth_stencil if target.has_depth_stencil and target.has_stencil else None,
     }

@@ -8,7 +8,7 @@ from msaa_lint.frame.description.models import FrameSize, RenderTarget
 from msaa_lint.frame.description.record import Record
 
 from . import words
-from .stated import Stated
+from .value_tree import Value
 
 COLOR = {"storageMode": "kDevicePrivate", "resolveStorageMode": "kDevicePrivate", "loadAction": "kClear", "storeAction": "kStore"}
 """`RenderTarget::kDefaultColorAttachmentConfig`."""
@@ -26,7 +26,7 @@ class Config:
     def __init__(self, owner: RenderTarget, member: str, defaults: dict[str, str]) -> None:
         record: Record | None = getattr(owner, member)
         self.storage, self.resolve_storage, self.load, self.store = (
-            chosen(record, name, defaults.get(name), owner.head)
+            member_or_default(record, name, defaults.get(name), owner.head)
             for name in ("storageMode", "resolveStorageMode", "loadAction", "storeAction")
         )
 
@@ -40,13 +40,13 @@ class Target:
         self.at = record.head
         self.onscreen = bool(record.onscreen)
         self.width, self.height = (_size(record, side, frame) for side in ("width", "height"))
-        count = chosen(record, "sampleCount", 1, self.at)
-        self.samples = Stated(words.sample_count(count.value), count.at)
+        count = member_or_default(record, "sampleCount", 1, self.at)
+        self.samples = Value(words.sample_count(count.value), count.at)
         self.multisampled = self.samples.value > 1
         self.color = Config(record, "colorAttachmentConfig", COLOR_MSAA if self.multisampled else COLOR)
         self.depth_stencil = Config(record, "stencilAttachmentConfig", STENCIL)
-        self.color_format = chosen(record, "colorFormat", words.DEFAULT_COLOR[api], self.at)
-        self.depth_format = chosen(record, "depthFormat", words.DEFAULT_DEPTH_STENCIL[api], self.at)
+        self.color_format = member_or_default(record, "colorFormat", words.DEFAULT_COLOR[api], self.at)
+        self.depth_format = member_or_default(record, "depthFormat", words.DEFAULT_DEPTH_STENCIL[api], self.at)
         self.has_depth_stencil = record.depthFormat is not None or record.enableStencil is not False
         self.has_depth = self.depth_format.value != "kS8UInt"
         self.has_stencil = record.enableStencil is not False
@@ -57,21 +57,21 @@ class Target:
         return self.color.store.value in words.RESOLVES
 
 
-def chosen(record: Record | None, member: str, default: object, at: Span) -> Stated:
+def member_or_default(record: Record | None, member: str, default: object, at: Span) -> Value:
     """What a record states for a member, at its value; the default, at a place, where it states nothing."""
     if record is None or not record.states(member):
-        return Stated(default, at)
-    return Stated(getattr(record, member), record.spelled[member][1].span)
+        return Value(default, at)
+    return Value(getattr(record, member), record.spelled[member][1].span)
 
 
-def _size(record: RenderTarget, side: str, frame: FrameSize | None) -> Stated | None:
+def _size(record: RenderTarget, side: str, frame: FrameSize | None) -> Value | None:
     """A side in texels: the target's, else the frame's; None where neither is stated."""
     for owner in (record, frame):
         if owner is not None and owner.states(side):
-            return Stated(getattr(owner, side), owner.spelled[side][1].span)
+            return Value(getattr(owner, side), owner.spelled[side][1].span)
     return None
 
 
-def sections(node: Node, names: tuple[str, ...]) -> dict[str, Stated]:
+def sections(node: Node, names: tuple[str, ...]) -> dict[str, Value]:
     """Those sections of a description that go on as they are."""
-    return {name: Stated(node.value[name], node.keys[name].span) for name in names if name in node.value}
+    return {name: Value(node.value[name], node.keys[name].span) for name in names if name in node.value}

@@ -9,8 +9,8 @@ from __future__ import annotations
 from typing import Any
 
 from . import words
-from .stated import Stated
 from .target import Target
+from .value_tree import Value
 
 Members = dict[str, Any]
 
@@ -26,11 +26,11 @@ def description(targets: list[Target], lazy: bool | None) -> Members:
     made: Members = {"images": {}, "renderPasses": {}, "framebuffers": {}, "pipelines": {}, "commands": []}
     for target in targets:
         made["images"] |= _images(target, lazy)
-        made["renderPasses"][target.name] = Stated(_render_pass(target), target.at)
+        made["renderPasses"][target.name] = Value(_render_pass(target), target.at)
         framebuffer = _framebuffer(target)
         if framebuffer is not None:
-            made["framebuffers"][target.name] = Stated(framebuffer, target.at)
-        made["pipelines"][target.name] = Stated(_pipeline(target), target.at)
+            made["framebuffers"][target.name] = Value(framebuffer, target.at)
+        made["pipelines"][target.name] = Value(_pipeline(target), target.at)
         made["commands"] += _commands(target, framebuffer is not None)
     return {section: entries for section, entries in made.items() if entries}
 
@@ -43,11 +43,11 @@ def _images(target: Target, lazy: bool | None) -> Members:
         usage = _usage(COLOR_USAGE, color.storage, lazy)
         made[f"{target.name}_color_ms"] = _image(target, target.color_format, target.samples, usage, _memory(color.storage, lazy), None)
     if target.onscreen:
-        swapchain = Stated(COLOR_USAGE, at)
-        made[f"{target.name}_color"] = _image(target, target.color_format, Stated(1, at), swapchain, None, True)
+        swapchain = Value(COLOR_USAGE, at)
+        made[f"{target.name}_color"] = _image(target, target.color_format, Value(1, at), swapchain, None, True)
     else:
         usage = _usage((*COLOR_USAGE, "SAMPLED"), single, lazy)
-        made[f"{target.name}_color"] = _image(target, target.color_format, Stated(1, at), usage, _memory(single, lazy), False)
+        made[f"{target.name}_color"] = _image(target, target.color_format, Value(1, at), usage, _memory(single, lazy), False)
     if target.has_depth_stencil:
         mode = target.depth_stencil.storage
         usage = _usage(("DEPTH_STENCIL_ATTACHMENT",), mode, lazy)
@@ -55,10 +55,10 @@ def _images(target: Target, lazy: bool | None) -> Members:
     return made
 
 
-def _image(target: Target, format: Stated, samples: Stated, usage: Stated, memory: Stated | None, presentable: bool | None) -> Stated:
+def _image(target: Target, format: Value, samples: Value, usage: Value, memory: Value | None, presentable: bool | None) -> Value:
     extent = {"width": target.width, "height": target.height, "depth": 1} if target.width and target.height else None
     members = {
-        "format": Stated(words.VULKAN_FORMATS.get(format.value), format.at),
+        "format": Value(words.VULKAN_FORMATS.get(format.value), format.at),
         "samples": samples,
         "usage": usage,
         "memory": memory,
@@ -70,24 +70,24 @@ def _image(target: Target, format: Stated, samples: Stated, usage: Stated, memor
         "arrayLayers": 1,
         "sharingMode": "EXCLUSIVE",
     }
-    return Stated(members, target.at)
+    return Value(members, target.at)
 
 
-def _usage(usage: tuple[str, ...], mode: Stated, lazy: bool | None) -> Stated:
+def _usage(usage: tuple[str, ...], mode: Value, lazy: bool | None) -> Value:
     """`ToVKImageUsageFlags`: TRANSIENT_ATTACHMENT only where the device has lazily allocated memory."""
     if mode.value != "kDeviceTransient":
-        return Stated((*usage, *TRANSFERS), mode.at)
+        return Value((*usage, *TRANSFERS), mode.at)
     if lazy is None:
-        return Stated(None, mode.at)
-    return Stated((*usage, "TRANSIENT_ATTACHMENT") if lazy else usage, mode.at)
+        return Value(None, mode.at)
+    return Value((*usage, "TRANSIENT_ATTACHMENT") if lazy else usage, mode.at)
 
 
-def _memory(mode: Stated, lazy: bool | None) -> Stated | None:
+def _memory(mode: Value, lazy: bool | None) -> Value | None:
     """`ToVKTextureMemoryPropertyFlags`, which are preferred flags: which memory the host sees is up to the device."""
     if mode.value == "kHostVisible" or (mode.value == "kDeviceTransient" and lazy is None):
         return None
     transient = mode.value == "kDeviceTransient" and lazy
-    return Stated(("DEVICE_LOCAL", "LAZILY_ALLOCATED") if transient else ("DEVICE_LOCAL",), mode.at)
+    return Value(("DEVICE_LOCAL", "LAZILY_ALLOCATED") if transient else ("DEVICE_LOCAL",), mode.at)
 
 
 def _render_pass(target: Target) -> Members:
@@ -98,7 +98,7 @@ def _render_pass(target: Target) -> Members:
     if target.resolves:
         resolve = "color" if target.multisampled else "resolve"
         attachments[resolve] = _resolve_attachment(target)
-        subpass["resolveAttachments"] = Stated([_slot(resolve)], target.color.store.at)
+        subpass["resolveAttachments"] = Value([_slot(resolve)], target.color.store.at)
     if target.has_depth_stencil:
         attachments["depth_stencil"] = _depth_stencil_attachment(target)
         subpass["depthStencilAttachment"] = "depth_stencil"
@@ -115,41 +115,41 @@ def _final_layout(onscreen: bool, samples: int) -> str:
     return "GENERAL" if onscreen or samples > 1 else "SHADER_READ_ONLY_OPTIMAL"
 
 
-def _color_attachment(target: Target) -> Stated:
+def _color_attachment(target: Target) -> Value:
     name = "color_ms" if target.multisampled else "color"
     config, samples = target.color, target.samples.value
     # What comes from the swapchain is in the layout that it was given there.
     before = _final_layout(target.onscreen, samples) if samples > 1 or not target.onscreen else None
     members = {
         "image": f"{target.name}_{name}",
-        "loadOp": Stated(words.VULKAN_LOADS[config.load.value], config.load.at),
-        "storeOp": Stated(words.VULKAN_STORES[config.store.value], config.store.at),
+        "loadOp": Value(words.VULKAN_LOADS[config.load.value], config.load.at),
+        "storeOp": Value(words.VULKAN_STORES[config.store.value], config.store.at),
         "initialLayout": before if config.load.value == "kLoad" else "UNDEFINED",
         "finalLayout": _final_layout(target.onscreen, samples),
     }
-    return Stated(members, target.at)
+    return Value(members, target.at)
 
 
-def _resolve_attachment(target: Target) -> Stated:
+def _resolve_attachment(target: Target) -> Value:
     """The colour's own with one sample, stored: the engine begins it with the colour's load operation."""
     config = target.color
     members: Members = {"image": f"{target.name}_color"} if target.multisampled else {}
     if not target.multisampled:
-        members = {"format": Stated(words.VULKAN_FORMATS.get(target.color_format.value), target.color_format.at), "samples": 1}
+        members = {"format": Value(words.VULKAN_FORMATS.get(target.color_format.value), target.color_format.at), "samples": 1}
     members |= {
-        "loadOp": Stated(words.VULKAN_LOADS[config.load.value], config.load.at),
-        "storeOp": Stated("STORE", config.store.at),
+        "loadOp": Value(words.VULKAN_LOADS[config.load.value], config.load.at),
+        "storeOp": Value("STORE", config.store.at),
         "initialLayout": _final_layout(target.onscreen, target.samples.value) if config.load.value == "kLoad" else "UNDEFINED",
         "finalLayout": _final_layout(target.onscreen, 1),
     }
-    return Stated(members, target.at)
+    return Value(members, target.at)
 
 
-def _depth_stencil_attachment(target: Target) -> Stated:
+def _depth_stencil_attachment(target: Target) -> Value:
     """Depth and stencil are not told apart; a format of stencil alone has neither operation of depth."""
     config = target.depth_stencil
-    load = Stated(words.VULKAN_LOADS[config.load.value], config.load.at)
-    store = Stated(words.VULKAN_STORES[config.store.value], config.store.at)
+    load = Value(words.VULKAN_LOADS[config.load.value], config.load.at)
+    store = Value(words.VULKAN_STORES[config.store.value], config.store.at)
     members = {
         "image": f"{target.name}_depth_stencil",
         "loadOp": load if target.has_depth else "DONT_CARE",
@@ -159,7 +159,7 @@ def _depth_stencil_attachment(target: Target) -> Stated:
         "initialLayout": "UNDEFINED",
         "finalLayout": "DEPTH_STENCIL_ATTACHMENT_OPTIMAL",
     }
-    return Stated(members, target.at)
+    return Value(members, target.at)
 
 
 def _dependencies(depth: bool) -> list[Members]:
@@ -212,7 +212,7 @@ def _pipeline(target: Target) -> Members:
     return {"renderPass": target.name, "subpass": 0, "multisampleState": state}
 
 
-def _commands(target: Target, framebuffer: bool) -> list[Stated]:
+def _commands(target: Target, framebuffer: bool) -> list[Value]:
     begin: Members = {"renderPass": target.name, "framebuffer": target.name if framebuffer else None}
     if target.width and target.height:
         begin["renderArea"] = {"x": 0, "y": 0, "width": target.width, "height": target.height}
@@ -223,7 +223,7 @@ def _commands(target: Target, framebuffer: bool) -> list[Stated]:
     else:
         # Textures are made to be sampled; whether this one is in this frame is not said.
         made.append({"readImage": {"image": image, "stage": "FRAGMENT"}})
-    return [Stated(each, target.at) for each in made]
+    return [Value(each, target.at) for each in made]
 
 
 def _presented(image: str) -> list[Members]:

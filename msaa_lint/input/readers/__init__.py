@@ -1,7 +1,7 @@
-"""What files are read as: one module per input format, told by content, never by a file's name.
+"""Input formats, one module each. A format is detected from content, never from a file name.
 
-The readers of texts have `claims(root)` and `read(source, root)`. Those of captures, which are streams, have `claims(head)`, `calls(stream,
-wanted, path)`; they are imported when one is met.
+Readers of text documents define `claims(root)` and `read(source, root)`. Readers of captures, which are streams, define `claims(head)` and
+`calls(stream, wanted, path)`; they are imported on first use.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from msaa_lint.frame.description.document import Document
 from . import description, vulkan_sc
 
 FORMATS: dict[str, ModuleType] = {"vulkan-sc": vulkan_sc, "description": description}
-"""By the name that `--input-format` takes, in the order in which they are asked; the last reads what none claims."""
+"""Document readers by `--input-format` name, in detection order. The last one reads documents that no reader claims."""
 
 CAPTURES: dict[str, tuple[str, ...]] = {
     "gfxreconstruct": ('"vkFunc"', '"gfxrecon-version"'),
@@ -24,8 +24,7 @@ CAPTURES: dict[str, tuple[str, ...]] = {
     "renderdoc": ("<rdc>",),
     "fossilize": ("FOSSILIZEDB",),
 }
-"""The readers of captures by the name that `--input-format` takes (a module each, with `_` for `-`), and what a capture has near its
-beginning."""
+"""Capture readers by `--input-format` name (the module name, with `-` for `_`), and the text found near the start of such a capture."""
 
 HEADS = (
     "images:",
@@ -42,24 +41,24 @@ HEADS = (
     '"metal"',
     "PipelineState",
 )
-"""What a file of ours has near its beginning: a folder's other files are passed over."""
+"""Text found near the start of a description. Files in a folder that contain none of it are skipped."""
 
 
 def read(source: Source, root: Node, format: str | None = None) -> Document:
-    """A document by the format that is named, or that claims it."""
+    """Reads a document in the given format, or in the detected one."""
     module = FORMATS[format] if format is not None else next((m for m in FORMATS.values() if m.claims(root)), description)
-    made: Document = module.read(source, root)
-    return made
+    document: Document = module.read(source, root)
+    return document
 
 
 CAPTURE_HEADS = tuple(word for words in CAPTURES.values() for word in words)
 
-# What one of them has before its reader is asked: also what stands in other files, and in parts of a capture that have no header.
+# A cheap test before any reader is imported. It also accepts parts of a capture without a header, and some files that are not captures.
 _MARKS = (*(word.encode() for word in CAPTURE_HEADS), b"gfxrecon", b"vkFunc", b'"function"', b"apiCalls", b"<rdc", b'"meta"')
 
 
 def capture_format(head: bytes) -> str | None:
-    """The name of the capture format that the beginning of a file is of; None where it is of none."""
+    """The name of the capture format that a file starts with; None if it is not a capture."""
     if head[:1] not in (b"{", b"[", b"<", b"\x81", b"\xef", b" ", b"\n", b"\r", b"\t") or not any(mark in head for mark in _MARKS):
         return None
     for name in CAPTURES:
@@ -69,5 +68,5 @@ def capture_format(head: bytes) -> str | None:
 
 
 def looks_like(head: str) -> bool:
-    """Whether the beginning of a file looks like one that a reader claims."""
+    """Whether the start of a file looks like input that a reader claims."""
     return any(word in head for word in HEADS) or any(word in head for word in CAPTURE_HEADS)

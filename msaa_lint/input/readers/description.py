@@ -51,7 +51,7 @@ def _of_render_targets(source: Source, description: Description, binder: Binder)
     _device(binder, description)
     if binder.problems:
         return Document(source, description, tuple(binder.problems))
-    tree = expansion.expanded(description)
+    tree = expansion.expand(description)
     return read(source, tree)._replace(tree=tree)
 
 

@@ -1,7 +1,7 @@
-"""Fossilize's pipeline databases, `.foz` of version 5 and 6: render passes, shaders and pipelines, without images and commands.
+"""Fossilize pipeline databases (`.foz`, versions 5 and 6): render passes, shaders and pipelines, without images and commands.
 
-A file is a row of entries, in any order: a first pass finds where they are, the others read them, what is referred to first. Every entry
-says how long it is, so that one which is damaged leaves the others readable: it is told when they are all read.
+A file is a sequence of entries in any order. A first pass finds their offsets; later passes read each kind, referenced objects first. Every
+entry states its length, so a damaged entry does not affect the others; the error is raised after all entries are read.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from array import array
 from collections.abc import Iterator
 from typing import BinaryIO
 
-from msaa_lint.input.captures.call import Broken, Call, Mark, Place
+from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place
 
 from .fossilize_objects import APPLICATION, GRAPHICS_PIPELINE, RENDER_PASS, SHADER_MODULE, calls_of, fragment_modules
 
@@ -26,19 +26,19 @@ ENTRY = NAME_LENGTH + 16
 RAW, DEFLATED = 1, 2
 
 MAX_PAYLOAD = 64 << 20
-"""Bytes of an entry, as it is stored and inflated."""
+"""Maximum size of an entry in bytes, both stored and decompressed."""
 
 MAX_RATIO = 32
-"""So many times its size a file may inflate to, beyond one largest entry; Fossilize's own shrink to a third."""
+"""A file may decompress to this many times its size, plus one entry of maximum size. Real databases decompress to about three times."""
 
 MAX_ENTRIES = 4_000_000
-"""Entries that are read; 12 bytes of memory each."""
+"""Maximum number of entries; each takes 12 bytes of memory."""
 
 MAX_MODULES = 300_000
-"""Shader modules that are told."""
+"""Maximum number of shader modules."""
 
 MAX_CODE = 128 << 20
-"""Bytes of code of all modules that are told; who follows a capture keeps them."""
+"""Maximum total size of shader code in bytes; the tracker keeps it in memory."""
 
 BLOCK = 1 << 16
 
@@ -48,30 +48,30 @@ ORDER = (
     (SHADER_MODULE, ("vkCreateShaderModule",)),
     (GRAPHICS_PIPELINE, ("vkCreateGraphicsPipelines",)),
 )
-"""The kinds of entries that are read, in the order in which they are, with the calls that they become."""
+"""The kinds of entries to read, in order, with the calls that they become."""
 
 
 def claims(head: bytes) -> bool:
-    """Whether a file that begins so is such a database, of whatever version."""
+    """Whether a file that starts with `head` is a Fossilize database of any version."""
     return head.startswith(MAGIC)
 
 
 def calls(stream: BinaryIO, wanted: frozenset[str], name: str | None) -> Iterator[Call | Mark]:
-    """The wanted objects as the calls that create them: application, render passes, shader modules, pipelines; handles are their hashes.
+    """The wanted objects as the calls that create them: application, render passes, shader modules, pipelines. Handles are their hashes.
 
-    Of shader modules those are told that a pipeline has as its fragment stage. A last entry that is cut off is marked `truncated`, no more.
-    Broken, at the end, for the first of those that make no sense.
+    Only the shader modules of fragment stages are included. A truncated last entry is only marked, as `truncated`. Raises CaptureError at
+    the end, for the first invalid entry.
     """
-    kept = None if stream.seekable() else _kept_aside(stream)
+    copy = None if stream.seekable() else _spool(stream)
     try:
-        yield from _Database(kept or stream).calls(wanted)
+        yield from _Database(copy or stream).calls(wanted)
     finally:
-        if kept is not None:
-            kept.close()
+        if copy is not None:
+            copy.close()
 
 
 class _Database:
-    """Where the entries of a file are."""
+    """The entries of a file, by their offsets."""
 
     def __init__(self, stream: BinaryIO) -> None:
         self.stream = stream
@@ -80,127 +80,127 @@ class _Database:
         self.offsets = {tag: array("Q") for tag, _ in ORDER}
         self.numbers = {tag: array("I") for tag, _ in ORDER}
         self.truncated: int | None = None
-        self.broken: Broken | None = None
+        self.error: CaptureError | None = None
         self.inflated = 0
-        self.code = 0
+        self.code_size = 0
 
     def calls(self, wanted: frozenset[str]) -> Iterator[Call | Mark]:
-        """The calls, then what is wrong."""
+        """The calls; raises the first error after them."""
         tags = frozenset(tag for tag, names in ORDER if not wanted.isdisjoint(names))
         try:
-            self.look(tags | {GRAPHICS_PIPELINE} if SHADER_MODULE in tags else tags)
-        except Broken as error:
-            self.broken = error
+            self.find_entries(tags | {GRAPHICS_PIPELINE} if SHADER_MODULE in tags else tags)
+        except CaptureError as error:
+            self.error = error
         for tag, _ in ORDER:
             if tag == SHADER_MODULE:
                 yield from self.modules()
             elif tag in tags:
-                yield from self.of(tag, wanted)
+                yield from self.calls_of_kind(tag, wanted)
         if self.truncated is not None:
             yield Mark("truncated", Place(call=self.truncated))
-        if self.broken is not None:
-            raise self.broken
+        if self.error is not None:
+            raise self.error
 
-    def of(self, tag: int, wanted: frozenset[str], of_modules: set[int] | None = None) -> Iterator[Call]:
-        """The calls of the entries of a kind, of modules those alone."""
+    def calls_of_kind(self, tag: int, wanted: frozenset[str], hashes: set[int] | None = None) -> Iterator[Call]:
+        """The calls of the entries of one kind, or of those of its shader modules that have one of the hashes."""
         for offset, number in zip(self.offsets[tag], self.numbers[tag], strict=True):
-            if of_modules is not None and (self.hash(offset) not in of_modules or self.code > MAX_CODE):
+            if hashes is not None and (self.hash(offset) not in hashes or self.code_size > MAX_CODE):
                 continue
             try:
                 yield from calls_of(tag, self.payload(offset, number), Place(call=number), wanted)
-            except Broken as error:
-                if self.broken is None or number < (self.broken.place.call or 0):
-                    self.broken = Broken(f"entry {number} at byte {offset}: {error.message}", Place(call=number))
+            except CaptureError as error:
+                if self.error is None or number < (self.error.place.call or 0):
+                    self.error = CaptureError(f"entry {number} at byte {offset}: {error.message}", Place(call=number))
 
     def modules(self) -> Iterator[Call]:
-        """The modules that pipelines have as their fragment stages: no rule asks about the others, and code is most of a database."""
+        """The modules of fragment stages: rules need no others, and code is most of a database."""
         if not self.offsets[SHADER_MODULE]:
             return
-        named: set[int] = set()
+        hashes: set[int] = set()
         inflated = self.inflated
         for offset, number in zip(self.offsets[GRAPHICS_PIPELINE], self.numbers[GRAPHICS_PIPELINE], strict=True):
             try:
-                named.update(fragment_modules(self.payload(offset, number), Place(call=number)))
-            except Broken:
-                # It is told when the pipelines are.
+                hashes.update(fragment_modules(self.payload(offset, number), Place(call=number)))
+            except CaptureError:
+                # Reported when the pipelines are read.
                 continue
-            if len(named) > MAX_MODULES:
+            if len(hashes) > MAX_MODULES:
                 break
         self.inflated = inflated
-        for call in self.of(SHADER_MODULE, frozenset(), named):
-            self.code += len(call.args["pCreateInfo"].get("pCode", b""))
+        for call in self.calls_of_kind(SHADER_MODULE, frozenset(), hashes):
+            self.code_size += len(call.args["pCreateInfo"].get("pCode", b""))
             yield call
 
     def hash(self, offset: int) -> int:
-        """What an entry is named by."""
+        """The hash in an entry's name."""
         self.stream.seek(self.start + offset + NAME_LENGTH - 16)
         return int(self.stream.read(16), 16)
 
-    def look(self, tags: frozenset[int]) -> None:
-        """Finds the entries."""
+    def find_entries(self, tags: frozenset[int]) -> None:
+        """Finds the offsets of the entries of some kinds."""
         stream, start, size = self.stream, self.start, self.size
         stream.seek(start)
         head = stream.read(HEADER)
         if not head.startswith(MAGIC):
-            raise Broken("no Fossilize database: it does not begin as one", Place())
+            raise CaptureError("not a Fossilize database: the file signature is missing", Place())
         if len(head) < HEADER:
-            raise Broken("a Fossilize database that ends within its first 16 bytes", Place())
+            raise CaptureError("the Fossilize database ends within its first 16 bytes", Place())
         if head[-1] not in VERSIONS:
-            raise Broken(f"a Fossilize database of version {head[-1]}; 5 and 6 are read", Place())
+            raise CaptureError(f"Fossilize database version {head[-1]} is not supported; convert it to version 5 or 6", Place())
         at = HEADER
-        number = found = 0
+        number = count = 0
         while at < size:
             stream.seek(start + at)
             header = stream.read(ENTRY)
             tag = _tag(header[:NAME_LENGTH])
             if tag is None:
-                raise Broken(f"entry {number} at byte {at}: its name is not of hexadecimal digits", Place(call=number))
+                raise CaptureError(f"entry {number} at byte {at}: its name must be hexadecimal digits", Place(call=number))
             stored = int.from_bytes(header[40:44], "little")
             if len(header) == ENTRY and max(stored, int.from_bytes(header[52:56], "little")) > MAX_PAYLOAD:
-                raise Broken(f"entry {number} at byte {at}: it says that it has more than {MAX_PAYLOAD >> 20} MiB", Place(call=number))
+                raise CaptureError(f"entry {number} at byte {at}: its stated size exceeds {MAX_PAYLOAD >> 20} MiB", Place(call=number))
             if len(header) < ENTRY or at + ENTRY + stored > size:
-                # A program that is killed leaves its last entry so, and Fossilize's own tools pass over it.
+                # This is how a killed program leaves its last entry; Fossilize's own tools skip it.
                 self.truncated = number
                 return
             if tag in tags:
-                found += 1
-                if found > MAX_ENTRIES:
-                    raise Broken(f"more than {MAX_ENTRIES:,} entries", Place(call=number))
+                count += 1
+                if count > MAX_ENTRIES:
+                    raise CaptureError(f"more than {MAX_ENTRIES:,} entries", Place(call=number))
                 self.offsets[tag].append(at)
                 self.numbers[tag].append(number)
             at += ENTRY + stored
             number += 1
 
     def payload(self, offset: int, number: int) -> bytes:
-        """What an entry holds, inflated and checked."""
+        """The contents of an entry, decompressed and verified."""
         self.stream.seek(self.start + offset + NAME_LENGTH)
         header = self.stream.read(ENTRY - NAME_LENGTH)
         stored, flags, checksum, length = (int.from_bytes(header[at : at + 4], "little") for at in (0, 4, 8, 12))
         data = self.stream.read(stored)
         if len(data) < stored:
-            raise Broken("the file became shorter while it was read", Place(call=number))
+            raise CaptureError("the file shrank while it was being read", Place(call=number))
         if checksum and zlib.crc32(data) != checksum:
-            raise Broken("its checksum is wrong", Place(call=number))
+            raise CaptureError("its checksum does not match", Place(call=number))
         if flags not in (RAW, DEFLATED):
-            raise Broken(f"it is stored in a way, {flags}, that is not known", Place(call=number))
+            raise CaptureError(f"its compression type {flags} is unknown", Place(call=number))
         if flags == DEFLATED:
             self.inflated += length
             if self.inflated > MAX_PAYLOAD + MAX_RATIO * self.size:
-                raise Broken(f"the file inflates to more than {MAX_RATIO} times its size", Place(call=number))
+                raise CaptureError(f"the file decompresses to more than {MAX_RATIO} times its size", Place(call=number))
             inflator = zlib.decompressobj()
             try:
                 data = inflator.decompress(data, length + 1)
             except zlib.error:
-                raise Broken("it does not inflate", Place(call=number)) from None
+                raise CaptureError("its compressed data is invalid", Place(call=number)) from None
             if not inflator.eof or inflator.unused_data:
-                raise Broken("it does not inflate to the size that it says", Place(call=number))
+                raise CaptureError("its decompressed size differs from its stated size", Place(call=number))
         if len(data) != length:
-            raise Broken("it has not the size that it says", Place(call=number))
+            raise CaptureError("its size differs from its stated size", Place(call=number))
         return data
 
 
 def _tag(name: bytes) -> int | None:
-    """The kind of an entry by its name: eight zeros, kind and hash in hexadecimal digits. None of what is no name, -1 of a part of one."""
+    """The kind in an entry's name, 8 zeros, the kind and the hash in hexadecimal. None if it is invalid, -1 if it is incomplete."""
     if not name.isalnum():
         return None
     try:
@@ -210,16 +210,16 @@ def _tag(name: bytes) -> int | None:
         return None
 
 
-def _kept_aside(stream: BinaryIO) -> BinaryIO:
-    """A copy, on disk, of what cannot be read twice."""
+def _spool(stream: BinaryIO) -> BinaryIO:
+    """Copies a stream that cannot seek to disk."""
     from tempfile import TemporaryFile
 
-    kept = TemporaryFile()  # noqa: SIM115, closed by who reads it
+    copy = TemporaryFile()  # noqa: SIM115, closed by the caller
     try:
         while block := stream.read(BLOCK):
-            kept.write(block)
-        kept.seek(0)
+            copy.write(block)
+        copy.seek(0)
     except OSError as error:
-        kept.close()
-        raise Broken(f"what comes from a pipe is kept on disk meanwhile, which fails: {error.strerror}", Place()) from None
-    return kept
+        copy.close()
+        raise CaptureError(f"cannot copy the piped capture to a temporary file: {error.strerror}", Place()) from None
+    return copy

@@ -1,4 +1,4 @@
-"""SPIR-V as Fossilize packs it: each word seven bits to a byte, the lowest first, with the eighth bit set on all but a word's last byte."""
+"""Fossilize's packed SPIR-V: each word in bytes of seven bits, lowest first, with the eighth bit set on all but the last byte of a word."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ import sys
 from array import array
 
 BLOCK = 1 << 18
-"""Packed bytes that are unpacked at a time."""
+"""Packed bytes unpacked at a time."""
 
-MAX_KNOWN = 1 << 16
-"""Packed words whose values are kept."""
+MAX_CACHED_WORDS = 1 << 16
+"""Maximum number of cached words."""
 
 _CONTINUED = bytes(range(0x80, 0x100))
 _WORD = re.compile(rb"[\x80-\xff]*[\x00-\x7f]")
@@ -18,13 +18,13 @@ _TOO_LONG = re.compile(rb"[\x80-\xff]{5}")
 
 
 class _Words(dict[bytes, int]):
-    """The value of every packed word; those that were met are kept, as shaders repeat them."""
+    """The values of packed words, cached because shaders repeat them."""
 
     def __missing__(self, packed: bytes) -> int:
         value = 0
         for at, byte in enumerate(packed):
             value |= (byte & 0x7F) << 7 * at
-        if len(self) < MAX_KNOWN:
+        if len(self) < MAX_CACHED_WORDS:
             self[packed] = value
         return value
 
@@ -32,8 +32,8 @@ class _Words(dict[bytes, int]):
 _words = _Words()
 
 
-def decoded(packed: bytes, size: int) -> bytes | None:
-    """The code in bytes, little-endian; None where it does not unpack to so many."""
+def unpack_code(packed: bytes, size: int) -> bytes | None:
+    """The code in bytes, little-endian; None if it does not unpack to `size` bytes."""
     if size % 4 or len(packed.translate(None, _CONTINUED)) != size // 4 or packed[-1:] > b"\x7f" or _TOO_LONG.search(packed):
         return None
     words = array("I")

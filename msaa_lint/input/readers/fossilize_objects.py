@@ -1,27 +1,26 @@
-"""What entries of a Fossilize database hold, as calls that create it: JSON with names of its own, hashes, numbers for enumerants."""
+"""Converts entries of a Fossilize database, JSON with Fossilize's own member names, to the calls that create the objects."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from typing import Any
 
-from msaa_lint.input.captures.call import Broken, Call, Place
+from msaa_lint.input.captures.call import Call, CaptureError, Place
+from msaa_lint.input.captures.json_stream import MAX_DEPTH, is_too_deep
 
-from .fossilize_code import decoded
+from .fossilize_code import unpack_code
 
 APPLICATION, SHADER_MODULE, RENDER_PASS, GRAPHICS_PIPELINE = 0, 4, 5, 6
-"""Kinds of entries, by the number in their names."""
+"""Kinds of entries, as numbered in their names."""
 
 FRAGMENT = 16
 """VkShaderStageFlagBits."""
 
 MAX_JSON = 4 << 20
-"""Bytes of an entry's JSON: of small values, in memory they are some 20 times as many."""
-
-MAX_DEPTH = 100
+"""Maximum size of an entry's JSON in bytes; parsed small values take about 20 times as much memory."""
 
 MAX_CODE = 16 << 20
-"""Bytes of a shader module's code; it is not told of larger ones."""
+"""Maximum size of a shader module's code in bytes; larger code is left out."""
 
 Json = Any
 
@@ -49,7 +48,7 @@ STATES: dict[str, dict[str, str]] = {
     "colorBlendState": {"attachments": "pAttachments"},
     "dynamicState": {"dynamicState": "pDynamicStates"},
 }
-"""The states of a pipeline, and their members that C has by another name."""
+"""The states of a pipeline, and the C names of members that Fossilize renames."""
 
 CHAINED: dict[int, tuple[str, dict[str, str]]] = {
     1000044002: ("PIPELINE_RENDERING_CREATE_INFO", {"colorAttachmentFormats": "pColorAttachmentFormats"}),
@@ -61,15 +60,15 @@ CHAINED: dict[int, tuple[str, dict[str, str]]] = {
     1000314000: ("MEMORY_BARRIER_2", {}),
     1000376002: ("MULTISAMPLED_RENDER_TO_SINGLE_SAMPLED_INFO_EXT", {}),
 }
-"""VkStructureType of the structures of a chain that are told, their names, and their members that C has by another name."""
+"""The chained structures that are kept, by VkStructureType: their names, and the C names of members that Fossilize renames."""
 
 
 def calls_of(tag: int, payload: bytes, at: Place, wanted: frozenset[str]) -> Iterator[Call]:
-    """The wanted calls that an entry stands for. Broken where its JSON is none."""
+    """The wanted calls for an entry. Raises CaptureError if its JSON is invalid."""
     end = payload.find(b"\x00")
     length = len(payload) if end < 0 else end
     if length > MAX_JSON:
-        raise Broken(f"its JSON has more than {MAX_JSON >> 20} MiB", at)
+        raise CaptureError(f"its JSON exceeds {MAX_JSON >> 20} MiB", at)
     document = _document(payload[:length], at)
     if tag == APPLICATION:
         yield _instance(document, at)
@@ -88,7 +87,7 @@ def calls_of(tag: int, payload: bytes, at: Place, wanted: frozenset[str]) -> Ite
 
 
 def fragment_modules(payload: bytes, at: Place) -> Iterator[int]:
-    """The hashes of the modules that pipelines have as their fragment stages. Broken as `calls_of`."""
+    """The hashes of the pipelines' fragment shader modules. Raises CaptureError as `calls_of` does."""
     for call in calls_of(GRAPHICS_PIPELINE, payload, at, frozenset()):
         for stage in call.args["pCreateInfos"][0]["pStages"] or ():
             if isinstance(stage, dict) and stage.get("stage") == FRAGMENT:
@@ -103,39 +102,32 @@ def _document(text: bytes, at: Place) -> Json:
     except ValueError:
         document = _lenient(text, at)
     if not isinstance(document, dict):
-        raise Broken("its JSON is no object", at)
-    if text.count(b"{") + text.count(b"[") > MAX_DEPTH and _deep(document):
-        raise Broken(f"its JSON is nested more than {MAX_DEPTH} deep", at)
+        raise CaptureError("its JSON must be an object", at)
+    if text.count(b"{") + text.count(b"[") > MAX_DEPTH and is_too_deep(document):
+        raise CaptureError(f"its JSON is nested deeper than {MAX_DEPTH} levels", at)
     return document
 
 
-def _deep(document: Json) -> bool:
-    level = [document]
-    for _ in range(MAX_DEPTH):
-        level = [item for each in level for item in (each.values() if isinstance(each, dict) else each) if isinstance(item, (dict, list))]
-    return bool(level)
-
-
 def _lenient(text: bytes, at: Place) -> Json:
-    """JSON with the NaN and Infinity that Fossilize writes for such numbers, and names that are no UTF-8."""
+    """Parses JSON that contains NaN and Infinity, which Fossilize writes, or names that are not UTF-8."""
     from json import loads
 
     try:
         return loads(text.decode("utf-8", "replace"))
     except (ValueError, RecursionError):
-        raise Broken("it holds no JSON", at) from None
+        raise CaptureError("its JSON is invalid", at) from None
 
 
 def _objects(document: Json, key: str) -> Iterator[tuple[int, dict[str, Any]]]:
-    """The objects of a kind, by their hashes."""
-    found = document.get(key)
-    for name, made in found.items() if isinstance(found, dict) else ():
-        if isinstance(made, dict):
-            yield _handle(name), made
+    """The objects of a kind with their hashes."""
+    objects = document.get(key)
+    for name, created in objects.items() if isinstance(objects, dict) else ():
+        if isinstance(created, dict):
+            yield _handle(name), created
 
 
 def _handle(value: object) -> int:
-    """A hash: 16 hexadecimal digits; 0 where there is none."""
+    """A hash of up to 16 hexadecimal digits as a handle; 0 if there is none."""
     if isinstance(value, str) and len(value) <= 16:
         try:
             return int(value, 16)
@@ -145,7 +137,7 @@ def _handle(value: object) -> int:
 
 
 def _instance(document: Json, at: Place) -> Call:
-    """The application. Fossilize notes the few features that a pipeline's hash depends on: a call that tells them would deny the others."""
+    """The application. Fossilize records only the features that affect pipeline hashes; stating these would deny all others."""
     stated = document.get("applicationInfo")
     stated = stated if isinstance(stated, dict) else {}
     names = {"applicationName": "pApplicationName", "engineName": "pEngineName"}
@@ -158,11 +150,11 @@ def _module(handle: int, module: dict[str, Any], payload: bytes, start: int, at:
     if type(offset) is int and type(length) is int and type(size) is int and 0 <= size <= MAX_CODE:
         first = start + offset
         if offset < 0 or length < 0 or first + length > len(payload):
-            raise Broken("its shader's code is outside of it", at)
-        # A word takes five bytes at most.
-        code = decoded(payload[first : first + length], size) if length <= size // 4 * 5 else None
+            raise CaptureError("its shader code lies outside the entry", at)
+        # A packed word has at most five bytes.
+        code = unpack_code(payload[first : first + length], size) if length <= size // 4 * 5 else None
         if code is None:
-            raise Broken("its shader's code has not the size that it says", at)
+            raise CaptureError("its shader code differs from its stated size", at)
         info["pCode"] = code
     return Call("vkCreateShaderModule", {"pCreateInfo": info, "pShaderModule": handle}, at)
 
@@ -211,7 +203,7 @@ def _bytes(text: object) -> bytes | None:
 
 
 def _renamed(given: object, names: dict[str, str]) -> Json:
-    """A structure with C's names, and C's chain of structures; what is no structure as it is."""
+    """A structure with C's member names and pNext chain; anything else unchanged."""
     if not isinstance(given, dict):
         return given
     made = {names.get(key, key): value for key, value in given.items()}
@@ -221,7 +213,7 @@ def _renamed(given: object, names: dict[str, str]) -> Json:
 
 
 def _chain(listed: object) -> dict[str, Any] | None:
-    """Fossilize's list of structures as a chain of those that are told."""
+    """Fossilize's list of chained structures as a pNext chain of the supported ones."""
     chain: dict[str, Any] | None = None
     for each in reversed(listed if isinstance(listed, list) else []):
         kind = each.get("sType") if isinstance(each, dict) else None

@@ -1,6 +1,6 @@
-"""RenderDoc captures, as `renderdoccmd convert -c xml` and `-c zip.xml` write them: one frame, and the calls that made what it uses.
+"""RenderDoc captures as written by `renderdoccmd convert -c xml` or `-c zip.xml`: one frame, and the calls that created its objects.
 
-A chunk is a call; `renderdoc_calls` knows C's names for RenderDoc's, `renderdoc_blobs` the shaders in the zip beside a zip.xml.
+A chunk is a call. `renderdoc_calls` converts RenderDoc's names to C's; `renderdoc_blobs` reads shaders from the zip beside a zip.xml.
 """
 
 from __future__ import annotations
@@ -8,291 +8,289 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any, BinaryIO
 
-from msaa_lint.input.captures.call import Broken, Call, Mark, Place
-from msaa_lint.input.captures.call_names import wants
+from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place
+from msaa_lint.input.captures.call_names import is_wanted
 
 from .renderdoc_blobs import Blobs
-from .renderdoc_calls import INITIAL, NEEDED, Calls
-from .renderdoc_sets import unknown
-from .renderdoc_text import Text
+from .renderdoc_calls import INITIAL_CONTENTS, NEEDED_FOR, CallConverter
+from .renderdoc_sets import unknown_set
+from .renderdoc_text import XmlRepair
 
 NAME = "renderdoc"
 
 BLOCK = 1 << 16
 MAX_CHUNK = 32 << 20
-"""Bytes of one chunk that is read; in memory they are some six times as many."""
+"""Maximum size of a chunk in bytes; parsed it takes about six times as much memory."""
 
 MAX_TOKEN = 1 << 20
-"""Bytes of one tag or comment: expat looks at an unfinished one again with every block that comes."""
+"""Maximum size of a tag or comment in bytes: expat rescans an unfinished one with every block."""
 
 MAX_ELEMENTS = 1_000_000
-"""Structures and arrays of one chunk that is read."""
+"""Maximum number of structures and arrays in a chunk."""
 
 MAX_NAMES = 20_000
-"""Names of elements and attributes of a whole file, which expat keeps; RenderDoc writes some 30."""
+"""Maximum number of element and attribute names in a file, which expat keeps; RenderDoc writes about 30."""
 
 MAX_DEPTH = 100
 
 
 def claims(head: bytes) -> bool:
-    """Whether a file that begins so is RenderDoc's XML."""
+    """Whether a file that starts with `head` is RenderDoc's XML."""
     start = head[:4096].removeprefix(b"\xef\xbb\xbf").lstrip()
     return start.startswith(b"<rdc") or (start.startswith(b"<?xml") and b"<rdc>" in start)
 
 
 def calls(stream: BinaryIO, wanted: frozenset[str], name: str | None) -> Iterator[Call | Mark]:
-    """The wanted calls in the order of the file; `Broken` where the XML ends in the middle or makes no sense.
+    """The wanted calls in file order. Raises CaptureError if the XML is truncated or invalid.
 
-    `name` is the file's, for the zip beside it; None where there is none to look for.
+    `name` is the file's name, used to find the zip beside it; None for a stream.
     """
     blobs = Blobs(name)
-    chunks = _Chunks(wanted, blobs)
-    text = Text()
-    broken: Broken | None = None
+    parser = _ChunkParser(wanted, blobs)
+    repair = XmlRepair()
+    failure: CaptureError | None = None
     last = False
     try:
-        while not last and broken is None:
+        while not last and failure is None:
             block = stream.read(BLOCK)
             last = not block
             try:
-                chunks.feed(text.mended(block, last), last)
-            except Broken as error:
-                broken = error
-            yield from chunks.taken()
+                parser.feed(repair.repair(block, last), last)
+            except CaptureError as error:
+                failure = error
+            yield from parser.take_calls()
     finally:
         blobs.close()
-        chunks.drop()
-    if broken is not None:
-        raise broken
+        parser.release()
+    if failure is not None:
+        raise failure
 
 
-class _Chunks:
-    """The parser, and the calls that it has found since they were last taken."""
+class _ChunkParser:
+    """The XML parser, and the calls it has produced since they were last taken."""
 
     def __init__(self, wanted: frozenset[str], blobs: Blobs) -> None:
-        # Not xml.parsers.expat, which is the same under a name that costs importing a package.
+        # The same module as xml.parsers.expat, without importing that package.
         from pyexpat import ExpatError, ParserCreate
 
         self.error = ExpatError
         self.names: dict[str, str] = {}
-        # The encoding is stated, or a document could ask for any of Python's codecs.
+        # With a stated encoding, a document cannot select one of Python's codecs.
         self.parser = ParserCreate("utf-8", None, self.names)
         self.parser.buffer_text = True
         self.parser.ordered_attributes = True
-        self.parser.StartDoctypeDeclHandler = self.doctype
+        self.parser.StartDoctypeDeclHandler = self.reject_doctype
         self.wanted = wanted
         self.blobs = blobs
-        self.calls = Calls()
-        self.found: list[Call | Mark] = []
+        self.converter = CallConverter()
+        self.output: list[Call | Mark] = []
         self.path: list[str] = []
         self.driver = ""
         self.fed = 0
         self.number = -1
-        self.began: int | None = None
-        """Where the chunk that is read begins, in bytes; None where none is read."""
-        self.within = False
+        self.chunk_start: int | None = None
+        """The byte offset of the current chunk; None if no chunk is being read."""
+        self.in_chunk = False
         self.name = ""
         self.place = Place(1, 1)
         self.arguments: dict[str, Any] = {}
         self.depth: Callable[[], int] = int
-        """How many elements of the chunk that is read are open."""
-        self.watch()
+        """Returns how many elements are open in the current chunk."""
+        self.expect_chunk()
 
     def feed(self, block: bytes, last: bool) -> None:
         """Parses a block of the file."""
         try:
             self.parser.Parse(block, last)
         except self.error as error:
-            what = "the XML ends in the middle" if last else f"no well-formed XML: {_reason(error.code)}"
-            raise Broken(what, Place(error.lineno, error.offset + 1, self.number if self.within else None)) from None
+            what = "the XML is truncated" if last else f"invalid XML: {_reason(error.code)}"
+            raise CaptureError(what, Place(error.lineno, error.offset + 1, self.number if self.in_chunk else None)) from None
         self.fed += len(block)
         done = self.parser.CurrentByteIndex
         if self.fed - done > MAX_TOKEN:
-            raise self.broken(f"a tag or a comment of more than {MAX_TOKEN >> 20} MiB")
+            raise self.error_here(f"a tag or comment exceeds {MAX_TOKEN >> 20} MiB")
         if len(self.names) > MAX_NAMES:
-            raise self.broken(f"more than {MAX_NAMES} names of elements and attributes")
-        if self.began is not None and done - self.began > MAX_CHUNK:
-            self.too_large(f"more than {MAX_CHUNK >> 20} MiB")
+            raise self.error_here(f"more than {MAX_NAMES} names of elements and attributes")
+        if self.chunk_start is not None and done - self.chunk_start > MAX_CHUNK:
+            self.reject_large_chunk(f"{MAX_CHUNK >> 20} MiB")
 
-    def taken(self) -> list[Call | Mark]:
-        """The calls found since."""
-        found, self.found = self.found, []
-        return found
+    def take_calls(self) -> list[Call | Mark]:
+        """Returns the calls since the last time."""
+        output, self.output = self.output, []
+        return output
 
-    def drop(self) -> None:
-        """Lets go of the parser, whose handlers know this object."""
+    def release(self) -> None:
+        """Removes the handlers, which refer back to this object."""
         parser = self.parser
         parser.StartElementHandler = parser.EndElementHandler = parser.CharacterDataHandler = parser.StartDoctypeDeclHandler = None
 
-    def broken(self, message: str) -> Broken:
-        """A mistake where the parser is."""
-        at = Place(self.parser.CurrentLineNumber, self.parser.CurrentColumnNumber + 1, self.number if self.within else None)
-        return Broken(message, at)
+    def error_here(self, message: str) -> CaptureError:
+        """An error at the parser's position."""
+        at = Place(self.parser.CurrentLineNumber, self.parser.CurrentColumnNumber + 1, self.number if self.in_chunk else None)
+        return CaptureError(message, at)
 
-    def doctype(self, name: str, system: str | None, public: str | None, subset: int) -> None:
-        raise self.broken("a document type declaration, which RenderDoc does not write; entities are not read")
+    def reject_doctype(self, name: str, system: str | None, public: str | None, subset: int) -> None:
+        raise self.error_here("unexpected document type declaration; RenderDoc does not write one, and entities are not supported")
 
-    def watch(self) -> None:
-        """Looks for the next chunk."""
-        self.within = False
-        self.began = None
+    def expect_chunk(self) -> None:
+        """Installs the handlers that find the next chunk."""
+        self.in_chunk = False
+        self.chunk_start = None
         parser = self.parser
-        parser.StartElementHandler = self.around
-        parser.EndElementHandler = self.closed
+        parser.StartElementHandler = self.start_outside
+        parser.EndElementHandler = self.end_outside
         parser.CharacterDataHandler = None
 
-    def around(self, tag: str, attributes: list[str]) -> None:
-        """An element that is not in a chunk."""
+    def start_outside(self, tag: str, attributes: list[str]) -> None:
+        """Starts an element outside of chunks."""
         path = self.path
         if not path:
             if tag != "rdc":
-                raise self.broken(f"`{tag[:64]}` where RenderDoc's XML begins with `rdc`")
+                raise self.error_here(f"the root element must be `rdc`, found `{tag[:64]}`")
         elif tag == "chunk" and len(path) == 2 and path[1] == "chunks":
-            self.chunk(attributes)
+            self.start_chunk(attributes)
             return
         elif tag == "driver":
             self.driver = ""
-            self.parser.CharacterDataHandler = self.driver_named
+            self.parser.CharacterDataHandler = self.add_driver_text
         if len(path) >= MAX_DEPTH:
-            raise self.broken(f"elements nested more than {MAX_DEPTH} deep")
+            raise self.error_here(f"elements are nested deeper than {MAX_DEPTH} levels")
         path.append(tag)
 
-    def closed(self, tag: str) -> None:
+    def end_outside(self, tag: str) -> None:
         self.path.pop()
         if tag == "driver":
             self.parser.CharacterDataHandler = None
             driver = self.driver.strip()
             if driver != "Vulkan":
-                raise self.broken(f"a capture of {driver[:64] or 'no driver'}; only Vulkan's are read")
+                raise self.error_here(f"expected a Vulkan capture, found the driver `{driver[:64]}`")
 
-    def driver_named(self, text: str) -> None:
+    def add_driver_text(self, text: str) -> None:
         self.driver = (self.driver + text)[:100]
 
-    def chunk(self, attributes: list[str]) -> None:
-        """A chunk begins: one that is needed is read, the others are passed over."""
+    def start_chunk(self, attributes: list[str]) -> None:
+        """Starts a chunk: reads it if it is needed, otherwise skips it."""
         parser, wanted = self.parser, self.wanted
         self.number += 1
-        self.within = True
+        self.in_chunk = True
         self.place = Place(parser.CurrentLineNumber, parser.CurrentColumnNumber + 1, self.number)
         self.name = name = _attribute(attributes, "name") or ""
         if not self.number:
-            self.found.append(Mark("frameless", self.place))
-        if wants(wanted, name) or (name in NEEDED and not wanted.isdisjoint(NEEDED[name])):
-            self.began = parser.CurrentByteIndex
-            self.blobs.chunk()
+            self.output.append(Mark("frameless", self.place))
+        if is_wanted(wanted, name) or (name in NEEDED_FOR and not wanted.isdisjoint(NEEDED_FOR[name])):
+            self.chunk_start = parser.CurrentByteIndex
+            self.blobs.start_chunk()
             self.read()
         else:
             self.skip(0)
 
     def skip(self, depth: int) -> None:
-        """Handlers that do nothing but find the end of a chunk, of which so many elements are open."""
-        self.began = None
+        """Installs handlers that only find the end of a chunk with `depth` open elements."""
+        self.chunk_start = None
 
         def start(tag: str, attributes: list[str]) -> None:
             nonlocal depth
             depth += 1
             if depth > MAX_DEPTH:
-                raise self.broken(f"elements nested more than {MAX_DEPTH} deep")
+                raise self.error_here(f"elements are nested deeper than {MAX_DEPTH} levels")
 
         def end(tag: str) -> None:
             nonlocal depth
             depth -= 1
             if depth < 0:
-                self.watch()
+                self.expect_chunk()
 
         self.parser.StartElementHandler = start
         self.parser.EndElementHandler = end
         self.parser.CharacterDataHandler = None
 
     def read(self) -> None:
-        """Handlers that read the elements of a chunk."""
-        into: Any = {}
-        self.arguments = into
-        # The containers around `into` with the attributes of what is in each; those of which nothing is known are dropped.
+        """Installs handlers that read the elements of a chunk."""
+        container: Any = {}
+        self.arguments = container
+        # The containers around `container`, each with the attributes of the element inside it. Unknown elements are dropped.
         outer: list[tuple[Any, list[str]]] = []
         text: list[str] = []
         value_of: Callable[[str], Any] | None = None
-        named: list[str] = []
-        left = MAX_ELEMENTS
+        value_attributes: list[str] = []
+        remaining = MAX_ELEMENTS
         self.depth = lambda: len(outer) + (value_of is not None)
 
         def start(tag: str, attributes: list[str]) -> None:
-            nonlocal into, value_of, named, left
+            nonlocal container, value_of, value_attributes, remaining
             if value_of is not None:
-                raise self.broken(f"an element within a value: `{tag[:64]}`")
+                raise self.error_here(f"unexpected element `{tag[:64]}` inside a value")
             value_of = VALUES.get(tag)
             if value_of is not None:
-                named = attributes
+                value_attributes = attributes
                 text.clear()
                 return
-            outer.append((into, attributes))
-            into = [] if tag == "array" else {}
-            left -= 1
+            outer.append((container, attributes))
+            container = [] if tag == "array" else {}
+            remaining -= 1
             if len(outer) > MAX_DEPTH:
-                raise self.broken(f"elements nested more than {MAX_DEPTH} deep")
-            if left < 0:
-                self.too_large(f"more than {MAX_ELEMENTS:,} structures and arrays")
+                raise self.error_here(f"elements are nested deeper than {MAX_DEPTH} levels")
+            if remaining < 0:
+                self.reject_large_chunk(f"{MAX_ELEMENTS:,} structures and arrays")
 
         def end(tag: str) -> None:
-            nonlocal into, value_of
+            nonlocal container, value_of
             if value_of is not None:
-                attributes = named
+                attributes = value_attributes
                 try:
                     value = value_of("".join(text))
                 except (ValueError, OverflowError):
-                    raise self.broken(f"`{''.join(text)[:64]}` is no value of `{tag}`") from None
+                    raise self.error_here(f"`{''.join(text)[:64]}` is not a valid `{tag}`") from None
                 value_of = None
             elif outer:
-                value = into
-                into, attributes = outer.pop()
+                value = container
+                container, attributes = outer.pop()
                 if tag not in ("struct", "array"):
                     return
             else:
-                self.ended()
+                self.finish_chunk()
                 return
-            if type(into) is list:
-                into.append(value)
+            if type(container) is list:
+                container.append(value)
                 return
             name = attributes[1] if attributes and attributes[0] == "name" else _attribute(attributes, "name")
-            if name in _ODD:
-                value = self.odd(name, value, attributes)
-                if value is _ODD:
+            if name in _SPECIAL:
+                value = self.special_value(name, value, attributes)
+                if value is _SPECIAL:
                     return
             if name is not None:
-                into[name] = value
+                container[name] = value
 
         self.parser.StartElementHandler = start
         self.parser.EndElementHandler = end
         self.parser.CharacterDataHandler = text.append
 
-    def odd(self, name: str, value: Any, attributes: list[str]) -> Any:
-        """A member that RenderDoc writes otherwise than C has it; `_ODD` itself where C has none."""
+    def special_value(self, name: str, value: Any, attributes: list[str]) -> Any:
+        """The C value of a member that RenderDoc writes differently; `_SPECIAL` itself if C has no such member."""
         if name == "sType":
             return _attribute(attributes, "string") or value
         if name == "pSampleMask":
-            # The first word stands for the array.
+            # RenderDoc writes only the first word of the array.
             return [value] if type(value) is int else value
         if name in _BUFFERS:
             if type(value) is not int:
                 return value
-            held = self.blobs.read(value, _attribute(attributes, "byteLength") or "")
-            return _ODD if held is None else held
-        return _ODD
+            content = self.blobs.read(value, _attribute(attributes, "byteLength") or "")
+            return _SPECIAL if content is None else content
+        return _SPECIAL
 
-    def ended(self) -> None:
-        """A chunk is read."""
-        for made in self.calls.of(self.name, self.arguments, self.place):
-            if wants(self.wanted, made.name):
-                self.found.append(made)
-        self.watch()
+    def finish_chunk(self) -> None:
+        """Converts a chunk that is complete."""
+        self.output += [call for call in self.converter.calls(self.name, self.arguments, self.place) if is_wanted(self.wanted, call.name)]
+        self.expect_chunk()
 
-    def too_large(self, what: str) -> None:
-        """A chunk that is more than one call may be. What a large descriptor set holds may stay unknown."""
-        if self.name != INITIAL:
-            raise Broken(f"{self.name[:64]} of {what}", self.place)
+    def reject_large_chunk(self, limit: str) -> None:
+        """Raises CaptureError for a chunk above a limit. The contents of a large descriptor set are unknown instead."""
+        if self.name != INITIAL_CONTENTS:
+            raise CaptureError(f"{self.name[:64]} exceeds {limit}", self.place)
         handle = self.arguments.get("id")
         if type(handle) is int and "vkUpdateDescriptorSetWithTemplate" in self.wanted:
-            self.found.append(unknown(handle, self.place))
+            self.output.append(unknown_set(handle, self.place))
         self.skip(self.depth())
 
 
@@ -303,7 +301,7 @@ def _attribute(attributes: list[str], name: str) -> str | None:
     return None
 
 
-def _truth(text: str) -> bool:
+def _boolean(text: str) -> bool:
     if text not in ("true", "false"):
         raise ValueError(text[:24])
     return text == "true"
@@ -316,16 +314,16 @@ VALUES: dict[str, Callable[[str], Any]] = {
     "ResourceId": int,
     "buffer": int,
     "float": float,
-    "bool": _truth,
+    "bool": _boolean,
     "string": str,
     "char": str,
     "null": lambda text: None,
 }
-"""The elements that hold a value, and how it is read."""
+"""The elements that hold a value, with their parsers."""
 
 _BUFFERS = ("pCode", "pData")
-_ODD = frozenset({"sType", "pNextType", "pSampleMask", "DebugMessages", "BakedCommandBuffer", *_BUFFERS})
-"""Members that `odd` looks at."""
+_SPECIAL = frozenset({"sType", "pNextType", "pSampleMask", "DebugMessages", "BakedCommandBuffer", *_BUFFERS})
+"""Members that `special_value` converts."""
 
 
 def _reason(code: int) -> str:

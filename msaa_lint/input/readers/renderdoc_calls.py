@@ -1,4 +1,4 @@
-"""RenderDoc's chunks as C's calls: the names of parameters, lists of one, the calls that one chunk stands for."""
+"""Converts RenderDoc's chunks to C calls: parameter names, one-element arrays, and chunks that stand for several calls."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from typing import Any
 
 from msaa_lint.input.captures.call import Call, Place
 
-from .renderdoc_sets import Sets
+from .renderdoc_sets import DescriptorSets
 
-DEVICE = "vkEnumeratePhysicalDevices"
-INITIAL = "Internal::Initial Contents"
+ENUMERATE_DEVICES = "vkEnumeratePhysicalDevices"
+INITIAL_CONTENTS = "Internal::Initial Contents"
 
 MAX_SWAPCHAIN_IMAGES = 64
-"""Images of a swapchain that are told; drivers give some three."""
+"""Maximum number of images in a swapchain; drivers create about three."""
 
 MAX_SWAPCHAINS = 1000
 
 MAX_OBJECTS = 300_000
-"""Objects whose type is remembered for the sake of their names."""
+"""Maximum number of objects whose type is kept for debug names."""
 
 RENAMED = {
     "SubpassBegin": "pSubpassBeginInfo",
@@ -31,9 +31,9 @@ RENAMED = {
     "destStageMask": "dstStageMask",
     "memoryRequirements": "",
 }
-"""Parameters whose C name is not RenderDoc's with `p` before a capital; without a name where C has no such parameter."""
+"""C names of chunk, unless they are RenderDoc's name with `p` before a capital; empty if C has no such parameter."""
 
-OF_CALLS: dict[str, dict[str, str]] = {
+RENAMED_BY_CALL: dict[str, dict[str, str]] = {
     "vkBeginCommandBuffer": {"CommandBuffer": "commandBuffer", "device": "", "AllocateInfo": ""},
     "vkEndCommandBuffer": {"CommandBuffer": "commandBuffer"},
     "vkCreateSwapchainKHR": {"SwapChain": "pSwapchain", "NumImages": ""},
@@ -49,12 +49,12 @@ OF_CALLS: dict[str, dict[str, str]] = {
     "vkAllocateDescriptorSets": {"DescriptorSet": "pDescriptorSets"},
     "vkQueuePresentKHR": {"PresentedImage": ""},
 }
-"""As RENAMED, of single calls."""
+"""As RENAMED, for single calls."""
 
 ARRAYS = frozenset({"pCreateInfos", "pPipelines", "pCommandBuffers", "pDescriptorSets"})
-"""Of calls that make several objects a chunk tells one."""
+"""Parameters of calls that create several objects: a chunk contains one."""
 
-INSTANCE = {
+APPLICATION_MEMBERS = {
     "AppName": "pApplicationName",
     "AppVersion": "applicationVersion",
     "EngineName": "pEngineName",
@@ -62,7 +62,7 @@ INSTANCE = {
     "APIVersion": "apiVersion",
 }
 
-NAMED = {
+NAMED_OBJECTS = {
     "vkCreateImage": ("Image", "IMAGE"),
     "vkCreateRenderPass": ("RenderPass", "RENDER_PASS"),
     "vkCreateRenderPass2": ("RenderPass", "RENDER_PASS"),
@@ -71,85 +71,100 @@ NAMED = {
     "vkCreateSwapchainKHR": ("SwapChain", "SWAPCHAIN_KHR"),
     "vkGetSwapchainImagesKHR": ("SwapchainImage", "IMAGE"),
 }
-"""Calls that make what findings name, the parameter that is its handle, and its VkObjectType, which the chunk of a name leaves out."""
+"""Calls that create objects with debug names: the parameter with the handle, and the VkObjectType, which a debug-name chunk omits."""
 
-_SETS = frozenset({"vkUpdateDescriptorSets"})
-_NAMES = frozenset({"vkSetDebugUtilsObjectName", "vkDebugMarkerSetObjectName"})
+_SET_CALLS = frozenset({"vkUpdateDescriptorSets"})
+_NAME_CALLS = frozenset({"vkSetDebugUtilsObjectName", "vkDebugMarkerSetObjectName"})
 
-NEEDED = {
-    **dict.fromkeys((INITIAL, "vkCreateDescriptorSetLayout", "vkAllocateDescriptorSets", "vkUpdateDescriptorSetWithTemplate"), _SETS),
-    **dict.fromkeys(NAMED, _NAMES),
-    "vkCreateImage": _NAMES | {"vkGetImageMemoryRequirements"},
-    DEVICE: frozenset(f"vkGetPhysicalDevice{query}" for query in ("Properties", "Properties2", "MemoryProperties", "Features")),
+NEEDED_FOR = {
+    **dict.fromkeys(
+        (INITIAL_CONTENTS, "vkCreateDescriptorSetLayout", "vkAllocateDescriptorSets", "vkUpdateDescriptorSetWithTemplate"), _SET_CALLS
+    ),
+    **dict.fromkeys(NAMED_OBJECTS, _NAME_CALLS),
+    "vkCreateImage": _NAME_CALLS | {"vkGetImageMemoryRequirements"},
+    ENUMERATE_DEVICES: frozenset(f"vkGetPhysicalDevice{query}" for query in ("Properties", "Properties2", "MemoryProperties", "Features")),
 }
-"""Chunks that are read for the sake of other calls."""
+"""Chunks that are read because other calls need them."""
 
 
-class Calls:
-    """Chunks to calls; what earlier chunks said that later ones need."""
+class CallConverter:
+    """Converts chunks to calls, with the state that later chunks need from earlier ones."""
 
     def __init__(self) -> None:
         self.swapchains: dict[Any, list[Any]] = {}
         self.types: dict[Any, str] = {}
-        self.sets = Sets()
+        self.sets = DescriptorSets()
 
-    def of(self, name: str, given: dict[str, Any], at: Place) -> Iterator[Call]:
-        """The calls that a chunk stands for, the device's truths before the call that finds it."""
-        if name in NAMED:
-            parameter, kind = NAMED[name]
-            handle = given.get(parameter)
+    def calls(self, name: str, chunk: dict[str, Any], at: Place) -> Iterator[Call]:
+        """The calls for a chunk. The queries for a device's properties come before the call that enumerates it."""
+        if name in NAMED_OBJECTS:
+            parameter, kind = NAMED_OBJECTS[name]
+            handle = chunk.get(parameter)
             if type(handle) is int and len(self.types) < MAX_OBJECTS:
                 self.types[handle] = kind
-        if name == INITIAL:
-            yield from self.sets.initial(given, at)
+        if name == INITIAL_CONTENTS:
+            yield from self.sets.initial_contents(chunk, at)
             return
-        if name == DEVICE:
-            yield from _device(given, at)
-            arguments = {"instance": given.get("instance"), "pPhysicalDeviceCount": 1, "pPhysicalDevices": [given.get("PhysicalDevice")]}
+        if name == ENUMERATE_DEVICES:
+            yield from _device_queries(chunk, at)
+            arguments = {
+                "instance": chunk.get("instance"),
+                "pPhysicalDeviceCount": 1,
+                "pPhysicalDevices": [chunk.get("PhysicalDevice")],
+            }
         elif name == "vkCreateInstance":
-            arguments = _instance(given)
+            arguments = _instance(chunk)
         elif name == "vkGetSwapchainImagesKHR":
-            arguments = self.swapchain_images(given)
+            arguments = self.swapchain_images(chunk)
         elif name in ("vkSetDebugUtilsObjectNameEXT", "vkDebugMarkerSetObjectNameEXT"):
-            arguments = self.named(name, given)
+            arguments = self.debug_name(name, chunk)
         else:
-            arguments = _renamed(name, given)
-        if name == "vkUpdateDescriptorSetWithTemplate" and isinstance(given.get("Decoded Writes"), list):
-            # They name no set.
-            writes = [{**each, "dstSet": given.get("descriptorSet")} for each in given["Decoded Writes"] if isinstance(each, dict)]
-            name, arguments = "vkUpdateDescriptorSets", {"device": given.get("device"), "pDescriptorWrites": writes}
-        self.sets.noted(name, arguments)
+            arguments = _renamed(name, chunk)
+        if name == "vkUpdateDescriptorSetWithTemplate" and isinstance(chunk.get("Decoded Writes"), list):
+            # These writes do not name their set.
+            writes = [{**each, "dstSet": chunk.get("descriptorSet")} for each in chunk["Decoded Writes"] if isinstance(each, dict)]
+            name, arguments = "vkUpdateDescriptorSets", {"device": chunk.get("device"), "pDescriptorWrites": writes}
+        self.sets.observe(name, arguments)
         yield Call(name, arguments, at)
-        if name == "vkCreateImage" and isinstance(given.get("memoryRequirements"), dict):
-            needs = {"device": given.get("device"), "image": given.get("Image"), "pMemoryRequirements": given["memoryRequirements"]}
+        if name == "vkCreateImage" and isinstance(chunk.get("memoryRequirements"), dict):
+            needs = {
+                "device": chunk.get("device"),
+                "image": chunk.get("Image"),
+                "pMemoryRequirements": chunk["memoryRequirements"],
+            }
             yield Call("vkGetImageMemoryRequirements", needs, at)
 
-    def swapchain_images(self, given: dict[str, Any]) -> dict[str, Any]:
-        """A chunk is one image: the call tells those that came before too, in their order."""
-        swapchain, index, image = given.get("Swapchain"), given.get("SwapchainImageIndex"), given.get("SwapchainImage")
+    def swapchain_images(self, chunk: dict[str, Any]) -> dict[str, Any]:
+        """The arguments of vkGetSwapchainImagesKHR: a chunk has one image, the call also the earlier ones."""
+        swapchain, index, image = chunk.get("Swapchain"), chunk.get("SwapchainImageIndex"), chunk.get("SwapchainImage")
         known: list[Any] = []
         if type(swapchain) is int and type(index) is int and 0 <= index < MAX_SWAPCHAIN_IMAGES:
             if len(self.swapchains) < MAX_SWAPCHAINS:
                 known = self.swapchains.setdefault(swapchain, known)
             known.extend([0] * (index + 1 - len(known)))
             known[index] = image
-        return {"device": given.get("device"), "swapchain": swapchain, "pSwapchainImageCount": len(known), "pSwapchainImages": list(known)}
+        return {
+            "device": chunk.get("device"),
+            "swapchain": swapchain,
+            "pSwapchainImageCount": len(known),
+            "pSwapchainImages": list(known),
+        }
 
-    def named(self, name: str, given: dict[str, Any]) -> dict[str, Any]:
-        """A debug name, with the type of the object where that is known."""
-        handle = given.get("Object")
+    def debug_name(self, name: str, chunk: dict[str, Any]) -> dict[str, Any]:
+        """The arguments of a debug-name call, with the object type if it is known."""
+        handle = chunk.get("Object")
         kind = self.types.get(handle) if type(handle) is int else None
         utils = name == "vkSetDebugUtilsObjectNameEXT"
         of_type = None if kind is None else f"VK_OBJECT_TYPE_{kind}" if utils else f"VK_DEBUG_REPORT_OBJECT_TYPE_{kind}_EXT"
-        info = {"objectType": of_type, "objectHandle" if utils else "object": handle, "pObjectName": given.get("ObjectName")}
+        info = {"objectType": of_type, "objectHandle" if utils else "object": handle, "pObjectName": chunk.get("ObjectName")}
         return {"pNameInfo": info}
 
 
-def _renamed(name: str, given: dict[str, Any]) -> dict[str, Any]:
-    own = OF_CALLS.get(name, {})
+def _renamed(name: str, chunk: dict[str, Any]) -> dict[str, Any]:
+    call_names = RENAMED_BY_CALL.get(name, {})
     out: dict[str, Any] = {}
-    for key, value in given.items():
-        renamed = own.get(key)
+    for key, value in chunk.items():
+        renamed = call_names.get(key)
         if renamed is None:
             renamed = RENAMED.get(key)
         if renamed is None:
@@ -162,36 +177,36 @@ def _renamed(name: str, given: dict[str, Any]) -> dict[str, Any]:
     return out
 
 
-def _device(given: dict[str, Any], at: Place) -> Iterator[Call]:
-    """What RenderDoc notes of the physical device, as the queries for it."""
-    device = given.get("PhysicalDevice")
-    properties, memory, features, driver = (given.get(key) for key in ("physProps", "memProps", "physFeatures", "driverProps"))
+def _device_queries(chunk: dict[str, Any], at: Place) -> Iterator[Call]:
+    """RenderDoc's record of the physical device as the queries that return it."""
+    device = chunk.get("PhysicalDevice")
+    properties, memory, features, driver = (chunk.get(key) for key in ("physProps", "memProps", "physFeatures", "driverProps"))
     if isinstance(properties, dict):
         yield Call("vkGetPhysicalDeviceProperties", {"physicalDevice": device, "pProperties": properties}, at)
         if isinstance(driver, dict):
             second = {"sType": "VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2", "pNext": driver, "properties": properties}
             yield Call("vkGetPhysicalDeviceProperties2", {"physicalDevice": device, "pProperties": second}, at)
     if isinstance(memory, dict):
-        cut = dict(memory)
+        trimmed = dict(memory)
         for count, array in (("memoryTypeCount", "memoryTypes"), ("memoryHeapCount", "memoryHeaps")):
-            # The arrays are C's, of fixed length.
-            if isinstance(cut.get(array), list) and type(cut.get(count)) is int:
-                cut[array] = cut[array][: max(cut[count], 0)]
-        yield Call("vkGetPhysicalDeviceMemoryProperties", {"physicalDevice": device, "pMemoryProperties": cut}, at)
+            # The arrays have C's fixed length.
+            if isinstance(trimmed.get(array), list) and type(trimmed.get(count)) is int:
+                trimmed[array] = trimmed[array][: max(trimmed[count], 0)]
+        yield Call("vkGetPhysicalDeviceMemoryProperties", {"physicalDevice": device, "pMemoryProperties": trimmed}, at)
     if isinstance(features, dict):
         yield Call("vkGetPhysicalDeviceFeatures", {"physicalDevice": device, "pFeatures": features}, at)
 
 
-def _instance(given: dict[str, Any]) -> dict[str, Any]:
-    stated = given.get("InitParams")
-    stated = stated if isinstance(stated, dict) else {}
+def _instance(chunk: dict[str, Any]) -> dict[str, Any]:
+    init = chunk.get("InitParams")
+    init = init if isinstance(init, dict) else {}
     return {
         "pCreateInfo": {
             "sType": "VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO",
             "pNext": None,
-            "pApplicationInfo": {member: stated[key] for key, member in INSTANCE.items() if key in stated},
-            "ppEnabledLayerNames": stated.get("Layers"),
-            "ppEnabledExtensionNames": stated.get("Extensions"),
+            "pApplicationInfo": {member: init[key] for key, member in APPLICATION_MEMBERS.items() if key in init},
+            "ppEnabledLayerNames": init.get("Layers"),
+            "ppEnabledExtensionNames": init.get("Extensions"),
         },
-        "pInstance": stated.get("InstanceID"),
+        "pInstance": init.get("InstanceID"),
     }

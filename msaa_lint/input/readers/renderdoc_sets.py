@@ -1,4 +1,4 @@
-"""Descriptor sets of a RenderDoc capture: what they hold when the frame begins, as the update that would write it."""
+"""The contents of descriptor sets at the start of a RenderDoc frame, as the updates that would write them."""
 
 from __future__ import annotations
 
@@ -11,46 +11,46 @@ IMAGES = (1, 2, 3, 10)
 """VkDescriptorType of image views: COMBINED_IMAGE_SAMPLER, SAMPLED_IMAGE, STORAGE_IMAGE, INPUT_ATTACHMENT."""
 
 INLINE = 1000138000
-"""INLINE_UNIFORM_BLOCK: its count is bytes; it has one slot."""
+"""INLINE_UNIFORM_BLOCK: its descriptorCount is in bytes; it has one slot."""
 
 MAX_BINDINGS = 4096
-"""Bindings of a layout."""
+"""Maximum number of bindings in a layout."""
 
-MAX_REMEMBERED = 300_000
-"""Bindings of all layouts, and sets, that are remembered; what other sets hold stays unknown."""
+MAX_BINDINGS_TOTAL = 300_000
+"""Maximum number of bindings in all layouts, and of sets; the contents of further sets are unknown."""
 
 
-class Sets:
-    """The layouts of descriptor sets: a set's contents are a row of slots, binding after binding."""
+class DescriptorSets:
+    """The layouts of descriptor sets. A set's contents are a sequence of slots, binding after binding."""
 
     def __init__(self) -> None:
         self.layouts: dict[int, list[tuple[int, int]]] = {}
-        self.of_set: dict[int, int] = {}
-        self.left = MAX_REMEMBERED
+        self.layout_of_set: dict[int, int] = {}
+        self.remaining = MAX_BINDINGS_TOTAL
 
-    def noted(self, name: str, arguments: dict[str, Any]) -> None:
-        """Looks at a call for layouts, and the sets that have them."""
+    def observe(self, name: str, arguments: dict[str, Any]) -> None:
+        """Records the layouts and sets that a call creates."""
         if name == "vkCreateDescriptorSetLayout":
             handle, bindings = arguments.get("pSetLayout"), _member(arguments.get("pCreateInfo"), "pBindings")
-            if type(handle) is int and isinstance(bindings, list) and len(bindings) <= min(MAX_BINDINGS, self.left - 1):
-                self.left -= len(bindings) + 1
-                found = [_binding(each) for each in bindings]
-                self.layouts[handle] = sorted(each for each in found if each is not None)
+            if type(handle) is int and isinstance(bindings, list) and len(bindings) <= min(MAX_BINDINGS, self.remaining - 1):
+                self.remaining -= len(bindings) + 1
+                parsed = map(_binding, bindings)
+                self.layouts[handle] = sorted(binding for binding in parsed if binding is not None)
         elif name == "vkAllocateDescriptorSets":
             handles, layouts = arguments.get("pDescriptorSets"), _member(arguments.get("pAllocateInfo"), "pSetLayouts")
             if isinstance(handles, list) and isinstance(layouts, list):
                 for handle, layout in zip(handles, layouts, strict=False):
-                    if type(handle) is int and type(layout) is int and len(self.of_set) < MAX_REMEMBERED:
-                        self.of_set[handle] = layout
+                    if type(handle) is int and type(layout) is int and len(self.layout_of_set) < MAX_BINDINGS_TOTAL:
+                        self.layout_of_set[handle] = layout
 
-    def initial(self, given: dict[str, Any], at: Place) -> Iterator[Call]:
-        """The images that a set holds when the frame begins; nothing for contents of another kind."""
-        handle, slots = given.get("id"), given.get("Bindings")
+    def initial_contents(self, chunk: dict[str, Any], at: Place) -> Iterator[Call]:
+        """The images in a set at the start of the frame; no calls for initial contents of other objects."""
+        handle, slots = chunk.get("id"), chunk.get("Bindings")
         if type(handle) is not int or not isinstance(slots, list):
             return
-        layout = self.layouts.get(self.of_set.get(handle, 0))
+        layout = self.layouts.get(self.layout_of_set.get(handle, 0))
         if layout is None:
-            yield unknown(handle, at)
+            yield unknown_set(handle, at)
             return
         writes: list[dict[str, Any]] = []
         first = 0
@@ -61,13 +61,13 @@ class Sets:
             yield Call("vkUpdateDescriptorSets", {"descriptorWriteCount": len(writes), "pDescriptorWrites": writes}, at)
 
 
-def unknown(handle: int, at: Place) -> Call:
-    """A set that holds something which is not told: as an update whose data a capture leaves out."""
+def unknown_set(handle: int, at: Place) -> Call:
+    """An update that makes a set's contents unknown: one whose data the capture omits."""
     return Call("vkUpdateDescriptorSetWithTemplate", {"descriptorSet": handle}, at)
 
 
 def _writes(handle: int, binding: int, slots: list[Any]) -> Iterator[dict[str, Any]]:
-    """A write for every row of slots of one type that hold images."""
+    """A write for each run of image slots of the same type."""
     write: dict[str, Any] | None = None
     for element, slot in enumerate(slots):
         kind, resource = _member(slot, "type"), _member(slot, "resource")
@@ -81,11 +81,11 @@ def _writes(handle: int, binding: int, slots: list[Any]) -> Iterator[dict[str, A
         write["pImageInfo"].append(image)
 
 
-def _binding(given: object) -> tuple[int, int] | None:
-    binding, count = _member(given, "binding"), _member(given, "descriptorCount")
+def _binding(chunk: object) -> tuple[int, int] | None:
+    binding, count = _member(chunk, "binding"), _member(chunk, "descriptorCount")
     if type(binding) is not int or type(count) is not int or count < 0:
         return None
-    return binding, 1 if _member(given, "descriptorType") == INLINE else count
+    return binding, 1 if _member(chunk, "descriptorType") == INLINE else count
 
 
 def _member(structure: object, name: str) -> Any:

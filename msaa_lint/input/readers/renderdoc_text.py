@@ -1,25 +1,25 @@
-"""What RenderDoc writes that XML does not allow: names as programs give them, in any encoding, with control characters."""
+"""Repairs RenderDoc's invalid XML: it copies names verbatim, in any encoding and with control characters."""
 
 from __future__ import annotations
 
 import codecs
 import re
 
-# The control characters that XML 1.0 has no reference to; two digits each.
+# References to control characters, which XML 1.0 forbids; two digits each.
 _CONTROL = re.compile(rb"&#(?:0[0-8]|1[124-9]|2\d|3[01]);")
-_BEGUN = re.compile(rb"&(?:#(?:\d\d?)?)?\Z")
+_PARTIAL_REFERENCE = re.compile(rb"&(?:#(?:\d\d?)?)?\Z")
 
 
-class Text:
-    """Mends the blocks of a file: a question mark for a control character, U+FFFD for what is no UTF-8. Places stay what they are."""
+class XmlRepair:
+    """Repairs a file block by block: control characters become question marks, invalid UTF-8 becomes U+FFFD. Positions do not change."""
 
     def __init__(self) -> None:
         self.decoder = codecs.getincrementaldecoder("utf-8")("replace")
         self.ascii = True
         self.rest = b""
 
-    def mended(self, block: bytes, last: bool) -> bytes:
-        """The next block, and what was kept of the one before it, as a reference or a character may be cut in two."""
+    def repair(self, block: bytes, last: bool) -> bytes:
+        """Repairs the next block. A reference or character that continues in the following block is held back."""
         if not (self.ascii and block.isascii()):
             self.ascii = False
             block = self.decoder.decode(block, last).encode()
@@ -28,8 +28,8 @@ class Text:
             self.rest = b""
         if b"&" not in block:
             return block
-        begun = None if last else _BEGUN.search(block, max(0, len(block) - 4))
-        if begun is not None:
-            self.rest = block[begun.start() :]
-            block = block[: begun.start()]
+        partial = None if last else _PARTIAL_REFERENCE.search(block, max(0, len(block) - 4))
+        if partial is not None:
+            self.rest = block[partial.start() :]
+            block = block[: partial.start()]
         return _CONTROL.sub(b"&#63;", block)

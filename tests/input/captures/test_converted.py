@@ -77,7 +77,7 @@ def test_a_capture_that_ends_in_the_middle_is_written_up_to_there(tmp_path: Path
     (tmp_path / "p.jsonl").write_bytes(PROGRAMS["forward"].text() + b'{"index":')
     made = run(tmp_path, "convert", "p.jsonl")
     assert made.returncode == 2
-    assert "ends in the middle" in made.stderr
+    assert "the file is truncated" in made.stderr
     assert "renderPasses" in yaml.safe_load(made.stdout)
 
 

@@ -14,7 +14,7 @@ from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.document import Document
 from msaa_lint.input import readers
 from msaa_lint.input.captures.call import Call, Mark, Place
-from msaa_lint.input.captures.description_text import written
+from msaa_lint.input.captures.description_text import describe_capture
 from msaa_lint.input.captures.tracker import Tracker
 from tests.input.captures.program import Program, attachment, info
 from tests.input.captures.test_frames import forward, history
@@ -96,7 +96,7 @@ def described(calls: list[tuple[str, dict[str, Any]]]) -> list[Document]:
         tracker.feed(Call(name, args, Place(number + 1, 1, number)))
     tracker.feed(Mark("frame", Place()))
     tracker.finish()
-    source = Source("capture", written(tracker).text)
+    source = Source("capture", describe_capture(tracker).text)
     parsed = parse(source, Limits())
     assert parsed.problems == []
     return [readers.read(source, root) for root in parsed.documents]

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.input.captures import json_stream
-from msaa_lint.input.captures.call import Broken, Call, Mark, Place
+from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place
 from msaa_lint.input.captures.unsupported import hint
 from msaa_lint.input.readers import api_dump, gfxreconstruct
 from tests.input.readers.dialects import api_dump as dumped
@@ -23,12 +23,12 @@ from tests.strength import examples
 FOLDER = SAMPLES / "captures"
 
 
-def read(text: bytes, wanted: frozenset[str] = WANTED) -> tuple[list[Call | Mark], Broken | None]:
+def read(text: bytes, wanted: frozenset[str] = WANTED) -> tuple[list[Call | Mark], CaptureError | None]:
     """What is read of a text, and why no more."""
     out: list[Call | Mark] = []
     try:
         out.extend(api_dump.calls(io.BytesIO(text), wanted, None))
-    except Broken as error:
+    except CaptureError as error:
         return out, error
     return out, None
 
@@ -134,7 +134,7 @@ def test_repeated_calls_have_their_own_places() -> None:
 
 
 def test_what_is_kept_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(api_dump, "MAX_KEPT", 1000)
+    monkeypatch.setattr(api_dump, "MAX_CACHE", 1000)
     program = [("vkCmdDraw", {"commandBuffer": 7, "vertexCount": count % 7}) for count in range(50)]
     assert [call.args["vertexCount"] for call in calls(dumped(program))] == [str(count % 7) for count in range(50)]
 
@@ -174,7 +174,7 @@ def test_a_file_of_a_program_that_was_killed() -> None:
     found, error = read(cut)
     assert found == whole
     assert error is not None
-    assert error.message == "the file ends in the middle: the program that was captured did not end in order"
+    assert error.message == "the file is truncated: the captured program did not exit cleanly"
     assert error.place == Place(cut.count(b"\n") + 1, 10)
 
 
@@ -220,18 +220,18 @@ def test_any_symbols(text: bytes) -> None:
 
 
 @pytest.mark.parametrize(("text", "message", "place"), [
-    ("", "the file ends in the middle: the program that was captured did not end in order", (1, 1)),
-    ("{", "no JSON: `[` is missing", (1, 1)),
-    ("[5]", "no JSON: `{` is missing", (1, 2)),
-    ("[{5:6}]", "no JSON: a name is missing", (1, 3)),
-    ('[{"apiCalls":5}]', "no JSON: `[` is missing", (1, 14)),
-    ('[{"apiCalls" []}]', "no JSON: `:` is missing", (1, 14)),
-    ('[{"frameNumber":"0","apiCalls":[]}] 5', "no JSON: the file goes on after its end", (1, 37)),
-    ('[{"apiCalls":[5]}]', "no call: an object with a name is expected", (1, 15)),
-    ('[{"apiCalls":[{"name":"vkCmdDraw","args":5}]}]', "no call: an array of arguments, members or elements is expected", (1, 15)),
-    ('[{"apiCalls":[{"name":"vkCmdDraw","args":[5]}]}]', "no call: an object with a type and a name is expected", (1, 15)),
-    ('[{"apiCalls":[{"name":"vkCmdDraw","args":[{"value":"5"}]}]}]', "no call: a member has no name", (1, 15)),
-    ('[{"apiCalls":[\n{"name":"vkCmdDraw","args":[,]}]}]', "no JSON: unexpected character, expected a JSON value", (2, 29)),
+    ("", "the file is truncated: the captured program did not exit cleanly", (1, 1)),
+    ("{", "invalid JSON: expected `[`", (1, 1)),
+    ("[5]", "invalid JSON: expected `{`", (1, 2)),
+    ("[{5:6}]", "invalid JSON: expected a name", (1, 3)),
+    ('[{"apiCalls":5}]', "invalid JSON: expected `[`", (1, 14)),
+    ('[{"apiCalls" []}]', "invalid JSON: expected `:`", (1, 14)),
+    ('[{"frameNumber":"0","apiCalls":[]}] 5', "invalid JSON: unexpected text after the end of the document", (1, 37)),
+    ('[{"apiCalls":[5]}]', "invalid call: expected an object with a name", (1, 15)),
+    ('[{"apiCalls":[{"name":"vkCmdDraw","args":5}]}]', "invalid call: expected an array of arguments, members or elements", (1, 15)),
+    ('[{"apiCalls":[{"name":"vkCmdDraw","args":[5]}]}]', "invalid call: expected an object with a type and a name", (1, 15)),
+    ('[{"apiCalls":[{"name":"vkCmdDraw","args":[{"value":"5"}]}]}]', "invalid call: a member has no name", (1, 15)),
+    ('[{"apiCalls":[\n{"name":"vkCmdDraw","args":[,]}]}]', "invalid JSON: unexpected character, expected a JSON value", (2, 29)),
 ])  # fmt: skip
 def test_what_is_no_dump(text: str, message: str, place: tuple[int, int]) -> None:
     found = broken(text.encode())

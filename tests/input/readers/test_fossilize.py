@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from msaa_lint.input.captures.call import Broken, Call, Mark, Place
+from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place
 from msaa_lint.input.readers import fossilize, fossilize_code, fossilize_objects
 from tests.input.readers.dialects_binary import MAGIC, entries, entry, made, numbers, packed
 from tests.input.readers.dialects_binary import fossilize as written
@@ -113,7 +113,7 @@ PIPELINE: tuple[str, dict[str, Any]] = (
 PROGRAM: list[tuple[str, dict[str, Any]]] = [INSTANCE, PASS, PASS_2, MODULE, PIPELINE]
 
 
-def read(data: bytes, wanted: frozenset[str] = EVERYTHING) -> tuple[list[Call], list[Mark], Broken | None]:
+def read(data: bytes, wanted: frozenset[str] = EVERYTHING) -> tuple[list[Call], list[Mark], CaptureError | None]:
     """The calls, the marks, and how reading ended."""
     found: list[Call] = []
     marks: list[Mark] = []
@@ -123,7 +123,7 @@ def read(data: bytes, wanted: frozenset[str] = EVERYTHING) -> tuple[list[Call], 
                 marks.append(each)
             else:
                 found.append(each)
-    except Broken as error:
+    except CaptureError as error:
         return found, marks, error
     return found, marks, None
 
@@ -232,24 +232,24 @@ def test_numbers_that_json_has_not_and_names_that_are_no_utf_8() -> None:
 @examples(1)
 def test_code_unpacks_to_what_was_packed(words: list[int]) -> None:
     code = b"".join(word.to_bytes(4, "little") for word in words)
-    assert fossilize_code.decoded(packed(code), len(code)) == code
-    assert fossilize_code.decoded(packed(code), len(code) + 4) is None
+    assert fossilize_code.unpack_code(packed(code), len(code)) == code
+    assert fossilize_code.unpack_code(packed(code), len(code) + 4) is None
     if words:
-        assert fossilize_code.decoded(packed(code)[:-1], len(code)) is None
-        assert fossilize_code.decoded(packed(code), len(code) - 4) is None
+        assert fossilize_code.unpack_code(packed(code)[:-1], len(code)) is None
+        assert fossilize_code.unpack_code(packed(code), len(code) - 4) is None
 
 
 def test_code_is_unpacked_across_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     for block in range(1, 8):
         monkeypatch.setattr(fossilize_code, "BLOCK", block)
-        assert fossilize_code.decoded(packed(CODE), len(CODE)) == CODE
+        assert fossilize_code.unpack_code(packed(CODE), len(CODE)) == CODE
 
 
 @pytest.mark.parametrize("bad", [b"\xff\xff\xff\xff\x10", b"\x80\x80\x80\x80\x80\x00", b"\x80" * 100, b"\x80"])
 def test_code_that_does_not_unpack(bad: bytes) -> None:
     for size in (0, 4, 8):
-        assert fossilize_code.decoded(bad, size) is None
-    assert fossilize_code.decoded(b"\x01\x02", 7) is None
+        assert fossilize_code.unpack_code(bad, size) is None
+    assert fossilize_code.unpack_code(b"\x01\x02", 7) is None
 
 
 def module(payload: bytes = b"\x00" + packed(CODE), **changes: object) -> bytes:
@@ -266,13 +266,13 @@ SHADERS = frozenset({"vkCreateShaderModule"})
 @pytest.mark.parametrize(
     ("data", "message"),
     [
-        (module(varintSize=len(packed(CODE)) + 1), "entry 0 at byte 16: its shader's code is outside of it"),
-        (module(varintOffset=1), "entry 0 at byte 16: its shader's code is outside of it"),
-        (module(varintOffset=-1), "entry 0 at byte 16: its shader's code is outside of it"),
-        (module(varintSize=-1), "entry 0 at byte 16: its shader's code is outside of it"),
-        (module(codeSize=4), "entry 0 at byte 16: its shader's code has not the size that it says"),
-        (module(codeSize=len(CODE) + 1), "entry 0 at byte 16: its shader's code has not the size that it says"),
-        (module(b""), "entry 0 at byte 16: its shader's code is outside of it"),
+        (module(varintSize=len(packed(CODE)) + 1), "entry 0 at byte 16: its shader code lies outside the entry"),
+        (module(varintOffset=1), "entry 0 at byte 16: its shader code lies outside the entry"),
+        (module(varintOffset=-1), "entry 0 at byte 16: its shader code lies outside the entry"),
+        (module(varintSize=-1), "entry 0 at byte 16: its shader code lies outside the entry"),
+        (module(codeSize=4), "entry 0 at byte 16: its shader code differs from its stated size"),
+        (module(codeSize=len(CODE) + 1), "entry 0 at byte 16: its shader code differs from its stated size"),
+        (module(b""), "entry 0 at byte 16: its shader code lies outside the entry"),
     ],
 )
 def test_shaders_that_make_no_sense(data: bytes, message: str) -> None:
@@ -316,21 +316,21 @@ DEFLATED = zlib.compress(JSON)
 @pytest.mark.parametrize(
     ("bad", "message"),
     [
-        (header(len(JSON), 1, 1, len(JSON)) + JSON, "its checksum is wrong"),
-        (header(len(JSON), 0, 0, len(JSON)) + JSON, "it is stored in a way, 0, that is not known"),
-        (header(len(JSON), 3, 0, len(JSON)) + JSON, "it is stored in a way, 3, that is not known"),
-        (header(len(JSON), 1, 0, len(JSON) - 1) + JSON, "it has not the size that it says"),
-        (header(len(JSON), 2, 0, len(JSON)) + JSON, "it does not inflate"),
-        (header(len(DEFLATED), 2, 0, len(JSON) + 1) + DEFLATED, "it has not the size that it says"),
-        (header(len(DEFLATED), 2, 0, len(JSON) - 1) + DEFLATED, "it has not the size that it says"),
-        (header(len(DEFLATED), 2, 0, len(JSON) - 9) + DEFLATED, "it does not inflate to the size that it says"),
-        (header(len(DEFLATED) - 1, 2, 0, len(JSON)) + DEFLATED[:-1], "it does not inflate to the size that it says"),
-        (header(len(DEFLATED) + 1, 2, 0, len(JSON)) + DEFLATED + b"x", "it does not inflate to the size that it says"),
-        (header(3, 1, 0, 3) + b"{,}", "it holds no JSON"),
-        (header(2, 1, 0, 2) + b"[]", "its JSON is no object"),
-        (header(4000, 1, 0, 4000) + b"[" * 2000 + b"]" * 2000, "it holds no JSON"),
-        (entry(0, 1, b'{"a":' + b"[" * 200 + b"]" * 200 + b"}"), "its JSON is nested more than 100 deep"),
-        (entry(0, 1, b'"' + b"a" * (5 << 20) + b'"'), "its JSON has more than 4 MiB"),
+        (header(len(JSON), 1, 1, len(JSON)) + JSON, "its checksum does not match"),
+        (header(len(JSON), 0, 0, len(JSON)) + JSON, "its compression type 0 is unknown"),
+        (header(len(JSON), 3, 0, len(JSON)) + JSON, "its compression type 3 is unknown"),
+        (header(len(JSON), 1, 0, len(JSON) - 1) + JSON, "its size differs from its stated size"),
+        (header(len(JSON), 2, 0, len(JSON)) + JSON, "its compressed data is invalid"),
+        (header(len(DEFLATED), 2, 0, len(JSON) + 1) + DEFLATED, "its size differs from its stated size"),
+        (header(len(DEFLATED), 2, 0, len(JSON) - 1) + DEFLATED, "its size differs from its stated size"),
+        (header(len(DEFLATED), 2, 0, len(JSON) - 9) + DEFLATED, "its decompressed size differs from its stated size"),
+        (header(len(DEFLATED) - 1, 2, 0, len(JSON)) + DEFLATED[:-1], "its decompressed size differs from its stated size"),
+        (header(len(DEFLATED) + 1, 2, 0, len(JSON)) + DEFLATED + b"x", "its decompressed size differs from its stated size"),
+        (header(3, 1, 0, 3) + b"{,}", "its JSON is invalid"),
+        (header(2, 1, 0, 2) + b"[]", "its JSON must be an object"),
+        (header(4000, 1, 0, 4000) + b"[" * 2000 + b"]" * 2000, "its JSON is invalid"),
+        (entry(0, 1, b'{"a":' + b"[" * 200 + b"]" * 200 + b"}"), "its JSON is nested deeper than 100 levels"),
+        (entry(0, 1, b'"' + b"a" * (5 << 20) + b'"'), "its JSON exceeds 4 MiB"),
     ],
 )
 def test_a_bad_entry_spares_the_others(bad: bytes, message: str) -> None:
@@ -353,11 +353,11 @@ def test_the_first_bad_entry_is_told() -> None:
 @pytest.mark.parametrize(
     ("data", "message"),
     [
-        (b"", "no Fossilize database: it does not begin as one"),
-        (b"PK\x03\x04" + bytes(100), "no Fossilize database: it does not begin as one"),
-        (MAGIC[:15], "a Fossilize database that ends within its first 16 bytes"),
-        (MAGIC[:15] + b"\x04", "a Fossilize database of version 4; 5 and 6 are read"),
-        (MAGIC[:15] + b"\x07", "a Fossilize database of version 7; 5 and 6 are read"),
+        (b"", "not a Fossilize database: the file signature is missing"),
+        (b"PK\x03\x04" + bytes(100), "not a Fossilize database: the file signature is missing"),
+        (MAGIC[:15], "the Fossilize database ends within its first 16 bytes"),
+        (MAGIC[:15] + b"\x04", "Fossilize database version 4 is not supported; convert it to version 5 or 6"),
+        (MAGIC[:15] + b"\x07", "Fossilize database version 7 is not supported; convert it to version 5 or 6"),
     ],
 )
 def test_what_is_no_database(data: bytes, message: str) -> None:
@@ -373,12 +373,12 @@ def test_version_5() -> None:
 @pytest.mark.parametrize(
     ("bad", "message"),
     [
-        (b"x" * 56, "its name is not of hexadecimal digits"),
-        (b"x", "its name is not of hexadecimal digits"),
-        (header(0, 1, 0, 0, b"0" * 39 + b"_"), "its name is not of hexadecimal digits"),
-        (header(0, 1, 0, 0, b"+" + b"0" * 39), "its name is not of hexadecimal digits"),
-        (header((64 << 20) + 1, 1, 0, 1), "it says that it has more than 64 MiB"),
-        (header(1, 2, 0, (64 << 20) + 1), "it says that it has more than 64 MiB"),
+        (b"x" * 56, "its name must be hexadecimal digits"),
+        (b"x", "its name must be hexadecimal digits"),
+        (header(0, 1, 0, 0, b"0" * 39 + b"_"), "its name must be hexadecimal digits"),
+        (header(0, 1, 0, 0, b"+" + b"0" * 39), "its name must be hexadecimal digits"),
+        (header((64 << 20) + 1, 1, 0, 1), "its stated size exceeds 64 MiB"),
+        (header(1, 2, 0, (64 << 20) + 1), "its stated size exceeds 64 MiB"),
     ],
 )
 def test_nonsense_in_the_middle(bad: bytes, message: str) -> None:
@@ -414,7 +414,7 @@ def test_a_flipped_bit_of_an_entry_is_noticed(victim: int, at: int, bit: int, de
     assert told(found) == expected(*PROGRAM[:victim], *PROGRAM[victim + 1 :])
     assert marks == []
     assert broken is not None and broken.place == Place(call=victim)
-    assert broken.message == f"entry {victim} at byte {16 + sum(map(len, parts[:victim]))}: its checksum is wrong"
+    assert broken.message == f"entry {victim} at byte {16 + sum(map(len, parts[:victim]))}: its checksum does not match"
 
 
 @given(flips=st.lists(st.tuples(st.integers(0, 10**6), st.integers(0, 7)), min_size=1, max_size=9), checked=st.booleans())
@@ -467,7 +467,7 @@ def test_a_small_file_does_not_inflate_to_a_large_one() -> None:
     bomb = entry(5, 1, b"{}" + b" " * (60 << 20))
     found, _, broken = read(MAGIC + bomb * 3)
     assert found == []
-    assert broken is not None and broken.message == "entry 0 at byte 16: its JSON has more than 4 MiB"
+    assert broken is not None and broken.message == "entry 0 at byte 16: its JSON exceeds 4 MiB"
     data = MAGIC + entry(5, 1, b"{}" + b" " * (4 << 20) + b"\x00" + bytes(55 << 20)) + bomb + written([PASS])[16:]
     found, _, broken = read(data)
     assert broken is not None and broken.place == Place(call=0)
@@ -479,7 +479,7 @@ def test_inflating_is_limited_in_all(monkeypatch: pytest.MonkeyPatch) -> None:
     data = MAGIC + entry(0, 1, b"{}" + b" " * 4000) * 4
     found, _, broken = read(data)
     assert len(found) == 2
-    assert broken is not None and broken.message.endswith("the file inflates to more than 0 times its size")
+    assert broken is not None and broken.message.endswith("the file decompresses to more than 0 times its size")
 
 
 def test_entries_are_limited_in_number(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -565,5 +565,5 @@ class TestSample:
         at = bytes(data).index(b"0004441dbb6694b83657") + 20 + 16 + 40
         data[at] ^= 1
         found, _, broken = read(bytes(data))
-        assert broken is not None and broken.message.endswith("its checksum is wrong")
+        assert broken is not None and broken.message.endswith("its checksum does not match")
         assert len(found) == len(whole) - 1

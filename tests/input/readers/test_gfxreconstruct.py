@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.input.captures import json_stream
-from msaa_lint.input.captures.call import Broken, Call, Mark, Place
+from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place
 from msaa_lint.input.captures.unsupported import hint
 from msaa_lint.input.readers import api_dump, gfxreconstruct
 from tests.input.readers.dialects import api_dump as dumped
@@ -29,12 +29,12 @@ FOLDER = SAMPLES / "captures"
 DRAWS = frozenset({"vkCmdDraw"})
 
 
-def read(text: bytes, wanted: frozenset[str] = WANTED, name: str | None = None) -> tuple[list[Call | Mark], Broken | None]:
+def read(text: bytes, wanted: frozenset[str] = WANTED, name: str | None = None) -> tuple[list[Call | Mark], CaptureError | None]:
     """What is read of a text, and why no more."""
     out: list[Call | Mark] = []
     try:
         out.extend(gfxreconstruct.calls(io.BytesIO(text), wanted, name))
-    except Broken as error:
+    except CaptureError as error:
         # Lists extended by a generator that fails keep what it gave before.
         return out, error
     return out, None
@@ -189,8 +189,8 @@ def test_what_recurs_is_read_as_if_it_were_new(
     text = ending.join(lines).encode() + (ending.encode() if last else b"")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(json_stream, "BLOCK", block)
-        patch.setattr(gfxreconstruct, "MAX_PAST", past)
-        patch.setattr(gfxreconstruct, "MAX_KEPT", size)
+        patch.setattr(gfxreconstruct, "MAX_HISTORY", past)
+        patch.setattr(gfxreconstruct, "MAX_CACHE", size)
         assert calls(text, frozenset({"vkCmdDraw", "vkCreateImage"})) == list(plainly(text, frozenset({"vkCmdDraw", "vkCreateImage"})))
 
 
@@ -213,8 +213,8 @@ def test_frames_alike_are_neither_parsed_nor_looked_into(past: int, most: int, m
     text = lined([line(8 + at, frame[at % 10].replace("%d", str(at))) for at in range(2000)])
     slow, parsed = Counting(gfxreconstruct.LINE_START), []
     monkeypatch.setattr(gfxreconstruct, "LINE_START", slow)
-    monkeypatch.setattr(gfxreconstruct, "shallow", lambda *arguments: parsed.append(1) or json_stream.shallow(*arguments))
-    monkeypatch.setattr(gfxreconstruct, "MAX_PAST", past)
+    monkeypatch.setattr(gfxreconstruct, "parse_call", lambda *arguments: parsed.append(1) or json_stream.parse_call(*arguments))
+    monkeypatch.setattr(gfxreconstruct, "MAX_HISTORY", past)
     monkeypatch.setattr(json_stream, "BLOCK", 1000)
     assert len(calls(text)) == 1800
     assert len(parsed) == 5, "the calls that differ"
@@ -255,8 +255,8 @@ def test_memory_does_not_grow_with_the_lines() -> None:
                 return lined([line(at, draw(at)) for at in range(self.at - 1000, self.at)])
 
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(gfxreconstruct, "MAX_PAST", 500)
-            patch.setattr(gfxreconstruct, "MAX_KEPT", 50_000)
+            patch.setattr(gfxreconstruct, "MAX_HISTORY", 500)
+            patch.setattr(gfxreconstruct, "MAX_CACHE", 50_000)
             tracemalloc.start()
             try:
                 assert sum(1 for _ in gfxreconstruct.calls(Endless(), DRAWS, None)) == count  # type: ignore[arg-type]
@@ -355,9 +355,9 @@ def test_frames_that_the_tool_marks() -> None:
 def test_direct3d_is_passed_over() -> None:
     method = '{"index":1,"method":{"name":"ID3D12Device::CreateFence","thread":1,"object":{},"return":"S_OK","args":{}}}'
     assert len(calls(lined([method, line(2, draw(3))]))) == 1
-    assert broken(lined([method, method]))[0] == "no call of Vulkan in this capture, only of Direct3D"
-    assert broken(b'{"header":{"source-path":"a.gfxr"}}\n') == ("no call of Vulkan in this capture", Place(1, 1))
-    assert broken(b"")[0] == "no call of Vulkan in this capture"
+    assert broken(lined([method, method]))[0] == "this capture contains no Vulkan calls, only Direct3D calls"
+    assert broken(b'{"header":{"source-path":"a.gfxr"}}\n') == ("this capture contains no Vulkan calls", Place(1, 1))
+    assert broken(b"")[0] == "this capture contains no Vulkan calls"
     assert calls(lined([line(2, '{"name":"vkDeviceWaitIdle","args":{}}')])) == []
 
 
@@ -428,14 +428,14 @@ def test_a_line_that_is_no_json() -> None:
     text = lined([line(1, draw(3)), '{"index":2,"function":{"name":"vkCmdDraw","args":{,}}}', line(3, draw(3))])
     found, error = read(text)
     assert [each.at for each in found] == [(1, 1, 1)]
-    assert error is not None and error.message.startswith("no JSON: ")
+    assert error is not None and error.message.startswith("invalid JSON: ")
     assert error.place == (2, 51, None)
 
 
 def test_a_cut_line_is_named() -> None:
     text = lined(new_lines(SMALL))
     message, place = broken(text[:-20])
-    assert (message, place) == ("the file ends in the middle of this line", Place(7, 1))
+    assert (message, place) == ("the file is truncated in this line", Place(7, 1))
     # The last line is read whole even where nobody follows its call: a cut is to be told.
     assert broken(lined([line(1, draw(3))]) + b'{"index":2,"function":{"name":"vkDeviceWaitIdle","ar')[1] == Place(2, 1)
 
@@ -443,18 +443,18 @@ def test_a_cut_line_is_named() -> None:
 def test_places_of_bad_json_in_an_array() -> None:
     text = b'[\n{\n  "index": 1,\n  "function": {"name": "vkCmdDraw", "args": {,}}\n}\n]'
     message, place = broken(text)
-    assert message.startswith("no JSON: ") and place == (4, 46, None)
+    assert message.startswith("invalid JSON: ") and place == (4, 46, None)
     assert broken(b'[ {"index": 1, "function": {"name": "vkCmdDraw", "args": {,}}}]')[1] == (1, 59, None)
-    assert broken(b'[\n{"a": 1}\n{"b": 2}]') == ("no JSON: `,` or `]` is missing", Place(3, 1))
-    assert broken(b'[\n{"a": 1}\n] x') == ("no JSON: the file goes on after its end", Place(3, 3))
-    assert broken(b'[\n{"a": 1},\n') == ("the file ends in the middle", Place(3, 1))
-    assert broken(b"[\n]") == ("no JSON: a value is missing", Place(2, 1))
+    assert broken(b'[\n{"a": 1}\n{"b": 2}]') == ("invalid JSON: expected `,` or `]`", Place(3, 1))
+    assert broken(b'[\n{"a": 1}\n] x') == ("invalid JSON: unexpected text after the end of the document", Place(3, 3))
+    assert broken(b'[\n{"a": 1},\n') == ("the file is truncated", Place(3, 1))
+    assert broken(b"[\n]") == ("invalid JSON: expected a value", Place(2, 1))
 
 
 @pytest.mark.parametrize("text", [b"5\n", b'{"index":1,"function":5}\n', b'{"index":1,"function":{"name":7,"args":{}}}\n',
                                   b'{"index":1,"function":{"name":"vkCmdDraw","args":7}}\n', b"[5]", b'["a", 5]'])  # fmt: skip
 def test_json_that_is_no_call(text: bytes) -> None:
-    assert broken(text)[0].startswith("no call: ")
+    assert broken(text)[0].startswith("invalid call: ")
 
 
 @pytest.mark.parametrize("depth", [101, 5000, 200_000])
@@ -487,7 +487,7 @@ def test_a_call_that_is_too_long(form: str, monkeypatch: pytest.MonkeyPatch) -> 
         "open": f"[{fits},\n" + "[" * 50 + "1," * 5000,
     }[form]
     message, place = broken(text.encode())
-    assert message == "a call of more than 64 MiB"
+    assert message == "a call exceeds 64 MiB"
     assert place[:2] == (2, 1)
 
 
@@ -503,7 +503,7 @@ def test_floats_that_are_no_json(number: str) -> None:
     for text in (with_argument(color), f"[{with_argument(color)}]"):
         (call,) = calls(text.encode())
         assert call.args["a"] == {"name": 'nan "inf"', "float32": [None, 0.0, None], "int32": [-1, 0, -1]}
-    assert broken(with_argument(f'{{"b":{number}5}}').encode() + b"\n")[0].startswith("no JSON: ")
+    assert broken(with_argument(f'{{"b":{number}5}}').encode() + b"\n")[0].startswith("invalid JSON: ")
 
 
 def test_names_with_control_characters() -> None:

@@ -13,9 +13,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from msaa_lint.input.captures.call import Broken, Call, Mark, Place
+from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place
 from msaa_lint.input.readers import renderdoc, renderdoc_blobs
-from msaa_lint.input.readers.renderdoc_calls import NEEDED, OF_CALLS
+from msaa_lint.input.readers.renderdoc_calls import NEEDED_FOR, RENAMED_BY_CALL
 from tests.input.readers.dialects_binary import RenderDoc, numbers
 from tests.input.readers.dialects_binary import renderdoc as written
 from tests.input.readers.programs import programs
@@ -95,7 +95,7 @@ class Everything(frozenset[str]):
         return False
 
 
-def read(text: bytes, wanted: frozenset[str] = Everything(), name: str | None = None) -> tuple[list[Call], Broken | None]:
+def read(text: bytes, wanted: frozenset[str] = Everything(), name: str | None = None) -> tuple[list[Call], CaptureError | None]:
     """The calls, and how reading ended. There is one mark, before the first call."""
     found: list[Call] = []
     marks: list[tuple[int, Mark]] = []
@@ -106,7 +106,7 @@ def read(text: bytes, wanted: frozenset[str] = Everything(), name: str | None = 
                 marks.append((len(found), each))
             else:
                 found.append(each)
-    except Broken as error:
+    except CaptureError as error:
         broken = error
     assert [(at, mark.kind) for at, mark in marks] == ([(0, "frameless")] if b"<chunk " in text and (found or marks) else [])
     return found, broken
@@ -462,23 +462,23 @@ GOOD = '<chunk name="vkCmdDraw"><uint name="vertexCount">3</uint></chunk>'
 @pytest.mark.parametrize(
     ("marked", "message"),
     [
-        ("⟦", "the XML ends in the middle"),
-        ("⟦<html></html>", "`html` where RenderDoc's XML begins with `rdc`"),
-        ("<rdc><header><driver>D3D11⟦</driver></header></rdc>", "a capture of D3D11; only Vulkan's are read"),
-        ("<rdc><header><driver/>⟦</header></rdc>", "a capture of no driver; only Vulkan's are read"),
+        ("⟦", "the XML is truncated"),
+        ("⟦<html></html>", "the root element must be `rdc`, found `html`"),
+        ("<rdc><header><driver>D3D11⟦</driver></header></rdc>", "expected a Vulkan capture, found the driver `D3D11`"),
+        ("<rdc><header><driver/>⟦</header></rdc>", "expected a Vulkan capture, found the driver ``"),
         (
             '<!DOCTYPE rdc ⟦[<!ENTITY a "b">]><rdc>&a;</rdc>',
-            "a document type declaration, which RenderDoc does not write; entities are not read",
+            "unexpected document type declaration; RenderDoc does not write one, and entities are not supported",
         ),
-        ("<!DOCTYPE html⟦><html/>", "a document type declaration, which RenderDoc does not write; entities are not read"),
-        ("<rdc>⟦&a;</rdc>", "no well-formed XML: undefined entity"),
-        ("<rdc></rdc>⟦<rdc></rdc>", "no well-formed XML: junk after document element"),
-        (xml("").decode()[:-6] + "⟦</rdc", "the XML ends in the middle"),
-        (xml('<chunk name="vkCmdDraw"><uint name="a">x⟦</uint></chunk>').decode(), "`x` is no value of `uint`"),
-        (xml(f'<chunk name="vkCmdDraw"><uint name="a">{"9" * 5000}⟦</uint></chunk>').decode(), f"`{'9' * 64}` is no value of `uint`"),
-        (xml('<chunk name="vkCmdDraw"><float name="a">1.0.0⟦</float></chunk>').decode(), "`1.0.0` is no value of `float`"),
-        (xml('<chunk name="vkCmdDraw"><bool name="a">1⟦</bool></chunk>').decode(), "`1` is no value of `bool`"),
-        (xml('<chunk name="vkCmdDraw"><uint>⟦<uint>1</uint></uint></chunk>').decode(), "an element within a value: `uint`"),
+        ("<!DOCTYPE html⟦><html/>", "unexpected document type declaration; RenderDoc does not write one, and entities are not supported"),
+        ("<rdc>⟦&a;</rdc>", "invalid XML: undefined entity"),
+        ("<rdc></rdc>⟦<rdc></rdc>", "invalid XML: junk after document element"),
+        (xml("").decode()[:-6] + "⟦</rdc", "the XML is truncated"),
+        (xml('<chunk name="vkCmdDraw"><uint name="a">x⟦</uint></chunk>').decode(), "`x` is not a valid `uint`"),
+        (xml(f'<chunk name="vkCmdDraw"><uint name="a">{"9" * 5000}⟦</uint></chunk>').decode(), f"`{'9' * 64}` is not a valid `uint`"),
+        (xml('<chunk name="vkCmdDraw"><float name="a">1.0.0⟦</float></chunk>').decode(), "`1.0.0` is not a valid `float`"),
+        (xml('<chunk name="vkCmdDraw"><bool name="a">1⟦</bool></chunk>').decode(), "`1` is not a valid `bool`"),
+        (xml('<chunk name="vkCmdDraw"><uint>⟦<uint>1</uint></uint></chunk>').decode(), "unexpected element `uint` inside a value"),
     ],
 )
 def test_what_is_no_capture(marked: str, message: str) -> None:
@@ -500,10 +500,10 @@ def test_limits(wanted: frozenset[str], monkeypatch: pytest.MonkeyPatch) -> None
     deep = '<chunk name="vkCmdDraw">' + "<struct>" * 200 + "</struct>" * 200 + "</chunk>"
     for text in (xml(deep), xml("", "<a>" * 200 + "</a>" * 200)):
         _, broken = read(text, wanted)
-        assert broken is not None and broken.message == "elements nested more than 100 deep"
+        assert broken is not None and broken.message == "elements are nested deeper than 100 levels"
     tag = f'<chunk name="vkCmdDraw" a="{"b" * (3 << 20)}"></chunk>'
     _, broken = read(xml(tag), wanted)
-    assert broken is not None and broken.message == "a tag or a comment of more than 1 MiB"
+    assert broken is not None and broken.message == "a tag or comment exceeds 1 MiB"
     names = "".join(f"<a{number}/>" for number in range(30_000))
     _, broken = read(xml(f'<chunk name="vkCmdDraw">{names}</chunk>'), wanted)
     assert broken is not None and broken.message == "more than 20000 names of elements and attributes"
@@ -515,10 +515,10 @@ def test_limits_of_a_chunk(monkeypatch: pytest.MonkeyPatch) -> None:
     text = xml(GOOD + f'<chunk name="vkCmdDraw"><string name="a">{"b " * (1 << 20)}</string></chunk>')
     found, broken = read(text)
     assert len(found) == 1
-    assert broken is not None and (broken.message, broken.place) == ("vkCmdDraw of more than 1 MiB", Place(1, 119, 1))
+    assert broken is not None and (broken.message, broken.place) == ("vkCmdDraw exceeds 1 MiB", Place(1, 119, 1))
     assert read(text, frozenset({"vkCreateImage"})) == ([], None)
     _, broken = read(xml(f'<chunk name="vkCmdDraw"><array name="a">{"<struct/>" * 2000}</array></chunk>'))
-    assert broken is not None and broken.message == "vkCmdDraw of more than 1,000 structures and arrays"
+    assert broken is not None and broken.message == "vkCmdDraw exceeds 1,000 structures and arrays"
 
 
 def test_claims() -> None:
@@ -546,7 +546,7 @@ def test_truncated_at_every_byte() -> None:
     ends = [at + len(b"</chunk>") for at in range(len(text)) if text.startswith(b"</chunk>", at)]
     for at in range(0, len(text.rstrip()), 7):
         found, broken = read(text[:at])
-        assert broken is not None and broken.message == "the XML ends in the middle"
+        assert broken is not None and broken.message == "the XML is truncated"
         chunks = sum(end <= at for end in ends)
         assert found == [call for call in whole if (call.at.call or 0) < chunks]
 
@@ -571,7 +571,7 @@ NAMES = [
     *("pNext", "sType", "pNextType", "pSampleMask", "pCode", "pData", "CommandBuffer", "count"),
 ]
 CHUNKS = sorted(
-    {*NEEDED, *OF_CALLS, "vkCreateInstance", "vkCreateShaderModule", "vkSetDebugUtilsObjectNameEXT", "vkCmdDraw", "Internal::X"}
+    {*NEEDED_FOR, *RENAMED_BY_CALL, "vkCreateInstance", "vkCreateShaderModule", "vkSetDebugUtilsObjectNameEXT", "vkCmdDraw", "Internal::X"}
 )
 LEAVES = [*("uint", "int", "enum", "ResourceId", "buffer", "float", "bool", "string", "null", "what")]
 
@@ -599,7 +599,7 @@ elements = st.recursive(
 @examples(1.5)
 def test_chunks_of_any_shape(chunks: list[str]) -> None:
     found, broken = read(xml("".join(chunks)))
-    assert broken is None or (broken.message.endswith(" is no value of `bool`") and broken.place.call is not None)
+    assert broken is None or (broken.message.endswith(" is not a valid `bool`") and broken.place.call is not None)
     numbers_of = [call.at.call or 0 for call in found]
     assert numbers_of == sorted(numbers_of)
     assert all(isinstance(call.args, dict) for call in found)

@@ -9,7 +9,7 @@ from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
 
 
-class Stated(NamedTuple):
+class Value(NamedTuple):
     """A value, and where its reason stands."""
 
     value: Any
@@ -17,13 +17,13 @@ class Stated(NamedTuple):
 
 
 def tree(value: Any, at: Span) -> Node:
-    """The node of a value at a place: of dicts, lists and scalars, of nodes as they are, of what is `Stated` at its own place.
+    """The node of a value at a place: of dicts, lists and scalars, of nodes as they are, of what is `Value` at its own place.
 
     A member whose value is None, or is stated to be, is unknown and left out.
     """
     if isinstance(value, Node):
         return value
-    if isinstance(value, Stated):
+    if isinstance(value, Value):
         return tree(value.value, value.at)
     if isinstance(value, dict):
         members = ((key, _place(each, at), tree(each, at)) for key, each in value.items() if not _unknown(each))
@@ -34,8 +34,8 @@ def tree(value: Any, at: Span) -> Node:
 
 
 def _unknown(value: Any) -> bool:
-    return value is None or (isinstance(value, Stated) and value.value is None)
+    return value is None or (isinstance(value, Value) and value.value is None)
 
 
 def _place(value: Any, at: Span) -> Span:
-    return value.at if isinstance(value, Stated) else at
+    return value.at if isinstance(value, Value) else at

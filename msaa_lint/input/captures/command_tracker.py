@@ -1,31 +1,38 @@
-"""Follows what command buffers record of passes and draws, and their submission."""
+"""Tracks passes and draws in command buffers, and their submission."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Hashable
+from typing import Any
 
 from msaa_lint.frame.description.models import BeginRendering, RenderingAttachment
 
 from . import values
 from .call import Call
-from .command_buffers import FEW, Begin, CommandBuffer, Commands, Reads, Recorded, draw_key, drawn
-from .objects import DescriptorSet, Image, frozen
-from .structures import Tree, described
+from .command_buffers import (
+    MAX_FULLSCREEN_VERTICES,
+    CommandBuffer,
+    CommandCache,
+    DescriptorReads,
+    RecordedCommand,
+    RenderPassBegin,
+    draw_counts,
+    draw_key,
+)
+from .frames import Frames
+from .objects import DescriptorSet, Framebuffer, Image, Pipeline, RenderPass, freeze
+from .structures import Tree, to_tree
 
 GRAPHICS = ("VK_PIPELINE_BIND_POINT_GRAPHICS", 0, "0")
 
 BOUNDARIES = ("beginRenderPass", "beginRendering", "nextSubpass", "endRenderPass", "endRendering")
-"""Commands at which a pass or a subpass begins or ends."""
-
-if TYPE_CHECKING:
-    from .frames import Frames
-    from .objects import Framebuffer, Pipeline, RenderPass
+"""Commands that begin or end a pass or subpass."""
 
 
-class Recorder:
-    """Follows the commands of a capture. `Tracker` has the objects that they name."""
+class CommandTracker:
+    """Tracks the commands of a capture. `Tracker` provides the objects that they refer to."""
 
-    commands: Commands
+    commands: CommandCache
 
     images: dict[int, Image]
     render_passes: dict[int, RenderPass]
@@ -37,20 +44,20 @@ class Recorder:
     frames: Frames
 
     def view(self, value: object) -> Image | None:
-        """The image that a view shows."""
+        """The image of a view."""
         raise NotImplementedError
 
     def write(self, target: DescriptorSet, write: dict[str, Any]) -> None:
-        """A VkWriteDescriptorSet into a set."""
+        """Applies a VkWriteDescriptorSet to a set."""
         raise NotImplementedError
 
     def buffer(self, call: Call) -> CommandBuffer:
-        """The command buffer that a command is recorded in. A trimmed capture may not have its allocation."""
+        """The command buffer of a command. It may be new, because a trimmed capture may lack its allocation."""
         handle = values.handle(call.args.get("commandBuffer"))
-        found = self.buffers.get(handle)
-        if found is None:
-            found = self.buffers[handle] = CommandBuffer()
-        return found
+        buffer = self.buffers.get(handle)
+        if buffer is None:
+            buffer = self.buffers[handle] = CommandBuffer()
+        return buffer
 
     # Command buffers.
 
@@ -79,39 +86,40 @@ class Recorder:
         info = values.record(call.args.get("pRenderPassBegin"))
         render_pass = self.render_passes.get(values.handle(info.get("renderPass")))
         buffer = self.buffer(call)
-        buffer.boundary()
+        buffer.start_section()
         if render_pass is None:
             return
         framebuffer = self.framebuffers.get(values.handle(info.get("framebuffer")))
         images: tuple[Image | None, ...] = framebuffer.images or () if framebuffer is not None else ()
-        chained = values.chained(info, "RENDER_PASS_ATTACHMENT_BEGIN_INFO")
-        if chained is not None:
-            images = tuple(self.view(view) for view in values.items(chained.get("pAttachments"))[:64])
-        begin = Begin(render_pass, framebuffer, images, area_of(info.get("renderArea")), values.count(info.get("clearValueCount")))
+        imageless = values.chained(info, "RENDER_PASS_ATTACHMENT_BEGIN_INFO")
+        if imageless is not None:
+            images = tuple(self.view(view) for view in values.items(imageless.get("pAttachments"))[:64])
+        begin = RenderPassBegin(
+            render_pass, framebuffer, images, area_of(info.get("renderArea")), values.count(info.get("clearValueCount"))
+        )
         buffer.record(self.commands.command("beginRenderPass", begin, call))
 
-    def on_CmdBeginRenderPass2(self, call: Call) -> None:
-        self.on_CmdBeginRenderPass(call)
+    on_CmdBeginRenderPass2 = on_CmdBeginRenderPass
 
     def on_CmdNextSubpass(self, call: Call) -> None:
-        buffer = self.buffer(call)
-        buffer.boundary()
-        buffer.record(self.commands.command("nextSubpass", None, call))
+        self._record_boundary(call, "nextSubpass", None)
 
-    def on_CmdNextSubpass2(self, call: Call) -> None:
-        self.on_CmdNextSubpass(call)
+    on_CmdNextSubpass2 = on_CmdNextSubpass
 
     def on_CmdEndRenderPass(self, call: Call) -> None:
-        buffer = self.buffer(call)
-        buffer.boundary()
-        buffer.record(self.commands.command("endRenderPass", None, call))
+        self._record_boundary(call, "endRenderPass", None)
 
-    def on_CmdEndRenderPass2(self, call: Call) -> None:
-        self.on_CmdEndRenderPass(call)
+    on_CmdEndRenderPass2 = on_CmdEndRenderPass
+
+    def _record_boundary(self, call: Call, kind: str, key: Hashable) -> None:
+        """Records a command that begins or ends a pass or subpass."""
+        buffer = self.buffer(call)
+        buffer.start_section()
+        buffer.record(self.commands.command(kind, key, call))
 
     def on_CmdBeginRendering(self, call: Call) -> None:
         info = values.record(call.args.get("pRenderingInfo"))
-        tree = described(BeginRendering, {key: item for key, item in info.items() if not key.endswith(("Attachment", "Attachments"))})
+        tree = to_tree(BeginRendering, {key: item for key, item in info.items() if not key.endswith(("Attachment", "Attachments"))})
         area = area_of(info.get("renderArea"))
         if area is not None:
             tree["renderArea"] = dict(zip(("x", "y", "width", "height"), area, strict=True))
@@ -120,35 +128,30 @@ class Recorder:
             attachment = self._attachment(info.get(name))
             if attachment is not None:
                 tree[member] = attachment
-        # What a secondary command buffer draws is recorded in it.
+        # The commands of a secondary command buffer are inlined where it is executed.
         tree["flags"] = [flag for flag in tree.get("flags", []) if not flag.startswith("CONTENTS")]
-        buffer = self.buffer(call)
-        buffer.boundary()
-        buffer.record(self.commands.command("beginRendering", frozen(tree), call))
+        self._record_boundary(call, "beginRendering", freeze(tree))
 
     def _attachment(self, value: object) -> Tree | None:
-        """A VkRenderingAttachmentInfo with images in place of views; None where it has no view."""
+        """A VkRenderingAttachmentInfo with images in place of views; None if it has no view."""
         info = values.record(value)
         image = self.view(info.get("imageView"))
         if image is None:
             return None
-        tree = described(RenderingAttachment, info)
-        made: Tree = {"image": image, **tree}
+        tree = to_tree(RenderingAttachment, info)
+        attachment: Tree = {"image": image, **tree}
         resolve = self.view(info.get("resolveImageView"))
         if resolve is not None:
-            made["resolveImage"] = resolve
-        elif made.get("resolveMode") == "NONE":
+            attachment["resolveImage"] = resolve
+        elif attachment.get("resolveMode") == "NONE":
             for member in ("resolveMode", "resolveImageLayout"):
-                made.pop(member, None)
-        return made
+                attachment.pop(member, None)
+        return attachment
 
     def on_CmdEndRendering(self, call: Call) -> None:
-        buffer = self.buffer(call)
-        buffer.boundary()
-        buffer.record(self.commands.command("endRendering", None, call))
+        self._record_boundary(call, "endRendering", None)
 
-    def on_CmdEndRendering2(self, call: Call) -> None:
-        self.on_CmdEndRendering(call)
+    on_CmdEndRendering2 = on_CmdEndRendering
 
     def on_CmdExecuteCommands(self, call: Call) -> None:
         buffer = self.buffer(call)
@@ -156,9 +159,9 @@ class Recorder:
             secondary = self.buffers.get(values.handle(item))
             if secondary is not None and secondary is not buffer:
                 buffer.reads = buffer.reads or secondary.reads
-                for each in secondary.recorded:
-                    buffer.record(each)
-        # Nothing that was bound before is bound after.
+                for command in secondary.commands:
+                    buffer.record(command)
+        # vkCmdExecuteCommands makes all bound state undefined.
         buffer.pipeline = None
         buffer.bound.clear()
         buffer.fresh = True
@@ -177,7 +180,7 @@ class Recorder:
         if count is not None:
             buffer = self.buffer(call)
             buffer.samples = count
-            # A draw after it is not the one before it.
+            # Later draws differ from earlier ones in their sample count.
             buffer.many.clear()
 
     def on_CmdBindDescriptorSets(self, call: Call) -> None:
@@ -186,12 +189,12 @@ class Recorder:
         bound = buffer.bound if point in GRAPHICS else buffer.compute_bound
         slot = values.integer(call.args.get("firstSet")) or 0
         for item in values.items(call.args.get("pDescriptorSets"))[:64]:
-            found = self.sets.get(values.handle(item))
-            if found is not bound.get(slot):
-                # The same set again, with other offsets, shows the same images.
+            descriptors = self.sets.get(values.handle(item))
+            if descriptors is not bound.get(slot):
+                # Rebinding the same set with other offsets does not change its images.
                 buffer.fresh = True
-                if found is not None:
-                    bound[slot] = found
+                if descriptors is not None:
+                    bound[slot] = descriptors
                 else:
                     del bound[slot]
             slot += 1
@@ -218,7 +221,7 @@ class Recorder:
         self._opaque(call, -1)
 
     def _opaque(self, call: Call, index: int) -> None:
-        """Descriptors that the capture does not spell out: they may hold any image."""
+        """Binds descriptors whose contents the capture omits: they may hold any image."""
         buffer = self.buffer(call)
         unknown = DescriptorSet()
         unknown.opaque = True
@@ -239,21 +242,21 @@ class Recorder:
     on_CmdDrawIndirectByteCount = _many
 
     def _draw(self, call: Call, counted: str) -> None:
-        """A draw of so many vertices or indices, or (without a word for it) of as many as a buffer says."""
+        """A draw. `counted` is the parameter with the number of vertices or indices; empty if a buffer holds it."""
         args = call.args
         handle = args.get("commandBuffer")
         buffer = (self.buffers.get(handle) if type(handle) is int else None) or self.buffer(call)
         if not buffer.fresh and buffer.pipeline in buffer.many:
-            # One of many like it, as most draws are.
+            # The fast path for most draws: an equal draw was recorded before.
             count = args.get(counted)
-            if type(count) is int and count > FEW:
+            if type(count) is int and count > MAX_FULLSCREEN_VERTICES:
                 return
-        detail = drawn(counted, call.args)
+        detail = draw_counts(counted, call.args)
         key = draw_key(buffer.pipeline, counted, *detail)
         if buffer.fresh:
             self._reads(buffer, buffer.bound, "FRAGMENT", call)
             buffer.fresh = False
-        buffer.once(self.commands.command("draw", (*key, buffer.dynamic_samples), call, detail))
+        buffer.record_once(self.commands.command("draw", (*key, buffer.dynamic_samples), call, detail))
         if counted and key[2] is None:
             buffer.many.add(buffer.pipeline)
 
@@ -264,13 +267,13 @@ class Recorder:
     on_CmdDispatchIndirect = on_CmdDispatchBase = on_CmdTraceRays = on_CmdTraceRaysIndirect = on_CmdTraceRaysIndirect2 = on_CmdDispatch
 
     def _reads(self, buffer: CommandBuffer, bound: dict[int, DescriptorSet], stage: str, call: Call) -> None:
-        # What a set holds is looked up later: it may be filled after it is bound, where it says so.
+        # Contents are looked up at submission: a set with UPDATE_AFTER_BIND may be written after it is bound.
         if bound:
             buffer.reads = True
             sets = tuple(each for _, each in sorted(bound.items())) if len(bound) > 1 else tuple(bound.values())
-            reads = self.commands.command("reads", Reads(sets, stage), call)
-            # Between dispatches an image may be written anew, which within a pass it is not.
-            (buffer.once if stage == "FRAGMENT" else buffer.record)(reads)
+            reads = self.commands.command("reads", DescriptorReads(sets, stage), call)
+            # An image may be written again between dispatches, but not within a pass.
+            (buffer.record_once if stage == "FRAGMENT" else buffer.record)(reads)
 
     # Submission.
 
@@ -285,31 +288,31 @@ class Recorder:
                 self._submit(values.record(info).get("commandBuffer"))
 
     def _submit(self, handle: object) -> None:
-        found = self.buffers.get(values.handle(handle))
-        if found is not None:
-            self.frames.submit(self._resolved(found.recorded) if found.reads else found.recorded)
+        buffer = self.buffers.get(values.handle(handle))
+        if buffer is not None:
+            self.frames.submit(self._resolve_reads(buffer.commands) if buffer.reads else buffer.commands)
 
-    def _resolved(self, recorded: list[Recorded]) -> list[Recorded]:
-        """The commands with reads of images in place of descriptor sets, as these are when the commands are submitted."""
-        made: list[Recorded] = []
-        seen: set[Recorded] = set()
-        for each in recorded:
-            if not isinstance(each.key, Reads):
-                if each.kind in BOUNDARIES:
-                    seen.clear()
-                made.append(each)
+    def _resolve_reads(self, commands: list[RecordedCommand]) -> list[RecordedCommand]:
+        """The commands, with descriptor sets replaced by reads of the images that they hold at submission."""
+        resolved: list[RecordedCommand] = []
+        section_reads: set[RecordedCommand] = set()
+        for command in commands:
+            if not isinstance(command.key, DescriptorReads):
+                if command.kind in BOUNDARIES:
+                    section_reads.clear()
+                resolved.append(command)
                 continue
-            for held in each.key.sets:
-                for image, storage in self._held(held):
+            for descriptors in command.key.sets:
+                for image, storage in self._images_of(descriptors):
                     for kind in ("readImage", "writeImage") if storage else ("readImage",):
-                        read = self.commands.command(kind, (image, each.key.stage), Call(each.by, {}, each.at))
-                        if read not in seen:
-                            seen.add(read)
-                            made.append(read)
-        return made
+                        read = self.commands.command(kind, (image, command.key.stage), Call(command.by, {}, command.at))
+                        if read not in section_reads:
+                            section_reads.add(read)
+                            resolved.append(read)
+        return resolved
 
-    def _held(self, descriptors: DescriptorSet) -> list[tuple[Image, bool]]:
-        """The images of a set, and whether it may write them; of one that is not told all that it could hold."""
+    def _images_of(self, descriptors: DescriptorSet) -> list[tuple[Image, bool]]:
+        """The images of a set, and whether shaders may write them; all possible images if its contents are unknown."""
         if not descriptors.opaque:
             return list(descriptors.images.values())
         readable = [image for image in self.images.values() if "SAMPLED" in image.tree.get("usage", ("SAMPLED",)) and image.attachable]
@@ -320,11 +323,11 @@ def area_of(value: object) -> tuple[int, int, int, int] | None:
     """A VkRect2D as x, y, width, height, in pixels."""
     rect = values.record(value)
     offset, extent = values.record(rect.get("offset")), values.record(rect.get("extent"))
-    found = (
+    components = (
         values.integer(offset.get("x", 0)), values.integer(offset.get("y", 0)),
         values.integer(extent.get("width")), values.integer(extent.get("height")),
     )  # fmt: skip
-    x, y, width, height = found
+    x, y, width, height = components
     if x is None or y is None or width is None or height is None or width < 1 or height < 1:
         return None
     return (x, y, width, height) if max(width, height, abs(x), abs(y)) < 1 << 31 else None
