@@ -22,12 +22,12 @@ from msaa_lint.experiments.confirm.session import Session, environment
 from msaa_lint.experiments.study import coverage, fragments, locations, snap
 from msaa_lint.experiments.study.device_coverage import clip, covered
 from msaa_lint.experiments.study.measure import difference, errors, truth
-from msaa_lint.experiments.study.outcome import Pictured, Study
-from msaa_lint.experiments.study.pareto import marked
+from msaa_lint.experiments.study.outcome import SceneSummary, Study
+from msaa_lint.experiments.study.pareto import mark_best
 from msaa_lint.experiments.study.points import SSAA, Point, Technique, techniques
 from msaa_lint.experiments.study.scenes import scene
 from msaa_lint.experiments.study.scenes.scene import Scene
-from msaa_lint.experiments.study.times import Clock
+from msaa_lint.experiments.study.times import DeviceClock
 
 
 @dataclasses.dataclass
@@ -49,13 +49,13 @@ class Measured:
     reason: str = ""
 
 
-def simulated(corners: np.ndarray, width: int, height: int, samples: int, fused: bool) -> np.ndarray:
+def simulate(corners: np.ndarray, width: int, height: int, samples: int, fused: bool) -> np.ndarray:
     """The samples that the simulation covers."""
     triangles = snap.snapped(snap.viewport(corners[..., :2], width, height, fused))
     return fragments.masks(coverage.rows(triangles, width, height, locations.standard(samples)), width, height, samples)
 
 
-def measured(made: Scene, technique: Technique, session: Session, clock: Clock) -> Measured:
+def measured(made: Scene, technique: Technique, session: Session, clock: DeviceClock) -> Measured:
     """A technique's errors and time."""
     side = technique.grid if technique.kind == SSAA else 1
     samples = 1 if technique.kind == SSAA else technique.samples
@@ -68,8 +68,8 @@ def measured(made: Scene, technique: Technique, session: Session, clock: Clock) 
         return dataclasses.replace(found, reason=str(error))
     share = drawn.reshape(made.height, side, made.width, side, samples).mean(axis=(1, 3, 4), dtype=np.float64)
     exact = truth(made, technique)
-    own = errors(difference(share, exact.image[..., 3])[exact.crossed])
-    differ = int((drawn != simulated(corners, width, height, samples, "llvmpipe" in clock.name)).sum())
+    own = errors(difference(share, exact.image[..., 3])[exact.edge_pixels])
+    differ = int((drawn != simulate(corners, width, height, samples, "llvmpipe" in clock.name)).sum())
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "vertices")
         corners.tofile(path)
@@ -89,8 +89,8 @@ def plotted(found: list[Measured], device: str) -> bytes:
         for each in found
         if each.rmse is not None and each.time_ms is not None
     ]
-    scenes = [Pictured(name, "", ()) for name in dict.fromkeys(each.scene for each in found)]
-    return plot(Study(device, "", (width, height), 8, scenes, marked(points), (), (), ()), "svg")
+    scenes = [SceneSummary(name, "", ()) for name in dict.fromkeys(each.scene for each in found)]
+    return plot(Study(device, "", (width, height), 8, scenes, mark_best(points), (), (), ()), "svg")
 
 
 def table(found: list[Measured]) -> Iterator[str]:
@@ -144,7 +144,7 @@ def on_device(arguments: argparse.Namespace) -> tuple[str, list[Measured]]:
     limits = Limits(seconds=120)
     with (
         Session(arguments.device, validation=False, limits=limits, environment=environment(arguments.device)) as session,
-        Clock(arguments.device, repeats=arguments.repeats) as clock,
+        DeviceClock(arguments.device, repeats=arguments.repeats) as clock,
     ):
         scenes = [scene(name, width, height) for name in arguments.scenes]
         return clock.name, [measured(made, technique, session, clock) for made in scenes for technique in techniques(counts=counts)]

@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from msaa_lint.experiments.study import coverage
-from msaa_lint.experiments.study.effects import depth_resolve, hdr, tone_mapping
+from msaa_lint.experiments.study.effects import store_half
 from msaa_lint.experiments.study.measure import total
-from msaa_lint.experiments.study.resolve import average, to_srgb, to_unorm, weighted
+from msaa_lint.experiments.study.resolve import DEPTH_MODES, average, resolve_depth, to_srgb, to_unorm, tone_map, weighted
 
 PAGE = Path(__file__).parent / "study-numbers.md"
 CENTER = np.array([[128, 128]])
@@ -210,26 +210,26 @@ def lights() -> Iterator[Row]:
     due = float(sum((each / (1 + each) for each in shares), Fraction(0)) / 4)
     samples = np.ones((4, 1, 4), np.float32)
     samples[..., :3] = np.array(firefly, np.float32)[:, None, None]
-    after = float(tone_mapping.mapped(average(samples))[0, 0])
+    after = float(tone_map(average(samples))[0, 0])
     in_double = sum(float(each) / (1 + float(each)) for each in shares) / 4
-    before = float(average(tone_mapping.mapped(samples))[0, 0])
+    before = float(average(tone_map(samples))[0, 0])
     yield Row("light", "60000 and three of 0.1, displayed; naive: tone mapped after the resolve", due, after, in_double, before, 1e-6)
-    mixed = float(tone_mapping.mapped(weighted(samples))[0, 0])
+    mixed = float(tone_map(weighted(samples))[0, 0])
     yield Row("light", "the same by the weighted resolve; naive: averaged without weights", due, after, in_double, mixed, 1e-6)
     bright = np.full((1, 4), np.inf, np.float32)
     with np.errstate(invalid="ignore"):
         ratio = float(bright[0, 0] / (1 + bright[0, 0]))
-    yield Row("light", "infinite light, displayed; naive: x / (1 + x)", 1.0, ratio, math.nan, float(tone_mapping.mapped(bright)[0, 0]))
+    yield Row("light", "infinite light, displayed; naive: x / (1 + x)", 1.0, ratio, math.nan, float(tone_map(bright)[0, 0]))
     with np.errstate(over="ignore"):
         large = float(np.float16(65519.99))
     yield Row("light", "65519.99 kept in half precision; naive: anything above 65504 is infinite", 65504.0, math.inf, large,
-              float(hdr.stored(np.array([65519.99], np.float32))[0]))  # fmt: skip
+              float(store_half(np.array([65519.99], np.float32))[0]))  # fmt: skip
 
 
 def depths() -> Iterator[Row]:
     near, far = 0.25, 0.75
     samples = np.array([[far], [near], [near], [far]], np.float32)
-    found = {mode: float(depth_resolve.resolved(samples, mode)[0]) for mode in depth_resolve.MODES}
+    found = {mode: float(resolve_depth(samples, mode)[0]) for mode in DEPTH_MODES}
     average_of = found["AVERAGE"]
     for mode, words, due in (("MIN", "nearest", near), ("MAX", "farthest", far), ("SAMPLE_ZERO", "first sample's", far)):
         words = f"depth of a silhouette, 0.25 before 0.75: {mode}, the {words}; naive: AVERAGE"

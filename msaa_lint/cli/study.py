@@ -13,9 +13,9 @@ from typing import IO, TYPE_CHECKING, Any, NamedTuple
 from msaa_lint.core.package import VERSION
 from msaa_lint.experiments.confirm.results import NotWritten
 from msaa_lint.experiments.confirm.results import Unusable as NoDevice
-from msaa_lint.experiments.study.outcome import Pictured, Study, Untimed
+from msaa_lint.experiments.study.outcome import SceneSummary, Study, UntimedTechnique
 from msaa_lint.experiments.study.points import COUNTS, KINDS, MSAA, Point, Technique, techniques
-from msaa_lint.experiments.study.tasks import Failed, Task, Unusable
+from msaa_lint.experiments.study.tasks import FailedPoint, Task, Unusable
 
 from .common import MOST_PIXELS, Mistake, Target, colored, ended, outputs, size, written
 from .report.escape import visible
@@ -23,8 +23,8 @@ from .study_subjects import Subject, subjects
 
 if TYPE_CHECKING:
     from msaa_lint.core.finding import Finding
-    from msaa_lint.experiments.study.checkpoint import Kept
-    from msaa_lint.experiments.study.times import Cost, Model, Source
+    from msaa_lint.experiments.study.checkpoint import Checkpoint
+    from msaa_lint.experiments.study.times import Cost, CostModel, CostSource
 
 FORMATS = ("full", "json")
 PLOTS = (".svg", ".png")
@@ -112,18 +112,18 @@ def _cores() -> int:
 
 def list_scenes() -> int:
     """Prints the scenes that can be named, and what each is for."""
-    from msaa_lint.experiments.study.scenes import SAYS
+    from msaa_lint.experiments.study.scenes import DESCRIPTIONS
 
-    for name, says in SAYS.items():
+    for name, says in DESCRIPTIONS.items():
         print(f"{name:16} {says}")
     return 0
 
 
 def _study(given: Mapping[str, Any], asked: Wanted) -> int:
-    from msaa_lint.experiments.study.checkpoint import Kept
+    from msaa_lint.experiments.study.checkpoint import Checkpoint
     from msaa_lint.experiments.study.sweep import ordered, sweep, with_cost
 
-    kept = Kept(given["resume"]) if "resume" in given else None
+    kept = Checkpoint(given["resume"]) if "resume" in given else None
     pixels, studied, wrong, notes = subjects(given, asked.size)
     for note in notes:
         print(f"msaa-lint: {visible(note)}", file=sys.stderr)
@@ -132,14 +132,14 @@ def _study(given: Mapping[str, Any], asked: Wanted) -> int:
     if given.get("record") and not any(subject.file for subject in studied) and not wrong:
         raise Mistake("--record: the file of a description is due, for the record to lie beside")
     priced, device = _priced(studied, given, asked, pixels, kept)
-    tasks = [Task(subject.asked, technique, *pixels, asked.bits, asked.ssim) for subject in studied for technique in asked.techniques]
+    tasks = [Task(subject.input, technique, *pixels, asked.bits, asked.ssim) for subject in studied for technique in asked.techniques]
     with _bar(len(tasks)) as progress:
-        results = list(sweep(tasks, jobs=asked.jobs, backend=asked.backend, kept=kept, progress=progress))
-    names = [subject.asked.name for subject in studied]
+        results = list(sweep(tasks, jobs=asked.jobs, backend=asked.backend, checkpoint=kept, progress=progress))
+    names = [subject.input.name for subject in studied]
     points: list[Point] = []
-    failed: list[Failed] = []
+    failed: list[FailedPoint] = []
     for result in ordered(results, names, asked.techniques):
-        if isinstance(result, Failed):
+        if isinstance(result, FailedPoint):
             failed.append(result)
             print(f"msaa-lint: {visible(result.scene)}: {result.technique.name}: {visible(result.reason)}", file=sys.stderr)
         else:
@@ -156,16 +156,16 @@ def _found(
     pixels: tuple[int, int],
     studied: Sequence[Subject],
     points: Sequence[Point],
-    failed: Sequence[Failed],
+    failed: Sequence[FailedPoint],
     priced: Mapping[str, Mapping[Technique, Cost]],
     device: str,
     wrong: Sequence[Finding],
 ) -> Study:
     """All that there is to print; pictures and records are written."""
     from msaa_lint.experiments.study.advice import advice
-    from msaa_lint.experiments.study.pareto import marked
+    from msaa_lint.experiments.study.pareto import mark_best
 
-    best = marked(points)
+    best = mark_best(points)
     reasons = {technique.name: cost.reason for own in priced.values() for technique, cost in own.items() if cost.reason}
     models = {subject.device.name if subject.device is not None else "" for subject in studied}
     made = Study(
@@ -173,10 +173,10 @@ def _found(
         models.pop() if len(models) == 1 else "",
         pixels,
         asked.bits,
-        [_pictured(subject, [point for point in best if point.scene == subject.asked.name]) for subject in studied],
+        [_pictured(subject, [point for point in best if point.scene == subject.input.name]) for subject in studied],
         best,
         failed,
-        [Untimed(name, reason) for name, reason in reasons.items()],
+        [UntimedTechnique(name, reason) for name, reason in reasons.items()],
         advice(best),
         wrong,
     )
@@ -187,42 +187,42 @@ def _found(
     return made._replace(pictures=pictures, records=records)
 
 
-def _pictured(subject: Subject, points: Sequence[Point]) -> Pictured:
+def _pictured(subject: Subject, points: Sequence[Point]) -> SceneSummary:
     """The scene with the effects that it calls for, and those that a technique of it called for."""
     picture = subject.picture
     effects = {name: picture.why.get(name, "") for name in picture.effects}
     for point in points:
         for name in point.effects:
             effects.setdefault(name, "techniques ask for it")
-    return Pictured(subject.asked.name, picture.says, tuple(effects.items()), picture.coverage_matter)
+    return SceneSummary(subject.input.name, picture.description, tuple(effects.items()), picture.coverage_matter)
 
 
 def _priced(
-    studied: Sequence[Subject], given: Mapping[str, Any], asked: Wanted, pixels: tuple[int, int], kept: Kept | None
+    studied: Sequence[Subject], given: Mapping[str, Any], asked: Wanted, pixels: tuple[int, int], kept: Checkpoint | None
 ) -> tuple[dict[str, dict[Technique, Cost]], str]:
     """By scene what each technique takes, and the device whose clock it is by."""
     from msaa_lint.experiments.study.sweep import costs
-    from msaa_lint.experiments.study.times import Model
+    from msaa_lint.experiments.study.times import CostModel
 
     found: dict[str, dict[Technique, Cost]] = {}
     with _clock(given) as clock, _bar(len(studied)) as progress:
         for number, subject in enumerate(studied):
             effects = " ".join(subject.picture.effects).lower()
-            model = Model(subject.device, hdr="hdr" in effects, depth="depth" in effects)
+            model = CostModel(subject.device, hdr="hdr" in effects, depth="depth" in effects)
             if progress is not None and clock is not None:
-                progress(number, len(studied), f"{subject.asked.name} on {clock.name}")
+                progress(number, len(studied), f"{subject.input.name} on {clock.name}")
             with _source(clock, subject, model) as source:
-                found[subject.asked.name] = costs(asked.techniques, pixels, source, kept)
+                found[subject.input.name] = costs(asked.techniques, pixels, source, kept)
         return found, clock.name if clock is not None else ""
 
 
-def _source(clock: Any, subject: Subject, model: Model) -> contextlib.AbstractContextManager[Source]:
+def _source(clock: Any, subject: Subject, model: CostModel) -> contextlib.AbstractContextManager[CostSource]:
     """Where the costs of a scene are from."""
     if clock is None:
         return contextlib.nullcontext(model)
-    from msaa_lint.experiments.study.scene_timing import Timed
+    from msaa_lint.experiments.study.scene_timing import SceneClock
 
-    return Timed(clock, subject.picture, model)
+    return SceneClock(clock, subject.picture, model)
 
 
 @contextlib.contextmanager
@@ -231,9 +231,9 @@ def _clock(given: Mapping[str, Any]) -> Iterator[Any]:
     if "device" not in given:
         yield None
         return
-    from msaa_lint.experiments.study.times import Clock
+    from msaa_lint.experiments.study.times import DeviceClock
 
-    with Clock(given["device"], repeats=given.get("repeats", 15)) as clock:
+    with DeviceClock(given["device"], repeats=given.get("repeats", 15)) as clock:
         yield clock
 
 
@@ -263,7 +263,7 @@ def _crops(given: Mapping[str, Any], asked: Wanted, studied: Sequence[Subject]) 
     from msaa_lint.experiments.study.crops import crops
 
     album = Album(given["crops"])
-    return [crops(album, subject.asked.name, subject.picture, asked.techniques, asked.bits) for subject in studied]
+    return [crops(album, subject.input.name, subject.picture, asked.techniques, asked.bits) for subject in studied]
 
 
 def _plot(path: str, found: Study) -> None:
@@ -284,7 +284,7 @@ def _plot(path: str, found: Study) -> None:
 
 def _records(studied: Sequence[Subject], found: Study) -> list[str]:
     """Writes the records of the descriptions, each for all documents of its file; none where a point of it failed."""
-    from msaa_lint.experiments.study.record import Recorded, write
+    from msaa_lint.experiments.study.record import DocumentStudy, write
 
     files: dict[str, list[Subject]] = {}
     for subject in studied:
@@ -292,10 +292,10 @@ def _records(studied: Sequence[Subject], found: Study) -> list[str]:
             files.setdefault(subject.file, []).append(subject)
     written = []
     for file, own in files.items():
-        names = {subject.asked.name for subject in own}
+        names = {subject.input.name for subject in own}
         if any(each.scene in names for each in found.failed):
             continue
-        studies = [Recorded(each.frame, found.device, found.size, found.of(each.asked.name)) for each in own if each.frame is not None]
+        studies = [DocumentStudy(each.frame, found.device, found.size, found.of(each.input.name)) for each in own if each.frame is not None]
         if not any(point.technique.kind == MSAA for each in studies for point in each.points):
             raise Mistake("--record: no sample count was measured (--techniques leaves msaa out)")
         try:

@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from msaa_lint.experiments.study.tasks import Asked
+from msaa_lint.experiments.study.tasks import StudyInput
 from msaa_lint.frame.devices import DeviceProfile
 
 from .common import MOST_PIXELS, Mistake, settings
@@ -22,7 +22,7 @@ MESHES = (".obj", ".ply")
 class Subject(NamedTuple):
     """What is studied. `picture` is its scene; of a description there are its frame, its file and the device that it is judged for."""
 
-    asked: Asked
+    input: StudyInput
     picture: Any
     device: DeviceProfile | None = None
     frame: Frame | None = None
@@ -43,13 +43,13 @@ def subjects(given: Mapping[str, Any], size: tuple[int, int] | None) -> Subjects
     """What the arguments name, at the size that they state, if they do. Mistake where one names nothing."""
     from msaa_lint.experiments.study.scenes import NAMES
 
-    named: list[Asked] = []
+    named: list[StudyInput] = []
     paths: list[str] = []
     for path in dict.fromkeys(given["paths"]):
         if path in NAMES:
-            named.append(Asked("scene", path))
+            named.append(StudyInput("scene", path))
         elif path.lower().endswith(MESHES) and os.path.isfile(path):
-            named.append(Asked("mesh", path, path))
+            named.append(StudyInput("mesh", path, path))
         elif path == "-" or os.path.lexists(path):
             paths.append(path)
         else:
@@ -61,12 +61,12 @@ def subjects(given: Mapping[str, Any], size: tuple[int, int] | None) -> Subjects
     for own in read.inputs:
         name = own.file if own.many == 1 else f"{own.file}#{own.number + 1}"
         text = own.frame.document.source.text
-        described = Asked("description", name, own.file, text, own.number, given.get("input_format"))
+        described = StudyInput("description", name, own.file, text, own.number, given.get("input_format"))
         found.append(Subject(described, _picture(described, pixels), own.device or default, own.frame, own.file))
     return Subjects(pixels, found, read.wrong, read.notes)
 
 
-def _picture(asked: Asked, pixels: tuple[int, int]) -> Any:
+def _picture(asked: StudyInput, pixels: tuple[int, int]) -> Any:
     """The scene of what is asked for. Mistake where it cannot be had."""
     from msaa_lint.experiments.study.sweep import picture
 

@@ -56,6 +56,22 @@ def replace(path: str, before: bytes, after: bytes) -> None:
             _remove(beside)
 
 
+def write_file(path: str, data: bytes) -> None:
+    """Creates or replaces a file in one step, so that a reader sees the old contents or the new ones. A link is replaced, not followed.
+
+    OSError where the file cannot be written; an old file is then unchanged, and nothing is left next to it.
+    """
+    temporary = os.path.join(os.path.dirname(path), f".msaa-lint-{os.getpid()}-{os.urandom(6).hex()}.tmp")
+    descriptor = os.open(temporary, _NEW, 0o666)
+    try:
+        with os.fdopen(descriptor, "wb") as file:
+            file.write(data)
+        os.replace(temporary, path)
+    except BaseException:
+        _remove(temporary)
+        raise
+
+
 def _unchanged(target: str, before: bytes) -> tuple[os.stat_result, _Stamp]:
     """What the system says of a file that holds what it did."""
     with open(target, "rb") as file:

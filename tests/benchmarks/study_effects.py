@@ -17,7 +17,7 @@ from msaa_lint.experiments.study import effects
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, Technique
 from msaa_lint.experiments.study.scenes import shapes
 from msaa_lint.experiments.study.scenes.scene import BLACK, Scene
-from msaa_lint.experiments.study.simulate import simulated
+from msaa_lint.experiments.study.simulate import simulate
 
 SIZE = (1920, 1080)
 FOUR = Technique(MSAA, 4)
@@ -33,7 +33,7 @@ def picture(width: int, height: int) -> Scene:
         value = x / width
         return np.stack([value, value, value, 0.25 + value / 2], axis=-1)
 
-    colors = shapes.painted(4, (1.0, 0.5, 0.25, 0.75))
+    colors = shapes.uniform_colors(4, (1.0, 0.5, 0.25, 0.75))
     return Scene("", "", width, height, made, colors, depths, BLACK, (), {}, lambda each: np.zeros((height, width, 4)), False, shade)
 
 
@@ -69,10 +69,10 @@ def least(tasks: Mapping[str, Callable[[], object]], rounds: int) -> dict[str, f
 def by_effect(rounds: int) -> None:
     """What each effect takes."""
     plain = picture(*SIZE)
-    tasks: dict[str, Callable[[], object]] = {"none": lambda: simulated(plain, FOUR)}
+    tasks: dict[str, Callable[[], object]] = {"none": lambda: simulate(plain, FOUR)}
     for name, (names, settings, technique) in EFFECTS.items():
         scene = plain._replace(effects=names, settings=settings)
-        tasks[name] = lambda scene=scene, technique=technique: simulated(scene, technique)  # type: ignore[misc]
+        tasks[name] = lambda scene=scene, technique=technique: simulate(scene, technique)  # type: ignore[misc]
     found = least(tasks, rounds)
     none = found.pop("none")
     print(f"Two sheets at {SIZE[0]}x{SIZE[1]}, 4x, CPU milliseconds; {none:.0f} without an effect.\n")
@@ -89,11 +89,11 @@ def off(rounds: int) -> None:
     def without() -> None:
         effects.TABLE = ()
         try:
-            simulated(plain, FOUR)
+            simulate(plain, FOUR)
         finally:
             effects.TABLE = whole
 
-    found = least({"off": lambda: simulated(plain, FOUR), "not there": without}, rounds)
+    found = least({"off": lambda: simulate(plain, FOUR), "not there": without}, rounds)
     more = 100 * (found["off"] / found["not there"] - 1)
     print(f"All effects off: {found['off']:.2f} ms; none there to be off: {found['not there']:.2f} ms: {more:+.2f} % (at most 1).\n")
 
@@ -106,9 +106,9 @@ def growth(rounds: int) -> None:
     for width, height, count in cases:
         scene = picture(width, height)._replace(effects=("depth-test",))
         technique = Technique(MSAA, count)
-        took = least({"": lambda scene=scene, technique=technique: simulated(scene, technique)}, rounds)[""]  # type: ignore[misc]
+        took = least({"": lambda scene=scene, technique=technique: simulate(scene, technique)}, rounds)[""]  # type: ignore[misc]
         tracemalloc.start()
-        simulated(scene, technique)
+        simulate(scene, technique)
         peak = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
         pixels = width * height

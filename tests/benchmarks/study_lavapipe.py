@@ -19,10 +19,10 @@ from msaa_lint.experiments.study.device_coverage import clip
 from msaa_lint.experiments.study.fragments import masks
 from msaa_lint.experiments.study.locations import SUBPIXELS, standard
 from msaa_lint.experiments.study.points import MSAA, Technique
-from msaa_lint.experiments.study.times import Clock
+from msaa_lint.experiments.study.times import DeviceClock
 
 
-def simulated(triangles: np.ndarray, samples: int, rounds: int) -> float:
+def simulate(triangles: np.ndarray, samples: int, rounds: int) -> float:
     """Milliseconds of spans and masks, the least of the rounds."""
     found = []
     for _ in range(rounds):
@@ -36,12 +36,12 @@ def main() -> int:
     """Measures and prints."""
     rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 7
     print("| scene | samples | simulation, ms | lavapipe, ms | ratio |\n|---|---:|---:|---:|---:|")
-    with tempfile.TemporaryDirectory() as folder, Clock(None, repeats=rounds) as clock:
+    with tempfile.TemporaryDirectory() as folder, DeviceClock(None, repeats=rounds) as clock:
         for name, triangles in (("one large triangle", LARGE), ("20,000 small triangles", small())):
             path = os.path.join(folder, name)
             clip(triangles / SUBPIXELS, WIDTH, HEIGHT).tofile(path)
             for samples in (1, 4):
-                own = simulated(triangles, samples, rounds)
+                own = simulate(triangles, samples, rounds)
                 device = clock.of(Technique(MSAA, samples), WIDTH, HEIGHT, path).time_ms
                 assert device is not None, clock.name
                 print(f"| {name} | {samples} | {own:.1f} | {device:.1f} | {own / device:.2f} |")

@@ -32,7 +32,7 @@ def render(study: Study, out: Write, version: str = "") -> None:
         "scenes": [
             {
                 "name": _text(scene.name),
-                "says": _text(scene.says),
+                "says": _text(scene.description),
                 "error_of": "coverage" if scene.coverage else "color",
                 "edge_pixels": max((point.edge_pixels for point in study.of(scene.name)), default=0),
                 "effects": own,
@@ -40,7 +40,7 @@ def render(study: Study, out: Write, version: str = "") -> None:
             for scene, own in zip(study.scenes, effects, strict=True)
         ],
         "points": [_point(point) for point in study.points],
-        "advice": [{"scene": _text(each.scene), "says": _text(each.says), "because": _text(each.because)} for each in study.advice],
+        "advice": [{"scene": _text(each.scene), "says": _text(each.text), "because": _text(each.reason)} for each in study.advice],
         "untimed": [{"name": each.name, "reason": _text(each.reason)} for each in study.untimed],
         "failed": [{"scene": _text(each.scene), "name": each.technique.name, "reason": _text(each.reason)} for each in study.failed],
         "errors": [{"file": _text(each.file), "code": each.code, "message": _text(each.message)} for each in study.wrong],

@@ -12,7 +12,7 @@ import warnings
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from msaa_lint.experiments.study.crops import short
+from msaa_lint.experiments.study.crops import short_name
 from msaa_lint.experiments.study.outcome import Study
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Point
 
@@ -116,7 +116,7 @@ def _names(axes: Axes, points: Sequence[Point]) -> None:
     axes.set_ylim(axes.get_ylim())
     taken: list[tuple[float, float, float]] = []
     for point in sorted(points, key=lambda each: (not each.best, place(each))):
-        name = short(point.technique)
+        name = short_name(point.technique)
         share_x, share_y = (axes.transScale + axes.transLimits).transform(place(point))
         at = share_x * _PANEL[0], share_y * _PANEL[1]
         wide = _LETTER * len(name)

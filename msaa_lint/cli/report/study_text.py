@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from msaa_lint.experiments.study.outcome import Pictured, Study
+from msaa_lint.experiments.study.outcome import SceneSummary, Study
 from msaa_lint.experiments.study.points import Point
 
 from . import Options, Write
@@ -29,11 +29,11 @@ def render(study: Study, out: Write, options: Options) -> None:
         console.print(line, soft_wrap=True)
 
 
-def _scene(scene: Pictured, study: Study, console: Any) -> None:
+def _scene(scene: SceneSummary, study: Study, console: Any) -> None:
     points = study.of(scene.name)
     console.print(shown(scene.name), style="bold", soft_wrap=True)
-    if scene.says:
-        console.print(shown(scene.says), soft_wrap=True)
+    if scene.description:
+        console.print(shown(scene.description), soft_wrap=True)
     if points:
         of = "pixels that an edge crosses" if scene.coverage else "pixels that are looked at for their colour"
         console.print(f"{max(point.edge_pixels for point in points):,} of {study.size[0] * study.size[1]:,} are {of}", soft_wrap=True)
@@ -49,10 +49,10 @@ def _scene(scene: Pictured, study: Study, console: Any) -> None:
             console.print(f"{failed.technique.name} failed: {shown(failed.reason)}", style="red", soft_wrap=True)
     for each in study.advice:
         if each.scene == scene.name:
-            console.print(f"- {shown(each.says)} ({shown(each.because)})", soft_wrap=True)
+            console.print(f"- {shown(each.text)} ({shown(each.reason)})", soft_wrap=True)
 
 
-def _table(points: Sequence[Point], scene: Pictured) -> Any:
+def _table(points: Sequence[Point], scene: SceneSummary) -> Any:
     from rich import box
     from rich.table import Table
 

@@ -1,11 +1,11 @@
-"""The folder that a sweep resumes from: a file for each point and each time, written whole or not at all.
+"""The folder that a sweep resumes from: a file for each point and each time.
 
-What was made otherwise (of another text, size, precision, version) has another name; what cannot be read is had anew.
+The name of a file depends on everything that its contents depend on (text, size, precision, version). A file that cannot be read is
+ignored.
 """
 
 from __future__ import annotations
 
-import contextlib
 import functools
 import json
 import os
@@ -15,48 +15,47 @@ from hashlib import sha256
 from types import UnionType
 from typing import Any, get_args, get_type_hints
 
+from msaa_lint.core.atomic_write import write_file
 from msaa_lint.core.package import VERSION
 
 from .points import Point, Technique
 from .tasks import Task, Unusable
-from .times import Cost, Source
+from .times import Cost, CostSource
 
 SCHEMA = "msaa-lint/study-point-v1"
 MAX_BYTES = 1 << 16
 
 
-class Kept:
-    """A folder of points. Unusable where it cannot be written."""
+class Checkpoint:
+    """A folder of points and times. Unusable where it cannot be written."""
 
     def __init__(self, folder: str) -> None:
         self.folder = folder
         try:
             os.makedirs(folder, exist_ok=True)
         except OSError as error:
-            raise Unusable(f"--resume {folder}: {error.strerror}") from None
+            raise self._unusable(error) from None
 
     def point(self, task: Task) -> Point | None:
-        """The point of a task, if it is there."""
-        key = _key(task)
-        found = self._read(key, f"{task.asked.name}-{task.technique.name}", Point)
-        if found is None:
+        """The stored point of a task, if any."""
+        values = self._read(_key(task), _name(task), Point)
+        if values is None:
             return None
-        found["technique"] = task.technique
-        effects = found["effects"]
-        found["effects"] = tuple(map(str, effects)) if isinstance(effects, list) else ()
-        return Point(**found)
+        effects = values["effects"]
+        values["effects"] = tuple(map(str, effects)) if isinstance(effects, list) else ()
+        return Point(**{**values, "technique": task.technique})
 
-    def keep_point(self, task: Task, point: Point) -> None:
-        """Writes a point down."""
-        self._write(_key(task), f"{task.asked.name}-{task.technique.name}", point._replace(technique=Technique("", 0)))
+    def save_point(self, task: Task, point: Point) -> None:
+        """Stores a point."""
+        self._write(_key(task), _name(task), point._replace(technique=Technique("", 0)))
 
-    def cost(self, source: Source, technique: Technique, size: tuple[int, int]) -> Cost | None:
-        """What a technique was found to take, if it is there."""
-        found = self._read(_cost_key(source, technique, size), f"time-{technique.name}", Cost)
-        return None if found is None else Cost(**found)
+    def cost(self, source: CostSource, technique: Technique, size: tuple[int, int]) -> Cost | None:
+        """The stored cost of a technique, if any."""
+        values = self._read(_cost_key(source, technique, size), f"time-{technique.name}", Cost)
+        return None if values is None else Cost(**values)
 
-    def keep_cost(self, source: Source, technique: Technique, size: tuple[int, int], cost: Cost) -> None:
-        """Writes down what a technique takes."""
+    def save_cost(self, source: CostSource, technique: Technique, size: tuple[int, int], cost: Cost) -> None:
+        """Stores the cost of a technique."""
         self._write(_cost_key(source, technique, size), f"time-{technique.name}", cost)
 
     def _path(self, key: Mapping[str, Any], name: str) -> str:
@@ -73,43 +72,42 @@ class Kept:
         if not isinstance(values, dict) or set(values) != set(kind._fields):
             return None
         hints = get_type_hints(kind)
-        return values if all(_fits(value, hints[name]) for name, value in values.items()) else None
+        return values if all(_has_type(value, hints[name]) for name, value in values.items()) else None
 
     def _write(self, key: Mapping[str, Any], name: str, values: Point | Cost) -> None:
-        path = self._path(key, name)
-        beside = f"{path}.{os.getpid()}.tmp"
+        data = {"schema": SCHEMA, "key": key, "values": values._asdict()}
         try:
-            with open(beside, "w", encoding="utf-8", newline="\n") as file:
-                json.dump({"schema": SCHEMA, "key": key, "values": values._asdict()}, file, sort_keys=True)
-            os.replace(beside, path)
+            write_file(self._path(key, name), json.dumps(data, sort_keys=True).encode())
         except OSError as error:
-            raise Unusable(f"--resume {self.folder}: {error.strerror}") from None
-        finally:
-            with contextlib.suppress(OSError):
-                os.unlink(beside)
+            raise self._unusable(error) from None
+
+    def _unusable(self, error: OSError) -> Unusable:
+        return Unusable(f"--resume {self.folder}: {error.strerror}")
 
 
-def _fits(value: object, hint: Any) -> bool:
-    """Whether a value of JSON is of a member's type; of lists and objects nothing is asked here."""
+def _has_type(value: object, hint: Any) -> bool:
+    """Whether a JSON value has the type of a member. The contents of lists and objects are not checked."""
     if hint is float:
         return type(value) in (int, float)
     if hint in (int, str, bool, type(None)):
         return type(value) is hint
-    return any(_fits(value, each) for each in get_args(hint)) if isinstance(hint, UnionType) else isinstance(value, (list, dict))
+    return any(_has_type(value, option) for option in get_args(hint)) if isinstance(hint, UnionType) else isinstance(value, (list, dict))
+
+
+def _name(task: Task) -> str:
+    return f"{task.input.name}-{task.technique.name}"
 
 
 def _key(task: Task) -> dict[str, Any]:
-    """What a point depends on."""
-    asked = task.asked
-    content = asked.text.encode("utf-8", "surrogatepass")
-    if asked.kind == "mesh":
-        content = _bytes(asked.path)
+    """Everything that a point depends on."""
+    subject = task.input
+    content = _contents(subject.path) if subject.kind == "mesh" else subject.text.encode("utf-8", "surrogatepass")
     return {
         "version": VERSION,
-        "kind": asked.kind,
-        "name": asked.name,
+        "kind": subject.kind,
+        "name": subject.name,
         "content": sha256(content).hexdigest(),
-        "document": asked.number,
+        "document": subject.number,
         "technique": list(task.technique),
         "size": [task.width, task.height],
         "bits": task.bits,
@@ -118,7 +116,7 @@ def _key(task: Task) -> dict[str, Any]:
 
 
 @functools.lru_cache(maxsize=4)
-def _bytes(path: str) -> bytes:
+def _contents(path: str) -> bytes:
     try:
         with open(path, "rb") as file:
             return file.read()
@@ -126,12 +124,12 @@ def _bytes(path: str) -> bytes:
         return b""
 
 
-def _cost_key(source: Source, technique: Technique, size: tuple[int, int]) -> dict[str, Any]:
+def _cost_key(source: CostSource, technique: Technique, size: tuple[int, int]) -> dict[str, Any]:
     return {"version": VERSION, "source": identity(source), "technique": list(technique), "size": list(size)}
 
 
-def identity(source: Source) -> list[Any]:
-    """What a source's answers depend on: whose clock and which triangles, and what the model takes a frame to be."""
+def identity(source: CostSource) -> list[Any]:
+    """Everything that the answers of a source depend on: the device, the triangles, and the parameters of the cost model."""
     model = getattr(source, "model", source)
-    named = [source.name, getattr(source, "content", ""), *(getattr(model, name, None) for name in ("hdr", "depth", "fps"))]
-    return [*named, repr(getattr(model, "device", None))]
+    parameters = [source.name, getattr(source, "content", ""), *(getattr(model, name, None) for name in ("hdr", "depth", "fps"))]
+    return [*parameters, repr(getattr(model, "device", None))]

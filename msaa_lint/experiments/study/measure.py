@@ -1,4 +1,4 @@
-"""How far a picture is from the exact one. Sums are in double precision: blocks by NumPy's pairwise sum, those together by math.fsum."""
+"""The error of a picture against the exact one. Sums are in double precision: blocks by NumPy's pairwise sum, their totals by math.fsum."""
 
 from __future__ import annotations
 
@@ -12,27 +12,27 @@ from numpy.typing import NDArray
 from .locations import SUBPIXELS
 from .points import MSAA, Point, Technique
 from .resolve import to_srgb
-from .scenes.area import NOTHING
+from .scenes.area import partly_covered
 from .scenes.scene import Scene
-from .simulate import simulated, snapped
+from .simulate import simulate, snapped_triangles
 
 Floats = NDArray[np.float64]
 
 BLOCK = 1 << 16
-"""Values that NumPy adds up by itself."""
+"""Values that NumPy sums at a time."""
 
 ONE = Technique(MSAA, 1)
 
 
 class Truth(NamedTuple):
-    """The exact picture (H, W, 4) in linear colour, and the pixels (H, W) that an edge crosses."""
+    """The exact picture (H, W, 4) in linear color, and the pixels (H, W) that an edge crosses."""
 
     image: Floats
-    crossed: NDArray[np.bool_]
+    edge_pixels: NDArray[np.bool_]
 
 
 class Errors(NamedTuple):
-    """Root of the mean square, greatest size, mean with its sign (measured less exact), and how many values they are of."""
+    """The root mean square, greatest magnitude and mean (measured minus exact) of differences, and their number."""
 
     rmse: float
     greatest: float
@@ -42,7 +42,7 @@ class Errors(NamedTuple):
 
 def total(values: NDArray[np.floating]) -> float:
     """The sum, in double precision. Infinities of both signs, and NaN, give NaN."""
-    # NumPy adds pairwise along the fastest axis alone: what is summed is one row.
+    # NumPy sums pairwise along the fastest axis alone, so sum a single row.
     row = np.ascontiguousarray(values).reshape(-1)
     with np.errstate(invalid="ignore", over="ignore"):
         sums = [float(np.sum(row[start : start + BLOCK], dtype=np.float64)) for start in range(0, len(row), BLOCK)]
@@ -53,28 +53,31 @@ def total(values: NDArray[np.floating]) -> float:
 
 
 def difference(measured: NDArray[np.floating], exact: NDArray[np.floating]) -> Floats:
-    """Measured less exact, in double precision; 0 where they are equal, infinities too."""
+    """Measured minus exact, in double precision; 0 where they are equal, including infinities."""
     with np.errstate(invalid="ignore"):
         return np.where(measured == exact, 0.0, measured.astype(np.float64) - exact.astype(np.float64))
 
 
-def errors(found: Floats) -> Errors:
-    """What differences are as numbers; zeros where there are none."""
-    if not found.size:
+def errors(differences: Floats) -> Errors:
+    """Differences summarized; zeros where there are none."""
+    count = differences.size
+    if not count:
         return Errors(0.0, 0.0, 0.0, 0)
-    return Errors(math.sqrt(total(found * found) / found.size), float(np.max(np.abs(found))), total(found) / found.size, found.size)
+    return Errors(
+        math.sqrt(total(differences * differences) / count), float(np.max(np.abs(differences))), total(differences) / count, count
+    )
 
 
 def psnr(measured: NDArray[np.floating], exact: NDArray[np.floating]) -> float:
-    """Peak signal to noise in dB, the peak being 1.0, display white; infinite where nothing differs."""
-    found = difference(measured, exact)
-    square = total(found * found) / found.size
+    """The peak signal-to-noise ratio in dB with a peak of 1.0, display white; infinite where nothing differs."""
+    differences = difference(measured, exact)
+    square = total(differences * differences) / differences.size
     return math.inf if square == 0 else -10 * math.log10(square) if math.isfinite(square) else -square
 
 
 def ssim_of(measured: NDArray[np.floating], exact: NDArray[np.floating]) -> float:
-    """Structural similarity (Wang and others 2004) of pictures (H, W, 3) with values in [0, 1], by scikit-image, with its Gaussian window.
-    ModuleNotFoundError where that is not installed."""
+    """The structural similarity (Wang and others 2004) of pictures (H, W, 3) with values in [0, 1], by scikit-image with its Gaussian
+    window. ModuleNotFoundError where scikit-image is not installed."""
     from skimage.metrics import structural_similarity
 
     return float(
@@ -85,56 +88,54 @@ def ssim_of(measured: NDArray[np.floating], exact: NDArray[np.floating]) -> floa
 
 
 def truth(scene: Scene, technique: Technique = ONE, bits: int = 8) -> Truth:
-    """The exact picture of the triangles as the technique's drawing snaps them: what remains is the error of sampling. The last few are
-    remembered."""
-    for known, grid, kept, found in _REMEMBERED:
-        if known is scene and (grid, kept) == (technique.grid, bits):
-            return found
-    made = truth_of(scene, snapped(scene, technique, bits) / (SUBPIXELS * technique.grid))
-    _REMEMBERED.append((scene, technique.grid, bits, made))
-    return made
+    """The exact picture of the triangles as the technique snaps them, so that only the error of sampling remains. The last few are
+    cached."""
+    for cached_scene, grid, cached_bits, cached in _CACHE:
+        if cached_scene is scene and (grid, cached_bits) == (technique.grid, bits):
+            return cached
+    exact = truth_of(scene, snapped_triangles(scene, technique, bits) / (SUBPIXELS * technique.grid))
+    _CACHE.append((scene, technique.grid, bits, exact))
+    return exact
 
 
-_REMEMBERED: deque[tuple[Scene, int, int, Truth]] = deque(maxlen=4)
+_CACHE: deque[tuple[Scene, int, int, Truth]] = deque(maxlen=4)
 
 
 def truth_of(scene: Scene, triangles: Floats) -> Truth:
-    """The exact picture of triangles (T, 3, 2) in pixels in place of the scene's own."""
+    """The exact picture of triangles (T, 3, 2) in pixels instead of the scene's own."""
     image = scene.exact(triangles)
-    if scene.crossed is not None:
-        return Truth(image, scene.crossed(triangles))
-    return Truth(image, (image[..., 3] > NOTHING) & (image[..., 3] < 1 - NOTHING))
+    return Truth(image, scene.edge_pixels(triangles) if scene.edge_pixels is not None else partly_covered(image[..., 3]))
 
 
 def snapping_error(scene: Scene, technique: Technique = ONE, bits: int = 8) -> float:
-    """The error that snapping alone makes: the exact picture of snapped triangles against that of the scene's own, root of the mean square
-    over the pixels that an edge of either crosses."""
-    own, moved = truth_of(scene, scene.triangles), truth(scene, technique, bits)
-    where = own.crossed | moved.crossed
-    parts = slice(3, 4) if scene.coverage_matter else slice(0, 3)
-    return errors(difference(moved.image[where][:, parts], own.image[where][:, parts])).rmse
+    """The root mean square error of snapping alone: the exact picture of snapped triangles against that of the scene's own triangles, over
+    the pixels that an edge of either crosses."""
+    unsnapped, snapped = truth_of(scene, scene.triangles), truth(scene, technique, bits)
+    pixels = unsnapped.edge_pixels | snapped.edge_pixels
+    channels = slice(3, 4) if scene.coverage_matter else slice(0, 3)
+    return errors(difference(snapped.image[pixels][:, channels], unsnapped.image[pixels][:, channels])).rmse
 
 
 def point(scene: Scene, technique: Technique, bits: int = 8, ssim: bool = False) -> Point:
-    """Everything of a point but time, bytes, power and memory. Errors are of sampling alone."""
-    made, exact = simulated(scene, technique, bits), truth(scene, technique, bits)
-    colors = difference(made.image[..., :3], exact.image[..., :3])
-    found = difference(made.coverage, exact.image[..., 3]) if made.coverage is not None else colors
-    edges = errors(found[exact.crossed])
-    shown, wanted = to_srgb(made.image[..., :3]), to_srgb(exact.image[..., :3])
+    """A point without time, bytes, power and memory. Errors are of sampling alone."""
+    simulation, exact = simulate(scene, technique, bits), truth(scene, technique, bits)
+    colors = difference(simulation.image[..., :3], exact.image[..., :3])
+    differences = difference(simulation.coverage, exact.image[..., 3]) if simulation.coverage is not None else colors
+    edges = errors(differences[exact.edge_pixels])
+    displayed, displayed_exact = to_srgb(simulation.image[..., :3]), to_srgb(exact.image[..., :3])
     return Point(
         scene=scene.name,
         technique=technique,
         width=scene.width,
         height=scene.height,
         rmse=edges.rmse,
-        rmse_all=errors(found).rmse,
+        rmse_all=errors(differences).rmse,
         max_error=edges.greatest,
         bias=edges.bias,
-        psnr_db=psnr(made.image[..., :3], exact.image[..., :3].astype(np.float32)),
-        psnr_display_db=psnr(shown, wanted),
-        edge_pixels=int(np.count_nonzero(exact.crossed)),
-        effects=made.effects,
-        ssim=ssim_of(shown, wanted) if ssim else None,
-        simulated_ms=made.milliseconds,
+        psnr_db=psnr(simulation.image[..., :3], exact.image[..., :3].astype(np.float32)),
+        psnr_display_db=psnr(displayed, displayed_exact),
+        edge_pixels=int(np.count_nonzero(exact.edge_pixels)),
+        effects=simulation.effects,
+        ssim=ssim_of(displayed, displayed_exact) if ssim else None,
+        simulated_ms=simulation.milliseconds,
     )

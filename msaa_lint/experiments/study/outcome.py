@@ -1,6 +1,5 @@
-"""What a whole run of `msaa-lint study` gives, for reporters."""
+"""The result of `msaa-lint study`, for reports."""
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -8,20 +7,20 @@ from msaa_lint.core.finding import Finding
 
 from .advice import Advice
 from .points import Point
-from .tasks import Failed
+from .tasks import FailedPoint
 
 
-class Pictured(NamedTuple):
-    """A scene that was studied: what it shows, in a sentence; the effects that it calls for, each with the reason; whether its error is of
-    coverage, in [0, 1], or of linear colour."""
+class SceneSummary(NamedTuple):
+    """A scene of a study: what it shows, in one sentence; its effects, each with the reason; whether its error is of coverage, in [0, 1],
+    or of linear color."""
 
     name: str
-    says: str
+    description: str
     effects: tuple[tuple[str, str], ...]
     coverage: bool = True
 
 
-class Untimed(NamedTuple):
+class UntimedTechnique(NamedTuple):
     """A technique that the device did not draw, and why."""
 
     name: str
@@ -29,21 +28,21 @@ class Untimed(NamedTuple):
 
 
 class Study(NamedTuple):
-    """All of it.
+    """A study.
 
-    `device` is where times are from, empty where there are none; `model` the device whose traffic the cost model reckons, empty where it
-    is none in particular. `points` are in the order of the scenes and techniques, the front marked. `wrong` are findings that say why an
-    input could not be used, `records` and `pictures` the files that were written.
+    `device` is the source of the times, empty without any; `model` is the device whose traffic the cost model estimates, empty for none in
+    particular. `points` are in the order of the scenes and techniques, with the Pareto-optimal ones marked. `wrong` are findings that say
+    why an input could not be used; `records` and `pictures` are the paths of the files written.
     """
 
     device: str
     model: str
     size: tuple[int, int]
     bits: int
-    scenes: Sequence[Pictured]
+    scenes: Sequence[SceneSummary]
     points: Sequence[Point]
-    failed: Sequence[Failed]
-    untimed: Sequence[Untimed]
+    failed: Sequence[FailedPoint]
+    untimed: Sequence[UntimedTechnique]
     advice: Sequence[Advice]
     wrong: Sequence[Finding] = ()
     records: Sequence[str] = ()

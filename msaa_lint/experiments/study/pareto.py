@@ -1,4 +1,4 @@
-"""Which choices are worth looking at: those that no other one beats."""
+"""Pareto-optimal choices: those that no other choice dominates."""
 
 from __future__ import annotations
 
@@ -8,36 +8,36 @@ from collections.abc import Iterable, Sequence
 from .points import Point
 
 SAME = 1.05
-"""What takes up to so many times the time of another takes the same: clocks say no more."""
+"""Times within this factor count as equal: clocks are not more precise."""
 
 FIGURES = 3
-"""Figures of an error that are compared: what differs by less differs by rounding."""
+"""Significant digits of an error that are compared: smaller differences are rounding."""
 
 Vector = tuple[float, ...]
-"""What is better the less there is of it: the error first, then one cost or several."""
+"""Quantities of which less is better: the error, then one or more costs."""
 
 
-def marked(points: Iterable[Point]) -> list[Point]:
-    """The points, `best` set on each that no other of its scene and size beats."""
-    found = list(points)
-    best = [False] * len(found)
-    for group in _groups(found):
-        own = [found[n] for n in group]
-        for n, on in zip(group, _simplest(own, front(vectors(own))), strict=True):
-            best[n] = on
-    return [point._replace(best=on) for point, on in zip(found, best, strict=True)]
+def mark_best(points: Iterable[Point]) -> list[Point]:
+    """The points, with `best` set on those that no other point of their scene and size dominates."""
+    all_points = list(points)
+    best = [False] * len(all_points)
+    for group in _groups(all_points):
+        group_points = [all_points[n] for n in group]
+        for n, optimal in zip(group, _simplest(group_points, front(vectors(group_points))), strict=True):
+            best[n] = optimal
+    return [point._replace(best=optimal) for point, optimal in zip(all_points, best, strict=True)]
 
 
 def _simplest(points: Sequence[Point], best: Sequence[bool]) -> list[bool]:
-    """The front of a scene, with what does less work for the same error in the same time in the place of what does more."""
+    """The Pareto front of a scene, where a point gives way to one that does less work for the same error in the same time."""
     chosen = set()
-    for n, on in enumerate(best):
-        while on:
-            less = [m for m, other in enumerate(points) if _less_work(other, points[n]) and _as_fast(other, points[n])]
-            if not less:
+    for n, optimal in enumerate(best):
+        while optimal:
+            simpler = [m for m, other in enumerate(points) if _less_work(other, points[n]) and _as_fast(other, points[n])]
+            if not simpler:
                 chosen.add(n)
                 break
-            n = min(less, key=lambda m: (points[m].technique.samples, points[m].technique.shaded))
+            n = min(simpler, key=lambda m: (points[m].technique.samples, points[m].technique.shaded))
     return [n in chosen for n in range(len(points))]
 
 
@@ -46,7 +46,7 @@ def _as_fast(one: Point, other: Point) -> bool:
 
 
 def _less_work(one: Point, other: Point) -> bool:
-    """Whether a point has the very error of another by fewer samples or shader invocations, and no more of either."""
+    """Whether a point has the same error as another with fewer samples or shader invocations, and no more of either."""
     work = (one.technique.samples, one.technique.shaded), (other.technique.samples, other.technique.shaded)
     return _error(one) == _error(other) and beats(*work)
 
@@ -63,10 +63,10 @@ def _groups(points: Sequence[Point]) -> list[list[int]]:
 
 
 def vectors(points: Sequence[Point]) -> list[Vector | None]:
-    """What the points of a scene are compared by; None for one that cannot be.
+    """The quantities that the points of a scene are compared by; None for a point that cannot be compared.
 
-    Error and time where a time is known of any of them. Else what is known of the cost: the samples of a pixel, the shader invocations of
-    one, and the model's bytes where it has them of all.
+    They are error and time if the time of any point is known. Otherwise they are the error and the known costs: samples per pixel, shader
+    invocations per pixel, and the model's bytes if it has them for every point.
     """
     if any(point.time_ms is not None for point in points):
         return [(_error(point), point.time_ms) if point.time_ms is not None else None for point in points]
@@ -78,8 +78,8 @@ def vectors(points: Sequence[Point]) -> list[Vector | None]:
 
 
 def front(vectors: Sequence[Vector | None]) -> list[bool]:
-    """For each vector whether no other beats it: is nowhere more and somewhere less. Equal ones do not beat each other; what is no number,
-    or not known, is on no front."""
+    """For each vector whether no other dominates it. Equal vectors do not dominate each other; unknown vectors and those with NaN are never
+    on the front."""
     usable = [vector if vector is not None and not any(map(math.isnan, vector)) else None for vector in vectors]
     distinct = {vector for vector in usable if vector is not None}
     best = {vector for vector in distinct if not any(beats(other, vector) for other in distinct)}
@@ -87,5 +87,5 @@ def front(vectors: Sequence[Vector | None]) -> list[bool]:
 
 
 def beats(one: Vector, other: Vector) -> bool:
-    """Whether a vector is nowhere more than another, and somewhere less."""
+    """Whether a vector is nowhere greater than another, and somewhere less."""
     return one != other and all(a <= b for a, b in zip(one, other, strict=True))

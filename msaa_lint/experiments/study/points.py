@@ -1,6 +1,5 @@
-"""What a study measures and what it gives: techniques, and a point for each of them on a scene. Nothing here needs NumPy."""
+"""The techniques that a study compares, and the points that it measures: one per technique and scene. Nothing here needs NumPy."""
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 from typing import NamedTuple
 
 MSAA, SAMPLE_SHADING, SSAA = "msaa", "sample-shading", "ssaa"
@@ -13,8 +12,8 @@ GRIDS = (2, 3, 4)
 
 
 class Technique(NamedTuple):
-    """A way of taking samples. `samples` of a pixel's coverage; with `sample-shading` at least `fraction` of them are shaded
-    (minSampleShading), with `ssaa` the picture is drawn `grid` times as wide and as high, one sample a pixel, and averaged."""
+    """A way of taking samples. `samples` are coverage samples per pixel. With `sample-shading` at least `fraction` of them are shaded
+    (minSampleShading); with `ssaa` the picture is rendered `grid` times as wide and as high with one sample per pixel, and averaged."""
 
     kind: str
     samples: int
@@ -23,7 +22,7 @@ class Technique(NamedTuple):
 
     @property
     def name(self) -> str:
-        """As reports name it: `4x`, `4x, half of them shaded`, `SSAA 2x2`."""
+        """The name in reports: `4x`, `4x, half of them shaded`, `SSAA 2x2`."""
         if self.kind == SSAA:
             return f"SSAA {self.grid}x{self.grid}"
         if self.kind == SAMPLE_SHADING:
@@ -33,7 +32,7 @@ class Technique(NamedTuple):
 
     @property
     def shaded(self) -> int:
-        """Shader invocations of a pixel that is covered whole: max(ceil(minSampleShading * samples), 1), specification 29.6."""
+        """Shader invocations of a fully covered pixel: max(ceil(minSampleShading * samples), 1), specification 29.6."""
         if self.kind == SSAA:
             return self.grid * self.grid
         return max(-int(-self.fraction * self.samples // 1), 1) if self.kind == SAMPLE_SHADING else 1
@@ -42,12 +41,12 @@ class Technique(NamedTuple):
 class Point(NamedTuple):
     """One technique on one scene.
 
-    `rmse`, `max_error` and `bias` (signed, measured less exact) are of coverage in [0, 1] over the pixels that an edge crosses, or of
-    linear colour in units of display white where the scene is no matter of coverage; `rmse_all` over all pixels. `psnr_db` is of linear
-    colour, `psnr_display_db` of sRGB-encoded colour clipped to [0, 1], both over all pixels, infinite where nothing differs. `ssim` is
-    None unless asked for. `time_ms` is the device's that `time_from` names, and None where none is known; `ratio` is that time over the
-    time of one sample. `bytes_per_frame` are the cost model's. `simulated_ms` is how long the simulation took, which is nobody's GPU.
-    `effects` are the stages that ran.
+    `rmse`, `max_error` and `bias` (measured minus exact) are of coverage in [0, 1] over the pixels that an edge crosses, or of linear color
+    in units of display white for scenes without coverage; `rmse_all` is over all pixels. `psnr_db` is of linear color, `psnr_display_db`
+    of sRGB-encoded color clipped to [0, 1], both over all pixels and infinite where nothing differs. `ssim` is None unless requested.
+    `time_ms` is the time on the device that `time_from` names, None if unknown; `ratio` is that time over the time of one sample.
+    `bytes_per_frame` is the cost model's. `simulated_ms` is the time that the simulation took, which says nothing about a GPU. `effects`
+    are the stages that ran.
     """
 
     scene: str
@@ -74,7 +73,8 @@ class Point(NamedTuple):
 
 
 def techniques(kinds: tuple[str, ...] = KINDS, counts: tuple[int, ...] = COUNTS) -> list[Technique]:
-    """All that a study compares: every count of `counts`, sample shading at several fractions of those above one, SSAA 2x2 to 4x4."""
+    """The techniques that a study compares: MSAA at `counts`, sample shading at several fractions of the counts above one, and SSAA from
+    2x2 to 4x4, as far as `kinds` includes them."""
     found = [Technique(MSAA, count) for count in counts] if MSAA in kinds else []
     if SAMPLE_SHADING in kinds:
         shaded = {(count, max(-int(-share * count // 1), 1)): share for count in counts if count > 1 for share in FRACTIONS}

@@ -1,4 +1,4 @@
-"""The time that a device takes for the triangles of one scene."""
+"""The time that a device takes to draw the triangles of one scene."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from .points import Technique
-from .times import Clock, Cost, Model
+from .times import Cost, CostModel, DeviceClock
 
 if TYPE_CHECKING:
     from typing import Self
 
 
-class Timed:
-    """A device's clock (study/times.py) over the triangles of a scene: `with Timed(clock, scene, model) as source:`.
+class SceneClock:
+    """A device clock (study/times.py) for the triangles of a scene: `with SceneClock(clock, scene, model) as source:`.
 
-    `content` tells scenes of other triangles apart.
+    `content` identifies the triangles.
     """
 
-    def __init__(self, clock: Clock, scene: Any, model: Model) -> None:
+    def __init__(self, clock: DeviceClock, scene: Any, model: CostModel) -> None:
         self.clock, self.model, self.name = clock, model, clock.name
         self._vertices = vertices(scene)
         self.content = sha256(self._vertices).hexdigest()[:16]
@@ -41,13 +41,13 @@ class Timed:
         return os.path.join(self._folder, self.content)
 
     def of(self, technique: Technique, width: int, height: int) -> Cost:
-        """The device's time, and the model's bytes."""
+        """The device's time and the model's bytes."""
         self.clock.model = self.model
         return self.clock.of(technique, width, height, self._path)
 
 
 def vertices(scene: Any) -> bytes:
-    """The triangles of a scene as the vertex shader takes them (confirm/scene.py)."""
+    """The triangles of a scene in the vertex shader's input format (confirm/scene.py)."""
     import numpy as np
 
     from .device_coverage import clip

@@ -1,7 +1,7 @@
-"""A scene drawn with a technique: coverage, the stages that the scene calls for, the resolve. Nothing else is computed or allocated.
+"""A scene rendered with a technique: coverage, the effects that the scene needs, and the resolve. Nothing else is computed or allocated.
 
-The picture is drawn in bands of rows, so that memory beside the picture does not grow with its height; fragments of a band go through the
-stages in batches in which no pixel comes twice, in the order of the triangles.
+The picture is rendered in bands of rows so that memory besides the picture does not grow with its height. The fragments of a band go
+through the stages in batches of distinct pixels, in the order of the triangles.
 """
 
 from __future__ import annotations
@@ -13,26 +13,25 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from . import coverage, fragments, locations, snap
-from .effects import SAMPLE_SHADING, Effect, depth_resolve, depth_test, ordered, srgb, tone_mapping
-from .effects.drawing import Band, Batch, Drawing, Floats, chosen, group_of
+from . import coverage, effects, fragments, locations, resolve, snap
+from .drawing import Band, Batch, Drawing, Floats, group_of, has_sample
+from .effects import Effect
 from .locations import SUBPIXELS
-from .points import SAMPLE_SHADING as SHADED
-from .points import SSAA, Technique
-from .resolve import average, weighted
+from .points import SAMPLE_SHADING, SSAA, Technique
 from .scenes.scene import Scene
-from .shade import groups, places, planes, shaded
+from .scenes.shapes import depth_planes
+from .shade import groups, positions, shade
 
 T = TypeVar("T", bound=np.generic)
 
-BAND = 1 << 19
-"""Samples of a band, about: 8 MiB of colour."""
+BAND_SAMPLES = 1 << 19
+"""Approximate number of samples in a band: 8 MiB of color."""
 
 
-class Simulated(NamedTuple):
-    """A picture (H, W, 4) in linear colour, resolved. `coverage` (H, W) is the share of samples that anything was drawn to, None where the
-    scene is no matter of coverage; `depth` (H, W) is resolved depth where the scene calls for it. `effects` are the stages that ran;
-    `milliseconds` are this simulation's, and nobody's GPU."""
+class Simulation(NamedTuple):
+    """A resolved picture (H, W, 4) in linear color. `coverage` (H, W) is the share of samples that were drawn to, None for scenes without
+    coverage; `depth` (H, W) is resolved depth for scenes that need it. `effects` are the stages that ran; `milliseconds` is the time of the
+    simulation, which says nothing about a GPU."""
 
     image: Floats
     coverage: NDArray[np.float64] | None
@@ -41,173 +40,169 @@ class Simulated(NamedTuple):
     milliseconds: float
 
 
-def snapped(scene: Scene, technique: Technique, bits: int = 8) -> NDArray[np.int64]:
-    """The scene's triangles (T, 3, 2) in subpixels of the picture that the technique draws, which for SSAA is larger."""
+def snapped_triangles(scene: Scene, technique: Technique, bits: int = 8) -> NDArray[np.int64]:
+    """The scene's triangles (T, 3, 2) in subpixels of the picture that the technique renders, which is larger for SSAA."""
     return snap.snapped(scene.triangles * technique.grid, bits)
 
 
-def simulated(scene: Scene, technique: Technique, bits: int = 8) -> Simulated:
-    """The scene drawn with the technique, corners snapped to 2^-bits pixels."""
-    started = time.perf_counter()
-    draw = _Draw(scene, technique, bits)
+def simulate(scene: Scene, technique: Technique, bits: int = 8) -> Simulation:
+    """The scene rendered with the technique, with corners snapped to 2^-bits pixels."""
+    start = time.perf_counter()
+    renderer = _Renderer(scene, technique, bits)
     height, width = scene.height, scene.width
     image = np.empty((height, width, 4), np.float32)
     covered = np.empty((height, width)) if scene.coverage_matter else None
-    depth = np.empty((height, width), np.float32) if draw.resolves_depth else None
-    for top, bottom, found in draw.bands():
-        band = draw.band(bottom - top)
-        draw.fill(band, found, top * draw.grid)
-        image[top:bottom] = draw.picture(band).reshape(-1, width, 4)
+    depth = np.empty((height, width), np.float32) if renderer.has("depth-resolve") else None
+    for top, bottom, rows in renderer.bands():
+        band = renderer.band(bottom - top)
+        renderer.draw(band, rows, top * renderer.grid)
+        image[top:bottom] = renderer.color(band).reshape(-1, width, 4)
         if covered is not None:
-            covered[top:bottom] = draw.share(band).reshape(-1, width)
+            covered[top:bottom] = renderer.coverage(band).reshape(-1, width)
         if depth is not None:
-            depth[top:bottom] = draw.depth(band).reshape(-1, width)
-    return Simulated(image, covered, draw.names, depth, 1000 * (time.perf_counter() - started))
+            depth[top:bottom] = renderer.depth(band).reshape(-1, width)
+    return Simulation(image, covered, renderer.effect_names, depth, 1000 * (time.perf_counter() - start))
 
 
-class _Draw:
-    """A scene and a technique, made ready: what every band needs."""
+class _Renderer:
+    """Everything that does not change from band to band of a scene and a technique."""
 
     def __init__(self, scene: Scene, technique: Technique, bits: int) -> None:
         self.scene = scene
         self.grid = technique.grid if technique.kind == SSAA else 1
         self.samples = 1 if technique.kind == SSAA else technique.samples
         self.width = scene.width * self.grid
-        triangles = snapped(scene, technique, bits)
-        at = locations.standard(self.samples)
-        self.rows = coverage.rows(triangles, self.width, scene.height * self.grid, at)
-        own = scene.effects
-        # Where a triangle has one colour all over, every invocation gives the same.
-        if technique.kind == SHADED and scene.shade is not None:
-            own = (*own, SAMPLE_SHADING)
-        self.effects = ordered(own)
-        self.names = tuple(each.name for each in self.effects)
-        invocations = technique.shaded if SAMPLE_SHADING in own else 1
-        depths = planes(triangles / SUBPIXELS, scene.depths) if self._has("depth-test") and scene.depths is not None else None
-        shared = groups(self.samples, invocations)
-        places_px = at.astype(np.float64) / SUBPIXELS
-        self.drawing = Drawing(self.samples, places_px, shared, scene.settings, depths)
-        self.at = places(places_px, shared)
+        triangles = snapped_triangles(scene, technique, bits)
+        subpixel_locations = locations.standard(self.samples)
+        self.rows = coverage.rows(triangles, self.width, scene.height * self.grid, subpixel_locations)
+        # Without a shader, every invocation gives the triangle's color.
+        sample_shading = technique.kind == SAMPLE_SHADING and scene.shade is not None
+        self.effects = effects.ordered((*scene.effects, effects.SAMPLE_SHADING) if sample_shading else scene.effects)
+        self.effect_names = tuple(effect.name for effect in self.effects)
+        planes = depth_planes(triangles / SUBPIXELS, scene.depths) if self.has("depth-test") and scene.depths is not None else None
+        sample_groups = groups(self.samples, technique.shaded if sample_shading else 1)
+        pixel_locations = subpixel_locations.astype(np.float64) / SUBPIXELS
+        self.drawing = Drawing(self.samples, pixel_locations, sample_groups, scene.settings, planes)
+        self.shading_positions = positions(pixel_locations, sample_groups)
         self.colors = scene.colors.astype(np.float32)
-        self.stages = [each.fragment for each in self.effects if each.fragment is not None]
-        self.write = self._only("write")
-        self.stored = self._only("stored")
-        self.resolves_depth = self._has("depth-resolve")
+        self.fragment_stages = [effect.fragment for effect in self.effects if effect.fragment is not None]
+        self.blend = next((effect.blend for effect in self.effects if effect.blend is not None), None)
+        self.store = self._store()
 
-    def _has(self, name: str) -> bool:
-        return name in self.names
+    def has(self, name: str) -> bool:
+        """Whether the scene needs an effect."""
+        return name in self.effect_names
 
-    def _only(self, hook: str) -> Callable[..., Floats] | None:
-        found: list[Effect] = [each for each in self.effects if getattr(each, hook) is not None]
-        if len(found) > 1:
-            raise ValueError(f"{' and '.join(each.name for each in found)} cannot both be: a sample is stored in one format")
-        return getattr(found[0], hook) if found else None
+    def _store(self) -> Callable[[Floats], Floats] | None:
+        storing: list[Effect] = [effect for effect in self.effects if effect.store is not None]
+        if len(storing) > 1:
+            raise ValueError(f"{' and '.join(effect.name for effect in storing)} exclude each other: a sample is stored in one format")
+        return storing[0].store if storing else None
 
     def bands(self) -> Iterator[tuple[int, int, coverage.Rows]]:
-        """Rows of the resolved picture from and to, and the covered rows of what is drawn there."""
+        """The first row and the end of each band of the resolved picture, and its covered rows."""
         height = self.scene.height
-        step = max(BAND // (self.width * self.grid * self.samples), 1)
+        step = max(BAND_SAMPLES // (self.width * self.grid * self.samples), 1)
         number = self.rows.row // (step * self.grid)
         order = np.argsort(number, kind="stable")
         limits = np.searchsorted(number[order], np.arange(-(-height // step) + 1))
         for place, top in enumerate(range(0, height, step)):
             which = order[limits[place] : limits[place + 1]]
-            yield top, min(top + step, height), coverage.Rows(*(each[which] for each in self.rows))
+            yield top, min(top + step, height), coverage.Rows(*(column[which] for column in self.rows))
 
     def band(self, rows: int) -> Band:
-        """Cleared samples of so many rows of the resolved picture."""
+        """The cleared samples of `rows` rows of the resolved picture."""
         pixels = rows * self.grid * self.width
         color = np.empty((self.samples, pixels, 4), np.float32)
-        behind = np.asarray(self.scene.background, np.float32)
-        color[:] = behind if self.stored is None else self.stored(behind)
+        background = np.asarray(self.scene.background, np.float32)
+        color[:] = background if self.store is None else self.store(background)
         depth = stencil = None
-        if self._has("depth-test"):
-            clear = depth_test.cleared(self.drawing.settings.get("depth-test", "LESS"))
+        if self.has("depth-test"):
+            clear = effects.clear_depth(self.drawing.settings.get("depth-test", "LESS"))
             depth = np.full((self.samples, pixels), clear, np.float32)
-        if self._has("stencil"):
+        if self.has("stencil"):
             stencil = np.zeros((self.samples, pixels), np.uint8)
         written = np.zeros(pixels, np.uint16) if self.scene.coverage_matter else None
         return Band(color, depth, stencil, written)
 
-    def fill(self, band: Band, rows: coverage.Rows, top: int) -> None:
-        """Draws the covered rows; `top` is the first row of what is drawn."""
-        found = fragments.fragments(rows, self.samples)
-        pixel = (found.y - top).astype(np.intp) * self.width + found.x
-        for which in _batches(pixel, found.triangle):
-            batch = Batch(found.triangle[which], pixel[which], found.x[which], found.y[which], found.mask[which])
-            batch.color = shaded(self.scene, batch, self.drawing, self.at, self.grid, self.colors)
-            for stage in self.stages:
+    def draw(self, band: Band, rows: coverage.Rows, top: int) -> None:
+        """Draws the covered rows into a band whose first rendered row is `top`."""
+        drawn = fragments.fragments(rows, self.samples)
+        pixel = (drawn.y - top).astype(np.intp) * self.width + drawn.x
+        for which in _batches(pixel, drawn.triangle):
+            batch = Batch(drawn.triangle[which], pixel[which], drawn.x[which], drawn.y[which], drawn.mask[which])
+            batch.color = shade(self.scene, batch, self.shading_positions, self.grid, self.colors)
+            for stage in self.fragment_stages:
                 stage(batch, band, self.drawing)
-            self._output(batch, band)
+            self._write(batch, band)
 
-    def _output(self, batch: Batch, band: Band) -> None:
+    def _write(self, batch: Batch, band: Band) -> None:
         if band.written is not None:
             band.written[batch.pixel] |= batch.mask
-        color, several = _texels(batch.color), batch.color.shape[1] > 1
+        color, per_group = _pack(batch.color), batch.color.shape[1] > 1
         for sample in range(self.samples):
-            has = chosen(batch.mask, sample)
-            # Most fragments are within shapes, where each has every sample: whole batches are moved without being searched.
-            drawn = slice(None) if has.all() else has
-            pixels, plane = batch.pixel[drawn], _texels(band.color[sample])
-            own = color[drawn, group_of(sample, self.drawing.groups) if several else 0]
-            if self.write is not None:
-                own = _texels(self.write(_parts(own), _parts(plane[pixels])))
-            if self.stored is not None:
-                own = _texels(self.stored(_parts(own)))
-            plane[pixels] = own
+            mask = has_sample(batch.mask, sample)
+            # Most fragments are inside shapes and have every sample: whole batches are then moved without indexing.
+            drawn = slice(None) if mask.all() else mask
+            pixels, plane = batch.pixel[drawn], _pack(band.color[sample])
+            texels = color[drawn, group_of(sample, self.drawing.groups) if per_group else 0]
+            if self.blend is not None:
+                texels = _pack(self.blend(_unpack(texels), _unpack(plane[pixels])))
+            if self.store is not None:
+                texels = _pack(self.store(_unpack(texels)))
+            plane[pixels] = texels
 
-    def picture(self, band: Band) -> Floats:
-        """The band resolved (P, 4), displayed where there is tone mapping."""
-        samples = self._folded(band.color)
-        place = self.scene.settings.get("tone-mapping", "after-resolve") if self._has("tone-mapping") else ""
-        coded = self._has("srgb") and self.scene.settings.get("srgb") == "encoded"
-        if place == "before-resolve":
-            samples = tone_mapping.mapped(samples)
-        if coded:
-            samples = srgb.encoded(samples)
-        made = weighted(samples) if place == "weighted" else average(samples)
-        if coded:
-            made = srgb.decoded(made)
-        if self.stored is not None:
-            made = self.stored(made)
-        return tone_mapping.mapped(made) if place in ("after-resolve", "weighted") else made
+    def color(self, band: Band) -> Floats:
+        """The resolved color of a band (P, 4), after any tone mapping."""
+        samples = self._per_pixel(band.color)
+        tone_mapping = self.scene.settings.get("tone-mapping", "after-resolve") if self.has("tone-mapping") else ""
+        encoded = self.has("srgb") and self.scene.settings.get("srgb") == "encoded"
+        if tone_mapping == "before-resolve":
+            samples = resolve.tone_map(samples)
+        if encoded:
+            samples = resolve.encode(samples)
+        color = resolve.weighted(samples) if tone_mapping == "weighted" else resolve.average(samples)
+        if encoded:
+            color = resolve.decode(color)
+        if self.store is not None:
+            color = self.store(color)
+        return resolve.tone_map(color) if tone_mapping in ("after-resolve", "weighted") else color
 
-    def share(self, band: Band) -> NDArray[np.float64]:
-        """The share of each pixel's samples that anything was drawn to (P,)."""
+    def coverage(self, band: Band) -> NDArray[np.float64]:
+        """The share of each pixel's samples that were drawn to (P,)."""
         assert band.written is not None
-        counts = np.bitwise_count(band.written)[None, :, None]
-        folded = self._folded(counts)
-        shares: NDArray[np.float64] = folded.sum(axis=0, dtype=np.int64)[..., 0] / (self.samples * self.grid * self.grid)
+        counts = self._per_pixel(np.bitwise_count(band.written)[None, :, None])
+        shares: NDArray[np.float64] = counts.sum(axis=0, dtype=np.int64)[..., 0] / (self.samples * self.grid * self.grid)
         return shares
 
     def depth(self, band: Band) -> Floats:
-        """Resolved depth (P,)."""
+        """The resolved depth of a band (P,)."""
         assert band.depth is not None
         mode = str(self.scene.settings.get("depth-resolve", "SAMPLE_ZERO"))
-        return depth_resolve.resolved(self._folded(band.depth[..., None])[..., 0], mode)
+        return resolve.resolve_depth(self._per_pixel(band.depth[..., None])[..., 0], mode)
 
-    def _folded(self, samples: NDArray[T]) -> NDArray[T]:
-        """Samples (N, P, C) of what is drawn as samples of the resolved picture: for SSAA the pixels of a block, rows first."""
+    def _per_pixel(self, samples: NDArray[T]) -> NDArray[T]:
+        """Rendered samples (N, P, C) as samples of the resolved picture: for SSAA the pixels of a block, row by row."""
         if self.grid == 1:
             return samples
-        grid, parts = self.grid, samples.shape[-1]
-        blocks = samples.reshape(-1, grid, self.scene.width, grid, parts).transpose(1, 3, 0, 2, 4)
-        return np.ascontiguousarray(blocks).reshape(grid * grid, -1, parts)
+        grid, channels = self.grid, samples.shape[-1]
+        blocks = samples.reshape(-1, grid, self.scene.width, grid, channels).transpose(1, 3, 0, 2, 4)
+        return np.ascontiguousarray(blocks).reshape(grid * grid, -1, channels)
 
 
-def _texels(color: Floats) -> NDArray[np.complex128]:
-    """Colours (..., 4) as (...), each in one number of as many bits, which NumPy moves faster."""
-    made: NDArray[np.complex128] = np.ascontiguousarray(color).view(np.complex128)[..., 0]
-    return made
+def _pack(color: Floats) -> NDArray[np.complex128]:
+    """Colors (..., 4) as (...), each in one number of the same size, which NumPy moves faster."""
+    texels: NDArray[np.complex128] = np.ascontiguousarray(color).view(np.complex128)[..., 0]
+    return texels
 
 
-def _parts(texels: NDArray[np.complex128]) -> Floats:
-    """The same colours as (..., 4)."""
+def _unpack(texels: NDArray[np.complex128]) -> Floats:
+    """The same colors as (..., 4)."""
     return np.ascontiguousarray(texels)[..., None].view(np.float32)
 
 
 def _batches(pixel: NDArray[np.intp], triangle: NDArray[np.int32]) -> Iterator[slice | NDArray[np.intp]]:
-    """Fragments in batches without a pixel twice: first the first fragment of every pixel, then the second, and on."""
+    """Fragments in batches of distinct pixels: the first fragment of every pixel, then the second, and so on."""
     count = len(pixel)
     if not count:
         return

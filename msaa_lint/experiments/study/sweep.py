@@ -1,4 +1,4 @@
-"""A study's points: simulated on all cores or on a cluster through joblib, each kept as soon as it is there, so that a sweep resumes."""
+"""The points of a study, simulated on all cores or on a cluster through joblib, and stored one by one so that a sweep can resume."""
 
 from __future__ import annotations
 
@@ -8,64 +8,68 @@ import os
 import signal
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from .checkpoint import Checkpoint
 from .points import MSAA, Point, Technique
-from .tasks import Asked, Failed, Task, Unusable
-from .times import Cost, Source
-
-if TYPE_CHECKING:
-    from .checkpoint import Kept
+from .tasks import FailedPoint, StudyInput, Task, Unusable
+from .times import Cost, CostSource
 
 BACKENDS = ("loky", "threading", "dask", "ray")
 """joblib's: processes and threads of this machine, a Dask cluster (DASK_SCHEDULER_ADDRESS), a Ray cluster (RAY_ADDRESS)."""
 
 Measure = Callable[[Task], Point]
 Progress = Callable[[int, int, str], None]
-"""Told how many of how many points are done, and what was done last."""
+"""Called with the number of finished points, the number of all points, and the last finished point."""
 
 
 @functools.lru_cache(maxsize=2)
-def picture(asked: Asked, width: int, height: int) -> Any:
-    """The scene (study/scenes) of what is asked for, the last ones remembered. LookupError where there is none of the name, and what the
-    reader of a mesh or of a description raises."""
-    from . import scenes
+def picture(source: StudyInput, width: int, height: int) -> Any:
+    """The scene (study/scenes) of an input; the last ones are cached. LookupError for an unknown name, and the errors of the readers of
+    meshes and descriptions."""
+    if source.kind == "mesh":
+        from .scenes.mesh import from_mesh
 
-    if asked.kind == "mesh":
-        return scenes.from_mesh(asked.path, width, height)
-    if asked.kind == "description":
-        return scenes.from_description(frame(asked), width, height)
-    return scenes.scene(asked.name, width, height)
+        return from_mesh(source.path, width, height)
+    if source.kind == "description":
+        from .scenes.description import from_description
+
+        return from_description(frame(source), width, height)
+    from .scenes import scene
+
+    return scene(source.name, width, height)
 
 
-def frame(asked: Asked) -> Any:
+def frame(source: StudyInput) -> Any:
     """The frame of a document of a description."""
-    from msaa_lint.core.text.source import Source as Text
+    from msaa_lint.core.text.source import Source
     from msaa_lint.core.text.tree import Limits, parse
     from msaa_lint.frame.facts.frame import Frame
     from msaa_lint.input import readers
 
-    source = Text(asked.name, asked.text)
-    return Frame(readers.read(source, parse(source, Limits()).documents[asked.number], asked.format))
+    text = Source(source.name, source.text)
+    return Frame(readers.read(text, parse(text, Limits()).documents[source.number], source.format))
 
 
-def measured(task: Task) -> Point:
-    """A point as it is simulated: everything but times and what the cost model says."""
+def measure_point(task: Task) -> Point:
+    """A point as simulated: without times and the cost model's amounts."""
     from . import measure
 
-    found: Point = measure.point(picture(task.asked, task.width, task.height), task.technique, task.bits, task.ssim)
-    return found._replace(scene=task.asked.name)
+    point: Point = measure.point(picture(task.input, task.width, task.height), task.technique, task.bits, task.ssim)
+    return point._replace(scene=task.input.name)
 
 
-def costs(techniques: Sequence[Technique], size: tuple[int, int], source: Source, kept: Kept | None = None) -> dict[Technique, Cost]:
-    """What each technique takes, and one sample too, whatever is asked for: ratios are to it. A device is not timed while points are
-    simulated, which would slow it down."""
+def costs(
+    techniques: Sequence[Technique], size: tuple[int, int], source: CostSource, checkpoint: Checkpoint | None = None
+) -> dict[Technique, Cost]:
+    """The cost of each technique, and of one sample in any case, because ratios are to it. Call it while no points are simulated, which
+    would slow the device down."""
     found: dict[Technique, Cost] = {}
     for technique in dict.fromkeys((Technique(MSAA, 1), *techniques)):
-        known = kept.cost(source, technique, size) if kept is not None else None
-        found[technique] = known if known is not None else source.of(technique, *size)
-        if kept is not None and known is None:
-            kept.keep_cost(source, technique, size, found[technique])
+        stored = checkpoint.cost(source, technique, size) if checkpoint is not None else None
+        found[technique] = stored if stored is not None else source.of(technique, *size)
+        if checkpoint is not None and stored is None:
+            checkpoint.save_cost(source, technique, size, found[technique])
     return found
 
 
@@ -74,39 +78,40 @@ def sweep(
     *,
     jobs: int = 1,
     backend: str | None = None,
-    kept: Kept | None = None,
+    checkpoint: Checkpoint | None = None,
     progress: Progress | None = None,
-    measure: Measure = measured,
-) -> Iterator[Point | Failed]:
-    """The points of the tasks, as they come; what fails is said, and the others go on. Unusable where a backend cannot be had.
+    measure: Measure = measure_point,
+) -> Iterator[Point | FailedPoint]:
+    """The points of the tasks in the order in which they finish. A failed point does not stop the others. Unusable where a backend is not
+    available.
 
-    With one job and no backend it is this process alone; -1 is as many jobs as the backend has workers. Whoever stops asking stops the
-    sweep: points that are done are kept.
+    With one job and no backend everything runs in this process; -1 is as many jobs as the backend has workers. Closing the iterator stops
+    the sweep; finished points stay stored.
     """
     done = 0
-    waiting: list[Task] = []
+    remaining: list[Task] = []
     for task in tasks:
-        point = kept.point(task) if kept is not None else None
+        point = checkpoint.point(task) if checkpoint is not None else None
         if point is None:
-            waiting.append(task)
+            remaining.append(task)
             continue
         done += 1
         if progress is not None:
-            progress(done, len(tasks), _called(task))
+            progress(done, len(tasks), _label(task))
         yield point
-    for number, result in _results(waiting, jobs, backend, measure):
-        task = waiting[number]
+    for number, result in _results(remaining, jobs, backend, measure):
+        task = remaining[number]
         done += 1
-        if kept is not None and isinstance(result, Point):
-            kept.keep_point(task, result)
+        if checkpoint is not None and isinstance(result, Point):
+            checkpoint.save_point(task, result)
         if progress is not None:
-            progress(done, len(tasks), _called(task))
-        yield result if isinstance(result, Point) else Failed(task.asked.name, task.technique, result)
+            progress(done, len(tasks), _label(task))
+        yield result if isinstance(result, Point) else FailedPoint(task.input.name, task.technique, result)
 
 
-def with_cost(point: Point, found: Mapping[Technique, Cost], source: str) -> Point:
-    """The point with its time, the ratio to one sample's, bytes and power."""
-    cost, one = found[point.technique], found[Technique(MSAA, 1)].time_ms
+def with_cost(point: Point, by_technique: Mapping[Technique, Cost], source: str) -> Point:
+    """The point with its time, the ratio to the time of one sample, bytes and power."""
+    cost, one = by_technique[point.technique], by_technique[Technique(MSAA, 1)].time_ms
     return point._replace(
         time_ms=cost.time_ms,
         time_from=source if cost.time_ms is not None else "",
@@ -117,54 +122,54 @@ def with_cost(point: Point, found: Mapping[Technique, Cost], source: str) -> Poi
     )
 
 
-def _called(task: Task) -> str:
-    return f"{task.asked.name}: {task.technique.name}"
+def _label(task: Task) -> str:
+    return f"{task.input.name}: {task.technique.name}"
 
 
 def _results(tasks: Sequence[Task], jobs: int, backend: str | None, measure: Measure) -> Iterator[tuple[int, Point | str]]:
-    """The number of each task with its point, or with what was wrong, as they come."""
+    """The number of each task with its point or the reason why there is none, as they finish."""
     if not tasks:
         return
     if jobs == 1 and backend is None:
         for number, task in enumerate(tasks):
             yield number, _attempt(measure, task)
         return
-    left = dict(enumerate(tasks))
+    unfinished = dict(enumerate(tasks))
     with _cluster(backend):
         try:
-            for number, result in _parallel(left, jobs, backend, measure):
-                del left[number]
+            for number, result in _parallel(unfinished, jobs, backend, measure):
+                del unfinished[number]
                 yield number, result
             return
         except Exception as error:
-            if len(left) == len(tasks) and not isinstance(error, BrokenExecutor):
-                raise Unusable(f"--backend {backend}: {_words(error)}") from None
-        # A worker died: whose point it was nobody says. What is left goes on one by one, and the one that kills is known.
-        for number, task in tuple(left.items()):
+            if len(unfinished) == len(tasks) and not isinstance(error, BrokenExecutor):
+                raise Unusable(f"--backend {backend}: {_text(error)}") from None
+        # A worker died, and nothing tells which point killed it. Continue one by one to find out.
+        for number, task in tuple(unfinished.items()):
             try:
                 yield from _parallel({number: task}, 2 if jobs == 1 else jobs, backend, measure)
             except Exception as error:
-                yield number, f"the process that simulated it died: {_words(error)}"
+                yield number, f"the process that simulated it died: {_text(error)}"
 
 
 def _parallel(tasks: Mapping[int, Task], jobs: int, backend: str | None, measure: Measure) -> Iterator[tuple[int, Point | str]]:
     import joblib
 
     owner = os.getpid()
-    waiting = [joblib.delayed(_numbered)(owner, number, measure, task) for number, task in tasks.items()]
+    calls = [joblib.delayed(_attempt_in_worker)(owner, number, measure, task) for number, task in tasks.items()]
     with joblib.parallel_config(backend=backend or "loky", n_jobs=jobs):
         try:
-            parallel, step = joblib.Parallel(return_as="generator_unordered", batch_size=1), len(waiting)
+            parallel, step = joblib.Parallel(return_as="generator_unordered", batch_size=1), len(calls)
         except ValueError:
-            # A backend that has no stream of results (Ray's) gives a list: as many at a time as it has workers, so that few are lost.
+            # A backend without a stream of results (Ray's) returns a list: run one task per worker at a time, so that few are lost.
             parallel, step = joblib.Parallel(batch_size=1), max(joblib.effective_n_jobs(jobs), 1)
-    for start in range(0, len(waiting), step):
-        yield from parallel(waiting[start : start + step])
+    for start in range(0, len(calls), step):
+        yield from parallel(calls[start : start + step])
 
 
-def _numbered(owner: int, number: int, measure: Measure, task: Task) -> tuple[int, Point | str]:
+def _attempt_in_worker(owner: int, number: int, measure: Measure, task: Task) -> tuple[int, Point | str]:
     if os.getpid() != owner:
-        # An interrupt is for the process that started us, which ends us.
+        # Interrupts are for the parent process, which ends this one.
         with contextlib.suppress(ValueError):
             signal.signal(signal.SIGINT, signal.SIG_IGN)
     return number, _attempt(measure, task)
@@ -174,15 +179,15 @@ def _attempt(measure: Measure, task: Task) -> Point | str:
     try:
         return measure(task)
     except Exception as error:
-        return _words(error)
+        return _text(error)
 
 
-def _words(error: Exception) -> str:
+def _text(error: Exception) -> str:
     return f"{type(error).__name__}: {str(error)[:300]}" if str(error) else type(error).__name__
 
 
 def _cluster(backend: str | None) -> Any:
-    """What a backend needs around it. Unusable where a package is not installed."""
+    """A context manager for what a backend needs. Unusable where a package is not installed."""
     try:
         import joblib  # noqa: F401
 
@@ -194,7 +199,7 @@ def _cluster(backend: str | None) -> Any:
     except ImportError as error:
         package = (error.name or "").partition(".")[0]
         extra = "'msaa-lint[study]'" if package == "joblib" else package
-        raise Unusable(f"{package} is not installed: pip install {extra}") from None
+        raise Unusable(f"{package} is not installed: run `pip install {extra}`") from None
     if backend == "dask":
         return contextlib.closing(Client())
     if backend == "ray":
@@ -203,8 +208,8 @@ def _cluster(backend: str | None) -> Any:
     return contextlib.nullcontext()
 
 
-def ordered(results: Iterable[Point | Failed], names: Sequence[str], techniques: Sequence[Technique]) -> list[Point | Failed]:
-    """Results in the order of the scenes and of the techniques, however they came."""
-    scenes = {name: n for n, name in enumerate(names)}
-    kinds = {technique: n for n, technique in enumerate(techniques)}
-    return sorted(results, key=lambda each: (scenes[each.scene], kinds[each.technique]))
+def ordered(results: Iterable[Point | FailedPoint], names: Sequence[str], techniques: Sequence[Technique]) -> list[Point | FailedPoint]:
+    """Results in the order of the scenes and of the techniques."""
+    scene_order = {name: n for n, name in enumerate(names)}
+    technique_order = {technique: n for n, technique in enumerate(techniques)}
+    return sorted(results, key=lambda result: (scene_order[result.scene], technique_order[result.technique]))

@@ -1,13 +1,12 @@
-"""What a sweep is asked for, point by point."""
+"""The tasks of a sweep, one per point."""
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 from typing import NamedTuple
 
 from .points import Technique
 
 
-class Asked(NamedTuple):
-    """What is studied: a scene by name, a mesh, a document of a description. `name` is what reports call it; `text` is a description's."""
+class StudyInput(NamedTuple):
+    """A scene by name, a mesh, or a document of a description. `name` identifies it in reports; `text` is a description's."""
 
     kind: str
     name: str
@@ -18,9 +17,9 @@ class Asked(NamedTuple):
 
 
 class Task(NamedTuple):
-    """One point to be simulated."""
+    """A point to simulate."""
 
-    asked: Asked
+    input: StudyInput
     technique: Technique
     width: int
     height: int
@@ -28,8 +27,8 @@ class Task(NamedTuple):
     ssim: bool = False
 
 
-class Failed(NamedTuple):
-    """A point that could not be had, and why."""
+class FailedPoint(NamedTuple):
+    """A point that could not be simulated, and why."""
 
     scene: str
     technique: Technique
@@ -37,4 +36,4 @@ class Failed(NamedTuple):
 
 
 class Unusable(Exception):
-    """What a sweep was asked for cannot be; its text is for the user."""
+    """A sweep cannot do what was asked for; the message is for the user."""

@@ -1,10 +1,10 @@
-"""What a technique takes: time by a device's own clock, bytes and power by the cost model. The simulator's time is neither."""
+"""The cost of a technique: time by a device's clock, bytes and power by the cost model. The simulator's own time is neither."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from msaa_lint.frame.cost.amounts import Terms
 from msaa_lint.frame.cost.model import frame_cost
@@ -13,12 +13,9 @@ from msaa_lint.frame.devices import DeviceProfile
 from .points import Technique
 from .technique_frames import frame_of
 
-if TYPE_CHECKING:
-    from msaa_lint.experiments.confirm.session import Session
-
 
 class Cost(NamedTuple):
-    """What a technique takes at a size; None is not known. `reason` says why a device does not do it."""
+    """The cost of a technique at a size; None where unknown. `reason` says why a device does not support the technique."""
 
     time_ms: float | None = None
     bytes_per_frame: float | None = None
@@ -29,20 +26,20 @@ class Cost(NamedTuple):
     reason: str = ""
 
 
-class Source(Protocol):
-    """Where times come from: `name` says it in reports, empty where there are none."""
+class CostSource(Protocol):
+    """A source of costs. `name` identifies the device in reports; it is empty where there are no times."""
 
     name: str
 
     def of(self, technique: Technique, width: int, height: int) -> Cost:
-        """What a technique takes."""
+        """The cost of a technique."""
         ...
 
 
-class Model:
+class CostModel:
     """The cost model alone: bytes, memory and power of a device's traffic with external memory, and no time.
 
-    The time of a frame is the longest of many things that traffic is but one of, so that a time from it would be made up.
+    Traffic is one of many things that determine the time of a frame, so the model does not estimate it.
     """
 
     name = ""
@@ -52,30 +49,30 @@ class Model:
         self.hdr, self.depth, self.fps = hdr, depth, fps
 
     def of(self, technique: Technique, width: int, height: int) -> Cost:
-        """Bytes a frame, milliwatts, MiB."""
+        """Bytes per frame, milliwatts, MiB."""
         frame = frame_of(technique, width, height, hdr=self.hdr, depth=self.depth, fps=self.fps)
-        found = frame_cost(frame, self.device, Terms(fps=self.fps))
-        total = found.total
+        total = frame_cost(frame, self.device, Terms(fps=self.fps)).total
         return Cost(None, round(total.traffic_mb_per_s * 1e6 / self.fps), total.milliwatts, total.memory_mib)
 
 
-class Clock:
-    """A device's clock: every technique that it supports is drawn, repeated in rounds that change order, and the median taken.
+class DeviceClock:
+    """A device's clock: the median time of every technique that the device supports, over several repeats.
 
-    `with Clock(name) as clock:`; `name` is a part of the device's name, None lavapipe where it is there. Unusable where there is no device.
+    `with DeviceClock(name) as clock:`; `name` is a part of the device's name, None for lavapipe if it is installed. Raises the device
+    errors of `confirm` where there is no device.
     """
 
-    def __init__(self, name: str | None = None, model: Model | None = None, *, repeats: int = 15, seconds: float = 60.0) -> None:
+    def __init__(self, name: str | None = None, model: CostModel | None = None, *, repeats: int = 15, seconds: float = 60.0) -> None:
         from msaa_lint.experiments.confirm.child import Limits
         from msaa_lint.experiments.confirm.session import Session, environment
 
-        self.session: Session = Session(name, validation=False, limits=Limits(seconds=seconds), environment=environment(name))
-        self.model = model or Model()
+        self.session = Session(name, validation=False, limits=Limits(seconds=seconds), environment=environment(name))
+        self.model = model or CostModel()
         self.repeats = repeats
         self.name, self.software = "", True
         self.device: Mapping[str, Any] = {}
 
-    def __enter__(self) -> Clock:
+    def __enter__(self) -> DeviceClock:
         from msaa_lint.experiments.confirm.outcome import about
 
         self.session.__enter__()
@@ -84,8 +81,8 @@ class Clock:
         except BaseException:
             self.session.__exit__(None, None, None)
             raise
-        own = about(self.device)
-        self.name, self.software = own.name, own.software
+        info = about(self.device)
+        self.name, self.software = info.name, info.software
         return self
 
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
@@ -96,17 +93,18 @@ class Clock:
         from msaa_lint.experiments.confirm import gate, plan
         from msaa_lint.experiments.confirm.timing import timing
 
-        model = self.model.of(technique, width, height)
-        made = plan.plan(frame_of(technique, width, height, hdr=self.model.hdr, depth=self.model.depth))._replace(vertices=vertices)
-        refused = gate.gate(made, self.device)
+        cost = self.model.of(technique, width, height)
+        frame = frame_of(technique, width, height, hdr=self.model.hdr, depth=self.model.depth)
+        frame_plan = plan.plan(frame)._replace(vertices=vertices)
+        refused = gate.gate(frame_plan, self.device)
         if refused:
-            return model._replace(reason=next(iter(refused.values())))
-        # A GPU that was idle takes a while to raise its clock.
+            return cost._replace(reason=next(iter(refused.values())))
+        # An idle GPU takes a while to raise its clock rate.
         warmups = 3 if self.software else 100
-        want = {"pixels": None, "repeats": self.repeats, "warmups": warmups, "size": None, "samples_of": None}
-        run = self.session.run(plan.to_json(made), [0], want)
-        ran = run.passes[0]
-        if run.failed or ran.end or not ran.times:
-            return model._replace(reason=run.failed or ran.reason or ran.error or "no time was measured")
-        found = timing(ran.times, ran.source)
-        return model._replace(time_ms=found.median, low_ms=found.low, high_ms=found.high)
+        options = {"pixels": None, "repeats": self.repeats, "warmups": warmups, "size": None, "samples_of": None}
+        run = self.session.run(plan.to_json(frame_plan), [0], options)
+        outcome = run.passes[0]
+        if run.failed or outcome.end or not outcome.times:
+            return cost._replace(reason=run.failed or outcome.reason or outcome.error or "no time was measured")
+        times = timing(outcome.times, outcome.source)
+        return cost._replace(time_ms=times.median, low_ms=times.low, high_ms=times.high)

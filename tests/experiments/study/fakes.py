@@ -7,7 +7,7 @@ import os
 from typing import Any
 
 from msaa_lint.experiments.study.points import MSAA, SSAA, Point, Technique
-from msaa_lint.experiments.study.tasks import Asked, Task
+from msaa_lint.experiments.study.tasks import StudyInput, Task
 from msaa_lint.experiments.study.times import Cost
 
 ERRORS = {1: 0.2887, 2: 0.1443, 4: 0.0722, 8: 0.0361, 16: 0.0363}
@@ -32,7 +32,7 @@ def timed(technique: Technique, scene: str = "edges", **other: Any) -> Point:
 
 def measure(task: Task) -> Point:
     """A point of a task. What the scene's name says comes to pass at 4x: `breaks`, `dies`, `twice`."""
-    name, four = task.asked.name, task.technique == Technique(MSAA, 4)
+    name, four = task.input.name, task.technique == Technique(MSAA, 4)
     if four and name == "breaks":
         raise ValueError("the picture \x1b[31m is no picture")
     if four and name == "dies":
@@ -42,20 +42,20 @@ def measure(task: Task) -> Point:
 
 def tasks(*names: str, techniques: list[Technique], **other: Any) -> list[Task]:
     """The tasks of scenes and techniques."""
-    return [Task(Asked("scene", name), technique, 64, 48)._replace(**other) for name in names for technique in techniques]
+    return [Task(StudyInput("scene", name), technique, 64, 48)._replace(**other) for name in names for technique in techniques]
 
 
-class Clock:
+class DeviceClock:
     """A source that takes note of what it is asked."""
 
     def __init__(self, name: str = "a device", unsupported: tuple[int, ...] = ()) -> None:
         self.name = name
         self.unsupported = unsupported
-        self.asked: list[Technique] = []
+        self.input: list[Technique] = []
 
     def of(self, technique: Technique, width: int, height: int) -> Cost:
         """Its samples in milliseconds."""
-        self.asked.append(technique)
+        self.input.append(technique)
         if technique.samples in self.unsupported:
             return Cost(None, 1000, 1.0, 0.5, reason="the device does not have that count")
         return Cost(2.0 * technique.samples, 1000 * technique.samples, 1.0, 0.5, 1.9 * technique.samples, 2.1 * technique.samples)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 
-from msaa_lint.experiments.study.advice import ABOVE_FOUR, Ruling, advice, ruling
-from msaa_lint.experiments.study.pareto import marked
+from msaa_lint.experiments.study.advice import MAX_REMAINING_ABOVE_FOUR, Ruling, advice, ruling
+from msaa_lint.experiments.study.pareto import mark_best
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Point, Technique, techniques
 from tests.experiments.study.fakes import point, timed
 
 
 def says(points: list[Point]) -> list[str]:
-    return [f"{each.says} ({each.because})" for each in advice(marked(points))]
+    return [f"{each.text} ({each.reason})" for each in advice(mark_best(points))]
 
 
 def test_steps_have_their_error_time_and_reason() -> None:
@@ -20,9 +20,10 @@ def test_steps_have_their_error_time_and_reason() -> None:
         "2x halves 1x's error for 1.3 times the time (RMSE 0.1443 against 0.2887)",
         "4x halves 2x's error again for 1.5 times the time (RMSE 0.0722 against 0.1443)",
         "8x halves 4x's error again for 1.9 times the time (RMSE 0.0361 against 0.0722)",
-        "16x adds nothing to 8x here for 2 times the time "
-        "(RMSE 0.0363 against 0.0361; its samples' mean lies off the pixel's centre, a bias of +0.0312)",
-        "for its time 8x gives the most (8x's error times its time, 0.0361 times 3.8 ms, is the least; nothing beats 1x; 2x; 4x; 8x)",
+        "16x is no better than 8x here for 2 times the time "
+        "(RMSE 0.0363 against 0.0361; the mean of its sample locations is off the pixel center, a bias of +0.0312)",
+        "8x gives the most accuracy for its time "
+        "(the product of its error and its time, 0.0361 times 3.8 ms, is the smallest; Pareto-optimal: 1x; 2x; 4x; 8x)",
     ]
 
 
@@ -41,7 +42,7 @@ def test_a_step_that_is_worse_is_said_to_be() -> None:
 
 def test_where_no_count_helps_that_is_one_sentence_with_what_ran_as_its_reason() -> None:
     counts = techniques((MSAA,))
-    says_so = "no count of samples helps here: the best, 2x, leaves 100 % of 1x's error for 1.3 times the time "
+    says_so = "no sample count helps here: the best, 2x, leaves 100 % of 1x's error for 1.3 times the time "
 
     def reason(*effects: str, shaded: float = 0.3) -> str:
         own = [timed(technique, rmse=0.3, effects=effects) for technique in counts]
@@ -50,37 +51,37 @@ def test_where_no_count_helps_that_is_one_sentence_with_what_ran_as_its_reason()
         assert not any(line.startswith(("4x", "8x", "16x")) for line in found)
         return found[0].removeprefix(says_so)
 
-    assert reason(shaded=0.1) == "(what is wrong lies inside of triangles, which multisampling shades once a pixel)"
-    assert reason("tone-mapping") == "(bright samples outweigh all others where light is averaged before it is mapped to the display)"
-    assert reason("depth-test") == "(samples do not make depth more precise)"
-    assert reason() == "(nothing that was measured helps)"
+    assert reason(shaded=0.1) == "(the error lies inside triangles, which multisampling shades once per pixel)"
+    assert reason("tone-mapping") == "(bright samples outweigh all others when light is averaged before tone mapping)"
+    assert reason("depth-test") == "(more samples do not make depth more precise)"
+    assert reason() == "(no measured technique helps)"
 
 
 def test_alpha_to_coverage_of_a_single_sample_is_all_or_nothing() -> None:
     effects = ("alpha-to-coverage",)
     found = says([point(Technique(MSAA, 4), effects=effects), point(Technique(SSAA, 4, grid=2), effects=effects)])
     assert found == [
-        "SSAA has more error than as many samples: SSAA 2x2 2 times 4x's "
-        "(RMSE 0.1443 against 0.0722; the alpha of a single sample is all or nothing)"
+        "SSAA has more error than MSAA with as many samples: SSAA 2x2 2 times 4x's "
+        "(RMSE 0.1443 against 0.0722; with one sample alpha is all or nothing)"
     ]
 
 
 def test_an_exact_picture_has_nothing_to_gain() -> None:
     exact = [point(technique, rmse=0.0) for technique in techniques((MSAA,))]
-    assert says(exact) == ["1x is exact here (nothing in this picture lies between samples)"]
+    assert says(exact) == ["1x is exact here (no detail of this picture lies between samples)"]
     late = [point(Technique(MSAA, 4), rmse=0.1), point(Technique(MSAA, 8), rmse=0.0), point(Technique(MSAA, 16), rmse=0.0)]
-    assert says(late)[-1] == "16x has nothing to add to 8x (8x is exact here)"
+    assert says(late)[-1] == "16x cannot improve on 8x (8x is exact here)"
 
 
 def test_sample_shading_is_told_from_what_it_gains() -> None:
     plain, shaded = Technique(MSAA, 4), Technique(SAMPLE_SHADING, 4, 1.0)
     assert says([timed(plain), timed(shaded)])[0] == (
-        "sample shading gains nothing here: at 4x its error is 4x's for 1.5 times the time "
-        "(an edge is the same for 4 shader invocations a pixel in place of 1)"
+        "sample shading gains nothing here: at 4x its error is that of 4x for 1.5 times the time "
+        "(an edge is the same with 4 shader invocations per pixel instead of 1)"
     )
     assert says([timed(plain), timed(shaded, rmse=0.0361)])[0] == (
         "shading 4 samples at 4x leaves 50 % of its error for 1.5 times the time "
-        "(RMSE 0.0361 against 0.0722, by 4 shader invocations a pixel in place of 1)"
+        "(RMSE 0.0361 against 0.0722, with 4 shader invocations per pixel instead of 1)"
     )
     assert says([timed(shaded)]) == []
     more = Technique(SAMPLE_SHADING, 8, 1.0)
@@ -92,15 +93,15 @@ def test_grids_are_held_against_as_many_samples() -> None:
     plain = [timed(technique) for technique in techniques((MSAA,))]
     grids = [timed(Technique(SSAA, grid * grid, grid=grid)) for grid in (2, 3, 4)]
     assert (
-        "SSAA has more error than as many samples: SSAA 2x2 2 times 4x's for 2 times the time, "
+        "SSAA has more error than MSAA with as many samples: SSAA 2x2 2 times 4x's for 2 times the time, "
         "SSAA 3x3 2.7 times 8x's for 2.4 times the time, SSAA 4x4 2 times 16x's for 2.1 times the time "
-        "(RMSE 0.1443 against 0.0722, RMSE 0.0962 against 0.0361, RMSE 0.0722 against 0.0363; a grid's samples share rows and columns, "
-        "so that it tells fewer positions of an edge apart)"
+        "(RMSE 0.1443 against 0.0722, RMSE 0.0962 against 0.0361, RMSE 0.0722 against 0.0363; "
+        "the samples of a grid share rows and columns, so it distinguishes fewer edge positions)"
     ) in says([*plain, *grids])
     assert not any("SSAA" in line for line in says([plain[2], grids[1], grids[2]])), "4x is not as many as 9 or 16"
     better = [each._replace(rmse=0.03) for each in grids]
     assert (
-        "SSAA has less error than as many samples: SSAA 2x2 0.42 times 4x's for 2 times the time, "
+        "SSAA has less error than MSAA with as many samples: SSAA 2x2 0.42 times 4x's for 2 times the time, "
         "SSAA 3x3 0.83 times 8x's for 2.4 times the time, SSAA 4x4 0.83 times 16x's for 2.1 times the time "
         "(RMSE 0.0300 against 0.0722, RMSE 0.0300 against 0.0361, RMSE 0.0300 against 0.0363)"
     ) in says([*plain, *better])
@@ -117,7 +118,7 @@ def test_scenes_are_advised_apart() -> None:
 
 
 def rule(samples: int, points: list[Point]) -> Ruling:
-    return ruling(marked(points), samples)
+    return ruling(mark_best(points), samples)
 
 
 def test_above_four_is_justified_by_its_error_and_by_the_front() -> None:
@@ -125,25 +126,25 @@ def test_above_four_is_justified_by_its_error_and_by_the_front() -> None:
     assert rule(8, plain) == Ruling(True)
     assert rule(16, plain) == Ruling(False, "8x has no more error and costs no more")
     assert rule(8, plain[:3]) == Ruling(False, "it was not measured")
-    assert rule(8, plain[3:]) == Ruling(False, "no count of at most four was measured beside it")
+    assert rule(8, plain[3:]) == Ruling(False, "no count up to four was measured to compare it with")
     assert rule(8, [plain[1], plain[3]]) == Ruling(True)
 
 
 def test_three_quarters_of_the_error_is_the_most_that_may_be_left() -> None:
     four = timed(Technique(MSAA, 4), rmse=0.08)
-    assert rule(8, [four, timed(Technique(MSAA, 8), rmse=0.08 * ABOVE_FOUR)]) == Ruling(True)
-    assert rule(8, [four, timed(Technique(MSAA, 8), rmse=0.0601)]) == Ruling(False, "more than three quarters of 4x's error is left")
+    assert rule(8, [four, timed(Technique(MSAA, 8), rmse=0.08 * MAX_REMAINING_ABOVE_FOUR)]) == Ruling(True)
+    assert rule(8, [four, timed(Technique(MSAA, 8), rmse=0.0601)]) == Ruling(False, "it leaves more than three quarters of the error of 4x")
     assert rule(8, [four._replace(rmse=0.0), timed(Technique(MSAA, 8), rmse=0.0)]) == Ruling(False, "4x is exact")
 
 
 def test_without_a_time_no_count_is_justified() -> None:
     """More samples always have less error: what they cost decides."""
     points = [point(Technique(MSAA, 4), rmse=0.08), point(Technique(MSAA, 8), rmse=0.04)]
-    assert rule(8, points) == Ruling(False, "its time was not measured, which `--device NAME` does")
+    assert rule(8, points) == Ruling(False, "its time was not measured; `--device NAME` measures it")
 
 
 def test_a_count_that_a_grid_beats_or_no_device_draws_is_not_justified() -> None:
     four, eight = timed(Technique(MSAA, 4)), timed(Technique(MSAA, 8))
     grid = timed(Technique(SSAA, 9, grid=3), rmse=0.03, time_ms=3.0)
     assert rule(8, [four, eight, grid]) == Ruling(False, "SSAA 3x3 has no more error and costs no more")
-    assert rule(8, [four, eight._replace(time_ms=None)]) == Ruling(False, "the device that was timed does not offer it")
+    assert rule(8, [four, eight._replace(time_ms=None)]) == Ruling(False, "the timed device does not support it")

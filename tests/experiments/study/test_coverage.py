@@ -105,7 +105,7 @@ def test_near_and_far_triangles_come_back_in_their_order() -> None:
 def test_python_s_integers_give_what_int64_gives(corners: NDArray[np.int64], samples: int) -> None:
     expected = rows(corners, WIDTH, HEIGHT, standard(samples))
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(coverage, "EXACT", 0.0)
+        patch.setattr(coverage, "MAX_SUM", 0.0)
         assert same(rows(corners, WIDTH, HEIGHT, standard(samples)), expected)
 
 
@@ -177,8 +177,8 @@ ONE = np.zeros((1, 3, 2), dtype=np.int64)
         (ONE[0], standard(4), r"\(T, 3, 2\)"),
         (ONE, standard(4)[0], r"\(N, 2\)"),
         (ONE, np.zeros((0, 2), dtype=np.int64), r"\(N, 2\)"),
-        (ONE, np.array([(256, 0)]), "outside of its pixel"),
-        (ONE, np.array([(0, -1)]), "outside of its pixel"),
+        (ONE, np.array([(256, 0)]), "outside its pixel"),
+        (ONE, np.array([(0, -1)]), "outside its pixel"),
         (ONE + 2**60 + 1, standard(4), "farther than"),
         (np.full_like(ONE, -(2**63)), standard(4), "farther than"),
     ],
@@ -234,7 +234,7 @@ def test_the_standard_patterns_have_every_row_and_column_once() -> None:
 
 @pytest.mark.parametrize("samples", [0, 3, 6, 32, 64, -1])
 def test_other_counts_have_no_standard_pattern(samples: int) -> None:
-    with pytest.raises(ValueError, match=f"sample count of {samples}: the counts are 1, 2, 4, 8, 16"):
+    with pytest.raises(ValueError, match=f"for {samples} samples, only for 1, 2, 4, 8, 16"):
         standard(samples)
 
 

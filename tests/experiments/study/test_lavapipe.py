@@ -51,9 +51,9 @@ def test_no_sample_differs(session: Session, kind: str, seed: int, samples: int)
     corners = clip(in_cells(kind, seed), SIDE, SIDE)
     drawn = covered(session, corners, SIDE, SIDE, samples)
     triangles = snapped(viewport(corners[..., :2], SIDE, SIDE))
-    simulated = masks(rows(triangles, SIDE, SIDE, standard(samples)), SIDE, SIDE, samples)
-    assert drawn.shape == simulated.shape == (SIDE, SIDE, samples)
-    assert int((drawn != simulated).sum()) == 0
+    simulate = masks(rows(triangles, SIDE, SIDE, standard(samples)), SIDE, SIDE, samples)
+    assert drawn.shape == simulate.shape == (SIDE, SIDE, samples)
+    assert int((drawn != simulate).sum()) == 0
     assert drawn.sum() > 20
 
 
@@ -64,8 +64,8 @@ def test_sides_that_are_no_power_of_two_take_the_viewport_as_lavapipe_does(sessi
     inside = triangles[(triangles[..., 0].max(axis=1) < width - 1) & (triangles[..., 1].max(axis=1) < height - 1)]
     corners = clip(inside, width, height)
     drawn = covered(session, corners, width, height, 4)
-    simulated = masks(rows(snapped(viewport(corners[..., :2], width, height)), width, height, standard(4)), width, height, 4)
-    assert int((drawn != simulated).sum()) == 0
+    simulate = masks(rows(snapped(viewport(corners[..., :2], width, height)), width, height, standard(4)), width, height, 4)
+    assert int((drawn != simulate).sum()) == 0
 
 
 def test_another_rounding_would_be_seen(session: Session) -> None:

@@ -23,7 +23,7 @@ LENGTH = 2048
 def drawn(polygons: Sequence[Sequence[shapes.Point]], width: int, height: int, **changed: object) -> Scene:
     """White polygons that do not overlap, on black."""
     made = shapes.triangles(polygons)
-    colors = shapes.painted(len(made), WHITE)
+    colors = shapes.uniform_colors(len(made), WHITE)
     exact = area.disjoint(colors, BLACK, width, height)
     return Scene("polygons", "", width, height, made, colors, None, BLACK, (), {}, exact)._replace(**changed)  # type: ignore[arg-type]
 
@@ -166,8 +166,8 @@ def test_the_simulation_does_not_depend_on_bands(monkeypatch: pytest.MonkeyPatch
     for name in ("mesh", "intersecting", "glass", "foliage"):
         made = scene(name, 80, 48)
         for technique in (Technique(MSAA, 4), Technique(SSAA, 9, grid=3)):
-            whole = simulate.simulated(made, technique)
+            whole = simulate.simulate(made, technique)
             with monkeypatch.context() as patched:
-                patched.setattr(simulate, "BAND", 1000)
-                parts = simulate.simulated(made, technique)
+                patched.setattr(simulate, "BAND_SAMPLES", 1000)
+                parts = simulate.simulate(made, technique)
             assert np.array_equal(whole.image, parts.image)

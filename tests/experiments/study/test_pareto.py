@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from msaa_lint.experiments.study.pareto import SAME, Vector, beats, front, marked
+from msaa_lint.experiments.study.pareto import SAME, Vector, beats, front, mark_best
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Point, Technique, techniques
 from tests.experiments.study.fakes import point, timed
 
@@ -55,7 +55,7 @@ def test_what_is_no_number_is_on_no_front() -> None:
 
 
 def best(points: list[Point]) -> list[str]:
-    return [each.technique.name for each in marked(points) if each.best]
+    return [each.technique.name for each in mark_best(points) if each.best]
 
 
 def test_error_against_time() -> None:
@@ -86,8 +86,8 @@ def test_errors_that_differ_by_rounding_are_the_same() -> None:
 
 def test_scenes_have_fronts_of_their_own() -> None:
     points = [point(Technique(MSAA, 1), "a", rmse=0.1), point(Technique(MSAA, 1), "b", rmse=0.2)]
-    assert [each.best for each in marked(points)] == [True, True]
-    assert [each.best for each in marked([each._replace(best=True, rmse=math.nan) for each in points])] == [False, False]
+    assert [each.best for each in mark_best(points)] == [True, True]
+    assert [each.best for each in mark_best([each._replace(best=True, rmse=math.nan) for each in points])] == [False, False]
 
 
 @pytest.mark.parametrize(("time", "names"), [(2.0 * SAME, ["4x"]), (2.0 * SAME + 0.01, ["4x", "4x, half of them shaded"])])

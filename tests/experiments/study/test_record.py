@@ -17,9 +17,9 @@ from hypothesis import strategies as st
 
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
-from msaa_lint.experiments.study.pareto import marked
+from msaa_lint.experiments.study.pareto import mark_best
 from msaa_lint.experiments.study.points import MSAA, techniques
-from msaa_lint.experiments.study.record import Recorded, text, write
+from msaa_lint.experiments.study.record import DocumentStudy, text, write
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.study import JUSTIFIES, STALE, UNUSABLE, Studied
@@ -70,9 +70,9 @@ def frame(source: str = FRAME) -> Frame:
     return Frame(document(source))
 
 
-def study(source: str = FRAME, with_times: bool = True) -> Recorded:
-    points = marked([(timed if with_times else point)(technique) for technique in techniques()])
-    return Recorded(frame(source), "a device" if with_times else "", (1920, 1080), points)
+def study(source: str = FRAME, with_times: bool = True) -> DocumentStudy:
+    points = mark_best([(timed if with_times else point)(technique) for technique in techniques()])
+    return DocumentStudy(frame(source), "a device" if with_times else "", (1920, 1080), points)
 
 
 def changed(*edits: tuple[str, str]) -> str:
@@ -194,7 +194,7 @@ def test_the_record_says_what_was_found(beside: Path) -> None:
 def test_without_a_time_that_is_said(tmp_path: Path) -> None:
     path = tmp_path / "frame.msaa.yaml"
     write(str(path), [study(with_times=False)])
-    words = "it leaves 50 % of 4x's error, at no known time, at 1920x1080; its time was not measured, which `--device NAME` does"
+    words = "it leaves 50 % of 4x's error, at no known time, at 1920x1080; its time was not measured; `--device NAME` measures it"
     assert image_study(path, FRAME) == ("DECLINES", words)
 
 

@@ -21,13 +21,13 @@ from msaa_lint.cli.report.study_text import render as as_text
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.experiments.confirm.png import Picture, png
 from msaa_lint.experiments.study.advice import Advice, advice
-from msaa_lint.experiments.study.crops import aligned, displayed, lettered, most_different, short, stacked, window
-from msaa_lint.experiments.study.outcome import Pictured, Study, Untimed
-from msaa_lint.experiments.study.pareto import marked
+from msaa_lint.experiments.study.crops import align, display_codes, label_row, most_different, short_name, stack, window
+from msaa_lint.experiments.study.outcome import SceneSummary, Study, UntimedTechnique
+from msaa_lint.experiments.study.pareto import mark_best
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Point, Technique, techniques
 from msaa_lint.experiments.study.scenes import scene
-from msaa_lint.experiments.study.simulate import simulated
-from msaa_lint.experiments.study.tasks import Failed
+from msaa_lint.experiments.study.simulate import simulate
+from msaa_lint.experiments.study.tasks import FailedPoint
 from tests.experiments.study.fakes import point, timed
 from tests.paths import ROOT
 from tests.strength import examples
@@ -42,19 +42,22 @@ def study(**other: Any) -> Study:
     points = [timed(technique) for technique in techniques()]
     points += [timed(technique, "texture", rmse=0.3 / math.sqrt(technique.shaded), psnr_db=math.inf) for technique in techniques((MSAA,))]
     missing = {"time_ms": None, "time_from": "", "ratio": None}
-    points = marked([each._replace(**missing) if each.technique.samples == 16 else each for each in points])
+    points = mark_best([each._replace(**missing) if each.technique.samples == 16 else each for each in points])
     made = Study(
         "a device",
         "Mali-G76",
         (64, 48),
         8,
         [
-            Pictured("edges", "edges at all angles", (("depth-test", "a pipeline tests depth"),)),
-            Pictured("texture", "detail inside of triangles", (), coverage=False),
+            SceneSummary("edges", "edges at all angles", (("depth-test", "a pipeline tests depth"),)),
+            SceneSummary("texture", "detail inside of triangles", (), coverage=False),
         ],
         points,
-        [Failed("texture", Technique(SAMPLE_SHADING, 4, 1.0), "ValueError: it broke")],
-        [Untimed("16x", "the device does not have 16 samples"), Untimed("16x, each shaded", "the device does not have 16 samples")],
+        [FailedPoint("texture", Technique(SAMPLE_SHADING, 4, 1.0), "ValueError: it broke")],
+        [
+            UntimedTechnique("16x", "the device does not have 16 samples"),
+            UntimedTechnique("16x, each shaded", "the device does not have 16 samples"),
+        ],
         advice(points),
         [diagnostic("MSAA901", "the input is empty", "bad.msaa.yaml")],
         ["frame.msaa.yaml.msaa-study.json"],
@@ -105,7 +108,7 @@ def test_what_is_no_number_or_infinite_is_null() -> None:
 
 
 def test_without_a_device_no_time_is_shown_as_one() -> None:
-    points = marked([point(technique, simulated_ms=12345.6) for technique in techniques()])
+    points = mark_best([point(technique, simulated_ms=12345.6) for technique in techniques()])
     of = study(device="", model="", points=points, advice=advice(points), untimed=[])
     text = printed(as_text, of, Options(width=160))
     assert "to 1x" not in text and "12345" not in text and "12346" not in text
@@ -128,10 +131,10 @@ def hostile() -> Study:
     return study(
         device=HOSTILE,
         model=HOSTILE,
-        scenes=[Pictured(HOSTILE, HOSTILE, (("depth-test", HOSTILE),))],
+        scenes=[SceneSummary(HOSTILE, HOSTILE, (("depth-test", HOSTILE),))],
         points=points,
-        failed=[Failed(HOSTILE, Technique(MSAA, 4), HOSTILE)],
-        untimed=[Untimed("16x", HOSTILE)],
+        failed=[FailedPoint(HOSTILE, Technique(MSAA, 4), HOSTILE)],
+        untimed=[UntimedTechnique("16x", HOSTILE)],
         advice=[Advice(HOSTILE, HOSTILE, HOSTILE)],
         wrong=[diagnostic("MSAA901", HOSTILE, HOSTILE)],
         records=[HOSTILE],
@@ -159,7 +162,7 @@ def test_nothing_studied_is_still_a_report() -> None:
 @given(st.lists(st.floats(), min_size=8, max_size=8), st.sampled_from(techniques()))
 def test_any_figures_can_be_printed(figures: list[float], technique: Technique) -> None:
     names = ("rmse", "rmse_all", "max_error", "bias", "psnr_db", "psnr_display_db", "time_ms", "bytes_per_frame")
-    of = study(points=marked([timed(technique, **dict(zip(names, figures, strict=True)))]), scenes=[Pictured("edges", "", ())])
+    of = study(points=mark_best([timed(technique, **dict(zip(names, figures, strict=True)))]), scenes=[SceneSummary("edges", "", ())])
     json.loads(printed(as_json, of))
     assert technique.name in printed(as_text, of, Options(width=160))
 
@@ -181,7 +184,7 @@ def test_a_plot_shows_what_has_a_place() -> None:
 def test_hostile_names_are_plotted_as_text() -> None:
     text = plot(hostile(), "svg").decode()
     assert "\x1b" not in text and "\u202e" not in text
-    odd = study(scenes=[Pictured("$\\frac{", "", ())], points=[each._replace(scene="$\\frac{") for each in study().points])
+    odd = study(scenes=[SceneSummary("$\\frac{", "", ())], points=[each._replace(scene="$\\frac{") for each in study().points])
     assert "$\\frac{" in plot(odd, "svg").decode()
 
 
@@ -198,7 +201,7 @@ def picture(pixels: list[list[int]]) -> Any:
 
 def test_linear_light_is_displayed_as_srgb() -> None:
     linear = np.array([[[0.0, 0.5, 1.0, 0.3], [2.0, -1.0, math.nan, 1.0], [0.0031308, 0.21404, math.inf, 0.0]]])
-    assert displayed(linear).tolist() == [[[0, 188, 255], [255, 0, 0], [10, 127, 255]]]
+    assert display_codes(linear).tolist() == [[[0, 188, 255], [255, 0, 0], [10, 127, 255]]]
 
 
 @given(st.integers(1, 40), st.integers(1, 40), st.data())
@@ -217,16 +220,16 @@ def test_a_crop_is_where_pictures_differ_most(width: int, height: int, data: st.
 @pytest.mark.parametrize("technique", [Technique(MSAA, 4), Technique(SAMPLE_SHADING, 4, 1.0), Technique(SSAA, 9, grid=3)])
 def test_a_part_is_drawn_as_in_the_whole(name: str, technique: Technique) -> None:
     whole = scene(name, 96, 64)
-    x, y = aligned((45, 30))
+    x, y = align((45, 30))
     assert (x, y) == (40, 24)
-    part = simulated(window(whole, x, y), technique).image
+    part = simulate(window(whole, x, y), technique).image
     assert part.shape == (16, 16, 4)
-    np.testing.assert_allclose(part, simulated(whole, technique).image[y : y + 16, x : x + 16], rtol=0, atol=1e-6)
-    assert simulated(window(whole, 88, 56), technique).image.shape == (8, 8, 4)
+    np.testing.assert_allclose(part, simulate(whole, technique).image[y : y + 16, x : x + 16], rtol=0, atol=1e-6)
+    assert simulate(window(whole, 88, 56), technique).image.shape == (8, 8, 4)
 
 
 def test_names_stand_above_their_crops() -> None:
-    made = lettered(["4x", "8x/2"], 40)
+    made = label_row(["4x", "8x/2"], 40)
     assert (made.width, made.height) == (40 + 8 + 40, 15)
     lit = np.frombuffer(made.rgb, dtype=np.uint8).reshape(15, 88, 3)[::3, ::3, 0] == 255
     rows = ["".join(".#"[int(dot)] for dot in row) for row in lit[:, :8]]
@@ -235,7 +238,7 @@ def test_names_stand_above_their_crops() -> None:
 
 
 def test_pictures_are_stacked_from_the_left() -> None:
-    made = stacked([Picture(2, 1, b"\x01" * 6), Picture(1, 1, b"\x02" * 3)])
+    made = stack([Picture(2, 1, b"\x01" * 6), Picture(1, 1, b"\x02" * 3)])
     assert (made.width, made.height) == (2, 10)
     assert made.rgb == b"\x01" * 6 + b"\x80" * 48 + b"\x02" * 3 + b"\x80" * 3
     data = png(made)
@@ -244,8 +247,8 @@ def test_pictures_are_stacked_from_the_left() -> None:
 
 @pytest.mark.parametrize("technique", techniques(), ids=lambda technique: technique.name)
 def test_short_names_are_short_and_lettered(technique: Technique) -> None:
-    assert len(short(technique)) <= 8
-    assert set(short(technique).upper()) <= set("0123456789X/SA ")
+    assert len(short_name(technique)) <= 8
+    assert set(short_name(technique).upper()) <= set("0123456789X/SA ")
 
 
 def test_points_are_told_by_scene() -> None:

@@ -17,8 +17,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from msaa_lint.experiments.study.effects import depth_resolve, hdr, srgb, tone_mapping
-from msaa_lint.experiments.study.resolve import average, from_srgb, to_srgb, to_unorm, weighted
+from msaa_lint.experiments.study.effects import store_half, store_srgb
+from msaa_lint.experiments.study.resolve import (
+    DEPTH_MODES,
+    average,
+    decode,
+    encode,
+    from_srgb,
+    resolve_depth,
+    to_srgb,
+    to_unorm,
+    tone_map,
+    weighted,
+)
 from tests.paths import ROOT
 
 SINGLES = st.floats(width=32, allow_nan=False, allow_infinity=False, min_value=-(2.0**100), max_value=2.0**100)
@@ -82,15 +93,15 @@ def test_half_precision_samples_do_not_overflow(value: float, count: int) -> Non
     assert np.isinf(in_half[0] / np.float16(count))
     found = average(samples)
     assert found.dtype == np.float32 and found[0] == value
-    assert hdr.stored(found)[0] == value
+    assert store_half(found)[0] == value
 
 
 def test_what_half_precision_keeps_is_rounded_to_even_and_overflows_from_65520_on() -> None:
     below = np.nextafter(np.float32(65520), np.float32(0))
     given = np.array([512.75, 2049.0, 2051.0, below, 65520.0, 70000.0, -70000.0, np.inf, 2.0**-25, 2.0**-24 * 1.5], np.float32)
     due = [513.0, 2048.0, 2052.0, 65504.0, math.inf, math.inf, -math.inf, math.inf, 0.0, 2.0**-23]
-    assert hdr.stored(given).tolist() == due
-    assert np.isnan(hdr.stored(np.array([np.nan], np.float32))[0])
+    assert store_half(given).tolist() == due
+    assert np.isnan(store_half(np.array([np.nan], np.float32))[0])
 
 
 @pytest.mark.parametrize("dtype", [np.float16, np.float32])
@@ -133,7 +144,7 @@ def reinhard(value: Fraction) -> Fraction:
 @given(st.lists(LIGHTS, min_size=4, max_size=4))
 def test_the_weighted_resolve_of_grey_is_the_average_of_what_is_displayed(samples: list[float]) -> None:
     due = sum(reinhard(Fraction(each)) for each in samples) / 4
-    found = tone_mapping.mapped(weighted(light(samples)))[0, 0]
+    found = tone_map(weighted(light(samples)))[0, 0]
     assert abs(Fraction(float(found)) - due) < Fraction(1, 10**6)
 
 
@@ -143,21 +154,21 @@ def test_a_firefly_fills_the_pixel_after_the_resolve_and_not_before() -> None:
     after = exact(reinhard(sum(shares, Fraction(0)) / 4))
     before = exact(sum((reinhard(each) for each in shares), Fraction(0)) / 4)
     assert after > 0.9999 and before < 0.32
-    assert tone_mapping.mapped(average(light(samples)))[0, 0] == pytest.approx(after, abs=1e-6)
-    assert average(tone_mapping.mapped(light(samples)))[0, 0] == pytest.approx(before, abs=1e-6)
-    assert tone_mapping.mapped(weighted(light(samples)))[0, 0] == pytest.approx(before, abs=1e-6)
+    assert tone_map(average(light(samples)))[0, 0] == pytest.approx(after, abs=1e-6)
+    assert average(tone_map(light(samples)))[0, 0] == pytest.approx(before, abs=1e-6)
+    assert tone_map(weighted(light(samples)))[0, 0] == pytest.approx(before, abs=1e-6)
 
 
 def test_infinite_light_is_displayed_as_white_and_weighs_nothing() -> None:
-    assert tone_mapping.mapped(light([math.inf]))[0, 0].tolist() == [1, 1, 1, 1]
-    assert np.isnan(tone_mapping.mapped(light([math.nan]))[0, 0, 0])
+    assert tone_map(light([math.inf]))[0, 0].tolist() == [1, 1, 1, 1]
+    assert np.isnan(tone_map(light([math.nan]))[0, 0, 0])
     assert weighted(light([math.inf, 1, 1, 1]))[0].tolist() == [1, 1, 1, 1]
     assert weighted(light([math.inf] * 4))[0].tolist() == [math.inf] * 3 + [1]
     assert np.isnan(weighted(light([math.nan, 1, 1, 1]))[0, 0])
 
 
 def test_tone_mapping_leaves_alpha_and_takes_negative_light_as_none() -> None:
-    made = tone_mapping.mapped(np.array([[3.0, -1.0, 0.0, 0.25]], np.float32))
+    made = tone_map(np.array([[3.0, -1.0, 0.0, 0.25]], np.float32))
     assert made.tolist() == [[0.75, 0.0, 0.0, 0.25]]
 
 
@@ -181,9 +192,9 @@ def test_srgb_averages_light() -> None:
     samples = np.array([[white], [black]], np.float32)
     codes = to_srgb(average(samples)[..., :3]) * 255
     assert np.rint(codes).tolist() == [[188, 188, 188]]
-    encoded = average(srgb.encoded(samples))
+    encoded = average(encode(samples))
     assert encoded[0].tolist() == [0.5, 0.5, 0.5, 1.0]
-    assert srgb.decoded(encoded)[0, 0] == pytest.approx(0.2140411, abs=1e-6)
+    assert decode(encoded)[0, 0] == pytest.approx(0.2140411, abs=1e-6)
 
 
 def test_srgb_codes_are_where_the_standard_says() -> None:
@@ -194,26 +205,26 @@ def test_srgb_codes_are_where_the_standard_says() -> None:
         due = float(value) / 12.92 if value <= Fraction(4045, 100000) else ((float(value) + 0.055) / 1.055) ** 2.4
         assert float(found) == pytest.approx(due, rel=1e-7)
     assert np.rint(to_srgb(light) * 255).tolist() == list(range(256))
-    assert srgb.stored(np.stack([light, light, light, codes.astype(np.float32)], axis=-1))[:, 0].tolist() == light.tolist()
+    assert store_srgb(np.stack([light, light, light, codes.astype(np.float32)], axis=-1))[:, 0].tolist() == light.tolist()
     assert to_srgb(np.array([-1.0, 2.0])).tolist() == [0.0, 1.0]
 
 
 def test_depth_modes_at_a_silhouette() -> None:
     near, far = 0.25, 0.75
     samples = np.array([[far], [near], [near], [far]], np.float32)
-    found = {mode: float(depth_resolve.resolved(samples, mode)[0]) for mode in depth_resolve.MODES}
+    found = {mode: float(resolve_depth(samples, mode)[0]) for mode in DEPTH_MODES}
     assert found == {"SAMPLE_ZERO": far, "AVERAGE": exact(Fraction(1, 2)), "MIN": near, "MAX": far}
     assert found["AVERAGE"] not in (near, far)
 
 
 def test_a_depth_mode_that_is_none_is_named() -> None:
-    with pytest.raises(ValueError, match="MEDIAN is no depth resolve mode"):
-        depth_resolve.resolved(np.zeros((4, 1), np.float32), "MEDIAN")
+    with pytest.raises(ValueError, match="MEDIAN is not a depth resolve mode"):
+        resolve_depth(np.zeros((4, 1), np.float32), "MEDIAN")
 
 
 def test_resolved_depth_is_a_copy() -> None:
     samples = np.zeros((4, 3), np.float32)
-    depth_resolve.resolved(samples, "SAMPLE_ZERO")[:] = 1
+    resolve_depth(samples, "SAMPLE_ZERO")[:] = 1
     assert not samples.any()
 
 

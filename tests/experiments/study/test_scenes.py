@@ -15,8 +15,10 @@ from msaa_lint.experiments.study.effects import BY_NAME
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Technique
 from msaa_lint.experiments.study.scenes import depth, detail, edges, visible
 from msaa_lint.experiments.study.scenes import mesh as own
+from msaa_lint.experiments.study.scenes.description import from_description
+from msaa_lint.experiments.study.scenes.mesh import from_mesh
 from msaa_lint.experiments.study.scenes.scene import BLACK, Scene
-from msaa_lint.experiments.study.simulate import simulated
+from msaa_lint.experiments.study.simulate import simulate
 from tests.experiments.confirm.frames import frame
 from tests.strength import examples
 
@@ -30,7 +32,7 @@ SAMPLED = [name for name in scenes.NAMES if name not in ("hdr-emitter", "hdr-emi
 @pytest.mark.parametrize("name", scenes.NAMES)
 def test_a_scene_says_what_it_is_and_why_it_calls_for_what(name: str) -> None:
     made = scenes.scene(name, 96, 64)
-    assert (made.name, made.says, made.width, made.height) == (name, scenes.SAYS[name], 96, 64)
+    assert (made.name, made.description, made.width, made.height) == (name, scenes.DESCRIPTIONS[name], 96, 64)
     assert set(made.effects) <= set(BY_NAME)
     assert set(made.why) == set(made.effects) and all(made.why.values())
     assert made.triangles.shape == (len(made.colors), 3, 2) and np.isfinite(made.triangles).all()
@@ -39,7 +41,7 @@ def test_a_scene_says_what_it_is_and_why_it_calls_for_what(name: str) -> None:
     exact = made.exact(made.triangles)
     assert exact.shape == (64, 96, 4) and exact.min() >= 0 and exact[..., 3].max() <= 1 + 1e-12
     truth = measure.truth(made)
-    assert truth.crossed.shape == (64, 96) and truth.crossed.any()
+    assert truth.edge_pixels.shape == (64, 96) and truth.edge_pixels.any()
 
 
 @pytest.mark.parametrize("name", SAMPLED)
@@ -55,15 +57,15 @@ def test_a_scene_is_the_same_every_time(name: str) -> None:
 
 
 def test_a_name_that_is_none_gets_the_nearest() -> None:
-    with pytest.raises(LookupError, match=r"no scene is called edge-fans; did you mean edge-fan\?"):
+    with pytest.raises(LookupError, match=r"unknown scene `edge-fans`: did you mean `edge-fan`\?"):
         scenes.scene("edge-fans", 64, 64)
-    with pytest.raises(LookupError, match="scenes are edge-fan, near-horizontal"):
+    with pytest.raises(LookupError, match="the scenes are edge-fan, near-horizontal"):
         scenes.scene("xyzzy", 64, 64)
 
 
 @pytest.mark.parametrize("size", [(31, 64), (64, 31), (1, 1), (0, 64)])
 def test_pictures_that_are_too_small_are_refused(size: tuple[int, int]) -> None:
-    with pytest.raises(ValueError, match="are too few: scenes are at least 32"):
+    with pytest.raises(ValueError, match="must be at least 32x32 pixels"):
         scenes.scene("edge-fan", *size)
 
 
@@ -153,7 +155,7 @@ def test_light_is_to_be_tone_mapped_before_it_is_averaged() -> None:
 
 
 def test_crossing_surfaces_are_the_same_with_standard_and_reversed_depth_near_by() -> None:
-    standard, turned = (simulated(scenes.scene(f"intersecting{each}", 96, 64), Technique(MSAA, 4)).image for each in ("", "-reversed"))
+    standard, turned = (simulate(scenes.scene(f"intersecting{each}", 96, 64), Technique(MSAA, 4)).image for each in ("", "-reversed"))
     assert np.count_nonzero((standard != turned).any(axis=2)) <= 3
 
 
@@ -177,7 +179,7 @@ def test_detail_beyond_pixels_is_averaged_exactly() -> None:
     assert mapped == pytest.approx(exact * 0.5, abs=1e-9)
 
 
-def squares(depths: tuple[list[float], list[float]], look: visible.Look) -> tuple[np.ndarray, np.ndarray]:
+def squares(depths: tuple[list[float], list[float]], look: visible.Visibility) -> tuple[np.ndarray, np.ndarray]:
     """A red square over x 0 to 4 and a green one over x 2 to 6 of a picture of 8 x 4, and what is crossed."""
     corners = [[[0, 0], [4, 0], [4, 4]], [[0, 0], [4, 4], [0, 4]], [[2, 0], [6, 0], [6, 4]], [[2, 0], [6, 4], [2, 4]]]
     colors = np.array([[1, 0, 0, 0.5]] * 2 + [[0, 1, 0, 0.5]] * 2)
@@ -188,31 +190,31 @@ def squares(depths: tuple[list[float], list[float]], look: visible.Look) -> tupl
 
 
 def test_what_is_drawn_last_is_seen_without_depth() -> None:
-    picture, crossed = squares(([0] * 4, [0] * 4), visible.Look())
+    picture, crossed = squares(([0] * 4, [0] * 4), visible.Visibility())
     assert picture[:, :2, 0] == pytest.approx(1) and picture[:, 2:6, 1] == pytest.approx(1)
     assert not picture[:, 2:6, 0].any() and not picture[:, 6:].any() and not crossed.any()
 
 
 @pytest.mark.parametrize("turned", [False, True])
 def test_what_is_nearer_is_seen_with_depth(turned: bool) -> None:
-    picture, _ = squares(([0.2] * 4, [0.7] * 4), visible.Look(depth=True, reversed=turned))
+    picture, _ = squares(([0.2] * 4, [0.7] * 4), visible.Visibility(depth=True, reversed=turned))
     assert picture[:, 2:4, int(turned)] == pytest.approx(1) and not picture[:, 2:4, int(not turned)].any()
 
 
 def test_equal_depth_leaves_what_was_drawn_first() -> None:
-    picture, _ = squares(([0.5] * 4, [0.5] * 4), visible.Look(depth=True))
+    picture, _ = squares(([0.5] * 4, [0.5] * 4), visible.Visibility(depth=True))
     assert picture[:, :4, 0] == pytest.approx(1) and picture[:, 4:6, 1] == pytest.approx(1)
 
 
 def test_crossing_surfaces_are_cut_along_the_line_where_they_cross() -> None:
     """The red is 0.5 deep, the green from 0.3 at x 2 to 0.8 at x 6: they cross at x 3.6."""
-    picture, crossed = squares(([0.5] * 4, [0.3, 0.8, 0.8, 0.3]), visible.Look(depth=True))
+    picture, crossed = squares(([0.5] * 4, [0.3, 0.8, 0.8, 0.3]), visible.Visibility(depth=True))
     assert picture[:, 2, 1] == pytest.approx(1) and picture[:, 3, 1] == pytest.approx(0.6) and picture[:, 3, 0] == pytest.approx(0.4)
     assert crossed[:, 3].all() and crossed.sum() == 4
 
 
 def test_blended_surfaces_are_mixed_in_their_order() -> None:
-    picture, _ = squares(([0] * 4, [0] * 4), visible.Look(blended=True))
+    picture, _ = squares(([0] * 4, [0] * 4), visible.Visibility(blended=True))
     assert picture[0, 0] == pytest.approx([0.5, 0, 0, 0.5])
     assert picture[0, 3] == pytest.approx([0.25, 0.5, 0, 0.75])
     assert picture[0, 5] == pytest.approx([0, 0.5, 0, 0.5])
@@ -225,8 +227,8 @@ def test_pieces_of_any_triangles_fill_the_picture_once(corners: list[tuple[int, 
     draws = np.random.default_rng(seed)
     colors = np.concatenate([draws.random((len(triangles), 3)), np.ones((len(triangles), 1))], axis=1)
     depths = draws.random((len(triangles), 3))
-    found = visible.tiles(triangles, colors, depths, BLACK, (20, 18), visible.Look(depth=True))
-    assert sum(abs(visible.size(piece.polygon)) for _, _, pieces in found for piece in pieces) == pytest.approx(20 * 18, abs=1e-6)
+    found = visible.tiles(triangles, colors, depths, BLACK, (20, 18), visible.Visibility(depth=True))
+    assert sum(abs(visible.signed_area(piece.polygon)) for _, _, pieces in found for piece in pieces) == pytest.approx(20 * 18, abs=1e-6)
 
 
 OBJ = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nf 1 2 3 4\n"
@@ -245,7 +247,7 @@ def written(folder: Path, name: str, text: str | bytes) -> str:
 @pytest.mark.parametrize("name", ["square.obj", "SQUARE.OBJ", "square.ply"])
 def test_a_flat_mesh_is_white_and_fills_the_picture_upright(tmp_path: Path, name: str) -> None:
     text = OBJ if "obj" in name.lower() else PLY.format(colors="", vertices="0 0 0\n2 0 0\n2 1 0\n0 1 0\n")
-    made = scenes.from_mesh(written(tmp_path, name, text), 66, 64)
+    made = from_mesh(written(tmp_path, name, text), 66, 64)
     assert (made.name, made.effects, made.coverage_matter, made.depths) == (name, (), True, None)
     exact = made.exact(made.triangles)[..., 3]
     assert exact.sum() == pytest.approx(64 * 32)
@@ -254,7 +256,7 @@ def test_a_flat_mesh_is_white_and_fills_the_picture_upright(tmp_path: Path, name
 
 
 def test_up_in_the_file_is_up_in_the_picture(tmp_path: Path) -> None:
-    made = scenes.from_mesh(written(tmp_path, "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), 64, 64)
+    made = from_mesh(written(tmp_path, "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), 64, 64)
     exact = made.exact(made.triangles)[..., 3]
     assert exact[5, 2] == exact[60, 50] == 1 and exact[5, 50] == 0
 
@@ -262,7 +264,7 @@ def test_up_in_the_file_is_up_in_the_picture(tmp_path: Path) -> None:
 def test_vertex_colours_are_light(tmp_path: Path) -> None:
     colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
     vertices = "".join(f"{x} {y} 0 188 0 255\n" for x, y in ((0, 0), (2, 0), (2, 1), (0, 1)))
-    made = scenes.from_mesh(written(tmp_path, "a.ply", PLY.format(colors=colors, vertices=vertices)), 64, 64)
+    made = from_mesh(written(tmp_path, "a.ply", PLY.format(colors=colors, vertices=vertices)), 64, 64)
     assert not made.coverage_matter
     assert made.colors[0] == pytest.approx([0.5029, 0, 1, 1], abs=1e-4)
     assert measure.point(made, MANY).rmse < 0.02
@@ -270,7 +272,7 @@ def test_vertex_colours_are_light(tmp_path: Path) -> None:
 
 def test_a_mesh_with_depth_is_tested_for_depth_and_what_has_more_z_is_nearer(tmp_path: Path) -> None:
     text = "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 1\nv 4 0 1.5\nv 4 4 3\nf 1 2 3\nf 4 5 6\n"
-    made = scenes.from_mesh(written(tmp_path, "a.obj", text), 64, 64)
+    made = from_mesh(written(tmp_path, "a.obj", text), 64, 64)
     assert made.effects == ("depth-test",) and set(made.why) == {"depth-test"}
     assert made.depths is not None and made.depths[0] == pytest.approx(0.99)
     assert made.depths[1].min() == pytest.approx(0.01)
@@ -281,45 +283,49 @@ def test_a_mesh_with_depth_is_tested_for_depth_and_what_has_more_z_is_nearer(tmp
 
 def test_overlapping_flat_triangles_are_no_matter_of_coverage(tmp_path: Path) -> None:
     text = "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 4 4 0\nf 1 2 3\nf 1 2 4\n"
-    made = scenes.from_mesh(written(tmp_path, "a.obj", text), 64, 64)
+    made = from_mesh(written(tmp_path, "a.obj", text), 64, 64)
     assert not made.coverage_matter and made.effects == ()
 
 
 @pytest.mark.parametrize(
     ("name", "text", "words"),
     [
-        ("a.obj", "", "no triangles|no OBJ mesh"),
-        ("a.obj", "v 0 0 0\nv 1 0 0\n", "no triangles|no OBJ mesh"),
-        ("a.obj", "v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n", "no finite number"),
-        ("a.obj", "v 0 0 0\nv 1 0 0\nv 1e400 1 0\nf 1 2 3\n", "no finite number"),
-        ("a.obj", "v 0 0 0\nv 0 0 1\nv 0 0 2\nf 1 2 3\n", "no extent"),
-        ("a.obj", "v 0 0 0\nf 1 2 3\n", "no OBJ mesh"),
-        ("a.ply", "plx\n", "no PLY mesh"),
-        ("a.ply", b"ply\nformat binary_little_endian 1.0\nelement vertex 999999999999\nproperty float x\nend_header\n", "no PLY mesh"),
-        ("a.stl", "solid\n", r"meshes are \.obj or \.ply files"),
+        ("a.obj", "", "no triangles|not a valid OBJ mesh"),
+        ("a.obj", "v 0 0 0\nv 1 0 0\n", "no triangles|not a valid OBJ mesh"),
+        ("a.obj", "v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n", "not finite"),
+        ("a.obj", "v 0 0 0\nv 1 0 0\nv 1e400 1 0\nf 1 2 3\n", "not finite"),
+        ("a.obj", "v 0 0 0\nv 0 0 1\nv 0 0 2\nf 1 2 3\n", "no visible extent"),
+        ("a.obj", "v 0 0 0\nf 1 2 3\n", "not a valid OBJ mesh"),
+        ("a.ply", "plx\n", "not a valid PLY mesh"),
+        (
+            "a.ply",
+            b"ply\nformat binary_little_endian 1.0\nelement vertex 999999999999\nproperty float x\nend_header\n",
+            "not a valid PLY mesh",
+        ),
+        ("a.stl", "solid\n", r"a mesh must be a \.obj or \.ply file"),
     ],
 )
 def test_files_that_are_no_mesh_are_said_to_be_none(tmp_path: Path, name: str, text: str | bytes, words: str) -> None:
     with pytest.raises(ValueError, match=words):
-        scenes.from_mesh(written(tmp_path, name, text), 64, 64)
+        from_mesh(written(tmp_path, name, text), 64, 64)
 
 
 def test_meshes_have_limits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = written(tmp_path, "a.obj", OBJ)
-    monkeypatch.setattr(own, "MOST_TRIANGLES", 1)
-    with pytest.raises(ValueError, match="2 triangles, more than 1"):
-        scenes.from_mesh(path, 64, 64)
-    monkeypatch.setattr(own, "MOST_BYTES", 10)
+    monkeypatch.setattr(own, "MAX_TRIANGLES", 1)
+    with pytest.raises(ValueError, match="2 triangles; at most 1 are supported"):
+        from_mesh(path, 64, 64)
+    monkeypatch.setattr(own, "MAX_BYTES", 10)
     with pytest.raises(ValueError, match="larger than"):
-        scenes.from_mesh(path, 64, 64)
+        from_mesh(path, 64, 64)
     with pytest.raises(FileNotFoundError):
-        scenes.from_mesh(str(tmp_path / "none.obj"), 64, 64)
+        from_mesh(str(tmp_path / "none.obj"), 64, 64)
 
 
 def test_a_mesh_opens_no_other_file(tmp_path: Path) -> None:
     """Materials that it names are left alone, though they are there and would be no text."""
     written(tmp_path, "secret.mtl", b"newmtl a\nKd 1 0 0\nmap_Kd /etc/passwd\n")
-    made = scenes.from_mesh(written(tmp_path, "a.obj", "mtllib secret.mtl\nusemtl a\n" + OBJ), 64, 64)
+    made = from_mesh(written(tmp_path, "a.obj", "mtllib secret.mtl\nusemtl a\n" + OBJ), 64, 64)
     assert made.coverage_matter and (made.colors == 1).all()
 
 
@@ -370,10 +376,10 @@ scene: {color: HDR, peak: 20, toneMapping: IN_PASS, textureDetail: true, alphaTe
     ],
 )
 def test_a_description_calls_for_what_it_says_and_nothing_else(text: str, effects: tuple[str, ...], says: str) -> None:
-    made = scenes.from_description(frame(text), 240, 64)
-    assert made.says == f"what the description calls for: {says}"
+    made = from_description(frame(text), 240, 64)
+    assert made.description == f"what the description calls for: {says}"
     assert set(made.effects) == set(effects) == set(made.why)
-    found = simulated(made, Technique(MSAA, 4))
+    found = simulate(made, Technique(MSAA, 4))
     assert found.effects == effects
     assert (found.depth is not None) == ("depth-resolve" in effects)
 
@@ -393,11 +399,11 @@ def test_a_description_calls_for_what_it_says_and_nothing_else(text: str, effect
     ],
 )
 def test_a_description_says_how(text: str, setting: dict[str, str]) -> None:
-    assert scenes.from_description(frame(text), 240, 64).settings == setting
+    assert from_description(frame(text), 240, 64).settings == setting
 
 
 def test_the_mode_that_a_pass_resolves_depth_by_is_taken() -> None:
-    made = scenes.from_description(frame(FULL), 240, 64)
+    made = from_description(frame(FULL), 240, 64)
     assert made.settings["depth-resolve"] == "MIN"
     assert "commands[0].beginRendering" in made.why["depth-resolve"]
 
@@ -411,28 +417,28 @@ def test_the_mode_that_a_pass_resolves_depth_by_is_taken() -> None:
     ],
 )
 def test_what_descriptions_show_has_the_exact_picture(text: str) -> None:
-    found = measure.point(scenes.from_description(frame(text), 160, 48), MANY)
+    found = measure.point(from_description(frame(text), 160, 48), MANY)
     assert found.rmse < 0.012 and abs(found.bias) < 0.002
 
 
 def test_parts_stand_side_by_side_as_they_are_alone() -> None:
-    made = scenes.from_description(frame("scene: {depth: STANDARD, alphaTest: true}\n"), 200, 64)
-    together = simulated(made, Technique(MSAA, 4)).image
+    made = from_description(frame("scene: {depth: STANDARD, alphaTest: true}\n"), 200, 64)
+    together = simulate(made, Technique(MSAA, 4)).image
     for place, part in enumerate((edges.edge_fan(66, 64), depth.intersecting(66, 64), detail.foliage(66, 64))):
-        alone = simulated(part, Technique(MSAA, 4)).image
+        alone = simulate(part, Technique(MSAA, 4)).image
         assert np.array_equal(together[:, 66 * place : 66 * (place + 1)], alone)
     assert not together[:, 198:].any()
 
 
 def test_a_description_needs_room_for_all_that_it_calls_for() -> None:
     with pytest.raises(ValueError, match="190x64 pixels are too few for edge-fan, intersecting, foliage, zone-plate, glass, portal"):
-        scenes.from_description(frame(FULL), 190, 64)
+        from_description(frame(FULL), 190, 64)
 
 
 def test_brightness_is_the_peak_that_is_stated() -> None:
-    made = scenes.from_description(frame("scene: {color: HDR, peak: 16, toneMapping: NONE}\n"), 64, 64)
+    made = from_description(frame("scene: {color: HDR, peak: 16, toneMapping: NONE}\n"), 64, 64)
     assert made.colors.max() == 16
     assert made.exact(made.triangles)[..., 0].max() == pytest.approx(16)
-    shown = scenes.from_description(frame("scene: {color: HDR, peak: 16}\n"), 64, 64)
+    shown = from_description(frame("scene: {color: HDR, peak: 16}\n"), 64, 64)
     assert shown.exact(shown.triangles)[..., 0].max() == pytest.approx(16 / 17)
-    assert math.isclose(scenes.from_description(frame("scene: {peak: 16}\n"), 64, 64).colors.max(), 1.0)
+    assert math.isclose(from_description(frame("scene: {peak: 16}\n"), 64, 64).colors.max(), 1.0)

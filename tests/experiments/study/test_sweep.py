@@ -12,19 +12,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from msaa_lint.experiments.study.checkpoint import Kept
+from msaa_lint.experiments.study.checkpoint import Checkpoint
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, Point, Technique, techniques
 from msaa_lint.experiments.study.sweep import costs, ordered, sweep, with_cost
-from msaa_lint.experiments.study.tasks import Asked, Failed, Task, Unusable
-from msaa_lint.experiments.study.times import Cost, Model
-from tests.experiments.study.fakes import Clock, measure, point, tasks
+from msaa_lint.experiments.study.tasks import FailedPoint, StudyInput, Task, Unusable
+from msaa_lint.experiments.study.times import Cost, CostModel
+from tests.experiments.study.fakes import DeviceClock, measure, point, tasks
 from tests.strength import examples
 
 ALL = techniques()
 FEW = [Technique(MSAA, 1), Technique(MSAA, 4), Technique(MSAA, 8), Technique(SAMPLE_SHADING, 4, 0.5)]
 
 
-def in_order(results: list[Point | Failed], *names: str, own: list[Technique]) -> list[Point | Failed]:
+def in_order(results: list[Point | FailedPoint], *names: str, own: list[Technique]) -> list[Point | FailedPoint]:
     return ordered(results, names, own)
 
 
@@ -44,13 +44,13 @@ def test_a_point_that_fails_is_said_and_the_others_go_on(jobs: int, backend: str
     results = in_order(
         list(sweep(tasks("breaks", "a", techniques=FEW), jobs=jobs, backend=backend, measure=measure)), "breaks", "a", own=FEW
     )
-    assert results[1] == Failed("breaks", FEW[1], "ValueError: the picture \x1b[31m is no picture")
+    assert results[1] == FailedPoint("breaks", FEW[1], "ValueError: the picture \x1b[31m is no picture")
     assert [isinstance(each, Point) for each in results] == [True, False, True, True, True, True, True, True]
 
 
 def test_a_worker_that_dies_takes_only_its_own_point() -> None:
     results = in_order(list(sweep(tasks("a", "dies", techniques=FEW), jobs=2, backend="loky", measure=measure)), "a", "dies", own=FEW)
-    (failed,) = [each for each in results if isinstance(each, Failed)]
+    (failed,) = [each for each in results if isinstance(each, FailedPoint)]
     assert (failed.scene, failed.technique) == ("dies", Technique(MSAA, 4))
     assert failed.reason.startswith("the process that simulated it died: ")
     assert len(results) == 8
@@ -58,14 +58,14 @@ def test_a_worker_that_dies_takes_only_its_own_point() -> None:
 
 def test_points_that_are_kept_are_not_had_again(tmp_path: Path) -> None:
     wanted = tasks("a", techniques=ALL)
-    first = list(sweep(wanted, kept=Kept(str(tmp_path)), measure=measure))
-    assert list(sweep(wanted, kept=Kept(str(tmp_path)), measure=never)) == first
+    first = list(sweep(wanted, checkpoint=Checkpoint(str(tmp_path)), measure=measure))
+    assert list(sweep(wanted, checkpoint=Checkpoint(str(tmp_path)), measure=never)) == first
     assert len(list(tmp_path.iterdir())) == len(ALL)
 
 
 def test_each_point_is_kept_before_the_next_is_asked_for(tmp_path: Path) -> None:
     """What a stop at any place loses is at most what was under way."""
-    running = sweep(tasks("a", techniques=ALL), kept=Kept(str(tmp_path)), measure=measure)
+    running = sweep(tasks("a", techniques=ALL), checkpoint=Checkpoint(str(tmp_path)), measure=measure)
     for count in range(1, 6):
         next(running)
         assert len(list(tmp_path.glob("*.json"))) == count
@@ -77,21 +77,23 @@ def test_each_point_is_kept_before_the_next_is_asked_for(tmp_path: Path) -> None
 def test_resumed_after_any_stop_it_is_the_same(stop: int, jobs: int) -> None:
     wanted = tasks("a", techniques=ALL)
     with tempfile.TemporaryDirectory() as folder:
-        running = sweep(wanted, kept=Kept(folder), measure=measure, jobs=jobs, backend="threading" if jobs > 1 else None)
+        running = sweep(wanted, checkpoint=Checkpoint(folder), measure=measure, jobs=jobs, backend="threading" if jobs > 1 else None)
         for _ in range(stop):
             next(running)
         running.close()  # type: ignore[attr-defined]
         told: list[tuple[int, int]] = []
-        again = list(sweep(wanted, kept=Kept(folder), measure=measure, progress=lambda done, total, _: told.append((done, total))))
+        again = list(
+            sweep(wanted, checkpoint=Checkpoint(folder), measure=measure, progress=lambda done, total, _: told.append((done, total)))
+        )
     assert in_order(again, "a", own=ALL) == [point(technique, "a") for technique in ALL]
     assert told == [(n + 1, len(ALL)) for n in range(len(ALL))]
 
 
 def test_failures_are_not_kept(tmp_path: Path) -> None:
     wanted = tasks("breaks", techniques=FEW)
-    assert [type(each) for each in sweep(wanted, kept=Kept(str(tmp_path)), measure=measure)].count(Failed) == 1
-    mended = list(sweep(wanted, kept=Kept(str(tmp_path)), measure=lambda task: point(task.technique, "breaks")))
-    assert [type(each) for each in mended].count(Failed) == 0
+    assert [type(each) for each in sweep(wanted, checkpoint=Checkpoint(str(tmp_path)), measure=measure)].count(FailedPoint) == 1
+    mended = list(sweep(wanted, checkpoint=Checkpoint(str(tmp_path)), measure=lambda task: point(task.technique, "breaks")))
+    assert [type(each) for each in mended].count(FailedPoint) == 0
 
 
 @pytest.mark.parametrize(
@@ -102,16 +104,16 @@ def test_failures_are_not_kept(tmp_path: Path) -> None:
         {"bits": 4},
         {"ssim": True},
         {"technique": Technique(MSAA, 8)},
-        {"asked": Asked("scene", "b")},
-        {"asked": Asked("description", "a", text="images: {}")},
-        {"asked": Asked("description", "a", text="images: {}", number=1)},
-        {"asked": Asked("description", "a", text="images: {} # ")},
+        {"input": StudyInput("scene", "b")},
+        {"input": StudyInput("description", "a", text="images: {}")},
+        {"input": StudyInput("description", "a", text="images: {}", number=1)},
+        {"input": StudyInput("description", "a", text="images: {} # ")},
     ],
 )
 def test_what_was_made_otherwise_is_had_anew(tmp_path: Path, change: dict[str, object]) -> None:
     (task,) = tasks("a", techniques=[Technique(MSAA, 4)])
-    kept = Kept(str(tmp_path))
-    kept.keep_point(task, point(task.technique))
+    kept = Checkpoint(str(tmp_path))
+    kept.save_point(task, point(task.technique))
     assert kept.point(task) is not None
     assert kept.point(task._replace(**change)) is None  # type: ignore[arg-type]
 
@@ -121,24 +123,24 @@ def test_a_mesh_that_changed_is_had_anew(tmp_path: Path) -> None:
 
     mesh = tmp_path / "mesh.obj"
     mesh.write_text("v 0 0 0\n")
-    task = Task(Asked("mesh", "mesh.obj", str(mesh)), Technique(MSAA, 4), 64, 48)
-    kept = Kept(str(tmp_path / "kept"))
-    kept.keep_point(task, point(task.technique, "mesh.obj"))
+    task = Task(StudyInput("mesh", "mesh.obj", str(mesh)), Technique(MSAA, 4), 64, 48)
+    kept = Checkpoint(str(tmp_path / "kept"))
+    kept.save_point(task, point(task.technique, "mesh.obj"))
     assert kept.point(task) is not None
     mesh.write_text("v 0 0 1\n")
-    module._bytes.cache_clear()
+    module._contents.cache_clear()
     assert kept.point(task) is None
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", "null", '{"schema": "msaa-lint/study-point-v1"}', "[" * 100_000, "\udcff"])
 def test_what_is_kept_and_broken_is_had_anew(tmp_path: Path, text: str) -> None:
     (task,) = tasks("a", techniques=[Technique(MSAA, 4)])
-    kept = Kept(str(tmp_path))
-    kept.keep_point(task, point(task.technique, "a"))
+    kept = Checkpoint(str(tmp_path))
+    kept.save_point(task, point(task.technique, "a"))
     (path,) = tmp_path.iterdir()
     path.write_bytes(text.encode("utf-8", "surrogateescape"))
-    assert list(sweep([task], kept=kept, measure=measure)) == [point(task.technique, "a")]
-    assert list(sweep([task], kept=kept, measure=never)) == [point(task.technique, "a")]
+    assert list(sweep([task], checkpoint=kept, measure=measure)) == [point(task.technique, "a")]
+    assert list(sweep([task], checkpoint=kept, measure=never)) == [point(task.technique, "a")]
 
 
 @given(
@@ -147,8 +149,8 @@ def test_what_is_kept_and_broken_is_had_anew(tmp_path: Path, text: str) -> None:
 def test_no_content_of_the_folder_makes_a_crash(values: dict[str, object]) -> None:
     (task,) = tasks("a", techniques=[Technique(MSAA, 4)])
     with tempfile.TemporaryDirectory() as folder:
-        kept = Kept(folder)
-        kept.keep_point(task, point(task.technique, "a"))
+        kept = Checkpoint(folder)
+        kept.save_point(task, point(task.technique, "a"))
         (name,) = os.listdir(folder)
         path = os.path.join(folder, name)
         with open(path, encoding="utf-8") as file:
@@ -166,27 +168,27 @@ def test_no_content_of_the_folder_makes_a_crash(values: dict[str, object]) -> No
 def test_a_folder_that_cannot_be_is_refused(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(Unusable, match=r"--resume .*file: "):
-        Kept(str(tmp_path / "file"))
+        Checkpoint(str(tmp_path / "file"))
 
 
 def test_infinity_survives(tmp_path: Path) -> None:
     (task,) = tasks("a", techniques=[Technique(MSAA, 4)])
     exact = point(task.technique, "a", psnr_db=float("inf"), rmse=0.1 + 0.2)
-    kept = Kept(str(tmp_path))
-    kept.keep_point(task, exact)
+    kept = Checkpoint(str(tmp_path))
+    kept.save_point(task, exact)
     assert kept.point(task) == exact
 
 
 def test_one_sample_is_always_timed_and_each_technique_once() -> None:
-    clock = Clock()
+    clock = DeviceClock()
     found = costs([Technique(MSAA, 4), Technique(MSAA, 4)], (64, 48), clock)
-    assert clock.asked == [Technique(MSAA, 1), Technique(MSAA, 4)]
+    assert clock.input == [Technique(MSAA, 1), Technique(MSAA, 4)]
     made = with_cost(point(Technique(MSAA, 4)), found, clock.name)
     assert (made.time_ms, made.time_from, made.ratio, made.bytes_per_frame) == (8.0, "a device", 4.0, 4000)
 
 
 def test_what_the_device_does_not_draw_has_no_time_and_no_source() -> None:
-    found = costs([Technique(MSAA, 8)], (64, 48), Clock(unsupported=(8,)))
+    found = costs([Technique(MSAA, 8)], (64, 48), DeviceClock(unsupported=(8,)))
     made = with_cost(point(Technique(MSAA, 8)), found, "a device")
     assert (made.time_ms, made.time_from, made.ratio, made.bytes_per_frame) == (None, "", None, 1000)
     unknown = with_cost(point(Technique(MSAA, 4)), {Technique(MSAA, 1): Cost(), Technique(MSAA, 4): Cost(time_ms=2.0)}, "a device")
@@ -194,32 +196,32 @@ def test_what_the_device_does_not_draw_has_no_time_and_no_source() -> None:
 
 
 def test_times_that_are_kept_are_not_taken_again(tmp_path: Path) -> None:
-    first, again = Clock(), Clock()
-    found = costs(ALL, (64, 48), first, Kept(str(tmp_path)))
-    assert costs(ALL, (64, 48), again, Kept(str(tmp_path))) == found
-    assert again.asked == []
-    for other in (Clock("another device"),):
-        costs(ALL, (64, 48), other, Kept(str(tmp_path)))
-        assert len(other.asked) == len(ALL)
-    bigger = Clock()
-    costs(ALL, (65, 48), bigger, Kept(str(tmp_path)))
-    assert len(bigger.asked) == len(ALL)
+    first, again = DeviceClock(), DeviceClock()
+    found = costs(ALL, (64, 48), first, Checkpoint(str(tmp_path)))
+    assert costs(ALL, (64, 48), again, Checkpoint(str(tmp_path))) == found
+    assert again.input == []
+    for other in (DeviceClock("another device"),):
+        costs(ALL, (64, 48), other, Checkpoint(str(tmp_path)))
+        assert len(other.input) == len(ALL)
+    bigger = DeviceClock()
+    costs(ALL, (65, 48), bigger, Checkpoint(str(tmp_path)))
+    assert len(bigger.input) == len(ALL)
 
 
 def test_the_models_costs_are_kept_by_what_it_takes_a_frame_to_be(tmp_path: Path) -> None:
-    kept = Kept(str(tmp_path))
-    plain = costs(FEW, (64, 48), Model(), kept)
+    kept = Checkpoint(str(tmp_path))
+    plain = costs(FEW, (64, 48), CostModel(), kept)
     assert plain[Technique(MSAA, 4)].time_ms is None, "the cost model has no time"
-    assert costs(FEW, (64, 48), Model(hdr=True), kept)[Technique(MSAA, 1)].bytes_per_frame == 2 * (
+    assert costs(FEW, (64, 48), CostModel(hdr=True), kept)[Technique(MSAA, 1)].bytes_per_frame == 2 * (
         plain[Technique(MSAA, 1)].bytes_per_frame or 0
     )
-    assert costs(FEW, (64, 48), Model(), kept) == plain
+    assert costs(FEW, (64, 48), CostModel(), kept) == plain
 
 
 @pytest.mark.parametrize(("package", "backend", "words"), [
-    ("joblib", None, "joblib is not installed: pip install 'msaa-lint[study]'"),
-    ("distributed", "dask", "distributed is not installed: pip install distributed"),
-    ("ray", "ray", "ray is not installed: pip install ray"),
+    ("joblib", None, "joblib is not installed: run `pip install 'msaa-lint[study]'`"),
+    ("distributed", "dask", "distributed is not installed: run `pip install distributed`"),
+    ("ray", "ray", "ray is not installed: run `pip install ray`"),
 ])  # fmt: skip
 def test_a_backend_that_is_not_installed_is_said(monkeypatch: pytest.MonkeyPatch, package: str, backend: str | None, words: str) -> None:
     for name in [name for name in sys.modules if name.partition(".")[0] == package]:

@@ -1,4 +1,4 @@
-"""The exact picture of triangles that do not overlap: their areas within every pixel, times their colours."""
+"""The exact picture of triangles that do not overlap: their areas within each pixel times their colors."""
 
 from __future__ import annotations
 
@@ -13,41 +13,47 @@ from .scene import RGBA
 
 Floats = NDArray[np.float64]
 
-NOTHING = 1e-9
-"""Areas below it, in pixels, are none: they are the rounding of double precision."""
+TOLERANCE = 1e-9
+"""Areas below this, in pixels, are rounding errors of double precision."""
 
 
 def disjoint(colors: Floats, background: RGBA, width: int, height: int) -> Callable[[Floats], Floats]:
-    """What gives the exact picture (H, W, 4) of triangles that do not overlap, each in its colour."""
+    """A function from triangles that do not overlap, each in its color, to their exact picture (H, W, 4)."""
     behind = np.asarray(background, np.float64)
-    kinds, number = _kinds(colors)
+    distinct, index = _distinct(colors)
 
     def exact(triangles: Floats) -> Floats:
         picture = np.empty((height, width, 4))
         picture[:] = behind
-        for kind, color in enumerate(kinds):
-            picture += areas_of(triangles[number == kind], width, height)[..., None] * (color - behind)
+        for number, color in enumerate(distinct):
+            picture += areas_of(triangles[index == number], width, height)[..., None] * (color - behind)
         return picture
 
     return exact
 
 
 def edges_between(colors: Floats, width: int, height: int) -> Callable[[Floats], NDArray[np.bool_]]:
-    """What gives the pixels (H, W) that no colour, nor the background, fills whole."""
-    kinds, number = _kinds(colors)
+    """A function from triangles to the pixels (H, W) that neither a single color nor the background fills."""
+    distinct, index = _distinct(colors)
 
-    def crossed(triangles: Floats) -> NDArray[np.bool_]:
+    def edge_pixels(triangles: Floats) -> NDArray[np.bool_]:
         covered, whole = np.zeros((height, width)), np.zeros((height, width), bool)
-        for kind in range(len(kinds)):
-            area = areas_of(triangles[number == kind], width, height)
+        for number in range(len(distinct)):
+            area = areas_of(triangles[index == number], width, height)
             covered += area
-            whole |= area > 1 - NOTHING
-        return ~whole & (covered > NOTHING)
+            whole |= area > 1 - TOLERANCE
+        return ~whole & (covered > TOLERANCE)
 
-    return crossed
+    return edge_pixels
 
 
-def _kinds(colors: Floats) -> tuple[Floats, NDArray[np.intp]]:
-    """The colours that there are, and each triangle's number of them."""
-    kinds, number = np.unique(colors, axis=0, return_inverse=True)
-    return kinds, number.reshape(-1)
+def partly_covered(coverage: Floats) -> NDArray[np.bool_]:
+    """The pixels whose coverage is between 0 and 1."""
+    edge: NDArray[np.bool_] = (coverage > TOLERANCE) & (coverage < 1 - TOLERANCE)
+    return edge
+
+
+def _distinct(colors: Floats) -> tuple[Floats, NDArray[np.intp]]:
+    """The distinct colors, and each triangle's index among them."""
+    distinct, index = np.unique(colors, axis=0, return_inverse=True)
+    return distinct, index.reshape(-1)

@@ -1,4 +1,4 @@
-"""Scenes of depth and stencil: edges that no triangle has, and surfaces one behind the other."""
+"""Scenes of depth and stencil: edges that no triangle has, and surfaces behind one another."""
 
 from __future__ import annotations
 
@@ -7,18 +7,21 @@ import math
 import numpy as np
 
 from . import area, shapes, visible
-from .light import Shown
+from .light import Display
 from .scene import BLACK, RGBA, WHITE, Scene
 
 NEAR: RGBA = (0.9, 0.35, 0.05, 1.0)
 FAR: RGBA = (0.05, 0.3, 0.8, 1.0)
 
 
-def _intersecting(width: int, height: int, depths: tuple[float, float], greater: bool, shown: Shown | None = None) -> Scene:
-    """Two sheets of 8 strips each that go through each other along lines at many angles. Depth is `depths[0]` at the crossing and differs
-    by at most `depths[1]`; it is kept as 1 less that with standard depth."""
+def _intersecting(width: int, height: int, depths: tuple[float, float], greater: bool, display: Display | None = None) -> Scene:
+    """Two sheets of 8 strips each that intersect along lines at many angles.
+
+    With reversed depth, depth is `depths[0]` at the intersection and differs from it by at most `depths[1]`; standard depth is 1 minus
+    that.
+    """
     count = 8
-    strips, nearness, colors = [], [], []
+    strips, offsets, colors = [], [], []
     reach = height / 2
     for number in range(count):
         left, right = width * number / count, width * (number + 1) / count
@@ -27,75 +30,91 @@ def _intersecting(width: int, height: int, depths: tuple[float, float], greater:
         for side, color in ((1.0, NEAR), (-1.0, FAR)):
             corners = shapes.rectangle(left, 0, right, height)
             strips.append(corners)
-            # A plane that is 0 along a line through the strip's middle, at the strip's own angle.
+            # A plane that is 0 along a line through the center of the strip, at the strip's angle.
             tilt = [side * ((x - middle) * math.sin(angle) - (y - height / 2) * math.cos(angle)) / (2 * reach) for x, y in corners]
-            nearness += [[tilt[0], tilt[1], tilt[2]], [tilt[0], tilt[2], tilt[3]]]
+            offsets += [[tilt[0], tilt[1], tilt[2]], [tilt[0], tilt[2], tilt[3]]]
             colors += [color, color]
-    made = shapes.triangles(strips)
-    near = depths[0] + depths[1] * np.array(nearness)
-    tints = np.array(colors)
-    stored = near if greater else 1 - near
+    triangles = shapes.triangles(strips)
+    nearness_values = depths[0] + depths[1] * np.array(offsets)
+    corner_colors = np.array(colors)
+    depths_stored = nearness_values if greater else 1 - nearness_values
     comparison = "GREATER" if greater else "LESS"
-    # What is due is the crossing line itself, whatever depth is kept in: of the nearness before it is rounded.
-    exact, crossed = visible.overlapping(tints, near, BLACK, width, height, visible.Look(depth=True, reversed=True), shown)
-    why = {"depth-test": f"surfaces go through each other; {'reversed' if greater else 'standard'} depth, {comparison}"}
+    # The exact picture has the intersection itself, before any rounding of depth: it uses the nearness.
+    exact, edge_pixels = visible.overlapping(
+        corner_colors, nearness_values, BLACK, width, height, visible.Visibility(depth=True, reversed=True), display
+    )
+    why = {"depth-test": f"surfaces intersect; {'reversed' if greater else 'standard'} depth, {comparison}"}
     return Scene(
-        "", "", width, height, made, tints, stored, BLACK, ("depth-test",), why, exact, False, None, crossed, {"depth-test": comparison}
+        "",
+        "",
+        width,
+        height,
+        triangles,
+        corner_colors,
+        depths_stored,
+        BLACK,
+        ("depth-test",),
+        why,
+        exact,
+        False,
+        None,
+        edge_pixels,
+        {"depth-test": comparison},
     )
 
 
-def intersecting(width: int, height: int, shown: Shown | None = None) -> Scene:
-    """Near, standard depth."""
-    return _intersecting(width, height, (0.5, 0.4), False, shown)
+def intersecting(width: int, height: int, display: Display | None = None) -> Scene:
+    """Near surfaces, standard depth."""
+    return _intersecting(width, height, (0.5, 0.4), False, display)
 
 
-def intersecting_reversed(width: int, height: int, shown: Shown | None = None) -> Scene:
-    """Near, reversed depth."""
-    return _intersecting(width, height, (0.5, 0.4), True, shown)
+def intersecting_reversed(width: int, height: int, display: Display | None = None) -> Scene:
+    """Near surfaces, reversed depth."""
+    return _intersecting(width, height, (0.5, 0.4), True, display)
 
 
 def intersecting_far(width: int, height: int) -> Scene:
-    """A thousand times as far as the near plane, where standard depth has few values left."""
+    """Surfaces a thousand times as far away as the near plane, where standard depth has few distinct values."""
     return _intersecting(width, height, (1e-3, 1e-6), False)
 
 
 def intersecting_far_reversed(width: int, height: int) -> Scene:
-    """As far, with reversed depth."""
+    """The same distant surfaces with reversed depth."""
     return _intersecting(width, height, (1e-3, 1e-6), True)
 
 
 def silhouette(width: int, height: int) -> Scene:
-    """A near disc before a far wall, whose depth a later pass reads."""
+    """A near disc in front of a far wall, whose depth a later pass reads."""
     side = min(width, height)
-    disc = [shapes.around((width / 2, height / 2), side * 0.4, 2 * math.pi * (n + shapes.GOLDEN) / 64) for n in range(64)]
-    made = shapes.triangles([shapes.rectangle(0, 0, width, height), disc])
-    depths = np.full((len(made), 3), 0.25)
+    disc = [shapes.polar((width / 2, height / 2), side * 0.4, 2 * math.pi * (n + shapes.GOLDEN) / 64) for n in range(64)]
+    triangles = shapes.triangles([shapes.rectangle(0, 0, width, height), disc])
+    depths = np.full((len(triangles), 3), 0.25)
     depths[:2] = 0.75
-    colors = shapes.painted(len(made), WHITE)
+    colors = shapes.uniform_colors(len(triangles), WHITE)
     colors[:2] = BLACK
     exact = area.disjoint(colors[2:], BLACK, width, height)
     why = {
-        "depth-test": "the disc is before the wall",
-        "depth-resolve": "a later pass reads one depth for a pixel, and wants a surface's: SAMPLE_ZERO",
+        "depth-test": "the disc is in front of the wall",
+        "depth-resolve": "a later pass reads one depth per pixel and needs that of a surface: SAMPLE_ZERO",
     }
     settings: dict[str, object] = {"depth-test": "LESS", "depth-resolve": "SAMPLE_ZERO"}
-    crossed = area.edges_between(colors[2:], width, height)
-    return Scene("", "", width, height, made, colors, depths, BLACK, ("depth-test", "depth-resolve"), why,
-                 lambda triangles: exact(triangles[2:]), False, None, lambda triangles: crossed(triangles[2:]), settings)  # fmt: skip
+    edge_pixels = area.edges_between(colors[2:], width, height)
+    return Scene("", "", width, height, triangles, colors, depths, BLACK, ("depth-test", "depth-resolve"), why,
+                 lambda triangles: exact(triangles[2:]), False, None, lambda triangles: edge_pixels(triangles[2:]), settings)  # fmt: skip
 
 
 def portal(width: int, height: int) -> Scene:
-    """A window that is marked in stencil, and a wall drawn only through it: its edge is in stencil alone."""
+    """A window that is marked in stencil, and a wall drawn only through it, so that the edge exists in stencil alone."""
     side = min(width, height)
     window = [
-        shapes.around((width / 2, height / 2), side * (0.45 if n % 2 else 0.36), 2 * math.pi * (n + shapes.GOLDEN) / 24) for n in range(24)
+        shapes.polar((width / 2, height / 2), side * (0.45 if n % 2 else 0.36), 2 * math.pi * (n + shapes.GOLDEN) / 24) for n in range(24)
     ]
     middle = (width / 2, height / 2)
     marks = shapes.triangles([[middle, window[n], window[(n + 1) % 24]] for n in range(24)])
-    made = np.concatenate([marks, shapes.triangles([shapes.rectangle(0, 0, width, height)])])
-    colors = shapes.painted(len(made), WHITE)
+    triangles = np.concatenate([marks, shapes.triangles([shapes.rectangle(0, 0, width, height)])])
+    colors = shapes.uniform_colors(len(triangles), WHITE)
     count = len(marks)
     exact = area.disjoint(colors[:count], BLACK, width, height)
-    why = {"stencil": "the wall is drawn where a window marked samples"}
-    return Scene("", "", width, height, made, colors, None, BLACK, ("stencil",), why,
-                 lambda triangles: exact(triangles[:count]), settings={"stencil": (0, count, len(made))})  # fmt: skip
+    why = {"stencil": "the wall is drawn only on the samples that a window marked"}
+    return Scene("", "", width, height, triangles, colors, None, BLACK, ("stencil",), why,
+                 lambda triangles: exact(triangles[:count]), settings={"stencil": (0, count, len(triangles))})  # fmt: skip

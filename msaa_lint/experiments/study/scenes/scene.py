@@ -1,4 +1,4 @@
-"""What a scene is: triangles, the effects that it calls for, and the exact picture. Nothing here needs NumPy to be imported."""
+"""A scene: triangles, the effects it needs, and its exact picture. Importing this needs no NumPy."""
 
 from __future__ import annotations
 
@@ -11,31 +11,34 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
     Shade = Callable[[NDArray[np.int32], Floats, Floats], Floats]
-    """Triangles' numbers, x and y in pixels (F,) to linear RGBA (F, 4)."""
+    """Triangle indices, x and y in pixels (F,) to linear RGBA (F, 4)."""
 
     Exact = Callable[[Floats], Floats]
-    """Triangles (T, 3, 2) in pixels, as they were snapped, to the exact picture (H, W, 4) in linear colour."""
+    """Snapped triangles (T, 3, 2) in pixels to the exact picture (H, W, 4) in linear color."""
 
-    Crossed = Callable[[Floats], NDArray[np.bool_]]
-    """Triangles as above to the pixels (H, W) that an edge crosses."""
+    EdgePixels = Callable[[Floats], NDArray[np.bool_]]
+    """Snapped triangles (T, 3, 2) in pixels to the pixels (H, W) that an edge crosses."""
 
 RGBA = tuple[float, float, float, float]
 BLACK: RGBA = (0.0, 0.0, 0.0, 0.0)
 WHITE: RGBA = (1.0, 1.0, 1.0, 1.0)
 
+MIN_SIZE = 32
+"""Minimum width and height of a picture, in pixels."""
+
 
 class Scene(NamedTuple):
-    """A picture to be drawn. Coordinates are pixels, x to the right and y down; colours are linear, 1.0 is display white.
+    """A picture to render. Coordinates are pixels, x to the right and y down; colors are linear, 1.0 is display white.
 
-    `depths` are of the triangles' corners, in [0, 1], None where nothing calls for depth. `effects` are the stages that it calls for, by
-    their names (study/effects), `why` says for each in words why, `settings` how where there is a choice. `shade` gives the colour at a
-    point, None where a triangle has one colour all over. `exact` is the picture without sampling error: what an infinite number of samples
-    would give, after the tone mapping where there is one. Where `coverage_matter`, its alpha is the exact coverage, and errors are of
-    coverage; else of colour. `crossed` are the pixels that an edge crosses, by default those of a coverage above 0 and below 1.
+    `depths` are those of the triangles' corners, in [0, 1]; None without depth. `effects` names the stages that the scene needs
+    (study/effects.py), `why` gives the reason for each, and `settings` the choices. `shade` gives the color at a point; None where each
+    triangle has a single color. `exact` gives the picture without sampling error, as an infinite number of samples would, after any tone
+    mapping. With `coverage_matter` its alpha is the exact coverage and errors are of coverage, otherwise of color. `edge_pixels` gives the
+    pixels that an edge crosses, by default those with a coverage between 0 and 1.
     """
 
     name: str
-    says: str
+    description: str
     width: int
     height: int
     triangles: Floats
@@ -47,5 +50,11 @@ class Scene(NamedTuple):
     exact: Exact
     coverage_matter: bool = True
     shade: Shade | None = None
-    crossed: Crossed | None = None
+    edge_pixels: EdgePixels | None = None
     settings: Mapping[str, object] = {}
+
+
+def check_size(width: int, height: int) -> None:
+    """ValueError where a picture is too small for a scene."""
+    if width < MIN_SIZE or height < MIN_SIZE:
+        raise ValueError(f"a scene must be at least {MIN_SIZE}x{MIN_SIZE} pixels, found {width}x{height}")

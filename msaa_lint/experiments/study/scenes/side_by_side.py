@@ -1,4 +1,4 @@
-"""Scenes side by side: a picture whose parts each show one thing that is called for."""
+"""Scenes side by side: a picture whose parts each show one thing."""
 
 from __future__ import annotations
 
@@ -7,15 +7,18 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from .area import NOTHING
+from .area import partly_covered
 from .scene import BLACK, RGBA, Scene
 
 Floats = NDArray[np.float64]
 
 
-def beside(parts: Sequence[Scene], width: int, height: int) -> Scene:
-    """One scene of several, from the left; each is height pixels high, all of them width wide, and what is left at the right is background.
-    Effects are those of any part, settings those of all; parts that have no depth get one in which what is drawn later is nearer."""
+def side_by_side(parts: Sequence[Scene], width: int, height: int) -> Scene:
+    """One scene of several, from the left, with background in what remains at the right; each part is `height` pixels high.
+
+    The effects and settings are those of all parts. With a depth test, a part without depths gets some with which triangles drawn later are
+    nearer.
+    """
     lefts = np.cumsum([0, *(part.width for part in parts)])
     firsts = [int(first) for first in np.cumsum([0, *(len(part.triangles) for part in parts)])]
     triangles = np.concatenate([part.triangles + np.array((left, 0)) for part, left in zip(parts, lefts, strict=False)])
@@ -29,49 +32,45 @@ def beside(parts: Sequence[Scene], width: int, height: int) -> Scene:
     depths = None
     if "depth-test" in effects:
         greater = str(settings.get("depth-test", "LESS")).startswith("GREATER")
-        depths = np.concatenate([_ordered(part, greater) if part.depths is None else part.depths for part in parts])
+        depths = np.concatenate([_depths_in_order(part, greater) if part.depths is None else part.depths for part in parts])
 
-    def each(given: Floats) -> list[tuple[Scene, Floats]]:
-        return [(part, given[firsts[n] : firsts[n + 1]] - (lefts[n], 0)) for n, part in enumerate(parts)]
+    def split(whole: Floats) -> list[tuple[Scene, Floats]]:
+        return [(part, whole[firsts[n] : firsts[n + 1]] - (lefts[n], 0)) for n, part in enumerate(parts)]
 
-    def exact(given: Floats) -> Floats:
-        return _filled([part.exact(own) for part, own in each(given)], BLACK, width)
+    def exact(whole: Floats) -> Floats:
+        return _joined([part.exact(triangles) for part, triangles in split(whole)], BLACK, width)
 
-    def crossed(given: Floats) -> NDArray[np.bool_]:
-        found = np.zeros((height, width), bool)
-        for (part, own), left in zip(each(given), lefts, strict=False):
-            found[:, left : left + part.width] = _crossed(part, own)
-        return found
+    def edge_pixels(whole: Floats) -> NDArray[np.bool_]:
+        edges = np.zeros((height, width), bool)
+        for (part, triangles), left in zip(split(whole), lefts, strict=False):
+            edges[:, left : left + part.width] = _edge_pixels(part, triangles)
+        return edges
 
     def shade(triangle: NDArray[np.int32], x: Floats, y: Floats) -> Floats:
-        made = colors[triangle]
+        shaded = colors[triangle]
         for number, part in enumerate(parts):
             if part.shade is not None:
-                own = (triangle >= firsts[number]) & (triangle < firsts[number + 1])
-                made[own] = part.shade(triangle[own] - np.int32(firsts[number]), x[own] - lefts[number], y[own])
-        return made
+                inside = (triangle >= firsts[number]) & (triangle < firsts[number + 1])
+                shaded[inside] = part.shade(triangle[inside] - np.int32(firsts[number]), x[inside] - lefts[number], y[inside])
+        return shaded
 
-    shaded = shade if any(part.shade is not None for part in parts) else None
+    shader = shade if any(part.shade is not None for part in parts) else None
     coverage = all(part.coverage_matter for part in parts)
-    return Scene("", "", width, height, triangles, colors, depths, BLACK, effects, why, exact, coverage, shaded, crossed, settings)
+    return Scene("", "", width, height, triangles, colors, depths, BLACK, effects, why, exact, coverage, shader, edge_pixels, settings)
 
 
-def _ordered(part: Scene, greater: bool) -> Floats:
+def _depths_in_order(part: Scene, greater: bool) -> Floats:
     count = len(part.triangles)
     nearer = 0.5 + 0.25 * np.arange(count) / count
     return np.repeat((nearer if greater else 1 - nearer)[:, None], 3, axis=1)
 
 
-def _crossed(part: Scene, triangles: Floats) -> NDArray[np.bool_]:
-    if part.crossed is not None:
-        return part.crossed(triangles)
-    alpha = part.exact(triangles)[..., 3]
-    found: NDArray[np.bool_] = (alpha > NOTHING) & (alpha < 1 - NOTHING)
-    return found
+def _edge_pixels(part: Scene, triangles: Floats) -> NDArray[np.bool_]:
+    return part.edge_pixels(triangles) if part.edge_pixels is not None else partly_covered(part.exact(triangles)[..., 3])
 
 
-def _filled(pictures: list[Floats], background: RGBA, width: int) -> Floats:
-    made = np.concatenate(pictures, axis=1)
-    rest = np.empty((made.shape[0], width - made.shape[1], 4))
+def _joined(pictures: list[Floats], background: RGBA, width: int) -> Floats:
+    joined = np.concatenate(pictures, axis=1)
+    rest = np.empty((joined.shape[0], width - joined.shape[1], 4))
     rest[:] = background
-    return np.concatenate([made, rest], axis=1)
+    return np.concatenate([joined, rest], axis=1)

@@ -1,9 +1,8 @@
-"""The exact picture of triangles that overlap, cross in depth or are mixed: the picture is cut into convex pieces of one colour each.
+"""The exact picture of triangles that overlap, intersect in depth or are blended: the picture is divided into convex regions of one color.
 
-A piece of the picture begins as a tile of the background. Each triangle, in order, cuts the pieces that it meets into what lies inside it
-and what does not; inside, depth cuts once more, along the line where the two surfaces cross, and what is in front (or drawn last,
-where there is no depth) has the colour. Areas of the pieces within every pixel are exact as those of triangles are; all of it in double
-precision.
+A tile of the picture starts as one region of the background. Each triangle, in order, divides the regions that it overlaps into the part
+inside it and the rest. Inside, a depth test divides the part once more along the line where the two surfaces intersect; what is in front
+(or drawn last, without depth) determines the color. The areas of regions within each pixel are exact, in double precision.
 """
 
 from __future__ import annotations
@@ -15,46 +14,44 @@ import numpy as np
 from numpy.typing import NDArray
 
 from msaa_lint.experiments.study.exact_area import areas_of
-from msaa_lint.experiments.study.shade import planes
 
-from . import shapes
-from .area import NOTHING
+from .area import TOLERANCE
 from .scene import RGBA
+from .shapes import Point, depth_planes, fan
 
 Floats = NDArray[np.float64]
-Point = tuple[float, float]
 Polygon = list[Point]
 Line = tuple[float, float, float]
 Color = tuple[float, float, float, float]
 
 TILE = 16
-"""Pixels of a tile's side: few triangles meet one, so that the work grows with their number and not with its square."""
+"""Side of a tile in pixels. Few triangles overlap a tile, so that the work grows with their number and not with its square."""
 
-ABREAST = 64
-"""Tiles beside each other, and below, whose areas are worked out together."""
+BATCH_TILES = 64
+"""Tiles, horizontally and vertically, whose areas are computed together."""
 
-SLIVER = 1e-12
-"""Pieces of a smaller area, in pixels, are dropped."""
+MIN_AREA = 1e-12
+"""Regions of a smaller area, in pixels, are dropped."""
 
 
-class Piece(NamedTuple):
-    """A convex part of the picture: its colour, and the depth of its surface as a plane."""
+class Region(NamedTuple):
+    """A convex part of the picture, its color, and the depth plane of its surface."""
 
     polygon: Polygon
     color: Color
     plane: Line
 
 
-class Look(NamedTuple):
-    """What decides which surface is seen: depth or the order, and whether colours are mixed by alpha."""
+class Visibility(NamedTuple):
+    """What decides the visible surface: depth or the drawing order, and whether colors are blended by alpha."""
 
     depth: bool = False
     reversed: bool = False
     blended: bool = False
 
 
-def cut(polygon: Polygon, line: Line) -> tuple[Polygon, Polygon]:
-    """The parts of a convex polygon where a*x + b*y + c is at least 0, and where it is at most 0; one may be empty."""
+def split(polygon: Polygon, line: Line) -> tuple[Polygon, Polygon]:
+    """The parts of a convex polygon where a*x + b*y + c is at least 0, and where it is at most 0; one of them may be empty."""
     a, b, c = line
     sides = [a * x + b * y + c for x, y in polygon]
     if min(sides) >= 0:
@@ -64,101 +61,102 @@ def cut(polygon: Polygon, line: Line) -> tuple[Polygon, Polygon]:
     above: Polygon = []
     below: Polygon = []
     for number, (point, side) in enumerate(zip(polygon, sides, strict=True)):
-        before, last = polygon[number - 1], sides[number - 1]
-        if (last < 0 < side) or (side < 0 < last):
-            part = last / (last - side)
-            crossing = (before[0] + (point[0] - before[0]) * part, before[1] + (point[1] - before[1]) * part)
+        previous, previous_side = polygon[number - 1], sides[number - 1]
+        if (previous_side < 0 < side) or (side < 0 < previous_side):
+            fraction = previous_side / (previous_side - side)
+            crossing = (previous[0] + (point[0] - previous[0]) * fraction, previous[1] + (point[1] - previous[1]) * fraction)
             above.append(crossing)
             below.append(crossing)
         if side >= 0:
             above.append(point)
         if side <= 0:
             below.append(point)
-    return _solid(above), _solid(below)
+    return _unless_degenerate(above), _unless_degenerate(below)
 
 
-def size(polygon: Polygon) -> float:
-    """The area of a polygon, with the sign of its direction."""
+def signed_area(polygon: Polygon) -> float:
+    """The area of a polygon, signed by its winding."""
     return sum(x0 * y1 - x1 * y0 for (x0, y0), (x1, y1) in zip(polygon, polygon[1:] + polygon[:1], strict=True)) / 2
 
 
-def _solid(polygon: Polygon) -> Polygon:
-    return polygon if len(polygon) > 2 and abs(size(polygon)) > SLIVER else []
+def _unless_degenerate(polygon: Polygon) -> Polygon:
+    return polygon if len(polygon) > 2 and abs(signed_area(polygon)) > MIN_AREA else []
 
 
 def _edges(triangle: Floats) -> list[Line]:
-    """The lines of a triangle's edges, at least 0 inside, in units of pixels; none for one without area."""
+    """The lines of a triangle's edges, at least 0 inside, in pixels; none for a triangle without area."""
     corners = [(float(x), float(y)) for x, y in triangle]
-    if size(corners) < 0:
+    if signed_area(corners) < 0:
         corners.reverse()
-    if size(corners) <= SLIVER:
+    if signed_area(corners) <= MIN_AREA:
         return []
     return [(y0 - y1, x1 - x0, x0 * y1 - x1 * y0) for (x0, y0), (x1, y1) in zip(corners, corners[1:] + corners[:1], strict=True)]
 
 
-def _inserted(tile: list[Piece], edges: list[Line], new: Piece, look: Look) -> list[Piece]:
-    """The pieces of a tile with a triangle drawn over them."""
-    found = []
-    for piece in tile:
-        inside, rest = piece.polygon, []
+def _draw(tile: list[Region], edges: list[Line], triangle: Region, visibility: Visibility) -> list[Region]:
+    """The regions of a tile with a triangle drawn over them."""
+    regions = []
+    for region in tile:
+        inside, outside = region.polygon, []
         for line in edges:
-            inside, outside = cut(inside, line)
-            if outside:
-                rest.append(outside)
+            inside, rest = split(inside, line)
+            if rest:
+                outside.append(rest)
             if not inside:
                 break
-        seen: Polygon = inside
-        if inside and look.depth:
+        visible: Polygon = inside
+        if inside and visibility.depth:
             # Where the new surface is nearer: LESS, or GREATER with reversed depth.
-            sign = -1.0 if look.reversed else 1.0
-            a, b, c = (sign * (old - own) for old, own in zip(piece.plane, new.plane, strict=True))
-            seen, hidden = ([], inside) if a == b == 0 and c <= 0 else cut(inside, (a, b, c))
+            sign = -1.0 if visibility.reversed else 1.0
+            a, b, c = (sign * (old - new) for old, new in zip(region.plane, triangle.plane, strict=True))
+            visible, hidden = ([], inside) if a == b == 0 and c <= 0 else split(inside, (a, b, c))
             if hidden:
-                rest.append(hidden)
-        if not seen:
-            found.append(piece)
+                outside.append(hidden)
+        if not visible:
+            regions.append(region)
             continue
-        found += [piece._replace(polygon=each) for each in rest]
-        found.append(Piece(seen, _mixed(new.color, piece.color) if look.blended else new.color, new.plane))
-    return found
+        regions += [region._replace(polygon=polygon) for polygon in outside]
+        color = _blend(triangle.color, region.color) if visibility.blended else triangle.color
+        regions.append(Region(visible, color, triangle.plane))
+    return regions
 
 
-def _mixed(color: Color, behind: Color) -> Color:
+def _blend(color: Color, behind: Color) -> Color:
     alpha = color[3]
-    red, green, blue = (alpha * own + (1 - alpha) * old for own, old in zip(color[:3], behind[:3], strict=True))
+    red, green, blue = (alpha * new + (1 - alpha) * old for new, old in zip(color[:3], behind[:3], strict=True))
     return red, green, blue, alpha + (1 - alpha) * behind[3]
 
 
 def tiles(
-    triangles: Floats, colors: Floats, depths: Floats | None, background: RGBA, size: tuple[int, int], look: Look
-) -> Iterator[tuple[int, int, list[Piece]]]:
-    """The tiles of a picture of that size (width, height): left, top and pieces of each."""
+    triangles: Floats, colors: Floats, depths: Floats | None, background: RGBA, size: tuple[int, int], visibility: Visibility
+) -> Iterator[tuple[int, int, list[Region]]]:
+    """The tiles of a picture of `size` (width, height): the left, top and regions of each."""
     width, height = size
-    surfaces = planes(triangles, depths) if depths is not None else np.zeros((len(triangles), 3))
+    planes = depth_planes(triangles, depths) if depths is not None else np.zeros((len(triangles), 3))
     low, high = triangles.min(axis=1), triangles.max(axis=1)
     edges = [_edges(triangle) for triangle in triangles]
-    news = [Piece([], _four(color), (float(a), float(b), float(c))) for color, (a, b, c) in zip(colors, surfaces, strict=True)]
-    cleared = 0.0 if look.reversed else 1.0
+    surfaces = [Region([], _color(color), (float(a), float(b), float(c))) for color, (a, b, c) in zip(colors, planes, strict=True)]
+    clear = 0.0 if visibility.reversed else 1.0
     for top in range(0, height, TILE):
         bottom = min(top + TILE, height)
-        beside = np.flatnonzero((low[:, 1] < bottom) & (high[:, 1] > top))
+        in_row = np.flatnonzero((low[:, 1] < bottom) & (high[:, 1] > top))
         for left in range(0, width, TILE):
             right = min(left + TILE, width)
-            tile = [(float(left), float(top)), (float(right), float(top)), (float(right), float(bottom)), (float(left), float(bottom))]
-            found = [Piece(tile, background, (0.0, 0.0, cleared))]
-            for number in beside[(low[beside, 0] < right) & (high[beside, 0] > left)]:
+            corners = [(float(left), float(top)), (float(right), float(top)), (float(right), float(bottom)), (float(left), float(bottom))]
+            regions = [Region(corners, background, (0.0, 0.0, clear))]
+            for number in in_row[(low[in_row, 0] < right) & (high[in_row, 0] > left)]:
                 if edges[number]:
-                    found = _inserted(found, edges[number], news[number], look)
-            yield left, top, found
+                    regions = _draw(regions, edges[number], surfaces[number], visibility)
+            yield left, top, regions
 
 
-def _four(color: Floats) -> Color:
+def _color(color: Floats) -> Color:
     red, green, blue, alpha = map(float, color)
     return red, green, blue, alpha
 
 
-class _Part(NamedTuple):
-    """What a tile has of one colour, as triangles."""
+class _ColorArea(NamedTuple):
+    """What one color fills of a tile, as triangles."""
 
     left: int
     top: int
@@ -166,15 +164,15 @@ class _Part(NamedTuple):
     triangles: list[list[Point]]
 
 
-def _areas(parts: list[_Part]) -> Floats:
-    """The areas of parts within the pixels of their tiles (P, TILE, TILE), worked out side by side in one picture."""
+def _areas(parts: list[_ColorArea]) -> Floats:
+    """The areas of parts within the pixels of their tiles (P, TILE, TILE), computed side by side in one picture."""
     corners = []
     for number, part in enumerate(parts):
-        row, column = divmod(number, ABREAST)
+        row, column = divmod(number, BATCH_TILES)
         corners.append(np.array(part.triangles) + np.array((TILE * column - part.left, TILE * row - part.top)))
-    rows = -(-len(parts) // ABREAST)
-    found = areas_of(np.concatenate(corners), TILE * ABREAST, TILE * rows)
-    return found.reshape(rows, TILE, ABREAST, TILE).swapaxes(1, 2).reshape(-1, TILE, TILE)
+    rows = -(-len(parts) // BATCH_TILES)
+    areas = areas_of(np.concatenate(corners), TILE * BATCH_TILES, TILE * rows)
+    return areas.reshape(rows, TILE, BATCH_TILES, TILE).swapaxes(1, 2).reshape(-1, TILE, TILE)
 
 
 def overlapping(
@@ -183,42 +181,42 @@ def overlapping(
     background: RGBA,
     width: int,
     height: int,
-    look: Look,
-    shown: Callable[[Floats], Floats] | None = None,
+    visibility: Visibility,
+    display: Callable[[Floats], Floats] | None = None,
 ) -> tuple[Callable[[Floats], Floats], Callable[[Floats], NDArray[np.bool_]]]:
-    """What gives the exact picture (H, W, 4) of triangles (T, 3, 2), and the pixels that an edge or a crossing line goes through: those
-    that no colour fills whole. `shown` maps the colour of a piece to what is displayed."""
+    """Two functions of triangles (T, 3, 2): to their exact picture (H, W, 4), and to the pixels that an edge or an intersection crosses,
+    which no single color fills. `display` maps the color of a region to the displayed one."""
 
-    def display(color: Color) -> Floats:
-        return np.array(color) if shown is None else shown(np.array(color))
+    def displayed(color: Color) -> Floats:
+        return np.array(color) if display is None else display(np.array(color))
 
-    def both(triangles: Floats) -> tuple[Floats, NDArray[np.bool_]]:
+    def render(triangles: Floats) -> tuple[Floats, NDArray[np.bool_]]:
         picture, whole = np.zeros((height, width, 4)), np.zeros((height, width), bool)
-        parts: list[_Part] = []
-        for left, top, found in tiles(triangles, colors, depths, background, (width, height), look):
-            kinds: dict[Color, list[list[Point]]] = {}
-            for piece in found:
-                kinds.setdefault(piece.color, []).extend(shapes.fan(piece.polygon))
-            if len(kinds) == 1:
-                picture[top : top + TILE, left : left + TILE] = display(found[0].color)
+        parts: list[_ColorArea] = []
+        for left, top, regions in tiles(triangles, colors, depths, background, (width, height), visibility):
+            by_color: dict[Color, list[list[Point]]] = {}
+            for region in regions:
+                by_color.setdefault(region.color, []).extend(fan(region.polygon))
+            if len(by_color) == 1:
+                picture[top : top + TILE, left : left + TILE] = displayed(regions[0].color)
                 whole[top : top + TILE, left : left + TILE] = True
             else:
-                parts += [_Part(left, top, color, own) for color, own in kinds.items()]
-        for start in range(0, len(parts), ABREAST * ABREAST):
-            some = parts[start : start + ABREAST * ABREAST]
-            for part, area in zip(some, _areas(some), strict=False):
+                parts += [_ColorArea(left, top, color, shapes) for color, shapes in by_color.items()]
+        for start in range(0, len(parts), BATCH_TILES * BATCH_TILES):
+            batch = parts[start : start + BATCH_TILES * BATCH_TILES]
+            for part, area in zip(batch, _areas(batch), strict=False):
                 pixels = slice(part.top, min(part.top + TILE, height)), slice(part.left, min(part.left + TILE, width))
                 area = area[: pixels[0].stop - part.top, : pixels[1].stop - part.left]
-                picture[pixels] += area[..., None] * display(part.color)
-                whole[pixels] |= area > 1 - NOTHING
+                picture[pixels] += area[..., None] * displayed(part.color)
+                whole[pixels] |= area > 1 - TOLERANCE
         return picture, ~whole
 
-    remembered: list[tuple[bytes, tuple[Floats, NDArray[np.bool_]]]] = []
+    cache: list[tuple[bytes, tuple[Floats, NDArray[np.bool_]]]] = []
 
-    def once(triangles: Floats) -> tuple[Floats, NDArray[np.bool_]]:
+    def rendered(triangles: Floats) -> tuple[Floats, NDArray[np.bool_]]:
         key = triangles.tobytes()
-        if not remembered or remembered[0][0] != key:
-            remembered[:] = [(key, both(triangles))]
-        return remembered[0][1]
+        if not cache or cache[0][0] != key:
+            cache[:] = [(key, render(triangles))]
+        return cache[0][1]
 
-    return lambda triangles: once(triangles)[0], lambda triangles: once(triangles)[1]
+    return lambda triangles: rendered(triangles)[0], lambda triangles: rendered(triangles)[1]

@@ -1,4 +1,4 @@
-"""What stages work on: a batch of fragments, the samples of a band of the picture, and what is drawn."""
+"""The data that the stages of a draw share: the draw's constants, a batch of fragments, and a band of the picture's samples."""
 
 from __future__ import annotations
 
@@ -14,8 +14,12 @@ Indices = NDArray[np.intp]
 
 
 class Drawing(NamedTuple):
-    """What holds for a whole draw. Locations are (N, 2) in pixels of the picture that is drawn; `groups` are the samples that each shader
-    invocation is of, as bits, one group where a pixel is shaded once. `planes` (T, 3) give depth as a*x + b*y + c."""
+    """The constants of a draw.
+
+    `locations` (N, 2) are the sample locations in pixels of the rendered picture. `groups` holds a bit mask per shader invocation: the
+    samples that the invocation shades; there is a single group when each pixel is shaded once. `planes` (T, 3) give each triangle's depth
+    as a*x + b*y + c.
+    """
 
     samples: int
     locations: NDArray[np.float64]
@@ -25,7 +29,7 @@ class Drawing(NamedTuple):
 
 
 class Band:
-    """The samples of some rows of the picture: sample by sample, then pixel by pixel. What no effect calls for is None."""
+    """The samples of some rows of the picture, indexed by sample (N), then by pixel (P). Arrays that no effect needs are None."""
 
     __slots__ = ("color", "depth", "stencil", "written")
 
@@ -33,12 +37,11 @@ class Band:
         self.color = color  # (N, P, 4)
         self.depth = depth  # (N, P)
         self.stencil = stencil  # (N, P)
-        self.written = written  # (P,): the samples that anything was drawn to
+        self.written = written  # (P,): bit mask of the samples that were drawn to
 
 
 class Batch:
-    """Fragments of which no two are of one pixel, F of them. `mask` are the samples that are still to be drawn, as bits; `color` is of each
-    group of samples."""
+    """F fragments of distinct pixels. `mask` is a bit mask of the samples still to be drawn; `color` holds one color per sample group."""
 
     __slots__ = ("color", "mask", "pixel", "triangle", "x", "y")
 
@@ -51,12 +54,12 @@ class Batch:
         self.color: Floats = np.empty((0, 0, 4), np.float32)  # (F, G, 4)
 
 
-def chosen(mask: Bits, sample: int) -> NDArray[np.bool_]:
-    """Which fragments have a sample in their mask."""
-    found: NDArray[np.bool_] = (mask & np.uint16(1 << sample)) != 0
-    return found
+def has_sample(mask: Bits, sample: int) -> NDArray[np.bool_]:
+    """For each fragment, whether its mask contains a sample."""
+    selected: NDArray[np.bool_] = (mask & np.uint16(1 << sample)) != 0
+    return selected
 
 
 def group_of(sample: int, groups: tuple[int, ...]) -> int:
-    """The group that a sample is shaded with."""
+    """The index of the group that a sample is shaded with."""
     return next((number for number, bits in enumerate(groups) if bits >> sample & 1), 0)
