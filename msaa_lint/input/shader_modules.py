@@ -1,8 +1,8 @@
-"""Finds the SPIR-V or the GLSL that shader stages name, and says what it says of multisampling.
+"""Loads the SPIR-V or GLSL of shader stages, and extracts what matters for multisampling.
 
-A module comes with the input (a capture's), or is a file: its path counts from the folder of the description and must stay in its project
-with all symbolic links followed. It may come from a stranger's branch: it is limited, checked, and never more than data. What is wrong
-with one is a warning at its `module`; the rest is linted, and rules that need the shader stay undecided.
+A module comes with the input (a capture), or is a file: its path is relative to the folder of the description and must stay inside the
+project after symbolic links are resolved. Files are untrusted: their size is limited and they are only read as data. A problem with a
+module is a warning at its `module`; rules that need the shader stay undecided.
 """
 
 # No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
@@ -22,25 +22,25 @@ from msaa_lint.frame.spirv.reflect import Reflected, reflected
 from msaa_lint.frame.spirv.words import SpirvError
 
 MAX_WORK = 64_000_000
-"""Of one document: words of modules, each time that one is looked at, and instructions followed, of which one counts as much as STEP words.
-That takes half a minute or so; a game's frame takes a hundredth of it."""
+"""The budget of one document: the words of modules, for each analysis, and the instructions followed, each of which counts as STEP words.
+It corresponds to about 30 seconds; a game's frame takes a hundredth of it."""
 
 STEP = 16
 
-TOO_MANY = "this module and others after it are not looked at: there are too many, or they are too large"
+TOO_MANY = "this shader module and later ones were not analyzed because there are too many or they are too large"
 
 GLSL = (".frag", ".comp", ".glsl", ".vert", ".tesc", ".tese", ".geom", ".mesh", ".task")
-"""The endings of texts that are GLSL."""
+"""File name extensions of GLSL."""
 
 MAGIC = (b"\x03\x02\x23\x07", b"\x07\x23\x02\x03")
-"""What SPIR-V begins with, in either byte order."""
+"""The SPIR-V magic number, in either byte order."""
 
 MAX_KEPT = 8
-"""Modules that are kept as they were read: pipelines that share one mostly stand together."""
+"""Maximum number of cached modules: pipelines that share a module are usually adjacent."""
 
 
 class _Unusable(Exception):
-    """Why a module cannot be had: the code of a finding, in words, and what may help."""
+    """A module cannot be used: the code of the finding, the message, and the help text."""
 
     def __init__(self, code: str, message: str, help: str = "") -> None:
         super().__init__(message)
@@ -49,7 +49,7 @@ class _Unusable(Exception):
 
 
 class Modules:
-    """The modules of one document. `findings` are the warnings about those that cannot be used."""
+    """The shader modules of one document. `findings` are the warnings about unusable modules."""
 
     def __init__(self, document: Document, file: str) -> None:
         self.findings: list[Finding] = []
@@ -62,7 +62,7 @@ class Modules:
         self._known: dict[object, Reflected | None] = {}
 
     def reflected(self, stage: ShaderStage, alpha: bool) -> Reflected | None:
-        """What a stage's module says; None where it cannot be used. `alpha` asks what is stored to the colour's alpha."""
+        """The properties of a stage's module; None if it cannot be used. `alpha` also asks what is written to the alpha of color 0."""
         constants = {int(name): value for name, value in (stage.specialization or {}).items()}
         key = (stage.module, stage.name, tuple(constants.items()), alpha)
         if key not in self._known:
@@ -91,13 +91,13 @@ class Modules:
         return found
 
     def _warn(self, error: _Unusable, stage: ShaderStage) -> None:
-        # One mistake, one finding: at the first that names it. Those that are too many have no name.
+        # Report each problem once, at the first stage that has it. The budget warning does not name a module.
         key = ("" if error.code == "MSAA906" else stage.module or "", str(error))
         if key in self._warned:
             return
         self._warned.add(key)
         at: Span = stage.place("name") if "entry point" in str(error) and stage.states("name") else stage.place("module")
-        help = error.help or "rules that ask the shader stay undecided"
+        help = error.help or "rules that need the shader stay undecided"
         self.findings.append(
             diagnostic(error.code, str(error), self._file, at, f"{stage.path}.module", help=help)._replace(severity="warning")
         )
@@ -127,31 +127,33 @@ class Modules:
         try:
             return Module(code)
         except SpirvError as error:
-            raise _Unusable("MSAA903", f"{_quoted(name)}: {error}", "a module is SPIR-V, as glslang and DXC write it") from None
+            raise _Unusable("MSAA903", f"{_quoted(name)}: {error}", "a module must be SPIR-V, for example from glslang or DXC") from None
 
     def _of_text(self, name: str, code: bytes) -> bytes:
-        """The module that GLSL makes."""
+        """Compiles GLSL to SPIR-V."""
         from .code.glsl.shader import shader
         from .code.glsl.text import NotRead
         from .code.parsing import Missing
 
         self._left -= STEP * len(code)
         try:
-            # What a page shows, and what others include, may be a part of a shader.
+            # Snippets and included files may be partial shaders.
             return shader(code.decode("utf-8", "replace"), True).code
         except Missing as error:
             raise _Unusable("MSAA903", f"{_quoted(name)} is GLSL", str(error)) from None
         except NotRead as error:
-            raise _Unusable("MSAA903", f"{_quoted(name)} cannot be followed: {error}", "name its SPIR-V, which is read whole") from None
+            raise _Unusable(
+                "MSAA903", f"{_quoted(name)} cannot be analyzed: {error}", "name its SPIR-V instead, which is fully supported"
+            ) from None
 
     def _bytes(self, name: str) -> bytes:
         path = os.path.join(self._folder, name)
         if not inside(path, project_root(self._folder)):
-            raise _Unusable("MSAA903", f"{_quoted(name)} leaves the project")
+            raise _Unusable("MSAA903", f"{_quoted(name)} is outside the project")
         try:
             return read(path, Limits(bytes=MAX_BYTES))
         except FileNotFoundError:
-            raise _Unusable("MSAA904", f"no file {_quoted(name)}", "without it, rules that ask the shader stay undecided") from None
+            raise _Unusable("MSAA904", f"file not found: {_quoted(name)}", "rules that need the shader stay undecided") from None
         except Unreadable:
             raise _Unusable("MSAA903", f"{_quoted(name)} cannot be read: it is larger than {MAX_BYTES >> 20} MiB") from None
         except (OSError, ValueError) as error:

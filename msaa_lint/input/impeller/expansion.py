@@ -1,4 +1,4 @@
-"""A description with `renderTargets` as one without: what the engine builds of them, in Vulkan's words or in a `metal` section."""
+"""Expands `renderTargets` to the Vulkan sections or the `metal` section that the engine creates from them."""
 
 from __future__ import annotations
 
@@ -12,50 +12,50 @@ from .target import Target, sections
 from .value_tree import Value, tree
 
 PASSTHROUGH_SECTIONS = ("frame", "device", "enabled", "scene", "sampleCountChoices")
-"""Sections that stand beside `renderTargets`, and go on as they are."""
+"""Sections that are allowed beside `renderTargets` and are kept unchanged."""
 
 METAL_MEMBERS = ("family", "supportedSampleCounts")
-"""What a `metal` section may state beside `renderTargets`: the device."""
+"""Members of `metal` that are allowed beside `renderTargets`; they describe the device."""
 
 
 MAX_TARGETS = 256
-"""Targets of a description: each becomes some two hundred nodes."""
+"""Maximum number of render targets in a description; each expands to about 200 nodes."""
 
 
 def check(binder: Binder, description: Description) -> None:
-    """What the engine cannot be asked for, and what cannot stand beside `renderTargets`, as problems."""
+    """Reports render targets that the engine does not support, and sections that are not allowed beside `renderTargets`."""
     targets = description.renderTargets
     if len(targets) > MAX_TARGETS:
         record = list(targets.values())[MAX_TARGETS]
-        binder.report("MSAA903", f"there are at most {MAX_TARGETS} render targets", record.head, record.path)
+        binder.report("MSAA903", f"at most {MAX_TARGETS} render targets are allowed", record.head, record.path)
     apis = {record.api for record in targets.values() if record.api is not None}
     for section in description.spelled:
         if section not in (*PASSTHROUGH_SECTIONS, "renderTargets") and not (section == "metal" and apis <= {"metal"}):
-            message = f"`{section}` cannot stand beside `renderTargets`, which give the whole frame"
-            help = "`msaa-lint convert` writes what they give, to be added to"
+            message = f"`{section}` is not allowed beside `renderTargets`, which define the whole frame"
+            help = "run `msaa-lint convert` to expand the render targets, then edit the result"
             binder.report("MSAA903", message, description.spelled[section][0].span, section, help)
     if "metal" in description.spelled:
         for name, key in description.spelled["metal"][1].keys.items():
             if name not in METAL_MEMBERS:
-                message = f"beside `renderTargets`, `metal` may state {' and '.join(METAL_MEMBERS)} alone"
+                message = f"`metal.{name}` is not allowed beside `renderTargets`; only {' and '.join(METAL_MEMBERS)} are"
                 binder.report("MSAA903", message, key.span, f"metal.{name}")
     first = next((record for record in targets.values() if record.api is not None), None)
     for record in targets.values():
         if record.api is None and not record.states("api"):
-            binder.report("MSAA903", f"`{record.key}` is due with its `api`: vulkan or metal", record.head, record.path)
+            binder.report("MSAA903", f"`{record.key}` must have an `api`: vulkan or metal", record.head, record.path)
         elif first is not None and record.api not in (None, first.api):
-            message = f"`{first.key}` is {first.api}'s: the targets of a frame have one api"
+            message = f"all render targets must have the same `api`, but `{first.key}` has {first.api}"
             binder.report("MSAA903", message, record.place("api"), f"{record.path}.api")
         if record.api == "vulkan" and record.colorFormat is not None and record.colorFormat.startswith("kB10G10R10"):
-            message = f"`{record.colorFormat}` is Metal's alone: the engine has no extended range on Vulkan"
+            message = f"`{record.colorFormat}` requires Metal: the engine has no extended-range formats on Vulkan"
             binder.report("MSAA903", message, record.place("colorFormat"), f"{record.path}.colorFormat")
         if record.depthFormat == "kS8UInt" and record.enableStencil is False:
-            message = "`kS8UInt` is stencil alone, and `enableStencil` is false"
+            message = "`kS8UInt` has only stencil, but `enableStencil` is false"
             binder.report("MSAA903", message, record.place("enableStencil"), f"{record.path}.enableStencil")
 
 
 def expand(description: Description) -> Node:
-    """The tree of the description that the render targets of a sound one give. Its nodes stand where their reasons do."""
+    """The expanded tree of a valid description. Each node has the place that determines it."""
     root = description.node
     key = description.spelled["renderTargets"][0].span
     targets = [Target(name, record, description.frame) for name, record in description.renderTargets.items()]
@@ -70,7 +70,7 @@ def expand(description: Description) -> Node:
 
 
 def lazily_allocated(description: Description) -> bool | None:
-    """Whether the device has a lazily allocated memory type, which is what the engine asks; None where the description does not say."""
+    """Whether the device has a lazily allocated memory type, which the engine queries; None if the description does not say."""
     device = description.device
     types: tuple[tuple[str, ...], ...] | None = None
     if isinstance(device, Device):
@@ -87,9 +87,9 @@ def _lazy(types: tuple[tuple[str, ...], ...]) -> bool:
 
 
 def _apple(description: Description) -> tuple[bool | None, bool | None]:
-    """Whether the GPU has memoryless textures (MTLGPUFamily apple2 and later), and whether it is Apple's; None where that is not said.
+    """Whether the GPU supports memoryless textures (MTLGPUFamily apple2 and later), and whether it is an Apple GPU; None if unknown.
 
-    The profiles of Apple's GPUs are all of later families.
+    All built-in profiles of Apple GPUs are of later families.
     """
     family = description.metal.family if description.metal is not None else None
     if family is None:
@@ -98,5 +98,5 @@ def _apple(description: Description) -> tuple[bool | None, bool | None]:
         return (True, True) if profile is not None and profile.vendor == "apple" else (None, None)
     if family.startswith("apple"):
         return family != "apple1", True
-    # A Mac of Apple's silicon is of a family of Macs as well.
+    # A Mac with Apple silicon also belongs to a Mac family.
     return None, None

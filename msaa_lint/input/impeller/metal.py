@@ -1,4 +1,4 @@
-"""What the engine builds of render targets on Metal: textures and a render pass each.
+"""The textures and render passes that the engine creates for render targets on Metal.
 
 From its `allocator_mtl.mm` (storage modes), `render_target.cc` (the textures), `render_pass_mtl.mm` (attachments), `surface_mtl.mm` and
 `swapchain_transients_mtl.mm` (the drawable).
@@ -18,8 +18,8 @@ Members = dict[str, Any]
 def section(targets: list[Target], memoryless: bool | None, apple: bool | None) -> Members:
     """The members of a `metal` section.
 
-    `memoryless` says whether the device has memoryless textures (family apple2 and later), `apple` whether it is Apple's own; None where
-    that is not known.
+    `memoryless` says whether the device supports memoryless textures (family apple2 and later), `apple` whether it is an Apple GPU; None if
+    unknown.
     """
     made: Members = {"textures": {}, "renderPasses": {}, "renderPipelines": {}}
     for target in targets:
@@ -27,7 +27,7 @@ def section(targets: list[Target], memoryless: bool | None, apple: bool | None) 
         made["renderPasses"][target.name] = Value(_render_pass(target), target.at)
         made["renderPipelines"][target.name] = Value(_pipeline(target), target.at)
     if targets and all(target.onscreen for target in targets):
-        # Of what is sampled later the frame says nothing: without commands a usage that allows it counts.
+        # It is unknown who samples an offscreen target. Without commands, its usage counts as a read.
         made["commands"] = [Value(each, target.at) for target in targets for each in _commands(target)]
     return {member: entries for member, entries in made.items() if entries}
 
@@ -64,7 +64,7 @@ def _textures(target: Target, memoryless: bool | None, apple: bool | None) -> Me
 
 
 def _storage(mode: Value, memoryless: bool | None, apple: bool | None) -> Value:
-    """`ToMTLStorageMode`: what the host sees is shared with one memory and managed with two."""
+    """`ToMTLStorageMode`: host-visible is shared with unified memory, otherwise managed."""
     if mode.value == "kDevicePrivate":
         return Value("private", mode.at)
     if mode.value == "kHostVisible":
@@ -76,7 +76,7 @@ def _render_pass(target: Target) -> Members:
     color = target.color
     attachment: Members = {
         "texture": f"{target.name}_color_ms" if target.multisampled else f"{target.name}_color",
-        # The engine gives a multisampled target a resolve texture whatever its store action is.
+        # The engine sets a resolve texture for every multisampled target, whatever its store action.
         "resolveTexture": Value(f"{target.name}_color", color.store.at) if target.multisampled else None,
         "loadAction": Value(words.METAL_LOADS[color.load.value], color.load.at),
         "storeAction": Value(words.METAL_STORES[color.store.value], color.store.at),

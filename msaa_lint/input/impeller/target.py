@@ -1,4 +1,4 @@
-"""A render target with the engine's defaults for what it leaves out, each choice at the place of its reason."""
+"""A render target with the engine's defaults. Each value has the place that determines it."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ COLOR_MSAA = {**COLOR, "storageMode": "kDeviceTransient", "storeAction": "kMulti
 """`RenderTarget::kDefaultColorAttachmentConfigMSAA`."""
 
 STENCIL = {"storageMode": "kDeviceTransient", "loadAction": "kClear", "storeAction": "kDontCare"}
-"""`RenderTarget::kDefaultStencilAttachmentConfig`: for depth and stencil alike, which are one texture."""
+"""`RenderTarget::kDefaultStencilAttachmentConfig`, for both depth and stencil, which share one texture."""
 
 
 class Config:
-    """An attachment's storage mode, its resolve texture's, its load and its store action."""
+    """The storage modes of an attachment and its resolve texture, and its load and store actions."""
 
     def __init__(self, owner: RenderTarget, member: str, defaults: dict[str, str]) -> None:
         record: Record | None = getattr(owner, member)
@@ -32,7 +32,7 @@ class Config:
 
 
 class Target:
-    """What the engine is asked for. `at` is the target's name, where all stands that is not stated."""
+    """A render target. `at` is the place of its name, which defaults have as their place."""
 
     def __init__(self, name: str, record: RenderTarget, frame: FrameSize | None) -> None:
         api = record.api or ""
@@ -53,19 +53,19 @@ class Target:
 
     @property
     def resolves(self) -> bool:
-        """Whether the colour's store action asks for a resolve."""
+        """Whether the color store action resolves."""
         return self.color.store.value in words.RESOLVES
 
 
 def member_or_default(record: Record | None, member: str, default: object, at: Span) -> Value:
-    """What a record states for a member, at its value; the default, at a place, where it states nothing."""
+    """The stated value of a member, or the default at a place."""
     if record is None or not record.states(member):
         return Value(default, at)
     return Value(getattr(record, member), record.spelled[member][1].span)
 
 
 def _size(record: RenderTarget, side: str, frame: FrameSize | None) -> Value | None:
-    """A side in texels: the target's, else the frame's; None where neither is stated."""
+    """A width or height in texels, from the target or else the frame; None if neither states it."""
     for owner in (record, frame):
         if owner is not None and owner.states(side):
             return Value(getattr(owner, side), owner.spelled[side][1].span)
@@ -73,5 +73,5 @@ def _size(record: RenderTarget, side: str, frame: FrameSize | None) -> Value | N
 
 
 def sections(node: Node, names: tuple[str, ...]) -> dict[str, Value]:
-    """Those sections of a description that go on as they are."""
+    """The given sections of a description, unchanged."""
     return {name: Value(node.value[name], node.keys[name].span) for name in names if name in node.value}

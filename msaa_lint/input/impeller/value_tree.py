@@ -1,4 +1,4 @@
-"""A tree out of plain data, of which every part may have a place of its own."""
+"""Builds trees from plain data. Each part can have its own place in the source."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from msaa_lint.core.text.span import Span
 
 
 class Value(NamedTuple):
-    """A value, and where its reason stands."""
+    """A value, and the place that determines it."""
 
     value: Any
     at: Span
 
 
 def tree(value: Any, at: Span) -> Node:
-    """The node of a value at a place: of dicts, lists and scalars, of nodes as they are, of what is `Value` at its own place.
+    """The node for a dict, list or scalar at a place; a `Value` has its own place, and a node is kept.
 
-    A member whose value is None, or is stated to be, is unknown and left out.
+    Members whose value is None are unknown and omitted.
     """
     if isinstance(value, Node):
         return value

@@ -1,4 +1,4 @@
-"""What the engine builds of render targets on Vulkan: images, a render pass each, and what a frame records.
+"""The images, render passes and commands that the engine creates for render targets on Vulkan.
 
 From its `allocator_vk.cc` (usages and memory), `render_target.cc` (the textures), `render_pass_builder_vk.cc` (operations, layouts and
 dependencies), `surface_vk.cc`, `swapchain_transients_vk.cc` and `khr_swapchain_impl_vk.cc` (the swapchain), `pipeline_vk.cc`.
@@ -15,14 +15,14 @@ from .value_tree import Value
 Members = dict[str, Any]
 
 COLOR_USAGE = ("COLOR_ATTACHMENT", "INPUT_ATTACHMENT")
-"""Every colour target may be read by framebuffer fetch, which is an input attachment."""
+"""Framebuffer fetch may read every color target as an input attachment."""
 
 TRANSFERS = ("TRANSFER_SRC", "TRANSFER_DST")
-"""What is not transient may be blitted."""
+"""Added to images that are not transient, because they may be blitted."""
 
 
 def description(targets: list[Target], lazy: bool | None) -> Members:
-    """The sections of a description. `lazy` says whether the device has lazily allocated memory; None where that is not known."""
+    """The sections of a description. `lazy` says whether the device has lazily allocated memory; None if unknown."""
     made: Members = {"images": {}, "renderPasses": {}, "framebuffers": {}, "pipelines": {}, "commands": []}
     for target in targets:
         made["images"] |= _images(target, lazy)
@@ -74,7 +74,7 @@ def _image(target: Target, format: Value, samples: Value, usage: Value, memory: 
 
 
 def _usage(usage: tuple[str, ...], mode: Value, lazy: bool | None) -> Value:
-    """`ToVKImageUsageFlags`: TRANSIENT_ATTACHMENT only where the device has lazily allocated memory."""
+    """`ToVKImageUsageFlags`: TRANSIENT_ATTACHMENT only if the device has lazily allocated memory."""
     if mode.value != "kDeviceTransient":
         return Value((*usage, *TRANSFERS), mode.at)
     if lazy is None:
@@ -83,7 +83,7 @@ def _usage(usage: tuple[str, ...], mode: Value, lazy: bool | None) -> Value:
 
 
 def _memory(mode: Value, lazy: bool | None) -> Value | None:
-    """`ToVKTextureMemoryPropertyFlags`, which are preferred flags: which memory the host sees is up to the device."""
+    """`ToVKTextureMemoryPropertyFlags`. They are preferred flags, so the memory of a host-visible image is unknown."""
     if mode.value == "kHostVisible" or (mode.value == "kDeviceTransient" and lazy is None):
         return None
     transient = mode.value == "kDeviceTransient" and lazy
@@ -93,7 +93,7 @@ def _memory(mode: Value, lazy: bool | None) -> Value | None:
 def _render_pass(target: Target) -> Members:
     color = "color_ms" if target.multisampled else "color"
     attachments = {color: _color_attachment(target)}
-    # The engine lists the colour as an input attachment too, for the pipelines that fetch it; which do is not said.
+    # The engine also lists color as an input attachment for framebuffer fetch, but it is unknown which pipelines use it.
     subpass: Members = {"colorAttachments": [_slot(color)]}
     if target.resolves:
         resolve = "color" if target.multisampled else "resolve"
@@ -106,7 +106,7 @@ def _render_pass(target: Target) -> Members:
 
 
 def _slot(name: str) -> Members:
-    """Colour is in GENERAL, so that framebuffer fetch may read it."""
+    """A reference to a color attachment, in GENERAL so that framebuffer fetch can read it."""
     return {"attachment": name, "layout": "GENERAL"}
 
 
@@ -146,7 +146,7 @@ def _resolve_attachment(target: Target) -> Value:
 
 
 def _depth_stencil_attachment(target: Target) -> Value:
-    """Depth and stencil are not told apart; a format of stencil alone has neither operation of depth."""
+    """Depth and stencil share their operations; a stencil-only format has no depth operations."""
     config = target.depth_stencil
     load = Value(words.VULKAN_LOADS[config.load.value], config.load.at)
     store = Value(words.VULKAN_STORES[config.store.value], config.store.at)
@@ -163,7 +163,7 @@ def _depth_stencil_attachment(target: Target) -> Value:
 
 
 def _dependencies(depth: bool) -> list[Members]:
-    """After what used the attachments before, and before who samples the result."""
+    """The dependencies on earlier uses of the attachments, and of later samplers on the result."""
     tests = ["EARLY_FRAGMENT_TESTS", "LATE_FRAGMENT_TESTS"] if depth else []
     write = ["DEPTH_STENCIL_ATTACHMENT_WRITE"] if depth else []
     return [
@@ -187,7 +187,7 @@ def _dependencies(depth: bool) -> list[Members]:
 
 
 def _framebuffer(target: Target) -> Members | None:
-    """None where the pass resolves to a texture that nobody made."""
+    """The framebuffer; None if the pass resolves to a texture that does not exist."""
     if target.resolves and not target.multisampled:
         return None
     names = ["color_ms"] if target.multisampled else ["color"]
@@ -221,7 +221,7 @@ def _commands(target: Target, framebuffer: bool) -> list[Value]:
     if target.onscreen:
         made += _presented(image)
     else:
-        # Textures are made to be sampled; whether this one is in this frame is not said.
+        # An offscreen texture is assumed to be sampled in this frame.
         made.append({"readImage": {"image": image, "stage": "FRAGMENT"}})
     return [Value(each, target.at) for each in made]
 

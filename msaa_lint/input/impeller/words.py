@@ -1,4 +1,4 @@
-"""Impeller's words in Vulkan's and in Metal's.
+"""Maps Impeller's enumerants to Vulkan's and Metal's.
 
 From the engine's `formats_vk.h`, `formats_mtl.h` and `formats_mtl.mm` (impeller/renderer/backend, flutter/flutter).
 """
@@ -18,7 +18,7 @@ VULKAN_FORMATS = {
     "kD24UnormS8Uint": "D24_UNORM_S8_UINT",
     "kD32FloatS8UInt": "D32_SFLOAT_S8_UINT",
 }
-"""`ToVKImageFormat`. What it lacks has no format there: extended range is Metal's, and `kA8UNormInt` stands for other formats over time."""
+"""`ToVKImageFormat`. Extended-range formats exist only on Metal, and `kA8UNormInt` has mapped to different formats over time."""
 
 METAL_FORMATS = {
     "kA8UNormInt": "a8Unorm",
@@ -37,10 +37,10 @@ METAL_FORMATS = {
     "kD24UnormS8Uint": "depth24Unorm_stencil8",
     "kD32FloatS8UInt": "depth32Float_stencil8",
 }
-"""`ToMTLPixelFormat`, in Swift's names."""
+"""`ToMTLPixelFormat`, with Swift names."""
 
 DEFAULT_COLOR = {"vulkan": "kR8G8B8A8UNormInt", "metal": "kB8G8R8A8UNormInt"}
-"""`Capabilities::GetDefaultColorFormat`; on Vulkan a surface may ask for another."""
+"""`Capabilities::GetDefaultColorFormat`; on Vulkan a surface may request another."""
 
 DEFAULT_DEPTH_STENCIL = {"vulkan": None, "metal": "kD32FloatS8UInt"}
 """`Capabilities::GetDefaultDepthStencilFormat`: on Vulkan the device's choice of `kD24UnormS8Uint` and `kD32FloatS8UInt`."""
@@ -48,7 +48,7 @@ DEFAULT_DEPTH_STENCIL = {"vulkan": None, "metal": "kD32FloatS8UInt"}
 VULKAN_LOADS = {"kDontCare": "DONT_CARE", "kLoad": "LOAD", "kClear": "CLEAR"}
 
 VULKAN_STORES = {"kDontCare": "DONT_CARE", "kStore": "STORE", "kMultisampleResolve": "DONT_CARE", "kStoreAndMultisampleResolve": "STORE"}
-"""`ToVKAttachmentStoreOp` of the multisampled texture; the resolve texture is stored by both that resolve."""
+"""`ToVKAttachmentStoreOp` for the multisampled texture. Both resolving actions store the resolve texture."""
 
 METAL_LOADS = {"kDontCare": "dontCare", "kLoad": "load", "kClear": "clear"}
 
@@ -64,5 +64,5 @@ RESOLVES = ("kMultisampleResolve", "kStoreAndMultisampleResolve")
 
 
 def sample_count(word: int | str) -> int:
-    """The count of a number, an Impeller enumerant (`kCount4`) or one of the shorter names (`k4`)."""
+    """The sample count for a number, an Impeller enumerant (`kCount4`) or a short name (`k4`)."""
     return word if isinstance(word, int) else int(word.removeprefix("kCount").removeprefix("k"))

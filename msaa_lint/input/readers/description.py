@@ -1,4 +1,4 @@
-"""The description format, version 1: hand-written YAML or JSON."""
+"""The description format, version 1, in YAML or JSON."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def claims(root: Node) -> bool:
 
 
 def read(source: Source, root: Node) -> Document:
-    """A description as a document; its mistakes are the document's problems."""
+    """Reads a description as a document; its errors are the document's `problems`."""
     binder = Binder()
     if root.kind == "mapping":
         description: Description = binder.record(Description, root, "", "", Span(root.start, root.start))
@@ -34,7 +34,7 @@ def read(source: Source, root: Node) -> Document:
 
 
 def _of_metal(source: Source, description: Description, binder: Binder) -> Document:
-    """A frame in Metal's words, with the Vulkan records of the same meaning where it has no mistakes."""
+    """A Metal frame, with the equivalent Vulkan records if it is valid."""
     from . import metal
 
     metal.check(binder, description)
@@ -44,7 +44,7 @@ def _of_metal(source: Source, description: Description, binder: Binder) -> Docum
 
 
 def _of_render_targets(source: Source, description: Description, binder: Binder) -> Document:
-    """What the render targets of a description expand to; the description itself where it has mistakes."""
+    """The expansion of a description's render targets; the description itself if it is invalid."""
     from msaa_lint.input.impeller import expansion
 
     expansion.check(binder, description)
@@ -56,7 +56,7 @@ def _of_render_targets(source: Source, description: Description, binder: Binder)
 
 
 def check_names(binder: Binder, description: Description) -> None:
-    """Dangling references: names of sections, attachments of a pass, subpasses."""
+    """Reports dangling references: to entries of sections, attachments and subpasses."""
     for mention in binder.mentions:
         entries = _section(description, mention.section)
         if mention.name not in entries:
@@ -74,7 +74,7 @@ def check_names(binder: Binder, description: Description) -> None:
 
 
 def _section(description: Description, name: str) -> dict[str, object]:
-    """The entries of a section, `metal.textures` of one within another."""
+    """The entries of a section, which may be nested, such as `metal.textures`."""
     found: object = description
     for part in name.split("."):
         found = getattr(found, part)
@@ -96,7 +96,7 @@ def _has(section: str, entries: dict[str, object]) -> str:
 
 
 def _device(binder: Binder, description: Description) -> None:
-    """A name must be a built-in profile's; what has a file's ending is a path. A mapping's `tile` and `compression` must make sense."""
+    """Checks `device`: a name must be a built-in profile unless it is a path, and a mapping's `tile` and `compression` must be valid."""
     if isinstance(description.device, Device):
         _cost_model(binder, description.device)
     if not isinstance(description.device, str):

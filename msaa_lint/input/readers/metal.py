@@ -1,9 +1,9 @@
-"""A frame in Metal's words as the Vulkan frame of the same meaning: everything that is stated keeps its place in Metal's text.
+"""Converts a Metal frame to the equivalent Vulkan frame. Every value keeps its place in the Metal text.
 
-A texture is an image; a render pass descriptor is a render pass of one subpass with the attachments, and what they resolve to, as its
-attachments; a pipeline, a pipeline; a command that encodes a pass begins and ends it. What is not stated stays so. From Apple's
-documentation: `multisampleResolve` leaves the samples undefined; a memoryless texture is a render target and has no contents before or
-after a pass; a resolve of depth without a filter takes sample 0; a drawable, and a texture that is of no multisample type, has one sample.
+A texture becomes an image. A render pass descriptor becomes a render pass with one subpass, whose attachments include the resolve textures.
+A command that encodes a pass begins and ends it. Unstated values stay unstated. From Apple's documentation: `multisampleResolve` leaves the
+samples undefined; a memoryless texture is a render target without contents before or after a pass; a depth resolve without a filter takes
+sample 0; a drawable, or a texture whose type is not multisampled, has one sample.
 """
 
 from __future__ import annotations
@@ -47,28 +47,24 @@ _STAGES = {"vertex": "VERTEX", "fragment": "FRAGMENT", "compute": "COMPUTE", "ti
 
 
 def check(binder: Binder, description: Description) -> None:
-    """Notes what the shapes of Metal's structures do not say: a frame is in one API's words."""
+    """Reports Vulkan sections beside `metal`: a frame is described in one API."""
     metal = description.metal
     assert metal is not None
     beside = [section for section in BESIDE if description.states(section)]
     if beside:
         key = description.spelled["metal"][0]
-        help = f"describe the frame in `metal`, or without it: beside it there may be {', '.join(_allowed())}"
-        binder.report("MSAA903", f"`metal` stands beside Vulkan's `{beside[0]}`", key.span, "metal", help)
-
-
-def _allowed() -> list[str]:
-    return [f"`{section}`" for section in ("frame", "device", "scene")]
+        help = "describe the frame either in `metal` or in Vulkan's sections; only `frame`, `device` and `scene` are allowed beside `metal`"
+        binder.report("MSAA903", f"`metal` cannot be combined with the Vulkan section `{beside[0]}`", key.span, "metal", help)
 
 
 def lower(description: Description) -> Lowered:
-    """Gives a description without mistakes the Vulkan records of what its `metal` states; what each attachment was made of."""
+    """Adds the Vulkan records for `metal` to a valid description, and returns the Metal structures behind each attachment."""
     assert description.metal is not None
     return _Lowering(description, description.metal).lowered()
 
 
 class _Lowering:
-    """One frame while it is put into Vulkan's words."""
+    """The conversion of one frame."""
 
     def __init__(self, description: Description, metal: Metal) -> None:
         self.description = description
@@ -76,7 +72,7 @@ class _Lowering:
         self.binder = Binder()
         self.made = Lowered({}, {})
         self.used_as: dict[str, set[str]] = {}
-        """By texture: the aspects that passes have it attached for."""
+        """The aspects for which passes attach each texture."""
 
     def lowered(self) -> Lowered:
         description, metal, bind = self.description, self.metal, self.binder.record
@@ -125,7 +121,7 @@ class _Lowering:
         return mapping(items, texture.node.span)
 
     def _usage(self, name: str, texture: MetalTexture, vk_format: str | None) -> list[Node] | None:
-        """The flags of a texture's usage; None where that is not stated, or is `unknown`, which allows everything."""
+        """The usage flags of a texture; None if the usage is not stated or is `unknown`, which allows everything."""
         words = texture.usage
         if words is not None and ("unknown" in words or not words):
             words = None
@@ -146,7 +142,7 @@ class _Lowering:
         return [scalar(flag, at) for flag, at in found.items()]
 
     def _rendered_as(self, name: str, vk_format: str | None) -> str | None:
-        """Which attachment a render target can be: by its format, else by what passes have it for."""
+        """The attachment usage of a render target, from its format or else from the passes that attach it."""
         known = format_of(vk_format) if vk_format else None
         aspects = set(known.aspects) if known is not None else self.used_as.get(name, set())
         if not aspects or ("color" in aspects and len(aspects) > 1):
@@ -235,20 +231,20 @@ _BLENDING = ("isBlendingEnabled", "blendingEnabled")
 
 
 def samples_of(texture: MetalTexture) -> int | None:
-    """A texture's samples a texel: as stated, else one where it is a drawable, or of a type that has no more."""
+    """A texture's sample count; 1 for a drawable or a type that is not multisampled, unless stated."""
     if texture.sampleCount is not None:
         return texture.sampleCount
     return 1 if texture.drawable or (texture.textureType is not None and texture.textureType not in MULTISAMPLE_TYPES) else None
 
 
 def _inner(command: MetalCommand) -> Node:
-    """The value of a command's one key."""
+    """The value of a command's only key."""
     inner: Node = next(iter(command.node.value.values()))
     return inner
 
 
 def _type(texture: MetalTexture) -> Items:
-    """What a texture's type and views make of its image."""
+    """The image members that follow from a texture's type, array length and view usage."""
     items: Items = []
     flags: list[Node] = []
     layers = texture.arrayLength
@@ -277,7 +273,7 @@ def _blend(color: MetalPipelineColor | None, at: Span) -> Node:
 
 
 def _formats(each: MetalRenderPipeline, colors: Sequence[MetalPipelineColor | None]) -> Items:
-    """The formats of a pipeline that names no pass."""
+    """The formats of a pipeline without a render pass."""
     items: Items = []
     if colors:
         at = key_of(each, "colorAttachments")

@@ -1,4 +1,4 @@
-"""Members of Metal's structures as nodes of a Vulkan description, at their places."""
+"""Builds nodes of a Vulkan description from members of Metal structures, at the members' places."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from msaa_lint.frame.description.record import Record
 
 Kind = TypeVar("Kind")
 Items = list[tuple[str, Span, Node]]
-"""What a mapping is made of: keys, where they stand, and values."""
+"""The items of a mapping: key, place of the key, and value."""
 
 
 def by_index(stated: Mapping[str, Kind | None] | Sequence[Kind | None]) -> list[Kind | None]:
-    """Colour attachments in the order of their indices, None where one is not used."""
+    """Color attachments in index order; None for an unused index."""
     if not isinstance(stated, Mapping):
         return list(stated)
     found: list[Kind | None] = [None] * (max((int(index) for index in stated), default=-1) + 1)
@@ -26,15 +26,15 @@ def by_index(stated: Mapping[str, Kind | None] | Sequence[Kind | None]) -> list[
 
 
 def first_stated(record: Record, members: Sequence[str]) -> str | None:
-    """The first of some members, names of one property, that is stated."""
+    """The first stated member among several names of the same property."""
     return next((member for member in members if getattr(record, member) is not None), None)
 
 
 def key_of(record: Record, member: str) -> Span:
-    """Where the key of a member stands; the record's head where it is not stated."""
+    """The place of a member's key; the record's head if it is not stated."""
     return record.spelled[member][0].span if member in record.spelled else record.head
 
 
 def placed(record: Record, member: str, value: str | int | bool) -> tuple[Span, Node]:
-    """Another value in the place of a member's."""
+    """Another value, at a member's place."""
     return key_of(record, member), scalar(value, record.place(member))

@@ -1,4 +1,4 @@
-"""A render pass descriptor of Metal's as the tree of a Vulkan render pass of one subpass."""
+"""Converts a Metal render pass descriptor to a Vulkan render pass with one subpass."""
 
 from __future__ import annotations
 
@@ -28,15 +28,15 @@ MetalAttachment = MetalColorAttachment | MetalDepthAttachment | MetalStencilAtta
 
 
 class PassTree:
-    """The attachments of one pass, in Vulkan's order: colours, depth and stencil, then what they resolve to."""
+    """The attachments of a pass in Vulkan's order: color, depth and stencil, then resolve targets."""
 
     def __init__(self, each: MetalRenderPass) -> None:
         self.each = each
         self.attachments: Items = []
         self.origins: list[tuple[str, Mapping[str, Record]]] = []
-        """Of each attachment: its path, and the structure that states it, by aspect; none of what is resolved to."""
+        """For each attachment, its path and its Metal structures by aspect; empty for a resolve target."""
         self.apart: StencilApart | None = None
-        # Names that would mean something else.
+        # `UNUSED` contains reserved names.
         self._names: set[str] = set(UNUSED)
 
     def tree(self) -> Node:
@@ -61,7 +61,7 @@ class PassTree:
         )
 
     def _name(self, texture: str | None, otherwise: str) -> str:
-        """A name that no other attachment of the pass has: its texture's, as long as that is free."""
+        """A unique name within the pass: the texture's if it is free."""
         wanted = [texture, f"{texture} ({otherwise})"] if texture is not None else []
         name = next((each for each in (*wanted, otherwise) if each not in self._names), otherwise)
         while name in self._names:
@@ -107,7 +107,7 @@ class PassTree:
         return found + resolved
 
     def _resolved(self, depth: MetalDepthAttachment | None, stencil: MetalStencilAttachment | None) -> Items:
-        """The resolve of depth, of stencil, or of both to one texture."""
+        """The depth/stencil resolve: of one aspect, or of both to the same texture."""
         of_depth, of_stencil = depth is not None and resolves(depth), stencil is not None and resolves(stencil)
         if not of_depth and not of_stencil:
             return []
@@ -130,7 +130,7 @@ class PassTree:
         return [("depthStencilResolve", key, mapping(items, first.node.span))]
 
     def _target(self, of: MetalAttachment, slot: str, aspects: Sequence[str]) -> Node:
-        """What an attachment resolves to, as an attachment of its own."""
+        """Adds an attachment's resolve texture as an attachment."""
         name = self._name(of.resolveTexture, f"{slot}.resolveTexture")
         key, at = key_of(of, "resolveTexture"), of.place("resolveTexture")
         items: Items = [("image", key, scalar(of.resolveTexture, at))]
@@ -143,7 +143,7 @@ class PassTree:
 
 
 def attachments_of(each: MetalRenderPass) -> Iterable[tuple[str, MetalAttachment]]:
-    """The attachments of a pass, each with the aspect that it is for."""
+    """The attachments of a pass, each with its aspect."""
     for color in by_index(each.colorAttachments):
         if color is not None:
             yield "color", color
@@ -154,7 +154,7 @@ def attachments_of(each: MetalRenderPass) -> Iterable[tuple[str, MetalAttachment
 
 
 def resolves(attachment: MetalAttachment) -> bool:
-    """Whether a pass resolves an attachment: its store action says so, and it has a texture to resolve to."""
+    """Whether a pass resolves an attachment: its store action resolves, and it has a resolve texture."""
     return attachment.storeAction in MULTISAMPLE_RESOLVES and attachment.resolveTexture is not None
 
 
@@ -163,7 +163,7 @@ def _image(attachment: MetalAttachment) -> Items:
 
 
 def _operations(attachment: MetalAttachment, aspect: str) -> Items:
-    """The load and store operation of an attachment's actions; `unknown` says that another will be set, and is none."""
+    """The load and store operations for an attachment's actions. `unknown` is a placeholder that the program replaces, so it is omitted."""
     load, store = ("stencilLoadOp", "stencilStoreOp") if aspect else ("loadOp", "storeOp")
     items: Items = []
     if attachment.loadAction is not None:

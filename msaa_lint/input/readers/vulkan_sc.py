@@ -1,6 +1,6 @@
-"""Vulkan SC pipeline JSON: what the Khronos tools write for the offline pipeline compiler (JSON schema of VK_KHR_pipeline_cache_sc tools).
+"""Vulkan SC pipeline JSON: the input of the offline pipeline compiler, as the Khronos tools write it.
 
-One file is one pipeline, with its render pass in C's own structures. It names no image; what the file does not hold another one may.
+A file contains one pipeline, with its render pass as C structures. It has no images, so what the file omits is unknown.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ STATES = ("GraphicsPipelineState", "ComputePipelineState", "RayTracingPipelineSt
 
 
 def claims(root: Node) -> bool:
-    """Whether a document is a pipeline description of Vulkan SC, whatever its file's name."""
+    """Whether a document is a Vulkan SC pipeline."""
     return root.kind == "mapping" and any(state in root.value for state in STATES)
 
 
 def read(source: Source, root: Node) -> Document:
-    """The pipeline as a document. A compute pipeline gives one without passes."""
+    """Reads a pipeline as a document. The document of a compute pipeline has no passes."""
     binder = Binder(dumped=True)
     description: Description = binder.record(Description, _nothing(root), "", "", Span(root.start, root.start))
     if root.kind != "mapping" or not any(state in root.value for state in STATES):
@@ -37,7 +37,7 @@ def read(source: Source, root: Node) -> Document:
 
 
 def _nothing(root: Node) -> Node:
-    """A mapping without members, at the root's place."""
+    """An empty mapping at the root's place."""
     return Node("mapping", root.start, root.end, {}, {})
 
 
@@ -58,17 +58,17 @@ def _graphics(binder: Binder, description: Description, state: Node) -> None:
         binder.wrong(pipeline, path, "a mapping")
         return
     made_pipeline: Pipeline = binder.record(Pipeline, _plain(pipeline), path, "GraphicsPipeline", state.keys["GraphicsPipeline"].span)
-    # `renderPass` is the number that the tool gave the render pass above.
+    # `renderPass` is the tool's number for the render pass above.
     made_pipeline.renderPass = name or None
     for stage in made_pipeline.stages:
-        # A module is a number of the tool's as well, no path.
+        # `module` is also a number, not a path.
         stage.module = None
         stage.spelled.pop("module", None)
     description.pipelines = {"GraphicsPipeline": made_pipeline}
 
 
 def _plain(pipeline: Node) -> Node:
-    """The pipeline without its render pass's number, and with the dynamic states themselves in place of their structure."""
+    """The pipeline without the number of its render pass, and with a plain list of dynamic states."""
     keys = {key: node for key, node in pipeline.keys.items() if key != "renderPass"}
     value = {key: pipeline.value[key] for key in keys}
     state = value.get("pDynamicState")
@@ -82,7 +82,7 @@ def _plain(pipeline: Node) -> Node:
 
 
 def _enabled(binder: Binder, description: Description, root: Node, state: Node) -> None:
-    """EnabledExtensions, and the features that the device is created with."""
+    """Reads EnabledExtensions, and the features that the device is created with."""
     enabled: Enabled = binder.record(Enabled, _nothing(root), "EnabledExtensions", "EnabledExtensions", Span(root.start, root.start))
     listed = root.value.get("EnabledExtensions")
     if listed is not None and listed.kind == "sequence":
@@ -101,10 +101,10 @@ def _enabled(binder: Binder, description: Description, root: Node, state: Node) 
 
 
 def _core_features(chain: Node) -> tuple[Node, Node] | None:
-    """The VkPhysicalDeviceFeatures that the device is created with, in a chain of structures: the last that stands in it.
+    """The VkPhysicalDeviceFeatures that the device is created with, from a chain of structures.
 
-    The tools dump VkDeviceObjectReservationCreateInfo, whose chain holds a VkPhysicalDeviceFeatures2 where the application passed one,
-    and beside it pEnabledFeatures, all false where it passed none.
+    The tools dump VkDeviceObjectReservationCreateInfo. Its chain contains the application's VkPhysicalDeviceFeatures2, if any; beside the
+    chain is pEnabledFeatures, all false if the application passed none.
     """
     node: Node | None = chain
     outer: tuple[Node, Node] | None = None

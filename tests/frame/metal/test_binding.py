@@ -122,10 +122,10 @@ from tests.marked import unmarked
         (
             "images: {}\n⟦metal⟧: {}",
             "MSAA903",
-            "`metal` stands beside Vulkan's `images`",
-            "describe the frame in `metal`, or without it: beside it there may be `frame`, `device`, `scene`",
+            "`metal` cannot be combined with the Vulkan section `images`",
+            "describe the frame either in `metal` or in Vulkan's sections; only `frame`, `device` and `scene` are allowed beside `metal`",
         ),
-        ("⟦metal⟧: {}\ncommands: []", "MSAA903", "`metal` stands beside Vulkan's `commands`", None),
+        ("⟦metal⟧: {}\ncommands: []", "MSAA903", "`metal` cannot be combined with the Vulkan section `commands`", None),
         ("metal: {}\ndevice: ⟦apple-m9⟧", "MSAA904", "no device `apple-m9`", "did you mean `apple-m1`?"),
     ],
 )

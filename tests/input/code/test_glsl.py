@@ -293,9 +293,9 @@ def test_a_text_that_cannot_be_followed(tmp_path: Path) -> None:
     (tmp_path / "resolve.frag").write_text("void main() { nothing(); }", encoding="utf-8")
     ((code, severity, message),) = of_frame(tmp_path, "resolve.frag")
     assert (code, severity) == ("MSAA903", "warning")
-    assert message == "`resolve.frag` cannot be followed: `nothing()` is not defined in it"
+    assert message == "`resolve.frag` cannot be analyzed: `nothing()` is not defined in it"
     assert of_frame(tmp_path, "gone.frag")[0][0] == "MSAA904"
-    assert of_frame(tmp_path, "../../outside.frag")[0][2] == "`../../outside.frag` leaves the project"
+    assert of_frame(tmp_path, "../../outside.frag")[0][2] == "`../../outside.frag` is outside the project"
 
 
 def test_spirv_under_the_name_of_a_text(tmp_path: Path) -> None:

@@ -179,7 +179,7 @@ def test_sample_counts(word: int | str, count: int) -> None:
 
 MISTAKES = [
     ("renderTargets: {a: {api: ⟦vulcan⟧}}", "one of vulkan, metal is due here, not `vulcan`", "did you mean `vulkan`?"),
-    ("renderTargets: {⟦a⟧: {sampleCount: 4}}", "`a` is due with its `api`: vulkan or metal", ""),
+    ("renderTargets: {⟦a⟧: {sampleCount: 4}}", "`a` must have an `api`: vulkan or metal", ""),
     (
         "renderTargets: {a: {api: vulkan, ⟦colourFormat⟧: kR8UNormInt}}",
         "unknown key `colourFormat` in renderTargets.a",
@@ -203,19 +203,19 @@ MISTAKES = [
     ("renderTargets: {a: {api: vulkan, enableStencil: ⟦1⟧}}", "true or false is due here, not `1`", ""),
     (
         "renderTargets: {a: {api: vulkan, depthFormat: kS8UInt, enableStencil: ⟦false⟧}}",
-        "`kS8UInt` is stencil alone, and `enableStencil` is false",
+        "`kS8UInt` has only stencil, but `enableStencil` is false",
         "",
     ),
     (
         "renderTargets: {a: {api: vulkan, colorFormat: ⟦kB10G10R10XR⟧}}",
-        "`kB10G10R10XR` is Metal's alone: the engine has no extended range on Vulkan",
+        "`kB10G10R10XR` requires Metal: the engine has no extended-range formats on Vulkan",
         "",
     ),
-    ("renderTargets: {a: {api: vulkan}, b: {api: ⟦metal⟧}}", "`a` is vulkan's: the targets of a frame have one api", ""),
+    ("renderTargets: {a: {api: vulkan}, b: {api: ⟦metal⟧}}", "all render targets must have the same `api`, but `a` has vulkan", ""),
     (
         "renderTargets: {a: {api: vulkan}}\n⟦images⟧: {b: {samples: 4}}",
-        "`images` cannot stand beside `renderTargets`, which give the whole frame",
-        "`msaa-lint convert` writes what they give, to be added to",
+        "`images` is not allowed beside `renderTargets`, which define the whole frame",
+        "run `msaa-lint convert` to expand the render targets, then edit the result",
     ),
     ("renderTargets: ⟦4⟧", "a mapping of names is due here, not `4`", ""),
 ]
@@ -396,4 +396,8 @@ def test_hostile_names_and_many_targets() -> None:
 
 def test_there_are_at_most_so_many_targets() -> None:
     (problem,) = read("renderTargets:\n" + "".join(f"  t{n}: {{api: vulkan}}\n" for n in range(5000))).problems
-    assert (problem.code, problem.message, problem.path) == ("MSAA903", "there are at most 256 render targets", "renderTargets.t256")
+    assert (problem.code, problem.message, problem.path) == (
+        "MSAA903",
+        "at most 256 render targets are allowed",
+        "renderTargets.t256",
+    )
