@@ -90,7 +90,7 @@ def outputs(stated: Sequence[str], formats: Sequence[str], example: str) -> list
     for text in stated:
         name, equals, path = text.partition("=")
         if name not in formats:
-            from msaa_lint.frame.vulkan.names import nearest
+            from msaa_lint.core.suggestions import nearest
 
             close = nearest(name, formats)
             hint = f"did you mean {close}?" if close else f"there are {', '.join(formats)}"

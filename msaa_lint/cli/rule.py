@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from msaa_lint.core.diagnostics import DIAGNOSTICS
 from msaa_lint.core.finding import RuleInfo
-from msaa_lint.frame.vulkan.names import nearest
+from msaa_lint.core.suggestions import nearest
 from msaa_lint.linter.engine import load_rules
 from msaa_lint.linter.rules.registry import markdown
 from msaa_lint.linter.rules.rule_file import APIS, Rule

@@ -83,7 +83,7 @@ def _picture(asked: StudyInput, pixels: tuple[int, int]) -> Any:
 
 
 def _unknown(word: str, names: Sequence[str]) -> str:
-    from msaa_lint.frame.vulkan.names import nearest
+    from msaa_lint.core.suggestions import nearest
 
     close = nearest(word, names)
     help = f"did you mean {close}?" if close else f"scenes are {', '.join(names)}"

@@ -9,6 +9,7 @@ import os
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.project import inside, project_root
+from msaa_lint.core.suggestions import nearest
 from msaa_lint.core.text.files import read
 from msaa_lint.core.text.node import Limits
 from msaa_lint.core.text.source import Unreadable, decode
@@ -16,7 +17,6 @@ from msaa_lint.core.text.source import Unreadable, decode
 from .devices import DeviceProfile, builtin, names
 from .devices.paths import ENDINGS, is_path, split
 from .facts.table import WORDS
-from .vulkan.names import nearest
 
 if TYPE_CHECKING:
     from .description.models import Description

@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Collection
 
-from msaa_lint.frame.vulkan.names import nearest, parse_enum, parse_flags
+from msaa_lint.frame.vulkan.names import nearest_name, parse_enum, parse_flags
 
 SAMPLE_COUNTS = (1, 2, 4, 8, 16, 32, 64)
 
@@ -65,7 +65,7 @@ def nearest_enumerant(enums: str, text: str) -> str | None:
         return nearest_to(enums, text)
     from msaa_lint.frame.vulkan.enums import ENUMS
 
-    return nearest(text, [name for each in enums.split("|") for name in dict.fromkeys(ENUMS[each].values())])
+    return nearest_name(text, [name for each in enums.split("|") for name in dict.fromkeys(ENUMS[each].values())])
 
 
 def caseless(words: Collection[str], value: object) -> str | None:

@@ -9,6 +9,8 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
+from msaa_lint.core.suggestions import nearest
+
 from .formats import PIXEL_FORMATS
 
 ENUMS: dict[str, tuple[str, ...]] = {
@@ -82,10 +84,6 @@ def parse_options(enum: str, text: str) -> list[str]:
 
 def nearest_to(enum: str, text: str) -> str | None:
     """The Swift name that was most likely meant by a word that is none of `enum`'s; None where nothing is near."""
-    from msaa_lint.frame.vulkan.names import MAX_WORD, nearest
-
-    if len(text) > MAX_WORD:
-        return None
     word = text.removeprefix(enum).lstrip(".")
     # What Vulkan calls the same is more than a slip of letters away.
     return _OTHERS.get((enum, word.lower())) or nearest(word, ENUMS[enum])

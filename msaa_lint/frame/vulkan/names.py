@@ -3,17 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from itertools import islice
+
+from msaa_lint.core.suggestions import MAX_LENGTH, letters_and_digits, nearest
 
 from .enums import ALIASES, BITLESS, PREFIXES, VALUES
 
 VENDORS = ("AMD", "ANDROID", "ARM", "EXT", "HUAWEI", "IMG", "INTEL", "KHR", "NV", "NVX", "QCOM", "VALVE")
-
-MAX_WORD = 128
-"""Longer words are no name and have no nearest one: likeness is quadratic in the length."""
-
-MAX_WORDS = 1000
-"""So many words are looked at for a nearest one: a hostile input may hold millions."""
 
 _AFTER_BIT = ("", *(f"_{vendor}" for vendor in VENDORS))
 
@@ -28,7 +23,7 @@ def parse_enum(enum: str, text: str) -> str | None:
         return text
     if aliases is not None and text in aliases:
         return aliases[text]
-    if len(text) > MAX_WORD:
+    if len(text) > MAX_LENGTH:
         return None
     name, prefix = text, PREFIXES[enum]
     if name.startswith(prefix):
@@ -118,45 +113,9 @@ def _mask(word: str) -> int | None:
     return value if value < 1 << 64 else None
 
 
-def nearest(word: str, words: Iterable[str]) -> str | None:
-    """What was most likely meant by a word that is none of `words`; None where nothing is near.
-
-    First what differs by case or separators only, then by Vulkan's prefix, `_BIT` or a vendor's suffix only, then the shortest that begins
-    with the word, then a slip of a letter, then the first that has the word's letters in their order (`RGBA16F`), then a few letters.
-    """
-    bare = _bare(word) if len(word) <= MAX_WORD else ""
-    if not bare:
-        return None
-    known = [candidate for candidate in islice(words, MAX_WORDS) if len(candidate) <= MAX_WORD]
-    plain = _plain(word)
-    for candidate in known:
-        if _plain(candidate) == plain:
-            return candidate
-    by_key: dict[str, str] = {}
-    for candidate in known:
-        by_key.setdefault(_bare(candidate), candidate)
-    if bare in by_key:
-        return by_key[bare]
-    if len(bare) >= 3:
-        longer = [candidate for key, candidate in by_key.items() if key.startswith(bare)]
-        if longer:
-            return min(longer, key=len)
-    import difflib
-
-    close = difflib.get_close_matches(bare, by_key, n=1, cutoff=0.7)
-    if close and difflib.SequenceMatcher(None, close[0], bare).ratio() > 0.9:
-        return by_key[close[0]]
-    if len(bare) >= 4:
-        for key, candidate in by_key.items():
-            letters = iter(key)
-            if all(letter in letters for letter in bare):
-                return candidate
-    return by_key[close[0]] if close else None
-
-
-def _plain(word: str) -> str:
-    """The letters and digits, in one case."""
-    return "".join(filter(str.isalnum, word.upper()))
+def nearest_name(word: str, names: Iterable[str]) -> str | None:
+    """The name that was most likely meant by a word, whatever its type's prefix, `_BIT` and vendor's suffix; None if none is near."""
+    return nearest(word, names, _bare)
 
 
 def _bare(word: str) -> str:
@@ -168,7 +127,7 @@ def _bare(word: str) -> str:
         name = name.removeprefix("2_")
     name = _without_bit(name)
     head, _, vendor = name.rpartition("_")
-    return _plain(head if head and vendor in VENDORS else name)
+    return letters_and_digits(head if head and vendor in VENDORS else name)
 
 
 def _without_bit(name: str) -> str:

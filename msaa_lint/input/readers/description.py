@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from msaa_lint.core.suggestions import nearest
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Span
 from msaa_lint.core.text.tree import Node
 from msaa_lint.frame.description.bind import Binder, Mention, shortened
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import AttachmentReference, Description, Device, Framebuffer, RenderPass, Subpass
-from msaa_lint.frame.vulkan.names import nearest
 
 SECTIONS = frozenset(Description.SHAPE)
 

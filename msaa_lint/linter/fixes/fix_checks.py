@@ -8,7 +8,7 @@ from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.facts.table import FACTS, SUBJECTS, WORDS
-from msaa_lint.frame.vulkan.names import nearest
+from msaa_lint.frame.vulkan.names import nearest_name
 from msaa_lint.linter.rules.rule_file import FixSpec, Rule, Setting
 
 from .actions import DEEDS
@@ -49,7 +49,7 @@ def _value(setting: Setting, known: set[str]) -> Iterator[tuple[Span, str]]:
 
         words = WORDS[fact.enum] if fact.enum in WORDS else tuple(VALUES.get(fact.enum, ()))
         if value not in words:
-            close = nearest(value, words)
+            close = nearest_name(value, words)
             yield setting.at, f"{fact.name} is never '{value[:80]}'" + (f"; did you mean '{close}'?" if close else "")
 
 

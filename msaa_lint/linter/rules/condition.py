@@ -91,9 +91,9 @@ def check(text: str, subject: str) -> None:
     for fact, literal, offset, length in literals(text):
         words = _words(fact)
         if words is not None and literal not in words:
-            from msaa_lint.frame.vulkan.names import nearest
+            from msaa_lint.frame.vulkan.names import nearest_name
 
-            close = nearest(literal, words)
+            close = nearest_name(literal, words)
             hint = f"; did you mean {close!r}?" if close else ""
             raise ConditionError(f"{fact} is never {literal!r}{hint}", offset, length)
 
@@ -161,7 +161,7 @@ def _explained(error: RuntimeError, text: str, subject: str | None) -> Condition
     undeclared = re.search(r"undeclared reference to '([^']*)'", match[3])
     if undeclared is None:
         return ConditionError(match[3], offset)
-    from msaa_lint.frame.vulkan.names import nearest
+    from msaa_lint.core.suggestions import nearest
 
     name = undeclared[1]
     known = [fact.name for fact in _facts_of(subject)]

@@ -231,7 +231,7 @@ class _Reading:
         )
 
     def unknown(self, key: Node, known: tuple[str, ...]) -> None:
-        from msaa_lint.frame.vulkan.names import nearest
+        from msaa_lint.core.suggestions import nearest
 
         close = nearest(key.text, known)
         self.wrong(key.span, f"unknown key `{key.text[:80]}`", f"did you mean `{close}`?" if close else f"it may have {', '.join(known)}")
@@ -330,7 +330,7 @@ class _Reading:
 
         fact = FACTS.get(key.text)
         if fact is None:
-            from msaa_lint.frame.vulkan.names import nearest
+            from msaa_lint.core.suggestions import nearest
 
             close = nearest(key.text, FACTS)
             self.wrong(key.span, f"there is no fact {key.text[:80]}", f"did you mean `{close}`?" if close else "")

@@ -63,7 +63,7 @@ class Reading:
             self.problems.append(self.origin.wrong(path, f"{what} in `{path[0]}` of {self.origin.source.name}", help, at_key))
 
     def unknown(self, path: tuple[str, ...], known: Sequence[str], where: str) -> None:
-        from msaa_lint.frame.vulkan.names import nearest
+        from msaa_lint.core.suggestions import nearest
 
         if len(self.problems) >= MAX_PROBLEMS:
             return
@@ -118,7 +118,7 @@ class Reading:
         assert isinstance(value, str)
         if value in words:
             return value
-        from msaa_lint.frame.vulkan.names import nearest
+        from msaa_lint.core.suggestions import nearest
 
         close = nearest(value, words)
         help = f"did you mean `{close}`? There are {', '.join(words)}" if close else f"there are {', '.join(words)}"

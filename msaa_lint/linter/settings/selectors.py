@@ -9,6 +9,7 @@ from typing import NamedTuple, Protocol
 from msaa_lint.core.diagnostics import DIAGNOSTICS, diagnostic
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.quote import quoted
+from msaa_lint.core.suggestions import Suggestions
 
 from .settings import COMMAND_LINE, Origin, Settings
 
@@ -62,18 +63,14 @@ class Words:
     def __init__(self, rules: Iterable[Named]) -> None:
         self.rules: list[Named] = [*rules, *DIAGNOSTICS.values()]
         self.exact = {word: rule for rule in self.rules for word in (rule.name, rule.code)}
-        self._nearest: dict[str, str | None] = {}
+        self._suggestions = Suggestions(self.exact)
 
     def knows(self, selector: str) -> bool:
         return selector in self.exact or any(specificity(selector, rule) for rule in self.rules)
 
     def nearest(self, word: str) -> str | None:
-        """What was meant by an unknown word; only the first fifty words are looked up."""
-        if word not in self._nearest and len(self._nearest) < MAX_PROBLEMS:
-            from msaa_lint.frame.vulkan.names import nearest
-
-            self._nearest[word] = nearest(word, self.exact)
-        return self._nearest.get(word)
+        """The name or code that was most likely meant by an unknown word; see `Suggestions` for its limits."""
+        return self._suggestions.nearest(word)
 
 
 class _Use(NamedTuple):

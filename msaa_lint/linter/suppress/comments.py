@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterable
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from msaa_lint.core.quote import quoted
+from msaa_lint.core.suggestions import Suggestions
 from msaa_lint.core.text.span import Edit, Span
 
 if TYPE_CHECKING:
@@ -15,8 +16,6 @@ if TYPE_CHECKING:
 
 WORDS = ("ignore", "ignore-file")
 HOW = "write `{mark} msaa-lint: {word}[rule-name] reason`"
-
-MAX_NEAREST = 50
 
 _BEGINNING = re.compile(r"#\s*(msaa[-_ ]?lint)\b\s*(:)?\s*([A-Za-z_-]*)\s*", re.IGNORECASE)
 _BEFORE_REASON = " \t-–—:"
@@ -91,7 +90,7 @@ class _Lines:
         self.alone = False
         self._run = (0, 0)
         self._content: int | None = None
-        self._nearest: dict[str, str | None] = {}
+        self._suggestions = Suggestions(WORDS)
 
     def at(self, comment: Comment) -> None:
         """Moves on to a comment. One alone on its line is about the next line that does not begin with a comment too."""
@@ -122,12 +121,8 @@ class _Lines:
         return HOW.format(mark=self.mark, word=word)
 
     def nearest(self, word: str) -> str | None:
-        """What was meant by a word that is none of WORDS; only the first few are looked up."""
-        if word not in self._nearest and len(self._nearest) < MAX_NEAREST:
-            from msaa_lint.frame.vulkan.names import nearest
-
-            self._nearest[word] = nearest(word, WORDS)
-        return self._nearest.get(word)
+        """The one of WORDS that was most likely meant by another word; see `Suggestions` for its limits."""
+        return self._suggestions.nearest(word)
 
     def at_top(self) -> bool:
         """Whether the comment stands before all content."""

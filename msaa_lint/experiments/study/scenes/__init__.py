@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import difflib
 from importlib import import_module
+
+from msaa_lint.core.suggestions import nearest
 
 from .scene import Scene, check_size
 
@@ -40,8 +41,8 @@ def scene(name: str, width: int, height: int) -> Scene:
     """The scene of that name in a picture of width x height pixels. LookupError, with the nearest name, for an unknown one; ValueError for
     a picture that is too small."""
     if name not in _FACTORIES:
-        near = difflib.get_close_matches(name, NAMES, 1)
-        hint = f"did you mean `{near[0]}`?" if near else f"the scenes are {', '.join(NAMES)}"
+        close = nearest(name, NAMES)
+        hint = f"did you mean `{close}`?" if close else f"the scenes are {', '.join(NAMES)}"
         raise LookupError(f"unknown scene `{name}`: {hint}")
     check_size(width, height)
     module, function = _FACTORIES[name]

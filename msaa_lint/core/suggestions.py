@@ -1,0 +1,81 @@
+"""The name that was most likely meant by an unknown one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from itertools import islice
+
+MAX_LENGTH = 128
+"""Characters of a name: no suggestion is made for a longer one, as the time to compare two grows with the product of their lengths."""
+
+MAX_CANDIDATES = 1000
+"""Candidates that a name is compared with; an input may hold millions."""
+
+MAX_SEARCHES = 50
+"""Unknown names that suggestions are searched for among the same candidates."""
+
+
+def letters_and_digits(name: str) -> str:
+    """What is left of a name without separators and in one case."""
+    return "".join(filter(str.isalnum, name.upper()))
+
+
+def nearest(name: str, candidates: Iterable[str], simplify: Callable[[str], str] = letters_and_digits) -> str | None:
+    """The candidate that was most likely meant by a name that is not among them; None if none is near.
+
+    Names are compared by what `simplify` leaves of them. A candidate that differs in case or separators only comes first; then one that is
+    equal when simplified, the shortest one that begins with the name, one with a single typo, the first one that has the letters of the
+    name in their order (`RGBA16F`), and one with a few typos.
+    """
+    bare = simplify(name) if len(name) <= MAX_LENGTH else ""
+    if not bare:
+        return None
+    known = [candidate for candidate in islice(candidates, MAX_CANDIDATES) if len(candidate) <= MAX_LENGTH]
+    plain = letters_and_digits(name)
+    for candidate in known:
+        if letters_and_digits(candidate) == plain:
+            return candidate
+    simplified: dict[str, str] = {}
+    for candidate in known:
+        simplified.setdefault(simplify(candidate), candidate)
+    if bare in simplified:
+        return simplified[bare]
+    if len(bare) >= 3:
+        longer = [candidate for key, candidate in simplified.items() if key.startswith(bare)]
+        if longer:
+            return min(longer, key=len)
+    import difflib
+
+    close = difflib.get_close_matches(bare, simplified, n=1, cutoff=0.7)
+    if close and difflib.SequenceMatcher(None, close[0], bare).ratio() > 0.9:
+        return simplified[close[0]]
+    if len(bare) >= 4:
+        for key, candidate in simplified.items():
+            letters = iter(key)
+            if all(letter in letters for letter in bare):
+                return candidate
+    return simplified[close[0]] if close else None
+
+
+def did_you_mean(name: str, candidates: Iterable[str], separator: str = "; ") -> str:
+    """The end of a message about an unknown name: "; did you mean `samples`?", or nothing if no candidate is near."""
+    return question(nearest(name, candidates), separator)
+
+
+def question(candidate: str | None, separator: str = "; ") -> str:
+    """The end of a message that suggests a name; nothing for None."""
+    return f"{separator}did you mean `{candidate}`?" if candidate is not None else ""
+
+
+class Suggestions:
+    """Suggestions for several unknown names among the same candidates. Each name is searched for once, and at most MAX_SEARCHES are."""
+
+    def __init__(self, candidates: Iterable[str]) -> None:
+        self._candidates = candidates
+        self._nearest: dict[str, str | None] = {}
+
+    def nearest(self, name: str) -> str | None:
+        """The candidate that was most likely meant by a name; None if none is near, or if too many names were searched for."""
+        if name not in self._nearest and len(self._nearest) < MAX_SEARCHES:
+            self._nearest[name] = nearest(name, self._candidates)
+        return self._nearest.get(name)

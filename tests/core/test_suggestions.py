@@ -1,0 +1,47 @@
+"""The name that was meant by an unknown one, and the bounds of the search for it."""
+
+from __future__ import annotations
+
+import pytest
+
+from msaa_lint.core.suggestions import MAX_CANDIDATES, MAX_LENGTH, MAX_SEARCHES, Suggestions, did_you_mean, nearest
+
+
+@pytest.mark.parametrize(
+    ("word", "words", "meant"),
+    [
+        ("load_op", ["storeOp", "loadOp"], "loadOp"),
+        ("sampels", ["format", "samples"], "samples"),
+        ("pAttachments", ["subpasses", "attachments"], "attachments"),
+        ("Forward", ["backward", "forward"], "forward"),
+        ("zzz", ["loadOp", "storeOp"], None),
+        ("loadOp", [], None),
+    ],
+)
+def test_nearest_key(word: str, words: list[str], meant: str | None) -> None:
+    assert nearest(word, words) == meant
+
+
+def test_long_and_many_words_are_bounded() -> None:
+    assert nearest("x" * (MAX_LENGTH + 1), ["x" * (MAX_LENGTH + 1)]) is None
+    assert nearest("xy", ["x" * 1_000_000, "xz", "XY"]) == "XY"
+
+    def words() -> object:
+        for n in range(MAX_CANDIDATES + 1):
+            assert n < MAX_CANDIDATES
+            yield f"word{n}"
+
+    assert nearest("wrd5", words()) is not None  # type: ignore[arg-type]
+
+
+def test_a_message_ends_in_the_question() -> None:
+    assert did_you_mean("sampels", ["format", "samples"]) == "; did you mean `samples`?"
+    assert did_you_mean("sampels", ["format", "samples"], ": ") == ": did you mean `samples`?"
+    assert did_you_mean("zzz", ["format", "samples"]) == ""
+
+
+def test_a_limited_number_of_names_is_searched_for() -> None:
+    suggestions = Suggestions(["samples"])
+    for _ in range(2):
+        found = [suggestions.nearest(f"sample{number}") for number in range(MAX_SEARCHES + 1)]
+        assert found == ["samples"] * MAX_SEARCHES + [None]
