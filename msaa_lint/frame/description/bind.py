@@ -9,9 +9,10 @@ from __future__ import annotations
 import re
 from typing import Any, NamedTuple
 
+from msaa_lint.core.suggestions import nearest
 from msaa_lint.core.text.span import Label, Span
 from msaa_lint.core.text.tree import Node
-from msaa_lint.frame.vulkan.names import from_value, nearest
+from msaa_lint.frame.vulkan.names import from_value
 
 from .models import AttachmentDescription, AttachmentReference, Command, SubpassDependency
 from .record import Record
