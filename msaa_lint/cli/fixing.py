@@ -36,12 +36,12 @@ def print_diff(outcome: Outcome, color: bool) -> bool:
 
 def remarks(outcome: Outcome, written: bool, unsafe: bool) -> list[str]:
     """How many findings are fixed and left, and why a fix was not made: lines for the standard error stream."""
-    fixed = sum(len(each.fixed) for each in outcome.mended)
+    fixed = sum(len(each.fixed_findings) for each in outcome.mended)
     left = len([found for found in outcome.result.findings if not found.fatal]) - (0 if written else fixed)
     more = "" if unsafe else _more(outcome.result)
     lines = [f"{fixed} {'' if written else 'would be '}fixed, {max(left, 0)} left{more}"]
     for each in outcome.mended:
-        for finding, reason in each.unfixed:
+        for finding, reason in each.failed_fixes:
             lines.append(f"{visible(each.file)}{_line(each, finding)}: {visible(finding.rule)} is not fixed: {visible(reason)}")
     return lines
 
@@ -52,5 +52,5 @@ def _more(result: Result) -> str:
 
 
 def _line(each: FixedText, finding: Finding) -> str:
-    source = each.linted.source
+    source = each.result.source
     return f":{source.position(finding.span.start).line}" if source is not None and finding.span is not None else ""

@@ -13,7 +13,6 @@ from msaa_lint.frame.cost.amounts import FrameCost, Terms
 from msaa_lint.frame.cost.input_cost import Costed
 from msaa_lint.frame.cost.model import frame_cost
 from msaa_lint.frame.cost.variants import variants
-from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.profiles import device_of
 from msaa_lint.input.discovery import STDIN, discover
@@ -24,7 +23,7 @@ from .engine import LintOptions
 from .results import DocumentResult, FileResult
 from .run import Request, Run
 
-Fixed = Callable[[FileResult, DocumentResult, DeviceProfile | None, Terms], FrameCost | None]
+Fixed = Callable[[FileResult, DocumentResult, Terms], FrameCost | None]
 """What a document's frame would cost with the fixes of its findings made; None where it has none."""
 
 
@@ -96,22 +95,13 @@ def _costed(linted: FileResult, judged: DocumentResult, terms: Terms, counts: Se
     document, device = judged.document, judged.device
     cost = frame_cost(Frame(document), device, terms)
     others = variants(document, device, terms, counts)
-    mended = fixed(linted, judged, device, terms) if fixed is not None else None
+    mended = fixed(linted, judged, terms) if fixed is not None else None
     return Costed(linted.file, judged.number, len(linted.documents), cost, others, mended)
 
 
-def with_fixes(linted: FileResult, judged: DocumentResult, device: DeviceProfile | None, terms: Terms) -> FrameCost | None:
-    """What a document's frame would cost if every fix of its findings were made, also those that are only shown."""
-    from .fixes.changes import Change, Refused
+def with_fixes(linted: FileResult, judged: DocumentResult, terms: Terms) -> FrameCost | None:
+    """The cost of a document's frame with all fixes of its findings, also those that are only shown; None if there are no fixes."""
     from .fixes.document_fixes import DocumentFixes
-    from .prices import Prices, merged
+    from .prices import cost_with_fixes
 
-    if linted.source is None or not judged.fix_specs:
-        return None
-    offers = DocumentFixes(linted.source, judged, rewritten=not linted.is_code)
-    changes: list[tuple[Change, ...]] = []
-    for found in linted.findings:
-        own = offers.changes(found)
-        if own is not None and not isinstance(own, Refused):
-            changes.append(own)
-    return Prices(judged.document, device, terms, offers.reread).changed(merged(changes)) if changes else None
+    return cost_with_fixes(DocumentFixes(judged, editable=not linted.is_code), linted.findings, terms)

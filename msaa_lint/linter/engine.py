@@ -104,7 +104,7 @@ class Engine:
                 findings, comments(source, parsed.documents), source, options.severity, {rule.rule for rule in undecided}
             )
         findings.sort(key=location_order)
-        findings, combined = _with_fixes(source, results, findings, options)
+        findings, combined = _with_fixes(results, findings, options)
         return FileResult(file, source, findings, undecided, suppressed, combined, results)
 
     def _lint_code(self, code: SourceFile, file: str, options: LintOptions) -> FileResult:
@@ -135,7 +135,7 @@ class Engine:
         findings.sort(key=location_order)
         combined = None
         if options.prices:
-            findings, combined = _with_fixes(source, results, findings, options, rewritten=False)
+            findings, combined = _with_fixes(results, findings, options, editable=False)
         suppressed = [each._replace(finding=_of_code(each.finding)) for each in suppressed]
         return FileResult(file, source, [_of_code(found) for found in findings], [], suppressed, combined, results, True)
 
@@ -223,21 +223,21 @@ def _has_suppressions(text: str) -> bool:
 
 
 def _with_fixes(
-    source: Source, results: Iterable[DocumentResult], findings: list[Finding], options: LintOptions, rewritten: bool = True
+    results: Iterable[DocumentResult], findings: list[Finding], options: LintOptions, editable: bool = True
 ) -> tuple[list[Finding], CombinedPrice | None]:
-    """The findings with their prices if asked for and, if the text can be `rewritten`, the edits of their fixes."""
+    """The findings with their prices if asked for and, if the text is `editable`, the edits of their fixes."""
     fixable = [result for result in results if result.fix_specs]
     if not fixable:
         return findings, None
     from .fixes.document_fixes import DocumentFixes
 
-    fixes = [DocumentFixes(source, result, options.format, rewritten) for result in fixable]
+    fixes = [DocumentFixes(result, options.format, editable) for result in fixable]
     combined: CombinedPrice | None = None
     if options.prices:
         from .prices import priced
 
         findings, combined = priced(fixes, findings)
-    if rewritten:
+    if editable:
         for each in fixes:
             findings = each.with_edits(findings)
     return findings, combined

@@ -1,4 +1,4 @@
-"""What findings cost: the frame as it is written less the frame with the fix, by the cost model. No rule has a formula of its own."""
+"""The prices of findings: by the cost model, the cost of the frame as written minus its cost with the fix. No rule has its own formula."""
 
 from __future__ import annotations
 
@@ -15,212 +15,196 @@ from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.facts.frame import Frame, Pass
 
-from .fixes.changes import PLAIN, Change, Refused, Structural, applied
+from .fixes.changes import Change, NoFix, StructuralChange, applied
 from .fixes.document_fixes import DocumentFixes
+from .fixes.image_references import command_images
 from .results import CombinedPrice
 from .rules.rule_runner import Key, finding_key
 
 Reread = Callable[[Sequence[Change]], Document | None]
-"""A document with changes made in its text and read again; None where they cannot be written."""
+"""Makes changes in a document's text and reads it again; None if the changes cannot be written."""
 
 MAX_TRIALS = 16
-"""How many fixes that add or take away are tried one by one, where they cannot be made all at once."""
+"""How many structural fixes are tried one by one if not all of them can be made together."""
 
-_DIGITS = 6
-"""Decimals that are kept: differences of sums have noise below."""
+_DECIMALS = 6
+"""Differences of sums have noise below this."""
 
 
 class Part(NamedTuple):
-    """What of a document changes may alter the cost of: passes by their path, images by their name."""
+    """The part of a document whose cost changes may alter: passes by path, images by name."""
 
     passes: frozenset[str]
     images: frozenset[str]
 
 
 class Prices:
-    """Prices of one document's findings. What is the same for several is worked out once."""
+    """The prices of one document's findings. Costs that several findings have in common are computed once."""
 
     def __init__(self, document: Document, device: DeviceProfile | None, terms: Terms | None, reread: Reread) -> None:
         self.document = document
         self.device = device
         self.terms = terms
         self._reread = reread
-        self._frame = Frame(document)
-        self._owners = dict(_owners(self._frame))
-        self._before: dict[Part | None, FrameCost] = {}
+        self._owners = dict(_owners(Frame(document)))
+        self._costs: dict[Part | None, FrameCost] = {}
         self._images: dict[Part, set[str]] = {}
 
     def of(self, changes: Sequence[Change]) -> Price | None:
-        """What the frame costs for the lack of some changes; None where what they alter cannot be reckoned, for want of a size or format.
+        """What the frame costs for lack of some changes; None if a size or format that this depends on is unknown.
 
-        Only the passes and images that the changes touch are reckoned, and what they have to do with: the rest is the same before and
-        after.
+        Only the passes and images that the changes concern are computed, because the rest costs the same before and after.
         """
         part = self._part(changes)
-        before = self.as_written(part)
-        after = self.changed(changes, part)
+        before = self.cost(part)
+        after = self.cost_with(changes, part)
         return None if after is None else _difference(before, after)
 
-    def together(self, several: Iterable[Sequence[Change]]) -> Price | None:
-        """What a frame costs for the lack of all of some changes; of two that give a member different values, the first.
+    def together(self, fixes: Iterable[Sequence[Change]]) -> Price | None:
+        """What a frame costs for lack of several fixes. If two set a member to different values, the first one counts.
 
-        Where one takes away what another changes, as many as can be made together.
+        If one fix removes what another changes, as many as possible are made together.
         """
-        every = list(several)
-        changes = merged(every)
-        after = self.changed(changes, None) if changes else None
+        fixes = list(fixes)
+        changes = merged(fixes)
+        after = self.cost_with(changes, None) if changes else None
         if after is None and changes:
-            after = self._as_many(every)
-        return None if after is None else _difference(self.as_written(None), after)
+            after = self._cost_with_most(fixes)
+        return None if after is None else _difference(self.cost(None), after)
 
-    def _as_many(self, several: Sequence[Sequence[Change]]) -> FrameCost | None:
-        """The frame with those of some changes that can be made together: first those that take nothing away."""
-        taken = [changes for changes in several if all(change.action in PLAIN for change in changes)]
-        after = self.changed(merged(taken), None)
-        structural = [changes for changes in several if any(change.action not in PLAIN for change in changes)]
+    def _cost_with_most(self, fixes: Sequence[Sequence[Change]]) -> FrameCost | None:
+        """The cost with the fixes that can be made together, those without structural changes first."""
+        chosen = [changes for changes in fixes if not any(change.structural for change in changes)]
+        cost = self.cost_with(merged(chosen), None)
+        structural = [changes for changes in fixes if any(change.structural for change in changes)]
         for changes in structural[:MAX_TRIALS]:
-            more = self.changed(merged([*taken, changes]), None)
-            if more is not None:
-                taken.append(changes)
-                after = more
-        return after
+            cost_with_fix = self.cost_with(merged([*chosen, changes]), None)
+            if cost_with_fix is not None:
+                chosen.append(changes)
+                cost = cost_with_fix
+        return cost
 
-    def assumed(self, price: Price) -> tuple[str, ...]:
-        """What a price takes for granted that the input does not state."""
+    def notes(self, price: Price) -> tuple[str, ...]:
+        """What a price assumes that the input does not state."""
         size = self.document.description.frame
-        stated = size is not None and size.fps is not None
-        return () if stated or not (price.read_mb_per_s or price.write_mb_per_s) else (f"the cost is at {ASSUMED_FPS:g} frames a second",)
+        assumes_fps = (size is None or size.fps is None) and bool(price.read_mb_per_s or price.write_mb_per_s)
+        return (f"the cost assumes {ASSUMED_FPS:g} frames per second",) if assumes_fps else ()
 
-    def as_written(self, part: Part | None = None) -> FrameCost:
-        """What the frame, or a part of it, costs as it is written."""
-        if part not in self._before:
-            self._before[part] = self._cost(self.document, part)
-        return self._before[part]
+    def cost(self, part: Part | None) -> FrameCost:
+        """The cost of a part of the frame, or of all of it, as written."""
+        if part not in self._costs:
+            self._costs[part] = self._cost(self.document, part)
+        return self._costs[part]
 
-    def changed(self, changes: Sequence[Change], part: Part | None = None) -> FrameCost | None:
-        """What the frame, or a part of it, costs with changes made; None where they cannot be made."""
+    def cost_with(self, changes: Sequence[Change], part: Part | None) -> FrameCost | None:
+        """The cost of a part of the frame, or of all of it, after changes; None if they cannot be made."""
         try:
             with applied(changes):
                 return self._cost(self.document, part)
-        except Structural:
+        except StructuralChange:
             document = self._reread(changes)
-            # What was inserted is in no part of the frame as it was.
+            # New passes and images belong to no part of the original frame.
             return None if document is None else self._cost(document, None)
 
     def _cost(self, document: Document, part: Part | None) -> FrameCost:
         if part is not None:
-            description, images = _within(document.description, part, self._images.get(part, set()))
-            # An image that a change leaves to nobody takes its memory all the same.
+            description, images = _restricted(document.description, part, self._images.get(part, set()))
+            # An image takes its memory even if a change leaves it without a use.
             self._images.setdefault(part, images)
             document = document._replace(description=description)
         return frame_cost(Frame(document), self.device, self.terms)
 
     def _part(self, changes: Sequence[Change]) -> Part | None:
-        """The part that changes may alter; None, the whole, where one changes something that belongs to neither a pass nor an image."""
+        """The part that changes may alter; None, which is all, if one of them concerns neither a pass nor an image."""
         passes: set[str] = set()
         images: set[str] = set()
         for change in changes:
-            owners = self._owners.get(id(change.record))
-            if owners is None or change.action not in PLAIN:
+            owner = self._owners.get(id(change.record))
+            if owner is None or change.structural:
                 return None
-            passes |= owners.passes
-            images |= owners.images
+            passes |= owner.passes
+            images |= owner.images
         return Part(frozenset(passes), frozenset(images))
 
 
-def merged(several: Iterable[Sequence[Change]]) -> tuple[Change, ...]:
-    """Changes of several fixes as one: what is changed alike once, and of two values for a member the first."""
-    kept: dict[tuple[object, ...], Change] = {}
-    for changes in several:
-        for change in changes:
-            what = (id(change.record), change.member) + ((change.action, str(change.value)) if change.action != "set" else ())
-            kept.setdefault(what, change)
-    return tuple(kept.values())
+def merged(fixes: Iterable[Sequence[Change]]) -> tuple[Change, ...]:
+    """The changes of several fixes without repetitions, and of two values for a member only the first."""
+    changes: dict[tuple[object, ...], Change] = {}
+    for fix in fixes:
+        for change in fix:
+            value = () if change.action == "set" else (change.action, str(change.value))
+            changes.setdefault((id(change.record), change.member, *value), change)
+    return tuple(changes.values())
 
 
 def _owners(frame: Frame) -> Iterator[tuple[int, Part]]:
-    """Each record that is part of a pass or an image, by its identity, with what changes with it."""
-    using: dict[str, set[str]] = {}
-    for each in frame.passes:
-        own = Part(frozenset({each.path}), frozenset())
-        for record in _records(each):
-            yield id(record), own
-        for name in _images(each):
-            using.setdefault(name, set()).add(each.path)
+    """The records of passes and images, by identity, with the part that changes with each."""
+    users: dict[str, set[str]] = {}
+    for rendered in frame.passes:
+        part = Part(frozenset({rendered.path}), frozenset())
+        for record in _records(rendered):
+            yield id(record), part
+        for name in _images(rendered):
+            users.setdefault(name, set()).add(rendered.path)
     for name, target in frame.targets.items():
-        yield id(target.record), Part(frozenset(using.get(name, ())), frozenset({name}))
+        yield id(target.record), Part(frozenset(users.get(name, ())), frozenset({name}))
 
 
-def _records(each: Pass) -> Iterator[Record]:
-    yield each.record
-    for attachment in each.attachments:
+def _records(rendered: Pass) -> Iterator[Record]:
+    yield rendered.record
+    for attachment in rendered.attachments:
         yield attachment.record
-    for subpass in each.subpasses:
+    for subpass in rendered.subpasses:
         yield subpass.record
-        chained = getattr(subpass.record, "depthStencilResolve", None)
-        if chained is not None:
-            yield chained
+        depth_resolve = getattr(subpass.record, "depthStencilResolve", None)
+        if depth_resolve is not None:
+            yield depth_resolve
 
 
-def _images(each: Pass) -> Iterator[str]:
+def _images(rendered: Pass) -> Iterator[str]:
     """The images that a pass draws to, resolves to or reads."""
-    for attachment in each.attachments:
+    for attachment in rendered.attachments:
         for target in attachment.targets:
             if target.image is not None:
                 yield target.name
-    for subpass in each.subpasses:
+    for subpass in rendered.subpasses:
         for resolve in subpass.resolves:
             if resolve.target_image is not None:
                 yield resolve.target_image.name
 
 
-def _within(description: Description, part: Part, images: set[str]) -> tuple[Description, set[str]]:
-    """A description with the passes of a part alone, and the commands that begin them or name its images; and the names of all its images,
-    some among them."""
-    made = Description.__new__(Description)
-    vars(made).update(vars(description))
-    made.renderPasses = {name: record for name, record in description.renderPasses.items() if record.path in part.passes}
-    made.pipelines = {}
+def _restricted(description: Description, part: Part, images: set[str]) -> tuple[Description, set[str]]:
+    """A description with only the passes of a part, the commands that concern it, and the images that those name or that are given.
+
+    Also returns the names of these images.
+    """
+    restricted = Description.__new__(Description)
+    vars(restricted).update(vars(description))
+    restricted.renderPasses = {name: record for name, record in description.renderPasses.items() if record.path in part.passes}
+    restricted.pipelines = {}
     if description.commands is not None:
-        made.commands = tuple(c for c in description.commands if c is not None and _concerns(c, part, made.renderPasses))
-    named = {name for record in made.renderPasses.values() for name in _named(record)}
-    named.update(name for command in made.commands or () if command is not None for name in _mentioned(command.body))
-    named.update(name for buffer in description.framebuffers.values() for name in buffer.attachments if name is not None)
-    named |= images | part.images
-    made.images = {name: image for name, image in description.images.items() if name in named}
-    return made, named
+        commands = (command for command in description.commands if command is not None)
+        restricted.commands = tuple(command for command in commands if _concerns(command, part, restricted.renderPasses))
+    attachments = [attachment for record in restricted.renderPasses.values() for attachment in record.attachments]
+    names = images | part.images
+    names.update(attachment.image for attachment in attachments if attachment is not None and attachment.image is not None)
+    names.update(name for command in restricted.commands or () if command is not None for _, name in command_images(command))
+    names.update(name for framebuffer in description.framebuffers.values() for name in framebuffer.attachments if name is not None)
+    restricted.images = {name: image for name, image in description.images.items() if name in names}
+    return restricted, names
 
 
-def _concerns(command: Command, part: Part, passes: dict[str, RenderPass]) -> bool:
+def _concerns(command: Command, part: Part, render_passes: dict[str, RenderPass]) -> bool:
     body = command.body
     if isinstance(body, BeginRenderPass):
-        return body.renderPass in passes
+        return body.renderPass in render_passes
     if command.kind == "beginRendering":
         return isinstance(body, Record) and body.path in part.passes
-    return isinstance(body, Record) and not part.images.isdisjoint(_mentioned(body))
-
-
-def _named(record: RenderPass) -> Iterator[str]:
-    for attachment in record.attachments:
-        if attachment is not None and attachment.image is not None:
-            yield attachment.image
-
-
-_MEMBERS = ("image", "srcImage", "dstImage", "resolveImage")
-
-
-def _mentioned(body: object) -> Iterator[str]:
-    """The images that a command names."""
-    infos = (*getattr(body, "colorAttachments", ()), getattr(body, "depthAttachment", None), getattr(body, "stencilAttachment", None))
-    for record in (body, *infos):
-        for member in _MEMBERS:
-            name = getattr(record, member, None)
-            if isinstance(name, str):
-                yield name
+    return any(name in part.images for _, name in command_images(command))
 
 
 def _difference(before: FrameCost, after: FrameCost) -> Price | None:
-    price = Price(*(round(a - b, _DIGITS) + 0.0 for a, b in zip(_figures(before.total), _figures(after.total), strict=True)))
+    price = Price(*(round(a - b, _DECIMALS) + 0.0 for a, b in zip(_figures(before.total), _figures(after.total), strict=True)))
     if not any(price) and (before.unknown or after.unknown):
         return None
     return price
@@ -230,27 +214,46 @@ def _figures(amount: Amount) -> tuple[float, float, float, float]:
     return amount.read_mb_per_s, amount.write_mb_per_s, amount.memory_mib, amount.milliwatts
 
 
-def priced(offers: Sequence[DocumentFixes], findings: Sequence[Finding], terms: Terms | None = None) -> tuple[list[Finding], CombinedPrice]:
-    """The findings of an input with their prices, and what works out what some of them cost together. `offers` are its documents' fixes."""
-    books = [Prices(each.result.document, each.result.device, terms, each.reread) for each in offers]
-    made: dict[Key, tuple[Prices, tuple[Change, ...]]] = {}
-    out = []
-    for found in findings:
-        changes, book = next(((c, b) for o, b in zip(offers, books, strict=True) if (c := o.changes(found)) is not None), (None, None))
-        if book is not None and changes is not None and not isinstance(changes, Refused):
-            price = book.of(changes)
+def priced(
+    documents: Sequence[DocumentFixes], findings: Sequence[Finding], terms: Terms | None = None
+) -> tuple[list[Finding], CombinedPrice]:
+    """The findings of an input with their prices, and a function for the price of several of them together."""
+    prices = [Prices(fixes.result.document, fixes.result.device, terms, fixes.reread) for fixes in documents]
+    changes_of: dict[Key, tuple[int, tuple[Change, ...]]] = {}
+    priced_findings = []
+    for finding in findings:
+        number = next((n for n, fixes in enumerate(documents) if fixes.covers(finding)), None)
+        if number is not None:
+            try:
+                changes = documents[number].changes(finding)
+                price = prices[number].of(changes)
+            except NoFix:
+                price = None
             if price is not None:
-                made[finding_key(found)] = (book, changes)
-                found = found._replace(price=price, notes=(*found.notes, *book.assumed(price)))
-        out.append(found)
+                changes_of[finding_key(finding)] = (number, changes)
+                finding = finding._replace(price=price, notes=(*finding.notes, *prices[number].notes(price)))
+        priced_findings.append(finding)
 
-    def together(some: Sequence[Finding]) -> Price | None:
-        by_book: dict[int, list[tuple[Change, ...]]] = {}
-        for found in some:
-            if finding_key(found) in made:
-                book, changes = made[finding_key(found)]
-                by_book.setdefault(books.index(book), []).append(changes)
-        sums = [price for n, each in by_book.items() if (price := books[n].together(each)) is not None]
+    def combined(some: Sequence[Finding]) -> Price | None:
+        by_document: dict[int, list[tuple[Change, ...]]] = {}
+        for finding in some:
+            if finding_key(finding) in changes_of:
+                number, changes = changes_of[finding_key(finding)]
+                by_document.setdefault(number, []).append(changes)
+        sums = [price for number, fixes in by_document.items() if (price := prices[number].together(fixes)) is not None]
         return Price(*(sum(column) for column in zip(*sums, strict=True))) if sums else None
 
-    return out, together
+    return priced_findings, combined
+
+
+def cost_with_fixes(fixes: DocumentFixes, findings: Iterable[Finding], terms: Terms) -> FrameCost | None:
+    """The cost of a document's frame with all fixes of its findings, also those that are only shown; None if there are no fixes."""
+    plans: list[tuple[Change, ...]] = []
+    for finding in findings:
+        if fixes.covers(finding):
+            try:
+                plans.append(fixes.changes(finding))
+            except NoFix:
+                continue
+    result = fixes.result
+    return Prices(result.document, result.device, terms, fixes.reread).cost_with(merged(plans), None) if plans else None

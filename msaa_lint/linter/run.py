@@ -166,16 +166,16 @@ class Run:
                 if stdin and linted.is_code:
                     self.mended.append(_as_it_is(data, linted))
         elif self.request.fix is not None and (stdin or any(found.fix is not None for found in linted.findings)):
-            from .fixes.file_fixes import mend
+            from .fixes.file_fixes import fix_input
 
             write = self.request.fix == "write"
             target = path if write and not stdin else None
-            made = mend(data, linted, judge, self._wanted(linted, governed), self.request.unsafe_fixes, target)
+            made = fix_input(data, linted, judge, self._wanted(linted, governed), self.request.unsafe_fixes, target)
             self.mended.append(made)
-            if made.failed:
-                self.findings.append(diagnostic("MSAA921", f"the fixed text cannot be written: {made.failed}", name))
+            if made.write_error:
+                self.findings.append(diagnostic("MSAA921", f"the fixed text cannot be written: {made.write_error}", name))
             elif write and made.changed:
-                linted = judge(made.data, self.prices) if self.prices else made.linted
+                linted = judge(made.data, self.prices) if self.prices else made.result
         self._keep(linted, governed)
 
     def _wanted(self, linted: FileResult, governed: ResolvedSettings) -> Callable[[Finding], bool]:
@@ -261,7 +261,7 @@ def _as_it_is(data: "CaptureInput | SourceFile", linted: FileResult) -> "FixedTe
 
     assert isinstance(data, SourceFile)
     text = data.source.text
-    return FixedText(linted.file, text, text, data.data, linted, (), ())
+    return FixedText(linted.file, text, text, data.data, linted)
 
 
 def _baseline(this: Run, here: ResolvedSettings, files: list[str], notes: list[str]) -> None:

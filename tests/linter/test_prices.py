@@ -74,8 +74,8 @@ def test_independent_findings_cost_their_sum() -> None:
 def test_rate_that_is_not_stated_is_taken_for_sixty_and_said() -> None:
     (found,) = [f for f in lint(ATTACHED.replace(", fps: 60", "")).findings if f.code == "MSAA201"]
     assert found.price is not None and round(found.price.write_mb_per_s, 2) == 2247.78
-    assert "the cost is at 60 frames a second" in found.notes
-    assert not any("the cost is at" in note for f in lint(ATTACHED).findings for note in f.notes)
+    assert "the cost assumes 60 frames per second" in found.notes
+    assert not any("the cost assumes" in note for f in lint(ATTACHED).findings for note in f.notes)
 
 
 def test_without_a_size_nothing_has_a_price() -> None:

@@ -21,7 +21,7 @@ from msaa_lint.input.opening import load, refused
 from msaa_lint.input.readers import looks_like
 from msaa_lint.input.source_file import SourceFile
 from msaa_lint.linter.engine import LintOptions
-from msaa_lint.linter.fixes.file_fixes import FixedText, mend
+from msaa_lint.linter.fixes.file_fixes import FixedText, fix_input
 from msaa_lint.linter.results import DocumentResult, FileResult, Severity
 from msaa_lint.linter.run import Request, ResolvedSettings, Run
 
@@ -105,7 +105,7 @@ def _of_file(this: Run, path: str) -> list[Input]:
     this.findings.extend(finding for finding in linted.findings if finding.fatal)
     if any(finding.fatal for finding in linted.findings) or linted.source is None:
         return []
-    mended = mend(data, linted, judge, lambda _: True, False, None) if any(f.fix is not None for f in linted.findings) else None
+    mended = fix_input(data, linted, judge, lambda _: True, False, None) if any(f.fix is not None for f in linted.findings) else None
     found = [_input(name, linted, judged, mended, governed, device) for judged in linted.documents]
     return [each if each.frame.document.metal is None else _as_vulkan(each, governed, severity) for each in found]
 
@@ -134,7 +134,7 @@ def _input(
         findings=_own(settled, made.prefix),
         silenced=_own([each.finding for each in linted.suppressed], made.prefix),
         fixed=_fixed(judged.document, mended, judged.number),
-        mended=_own(mended.fixed if mended is not None else (), made.prefix),
+        mended=_own(mended.fixed_findings if mended is not None else (), made.prefix),
         undecided=tuple(
             each._replace(subject=each.subject.removeprefix(made.prefix))
             for each in linted.undecided
@@ -146,11 +146,11 @@ def _input(
 
 def _fixed(before: Document, mended: FixedText | None, number: int) -> Frame | None:
     """The frame of a document after the fixes; None where they leave that document as it is."""
-    if mended is None or not mended.changed or number >= len(mended.linted.documents):
+    if mended is None or not mended.changed or number >= len(mended.result.documents):
         return None
-    if not any(found.subject.startswith(f"documents[{number}].") for found in mended.fixed) and len(mended.linted.documents) > 1:
+    if not any(found.subject.startswith(f"documents[{number}].") for found in mended.fixed_findings) and len(mended.result.documents) > 1:
         return None
-    return Frame(mended.linted.documents[number].document)
+    return Frame(mended.result.documents[number].document)
 
 
 def _own(findings: Sequence[Finding], prefix: str) -> tuple[Finding, ...]:

@@ -1,4 +1,4 @@
-"""Fixes: from what a rule's page says to changes of the document, to edits of its text, to the file.
+"""Fixes: from a rule page's fix to changes of the description, to edits of its text, to the file.
 
-Nothing here is imported by a run that neither fixes nor needs to say what a fix would be.
+A run that neither applies fixes nor reports them imports nothing of this.
 """

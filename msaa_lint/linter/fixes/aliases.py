@@ -1,8 +1,8 @@
-"""Which members of a document are stated by the same text: aliases and merge keys."""
+"""Which members of a document the same text states, through aliases and merge keys, and what several fixes request of those."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.frame.description.models import Command
@@ -11,93 +11,91 @@ from msaa_lint.frame.description.record import Record
 from .changes import Change
 
 Member = tuple[int, str]
-"""A record, by identity, and a member of it."""
+"""The identity of a record, and the name of a member."""
 
-Wishes = Mapping[Member, Collection[str]]
-"""By member: what is wanted of it."""
-
-NOBODY: Wishes = {}
+Requests = Mapping[Member, Collection[tuple[str, str]]]
+"""The actions and values that fixes request, by member."""
 
 MAX_SHARED = 1000
-"""So many members are looked at that share a text. Of more it is taken that they do not agree."""
+"""How many members of a shared text are compared. With more, the fixes count as not agreeing."""
 
-_MANY: list[Member] = [(0, "")]
+_TOO_MANY: Member = (0, "")
+"""Stands for more members than are compared: no fix requests anything of it."""
 
 
-class Sharing:
-    """What anchors share: members by the key that states them, and by their value; records by their mapping."""
+def requests(changes: Iterable[Change]) -> dict[Member, set[tuple[str, str]]]:
+    """What changes request of each member."""
+    requested: dict[Member, set[tuple[str, str]]] = {}
+    for change in changes:
+        requested.setdefault((id(change.record), change.member), set()).add((change.action, str(change.value)))
+    return requested
 
-    def __init__(self, records: list[Record]) -> None:
-        self._keys: dict[int, list[Member]] = {}
-        self._values: dict[int, list[Member]] = {}
-        self._nodes: dict[int, list[int]] = {}
-        self._mappings: dict[int, list[int]] = {}
+
+def all_request(members: Iterable[Member], changes: Sequence[Change], requested: Requests) -> bool:
+    """Whether what the changes of one member request is requested of all of some members."""
+    own = {(change.action, str(change.value)) for change in changes}
+    return all(own.issubset(requested.get(member, ())) for member in members)
+
+
+class Aliases:
+    """The members of records by the key that states them and by their value, and the records by their mapping."""
+
+    def __init__(self, records: Iterable[Record]) -> None:
+        self._by_key: dict[int, list[Member]] = {}
+        self._by_value: dict[int, list[Member]] = {}
+        self._by_node: dict[int, list[int]] = {}
+        self._by_mapping: dict[int, list[int]] = {}
         for record in records:
-            self._nodes.setdefault(id(record.node), []).append(id(record))
-            self._mappings.setdefault(_origin(record.node), []).append(id(record))
+            self._by_node.setdefault(id(record.node), []).append(id(record))
+            self._by_mapping.setdefault(_origin(record.node), []).append(id(record))
             stated = [(name, key, value) for name, (key, value) in record.spelled.items()]
             if isinstance(record, Command) and record.node.kind == "mapping":
                 stated += [(name, record.node.keys[name], value) for name, value in record.node.value.items()]
             for name, key, value in stated:
-                self._keys.setdefault(id(key), []).append((id(record), name))
-                self._values.setdefault(_origin(value), []).append((id(record), name))
+                self._by_key.setdefault(id(key), []).append((id(record), name))
+                self._by_value.setdefault(_origin(value), []).append((id(record), name))
 
     def of_key(self, record: Record, member: str) -> list[Member]:
         """The other members that the same key and value state."""
-        every = self._keys[id(record.spelled[member][0])]
-        return [other for other in every if other != (id(record), member)] if len(every) <= MAX_SHARED else _MANY
+        members = self._by_key[id(record.spelled[member][0])]
+        if len(members) > MAX_SHARED:
+            return [_TOO_MANY]
+        return [other for other in members if other != (id(record), member)]
 
     def of_value(self, record: Record, member: str) -> list[Member]:
-        """The other members that have the same value, by an alias."""
+        """The other members that an alias gives the same value."""
         key, value = record.spelled[member]
-        every, same = self._values[_origin(value)], self._keys[id(key)]
-        if len(every) > MAX_SHARED:
-            return _MANY if len(every) != len(same) else []
-        return [other for other in every if other not in set(same)] if len(every) != len(same) else []
+        members, same_key = self._by_value[_origin(value)], self._by_key[id(key)]
+        if len(members) == len(same_key):
+            return []
+        return [_TOO_MANY] if len(members) > MAX_SHARED else [other for other in members if other not in same_key]
 
-    def of_node(self, record: Record) -> set[int]:
-        """The other records that are the same place of the text."""
-        return {other for other in self._nodes[id(record.node)][: MAX_SHARED + 2] if other != id(record)}
+    def has_same_node(self, record: Record) -> bool:
+        """Whether the same place of the text states another record."""
+        return any(other != id(record) for other in self._by_node[id(record.node)])
 
     def of_mapping(self, record: Record) -> set[int]:
-        """The other records that take something from a record's mapping."""
-        others = set(self._mappings[_origin(record.node)][: MAX_SHARED + 2])
+        """The identities of the other records that take members from a record's mapping."""
+        others = set(self._by_mapping[_origin(record.node)][: MAX_SHARED + 2])
         for key, _ in record.spelled.values():
             if record.node.start <= key.start < record.node.end:
-                others.update(other for other, _ in self._keys[id(key)][: MAX_SHARED + 2])
-        return others - {id(record)} if len(others) <= MAX_SHARED else {0}
-
-
-def wishes(changes: Iterable[Change]) -> dict[Member, set[str]]:
-    """What changes want of each member."""
-    found: dict[Member, set[str]] = {}
-    for change in changes:
-        found.setdefault((id(change.record), change.member), set()).add(wish(change))
-    return found
-
-
-def wish(change: Change) -> str:
-    """What a change wants of its member."""
-    return f"{change.action} {change.value}"
+                others.update(other for other, _ in self._by_key[id(key)][: MAX_SHARED + 2])
+        return others - {id(record)} if len(others) <= MAX_SHARED else {_TOO_MANY[0]}
 
 
 def _origin(node: Node) -> int:
     return id(node.anchor or node)
 
 
-def records_of(record: Record) -> Iterator[Record]:
-    """A record and all that it holds."""
-    yield record
-    for member in record.SHAPE if not isinstance(record, Command) else ("body",):
-        yield from _within(getattr(record, member))
-
-
-def _within(value: object) -> Iterator[Record]:
+def nested_records(value: object) -> Iterator[Record]:
+    """The records in a value: itself if it is one, and all that it holds."""
     if isinstance(value, Record):
-        yield from records_of(value)
+        yield value
+        for member in value.SHAPE if not isinstance(value, Command) else ("body",):
+            yield from nested_records(getattr(value, member))
     elif isinstance(value, tuple):
         for item in value:
-            yield from _within(item)
+            yield from nested_records(item)
     elif isinstance(value, dict):
         for item in value.values():
-            yield from _within(item)
+            yield from nested_records(item)

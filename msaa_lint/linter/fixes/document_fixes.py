@@ -1,4 +1,4 @@
-"""The fixes of the findings of one document: what each changes, and the edits that it takes."""
+"""The fixes of one document's findings: the changes that each makes, and the edits that those take."""
 
 from __future__ import annotations
 
@@ -12,109 +12,109 @@ from msaa_lint.core.text.span import Edit
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.document import Document
 from msaa_lint.linter.results import DocumentResult
-from msaa_lint.linter.rules.rule_runner import finding_key
+from msaa_lint.linter.rules.rule_runner import Key, finding_key
 
-from .aliases import NOBODY, Wishes
-from .changes import Change, FixContext, Refused, changes
-from .shorthand import Said, Shorthand, shorthand
-from .text_edits import Writing
+from .aliases import Requests
+from .changes import Change, NoFix
+from .context import FixContext
+from .planning import plan
+from .shorthand import Shorthand, WordEdit, shorthand
+from .text_edits import TextEditor
 
 
 class DocumentFixes:
-    """What is made once for the fixes of one document; `format` is the reader that was forced. One that is not `rewritten` was made of a
-    text that edits cannot change: of source code."""
+    """Plans and writes the fixes of one document.
 
-    def __init__(self, source: Source, result: DocumentResult, format: str | None = None, rewritten: bool = True) -> None:
-        self.source = source
+    `format` is the reader that was forced, if any. Without `editable`, the document comes from source code, whose text is not edited.
+    """
+
+    def __init__(self, result: DocumentResult, format: str | None = None, editable: bool = True) -> None:
         self.result = result
-        self.format = format
-        self.rewritten = rewritten
-        self._mending = FixContext(result.document)
-        self._writing = Writing(source, result.document)
+        self._format = format
+        self._editable = editable
+        self._context = FixContext(result.document)
+        self._editor = TextEditor(result.document)
+        self._changes: dict[Key, tuple[Change, ...]] = {}
 
-    def changes(self, found: Finding) -> tuple[Change, ...] | Refused | None:
-        """What a finding's fix changes, in all places that the finding stands for; None where its rule has no fix for it."""
-        mends = self.result.fix_specs.get(finding_key(found))
-        if mends is None:
-            return None
-        made: list[Change] = []
-        for mend, subject in mends:
-            own = changes(mend, subject, self._mending)
-            if isinstance(own, Refused):
-                return own
-            made += (change for change in own if change not in made)
-        return tuple(made)
+    def covers(self, finding: Finding) -> bool:
+        """Whether a finding is one of the document's and its rule has a fix for it."""
+        return finding_key(finding) in self.result.fix_specs
 
-    def edits(self, made: Sequence[Change], wanted: Wishes = NOBODY) -> tuple[Edit, ...] | Refused:
-        """As `text.edits`; what was made of a shorthand is changed in its words, or not at all."""
-        if self.result.document.tree is not None:
-            said = self._said(made)
-            return said if isinstance(said, Refused) else (said.edit,)
-        return self._writing.edits(made, wanted)
+    def changes(self, finding: Finding) -> tuple[Change, ...]:
+        """The changes that fix a finding of the document everywhere it applies. Raises NoFix if it cannot be fixed."""
+        key = finding_key(finding)
+        if key not in self._changes:
+            changes: list[Change] = []
+            for spec, subject in self.result.fix_specs[key]:
+                changes += (change for change in plan(spec, subject, self._context) if change not in changes)
+            self._changes[key] = tuple(changes)
+        return self._changes[key]
+
+    def edits(self, changes: Sequence[Change], requested: Requests | None = None) -> tuple[Edit, ...]:
+        """The edits that make the changes, as `TextEditor.edits`; in a shorthand, the edit of one of its words."""
+        if self._is_expanded:
+            return (self._word_edit(changes).edit,)
+        return self._editor.edits(changes, requested)
 
     def with_edits(self, findings: Iterable[Finding]) -> list[Finding]:
-        """The findings of this document with the edits of their fixes; those that are only shown, or cannot be made, have none."""
-        out = []
-        for found in findings:
-            if self.result.document.tree is not None:
-                out.append(self._in_shorthand(found))
-                continue
-            if found.fix is not None and not found.fix.edits and not found.fix.shown:
-                made = self.changes(found)
-                edits = self.edits(made) if made is not None and not isinstance(made, Refused) else None
-                if edits is not None and not isinstance(edits, Refused):
-                    found = found._replace(fix=found.fix._replace(edits=edits))
-            out.append(found)
-        return out
+        """The findings, those of this document with the edits of their fixes. A fix that is only shown or cannot be made has none."""
+        return [self._with_edits(finding) if self.covers(finding) else finding for finding in findings]
 
-    def _in_shorthand(self, found: Finding) -> Finding:
-        """A finding of what was made of a shorthand: its fix in the words of that, or shown alone."""
-        made = self.changes(found)
-        if found.fix is None or made is None:
-            return found
-        said = made if isinstance(made, Refused) or found.fix.shown else self._said(made)
-        if isinstance(said, Said):
-            return found._replace(fix=found.fix._replace(title=said.title, edits=(said.edit,)))
-        return found._replace(fix=found.fix._replace(shown=True))
+    def _with_edits(self, finding: Finding) -> Finding:
+        fix = finding.fix
+        if fix is None or fix.edits or (fix.shown and not self._is_expanded):
+            return finding
+        try:
+            if not self._is_expanded:
+                return finding._replace(fix=fix._replace(edits=self.edits(self.changes(finding))))
+            if not fix.shown:
+                edit, title = self._word_edit(self.changes(finding))
+                return finding._replace(fix=fix._replace(title=title, edits=(edit,)))
+        except NoFix:
+            pass
+        return finding._replace(fix=fix._replace(shown=True)) if self._is_expanded else finding
 
-    def _said(self, made: Sequence[Change]) -> Said | Refused:
-        """Changes as a word of a shorthand. What else the word changes must be wanted by other fixes, of the same safety."""
+    @property
+    def _is_expanded(self) -> bool:
+        """Whether the document is expanded from a shorthand or read from source code."""
+        return self.result.document.tree is not None
+
+    def _word_edit(self, changes: Sequence[Change]) -> WordEdit:
         if self._shorthand is None:
-            return Refused("the text states this in other words")
-        return self._shorthand.edit(made)
+            raise NoFix("the text states this in other terms")
+        return self._shorthand.edit(changes)
 
     @cached_property
     def _shorthand(self) -> Shorthand | None:
-        if not self.rewritten:
-            return None
-        return shorthand(self.source, self.result.document, self.result.number, self._wanted)
+        return shorthand(self.result.document, self.result.number, self._requested()) if self._editable else None
 
-    @cached_property
-    def _wanted(self) -> tuple[list[Change], list[Change]]:
-        """What the safe fixes of the document change, and what all change that may be made."""
-        found: tuple[list[Change], list[Change]] = ([], [])
-        for mend, subject in (each for mends in self.result.fix_specs.values() for each in mends):
-            made = changes(mend, subject, self._mending) if mend.safety != "shown" else ()
-            if not isinstance(made, Refused):
-                found[1].extend(made)
-                found[0].extend(made if mend.safe else ())
-        return found
+    def _requested(self) -> tuple[list[Change], list[Change]]:
+        """The changes that the document's safe fixes make, and those that all its fixes make that are not only shown."""
+        safe: list[Change] = []
+        applicable: list[Change] = []
+        for specs in self.result.fix_specs.values():
+            for spec, subject in specs:
+                try:
+                    changes = plan(spec, subject, self._context) if spec.safety != "shown" else ()
+                except NoFix:
+                    continue
+                applicable += changes
+                safe += changes if spec.safe else ()
+        return safe, applicable
 
-    def reread(self, made: Sequence[Change]) -> Document | None:
-        """The document with changes made in its text, read again; None where they cannot be written, or it then has mistakes."""
+    def reread(self, changes: Sequence[Change]) -> Document | None:
+        """The document after the changes are made in its text, or None if they cannot be made or introduce errors."""
         from msaa_lint.input import readers
 
-        if not self.rewritten:
+        if not self._editable:
             return None
-        edits = self.edits(made)
-        if isinstance(edits, Refused):
-            return None
+        before = self.result.document.source
         try:
-            source = Source(self.source.name, apply(self.source.text, edits))
-        except Overlap:
+            source = Source(before.name, apply(before.text, self.edits(changes)))
+        except (NoFix, Overlap):
             return None
         parsed = parse(source, Limits())
         if parsed.problems or self.result.number >= len(parsed.documents):
             return None
-        document = readers.read(source, parsed.documents[self.result.number], self.format)
+        document = readers.read(source, parsed.documents[self.result.number], self._format)
         return document if not document.problems else None

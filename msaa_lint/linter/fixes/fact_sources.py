@@ -1,161 +1,137 @@
-"""Where the facts that a fix may change are stated: one table."""
+"""Which members of which records state the facts that a fix may change, for frames in Vulkan's terms."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
-from msaa_lint.frame.description.models import BeginRenderPass, Pipeline, SubpassDependency
+from msaa_lint.frame.description.models import BeginRenderPass, SubpassDependency
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.facts import Subject
-from msaa_lint.frame.facts.frame import RENDERING, Aspect, Attachment, Pass, Resolve, Target
+from msaa_lint.frame.facts.frame import RENDERING, Pass, Resolve
 
-from .changes import FixContext, Refused
+from .changes import NoFix
+from .context import FixContext
+from .subject_parts import aspect_of, attachment_of, images_of, pipeline_of, resolve_of
 
-Place = tuple[Record, str, str]
-"""A record, its member, and the action there where it is not the page's own."""
+Source = tuple[Record, str]
+"""A record and the member of it that states a fact."""
 
-Places = list[Place] | Refused
-
-
-def places(fact: str, subject: Subject, mending: FixContext) -> Places:
-    """The members that state a fact of a subject; why none can be changed, where none can."""
-    if mending.document.metal is not None:
-        from . import metal
-
-        return metal.places(fact, subject, mending)
-    find = CHANGEABLE.get(fact)
-    return find(subject, mending) if find is not None else Refused("the fix is in Metal's words, and the frame in Vulkan's")
+FindSources = Callable[[Subject, FixContext], list[Source]]
+"""Finds the sources of a fact. Raises NoFix if nothing states it in a way that can be changed."""
 
 
-def targets_of(subject: Subject) -> list[Target]:
-    """The images of a subject: several where they alternate from frame to frame."""
-    of = subject.of
-    if isinstance(of, Target):
-        return [of]
-    attachment = attachment_of(subject)
-    return list({id(target.record): target for target in attachment.targets}.values()) if attachment is not None else []
+def _image_member(member: str, subject: Subject, _: FixContext) -> list[Source]:
+    images = images_of(subject)
+    if not images or any(target.image is None for target in images):
+        raise NoFix("the description does not declare the image")
+    return [(target.record, member) for target in images]
 
 
-def attachment_of(subject: Subject) -> Attachment | None:
-    """The attachment that a subject is, or is an aspect of."""
-    of = subject.of[0] if isinstance(subject.of, tuple) and subject.of else subject.of
-    return of if isinstance(of, Attachment) else None
+def _samples(subject: Subject, context: FixContext) -> list[Source]:
+    """The sample counts of an image and of the attachments that it is bound to, where they are stated."""
+    sources: list[Source] = []
+    for target in images_of(subject):
+        bound = context.bindings.attachments.get(id(target.record), ())
+        records = [target.record, *(attachment.record for attachment in bound)]
+        sources += [(record, "samples") for record in records if record.states("samples")]
+    if not sources:
+        raise NoFix("the description does not state a sample count")
+    return list(dict.fromkeys(sources))
 
 
-def _image(member: str) -> Callable[[Subject, FixContext], Places]:
-    def find(subject: Subject, _: FixContext) -> Places:
-        targets = targets_of(subject)
-        if not targets or any(target.image is None for target in targets):
-            return Refused("the image is not described")
-        return [(target.record, member, "") for target in targets]
-
-    return find
+def _load_op(subject: Subject, _: FixContext) -> list[Source]:
+    attachment, aspect = aspect_of(subject)
+    return [(attachment.record, aspect.load_member)]
 
 
-def _samples(subject: Subject, mending: FixContext) -> Places:
-    """An image's count, and that of the attachments that it is bound to."""
-    found: list[Place] = []
-    for target in targets_of(subject):
-        records = [target.record, *(attachment.record for attachment in mending.bindings.attachments.get(id(target.record), ()))]
-        found += [(record, "samples", "") for record in records if record.states("samples")]
-    return list(dict.fromkeys(found)) or Refused("no sample count is stated")
+def _store_op(subject: Subject, _: FixContext) -> list[Source]:
+    attachment, aspect = aspect_of(subject)
+    return [(attachment.record, aspect.store_member)]
 
 
-def _aspect(load: bool) -> Callable[[Subject, FixContext], Places]:
-    def find(subject: Subject, _: FixContext) -> Places:
-        attachment = attachment_of(subject)
-        aspect = subject.of[1] if isinstance(subject.of, tuple) else None
-        if attachment is None or not isinstance(aspect, Aspect):
-            return Refused("it is not about one aspect of an attachment")
-        return [(attachment.record, aspect.load_member if load else aspect.store_member, "")]
-
-    return find
+def _layout(member: str, subject: Subject, _: FixContext) -> list[Source]:
+    record = attachment_of(subject).record
+    if member not in record.SHAPE:
+        raise NoFix(f"`{member}` exists only for attachments of render passes")
+    return [(record, member)]
 
 
-def _attachment(member: str) -> Callable[[Subject, FixContext], Places]:
-    def find(subject: Subject, _: FixContext) -> Places:
-        attachment = attachment_of(subject)
-        if attachment is None or member not in attachment.record.SHAPE:
-            return Refused("it is not about the attachment of a render pass")
-        return [(attachment.record, member, "")]
-
-    return find
-
-
-def mode_place(resolve: Resolve) -> Place | None:
-    """Where a resolve's mode is stated; None where Vulkan fixes it."""
+def resolve_mode(resolve: Resolve) -> Source | None:
+    """The member that states a resolve's mode, or None if Vulkan prescribes the mode."""
     if resolve.kind == RENDERING:
-        return (resolve.record, "resolveMode", "")
-    member = {"depth": "depthResolveMode", "stencil": "stencilResolveMode"}.get(resolve.aspect, "")
-    return (resolve.record, member, "") if member in resolve.record.SHAPE else None
+        return (resolve.record, "resolveMode")
+    member = f"{resolve.aspect}ResolveMode"
+    return (resolve.record, member) if member in resolve.record.SHAPE else None
 
 
-def _mode(subject: Subject, _: FixContext) -> Places:
-    place = mode_place(subject.of) if isinstance(subject.of, Resolve) else None
-    return [place] if place is not None else Refused("Vulkan fixes the mode of this resolve")
+def _resolve_mode(subject: Subject, _: FixContext) -> list[Source]:
+    source = resolve_mode(resolve_of(subject))
+    if source is None:
+        raise NoFix("Vulkan prescribes the mode of this resolve")
+    return [source]
 
 
-def _multisample_state(member: str, dynamic: str, action: str = "") -> Callable[[Subject, FixContext], Places]:
-    def find(subject: Subject, _: FixContext) -> Places:
-        pipeline = subject.of[0] if isinstance(subject.of, tuple) else None
-        state = pipeline.multisampleState if isinstance(pipeline, Pipeline) else None
-        if state is None or dynamic in getattr(pipeline, "dynamicState", ()):
-            return Refused("the pipeline does not state it")
-        return [(state, member, action)]
-
-    return find
+def _multisample_state(member: str, dynamic_state: str, subject: Subject, _: FixContext) -> list[Source]:
+    pipeline = pipeline_of(subject)
+    if pipeline.multisampleState is None or dynamic_state in pipeline.dynamicState:
+        raise NoFix(f"the pipeline does not state `{member}`")
+    return [(pipeline.multisampleState, member)]
 
 
-def _first_blend(subject: Subject, _: FixContext) -> Places:
-    pipeline = subject.of[0] if isinstance(subject.of, tuple) else None
-    blend = pipeline.colorBlendState if isinstance(pipeline, Pipeline) else None
+def _first_blend(subject: Subject, _: FixContext) -> list[Source]:
+    blend = pipeline_of(subject).colorBlendState
     if blend is None or not blend.attachments:
-        return Refused("the pipeline does not state its blending")
-    return [(blend.attachments[0], "blendEnable", "")]
+        raise NoFix("the pipeline does not state its blending")
+    return [(blend.attachments[0], "blendEnable")]
 
 
-def _dependency(member: str) -> Callable[[Subject, FixContext], Places]:
-    def find(subject: Subject, _: FixContext) -> Places:
-        if not isinstance(subject.of, SubpassDependency):
-            return Refused("there is no dependency to change")
-        return [(subject.of, member, "")]
-
-    return find
+def _dependency_member(member: str, subject: Subject, _: FixContext) -> list[Source]:
+    if not isinstance(subject.of, SubpassDependency):
+        raise NoFix("the description does not state the dependency")
+    return [(subject.of, member)]
 
 
-def _clear_values(subject: Subject, mending: FixContext) -> Places:
-    """The begins of a render pass that state how many clear values they give."""
-    own = mending.frame.render_pass(subject.of.name) if isinstance(subject.of, Pass) else None
-    bodies = [mending.frame.commands[position].body for position in own.begun] if own is not None else []
-    found: list[Place] = [(b, "clearValueCount", "") for b in bodies if isinstance(b, BeginRenderPass) and b.clearValueCount is not None]
-    return found or Refused("no begin states its clear values")
+def _clear_values(subject: Subject, context: FixContext) -> list[Source]:
+    """The clear value counts of the commands that begin a render pass."""
+    begun = context.frame.render_pass(subject.of.name) if isinstance(subject.of, Pass) else None
+    bodies = [context.frame.commands[position].body for position in begun.begun] if begun is not None else []
+    sources: list[Source] = [
+        (body, "clearValueCount") for body in bodies if isinstance(body, BeginRenderPass) and body.clearValueCount is not None
+    ]
+    if not sources:
+        raise NoFix("no command that begins the pass states `clearValueCount`")
+    return sources
 
 
-CHANGEABLE: dict[str, Callable[[Subject, FixContext], Places]] = {
+FACT_SOURCES: dict[str, FindSources] = {
     "image.samples": _samples,
-    "image.usage": _image("usage"),
-    "image.memory": _image("memory"),
-    "image.flags": _image("flags"),
-    "image.tiling": _image("tiling"),
-    "image.type": _image("imageType"),
-    "image.sharing_mode": _image("sharingMode"),
-    "image.mip_levels": _image("mipLevels"),
+    "image.usage": partial(_image_member, "usage"),
+    "image.memory": partial(_image_member, "memory"),
+    "image.flags": partial(_image_member, "flags"),
+    "image.tiling": partial(_image_member, "tiling"),
+    "image.type": partial(_image_member, "imageType"),
+    "image.sharing_mode": partial(_image_member, "sharingMode"),
+    "image.mip_levels": partial(_image_member, "mipLevels"),
     "pass.clear_values": _clear_values,
-    "aspect.load": _aspect(True),
-    "aspect.store": _aspect(False),
-    "attachment.initial_layout": _attachment("initialLayout"),
-    "attachment.final_layout": _attachment("finalLayout"),
-    "resolve.mode": _mode,
-    "pipeline.rasterization_samples": _multisample_state("rasterizationSamples", "RASTERIZATION_SAMPLES_EXT"),
-    "pipeline.sample_shading": _multisample_state("sampleShadingEnable", ""),
-    "pipeline.min_sample_shading": _multisample_state("minSampleShading", ""),
-    "pipeline.alpha_to_coverage": _multisample_state("alphaToCoverageEnable", "ALPHA_TO_COVERAGE_ENABLE_EXT"),
-    "pipeline.dropped_samples": _multisample_state("sampleMask", "SAMPLE_MASK_EXT", "unset"),
+    "aspect.load": _load_op,
+    "aspect.store": _store_op,
+    "attachment.initial_layout": partial(_layout, "initialLayout"),
+    "attachment.final_layout": partial(_layout, "finalLayout"),
+    "resolve.mode": _resolve_mode,
+    "pipeline.rasterization_samples": partial(_multisample_state, "rasterizationSamples", "RASTERIZATION_SAMPLES_EXT"),
+    "pipeline.sample_shading": partial(_multisample_state, "sampleShadingEnable", ""),
+    "pipeline.min_sample_shading": partial(_multisample_state, "minSampleShading", ""),
+    "pipeline.alpha_to_coverage": partial(_multisample_state, "alphaToCoverageEnable", "ALPHA_TO_COVERAGE_ENABLE_EXT"),
+    "pipeline.dropped_samples": partial(_multisample_state, "sampleMask", "SAMPLE_MASK_EXT"),
     "pipeline.blends_first": _first_blend,
-    "dependency.stages": _dependency("srcStageMask"),
-    "dependency.accesses": _dependency("srcAccessMask"),
+    "dependency.stages": partial(_dependency_member, "srcStageMask"),
+    "dependency.accesses": partial(_dependency_member, "srcAccessMask"),
 }
-"""By fact. `pipeline.dropped_samples` is set to 0 alone, which takes the mask away."""
+"""By fact."""
 
-ONLY: dict[str, tuple[object, ...]] = {"pipeline.dropped_samples": (0,), "pipeline.blends_first": (False,)}
-"""The values that these facts can be given."""
+ONLY_VALUES: dict[str, tuple[object, ...]] = {"pipeline.dropped_samples": (0,), "pipeline.blends_first": (False,)}
+"""The values that a fix may set these facts to."""
+
+SET_BY_UNSET = frozenset({"pipeline.dropped_samples"})
+"""The facts that are set by removing the member: without a sample mask, no samples are dropped."""

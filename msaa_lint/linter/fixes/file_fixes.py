@@ -1,51 +1,55 @@
-"""The fixes of one input, made and written, or only worked out."""
+"""The fixes of one input, written to its file or only computed."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import NamedTuple
 
-from msaa_lint.core import atomic_write as write
+from msaa_lint.core import atomic_write
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.text.source import encode
 from msaa_lint.linter.results import FileResult
 
-from . import fixer as rounds
-from .fixer import Unfixed
+from .fixer import FailedFix, fix_text
 
 
 class FixedText(NamedTuple):
-    """What fixes make of an input: its text before and after, what is found in that, and what they mended.
+    """An input before and after its fixes.
 
-    `failed` says why the file could not be written; it is then as it was.
+    `data` is the text after them, encoded like the input, and `result` the result of linting it. If the file could not be written, nothing
+    is fixed, and `write_error` is the reason.
     """
 
     file: str
     before: str
     after: str
     data: bytes
-    linted: FileResult
-    fixed: tuple[Finding, ...]
-    unfixed: tuple[Unfixed, ...]
-    failed: str = ""
+    result: FileResult
+    fixed_findings: tuple[Finding, ...] = ()
+    failed_fixes: tuple[FailedFix, ...] = ()
+    write_error: str = ""
 
     @property
     def changed(self) -> bool:
+        """Whether the fixes change the text."""
         return self.before != self.after
 
 
-def mend(
-    data: bytes, linted: FileResult, lint: Callable[[bytes], FileResult], wanted: Callable[[Finding], bool], unsafe: bool, path: str | None
+def fix_input(
+    data: bytes, result: FileResult, lint: Callable[[bytes], FileResult], selects: Callable[[Finding], bool], unsafe: bool, path: str | None
 ) -> FixedText:
-    """Fixes an input that was judged. `lint` judges other contents of it; without `path` nothing is written."""
-    done = rounds.fix(linted, lambda text: lint(encode(text, data)), unsafe, wanted)
-    before = linted.source.text if linted.source is not None else ""
-    after = encode(done.text, data) if done.text != before else data
-    made = FixedText(linted.file, before, done.text, after, done.linted, done.fixed, done.unfixed)
-    if path is None or not made.changed:
-        return made
+    """Fixes the findings of a linted input that `selects` accepts, and writes it to `path` if that is given.
+
+    `lint` lints other contents of the same input. `unsafe` applies unsafe fixes as well.
+    """
+    fixes = fix_text(result, lambda text: lint(encode(text, data)), unsafe, selects)
+    before = result.source.text if result.source is not None else ""
+    after = encode(fixes.text, data) if fixes.text != before else data
+    fixed = FixedText(result.file, before, fixes.text, after, fixes.result, fixes.fixed_findings, fixes.failed_fixes)
+    if path is None or not fixed.changed:
+        return fixed
     try:
-        write.replace(path, data, after)
-    except write.NotWritten as error:
-        return made._replace(after=before, data=data, linted=linted, fixed=(), failed=str(error))
-    return made
+        atomic_write.replace(path, data, after)
+    except atomic_write.NotWritten as error:
+        return fixed._replace(after=before, data=data, result=result, fixed_findings=(), write_error=str(error))
+    return fixed

@@ -1,4 +1,4 @@
-"""What is wrong with the fixes of a rule's page."""
+"""Checks the fixes of rule pages."""
 
 from __future__ import annotations
 
@@ -11,47 +11,44 @@ from msaa_lint.frame.facts.table import FACTS, SUBJECTS, WORDS
 from msaa_lint.frame.vulkan.names import nearest_name
 from msaa_lint.linter.rules.rule_file import FixSpec, Rule, Setting
 
-from .actions import DEEDS
-from .fact_sources import CHANGEABLE, ONLY
-from .metal import CHANGEABLE as OF_METAL
-from .metal import DEEDS as METAL_DEEDS
+from .actions import ACTIONS
+from .fact_sources import FACT_SOURCES, ONLY_VALUES
+from .metal import METAL_ACTIONS, METAL_FACT_SOURCES
 
 
 def problems(rule: Rule) -> list[Finding]:
-    """The facts that cannot be changed, the values that they never have, and what is to be done and nothing does (MSAA921)."""
-    found = dict.fromkeys(each for mend in rule.fix_specs for each in _wrong(mend, rule))
+    """The unknown actions, the facts that fixes cannot change, and the values that facts cannot have (MSAA921)."""
+    found = dict.fromkeys(problem for spec in rule.fix_specs for problem in _problems(spec, rule))
     return [diagnostic("MSAA921", f"rule page `{rule.name}`: {message}", rule.source.name, span, rule.name) for span, message in found]
 
 
-def _wrong(mend: FixSpec, rule: Rule) -> Iterator[tuple[Span, str]]:
-    if mend.do and mend.do not in DEEDS and mend.do not in METAL_DEEDS:
-        yield mend.at, f"no `do: {mend.do[:80]}`; there are {', '.join({**DEEDS, **METAL_DEEDS})}"
+def _problems(spec: FixSpec, rule: Rule) -> Iterator[tuple[Span, str]]:
+    actions = {**ACTIONS, **METAL_ACTIONS}
+    if spec.do and spec.do not in actions:
+        yield spec.at, f"unknown action `do: {spec.do[:80]}`; use one of {', '.join(actions)}"
     known = {fact.name for fact in SUBJECTS[rule.subject]}
-    for setting in (*mend.set, *mend.add, *mend.remove):
+    sources = {**FACT_SOURCES, **METAL_FACT_SOURCES}
+    for setting in (*spec.set, *spec.add, *spec.remove):
         if setting.fact not in known:
-            yield setting.at, f"there is no fact {setting.fact} of {rule.subject}"
-        elif setting.fact not in CHANGEABLE and setting.fact not in OF_METAL:
-            yield setting.at, f"{setting.fact} cannot be changed by a fix; what can is {', '.join({**CHANGEABLE, **OF_METAL})}"
+            yield setting.at, f"subject `{rule.subject}` has no fact `{setting.fact}`"
+        elif setting.fact not in sources:
+            yield setting.at, f"fixes cannot change `{setting.fact}`; use one of {', '.join(sources)}"
         else:
-            yield from _value(setting, known)
+            yield from _value_problems(setting, known)
 
 
-def _value(setting: Setting, known: set[str]) -> Iterator[tuple[Span, str]]:
+def _value_problems(setting: Setting, known: set[str]) -> Iterator[tuple[Span, str]]:
     value, fact = setting.value, FACTS[setting.fact]
     if isinstance(value, str) and value[:1] == "{":
         other = FACTS.get(value[1:-1])
         if other is None or other.name not in known or other.type != fact.type:
-            yield setting.at, f"{value} is no fact of the same type"
-    elif setting.fact in ONLY and value not in ONLY[setting.fact]:
-        yield setting.at, f"{setting.fact} can only be set to {_shown(ONLY[setting.fact][0])}"
+            yield setting.at, f"`{value}` does not refer to a fact of type {fact.type}"
+    elif setting.fact in ONLY_VALUES and value not in ONLY_VALUES[setting.fact]:
+        yield setting.at, f"fixes can only set `{setting.fact}` to {str(ONLY_VALUES[setting.fact][0]).lower()}"
     elif fact.enum and isinstance(value, str):
         from msaa_lint.frame.vulkan.enums import VALUES
 
         words = WORDS[fact.enum] if fact.enum in WORDS else tuple(VALUES.get(fact.enum, ()))
         if value not in words:
             close = nearest_name(value, words)
-            yield setting.at, f"{fact.name} is never '{value[:80]}'" + (f"; did you mean '{close}'?" if close else "")
-
-
-def _shown(value: object) -> str:
-    return str(value).lower()
+            yield setting.at, f"`{fact.name}` is never `{value[:80]}`" + (f"; did you mean `{close}`?" if close else "")

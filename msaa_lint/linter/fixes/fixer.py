@@ -1,6 +1,6 @@
-"""The fixes of one text, in rounds: those that do not overlap are made at once, what comes out is judged again.
+"""Fixes one text in rounds: each applies the fixes that do not overlap, then lints the result.
 
-Nothing is taken that does not read clean, that leaves its finding, or that brings one that was not there.
+A fix is only kept if the result can be read, its finding is gone, and no new finding appears.
 """
 
 from __future__ import annotations
@@ -17,165 +17,179 @@ from msaa_lint.core.text.span import Edit
 from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.rule_runner import finding_key
 
-from .aliases import wishes
-from .changes import Change, Refused
+from .aliases import Member, requests
+from .changes import Change, NoFix
 from .document_fixes import DocumentFixes
 
 MAX_ROUNDS = 10
 MAX_TRIALS = 60
-"""Times that a text is judged again: a hostile one may hold thousands of fixes that fail, each found by halving."""
+"""How often a text is linted: a hostile one may hold thousands of fixes that fail, each of which bisection has to find."""
 
-UNUSED = "MSAA911"
-"""A suppression may lose what it silenced to a fix: that is no mistake of the fix, and the next round takes it out."""
+UNUSED_SUPPRESSION = "MSAA911"
+"""A fix may leave a suppression without a finding. That is not the fix's fault, and the next round removes the suppression."""
+
+_INDEX = re.compile(r"\[[0-9]+\]")
 
 Lint = Callable[[str], FileResult]
+"""Lints a text."""
+
 Kind = tuple[str, str]
-"""A rule's code and a structural path without its indices, which move when something is taken out before them."""
+"""A rule's code and a structural path without its indices, which shift when an entry before them is removed."""
 
 
-class Unfixed(NamedTuple):
-    """A finding whose fix was not made, and why."""
+class FailedFix(NamedTuple):
+    """A finding that was not fixed, and the reason."""
 
     finding: Finding
     reason: str
 
 
-class Fixed(NamedTuple):
-    """What came out: the text, its findings as they are now, those that are mended, those whose fix would not do."""
+class FixResult(NamedTuple):
+    """A fixed text, the result of linting it, the findings that are fixed, and the fixes that failed in the last round."""
 
     text: str
-    linted: FileResult
-    fixed: tuple[Finding, ...]
-    unfixed: tuple[Unfixed, ...]
+    result: FileResult
+    fixed_findings: tuple[Finding, ...]
+    failed_fixes: tuple[FailedFix, ...]
 
 
 class _Fix(NamedTuple):
-    """Findings that are mended together, since they share an edit."""
+    """The edits of one fix, or of several that share edits, with their findings."""
 
     findings: tuple[Finding, ...]
     edits: tuple[Edit, ...]
 
 
-def fix(linted: FileResult, lint: Lint, unsafe: bool = False, wanted: Callable[[Finding], bool] = lambda _: True) -> Fixed:
-    """A text that was judged with its findings mended: by safe fixes, with `unsafe` by others too; `wanted` leaves some as they are.
+def fix_text(result: FileResult, lint: Lint, unsafe: bool = False, selects: Callable[[Finding], bool] = lambda _: True) -> FixResult:
+    """Fixes the findings of a linted text that `selects` accepts, by safe fixes and, with `unsafe`, by unsafe ones too.
 
-    Suppressed findings stay. `lint` reads and judges a text.
+    Suppressed findings are not fixed.
     """
-    return _Rounds(lint, unsafe, wanted).run(linted)
+    return _Fixer(result, lint, unsafe, selects).run()
 
 
-class _Rounds:
-    def __init__(self, lint: Lint, unsafe: bool, wanted: Callable[[Finding], bool]) -> None:
+class _Fixer:
+    """One run. `text` and `result` include the fixes applied so far."""
+
+    def __init__(self, result: FileResult, lint: Lint, unsafe: bool, selects: Callable[[Finding], bool]) -> None:
+        self.text = result.source.text if result.source is not None else ""
+        self.result = result
         self.lint = lint
         self.unsafe = unsafe
-        self.wanted = wanted
+        self.selects = selects
         self.trials = 0
-        self.reasons: list[Unfixed] = []
+        self.failed_fixes: list[FailedFix] = []
 
-    def run(self, linted: FileResult) -> Fixed:
-        text = linted.source.text if linted.source is not None else ""
+    def run(self) -> FixResult:
         fixed: list[Finding] = []
         for _ in range(MAX_ROUNDS):
-            self.reasons = []
-            waiting, taken = self.candidates(linted), list[_Fix]()
-            # Where none of those can be made, what they stood in the way of may be.
-            while waiting and not taken:
-                chosen = _apart(waiting)
-                taken, text, linted = self.take(chosen, [], text, linted, text, linted)
-                waiting = [each for each in waiting if each not in chosen]
-            if not taken:
+            self.failed_fixes = []
+            before_round = (self.text, self.result)
+            candidates, applied = self.candidates(), list[_Fix]()
+            # If none of the first fixes can be applied, those that overlap them may be.
+            while candidates and not applied:
+                group = _without_overlaps(candidates)
+                applied = self.apply(group, [], *before_round)
+                candidates = [fix for fix in candidates if fix not in group]
+            if not applied:
                 break
-            fixed += (found for each in taken for found in each.findings)
-        return Fixed(text, linted, tuple(fixed), tuple(self.reasons))
+            fixed += (finding for fix in applied for finding in fix.findings)
+        return FixResult(self.text, self.result, tuple(fixed), tuple(self.failed_fixes))
 
-    def candidates(self, linted: FileResult) -> list[_Fix]:
-        """The fixes that may be made, those that share an edit as one."""
-        if linted.source is None:
+    def candidates(self) -> list[_Fix]:
+        """The fixes that may be applied, the most severe findings' first. Those that share edits are one."""
+        if self.result.source is None:
             return []
-        # Of two that want the same place otherwise, the graver has it.
-        applicable = sorted((found for found in linted.findings if self.may(found)), key=lambda found: -rank(found.severity))
-        # What a page says is worked out anew, with all that is wanted in this round; what is about comments has its edits.
-        stated = {key for judged in linted.documents for key in judged.fix_specs}
-        made = [
-            _Fix((found,), found.fix.edits) for found in applicable if found.fix and found.fix.edits and finding_key(found) not in stated
+        findings = sorted(filter(self.may_fix, self.result.findings), key=lambda finding: -rank(finding.severity))
+        # Fixes of rules are written anew, together with all others of this round; fixes of comments come with their edits.
+        of_rules = {key for document in self.result.documents for key in document.fix_specs}
+        fixes = [
+            _Fix((finding,), finding.fix.edits)
+            for finding in findings
+            if finding.fix and finding.fix.edits and finding_key(finding) not in of_rules
         ]
-        for judged in linted.documents:
-            offers = DocumentFixes(linted.source, judged)
-            changed: list[tuple[Finding, tuple[Change, ...]]] = []
-            for found in applicable:
-                changes = offers.changes(found)
-                if isinstance(changes, Refused):
-                    self.refuse(found, changes.reason)
-                elif changes is not None:
-                    changed.append((found, changes))
-            changed = _leaving_one(changed)
-            every = wishes(change for _, changes in changed for change in changes)
-            for found, changes in changed:
-                edits = offers.edits(changes, every)
-                if isinstance(edits, Refused):
-                    self.refuse(found, edits.reason)
-                else:
-                    made.append(_Fix((found,), edits))
-        return _joined(made)
+        for document in self.result.documents:
+            fixes += self.document_candidates(DocumentFixes(document), findings)
+        return _joined(fixes)
 
-    def may(self, found: Finding) -> bool:
-        mend = found.fix
-        return mend is not None and not mend.shown and (mend.safe or self.unsafe) and self.wanted(found)
+    def may_fix(self, finding: Finding) -> bool:
+        """Whether a finding has a fix that may be applied."""
+        fix = finding.fix
+        return fix is not None and not fix.shown and (fix.safe or self.unsafe) and self.selects(finding)
 
-    def refuse(self, found: Finding, reason: str) -> None:
-        self.reasons.append(Unfixed(found, reason))
+    def document_candidates(self, fixes: DocumentFixes, findings: Iterable[Finding]) -> list[_Fix]:
+        """The fixes of one document's findings."""
+        planned: list[tuple[Finding, tuple[Change, ...]]] = []
+        for finding in findings:
+            if fixes.covers(finding):
+                try:
+                    planned.append((finding, fixes.changes(finding)))
+                except NoFix as error:
+                    self.failed_fixes.append(FailedFix(finding, str(error)))
+        planned = _leaving_an_entry(planned)
+        requested = requests(change for _, changes in planned for change in changes)
+        candidates = []
+        for finding, changes in planned:
+            try:
+                candidates.append(_Fix((finding,), fixes.edits(changes, requested)))
+            except NoFix as error:
+                self.failed_fixes.append(FailedFix(finding, str(error)))
+        return candidates
 
-    def take(
-        self, group: Sequence[_Fix], taken: list[_Fix], text: str, linted: FileResult, now: str, judged: FileResult
-    ) -> tuple[list[_Fix], str, FileResult]:
-        """What can be taken of a group beside what is taken already, the text with it, and what is found in that.
+    def apply(self, group: Sequence[_Fix], applied: list[_Fix], text: str, result: FileResult) -> list[_Fix]:
+        """Applies the fixes of a group that can be, in addition to those of the round that are applied already, and returns them all.
 
-        `text` and `linted` are those before the round, `now` and `judged` with what is taken. Who spoils a group is found by halving.
+        `text` and `result` are those before the round. Fixes that spoil a group are found by bisection.
         """
         if self.trials >= MAX_TRIALS:
-            for found in (found for each in group for found in each.findings):
-                self.refuse(found, "too many fixes of this input cannot be made")
-            return taken, now, judged
+            self.fail(group, "too many fixes of this input failed")
+            return applied
         self.trials += 1
-        tried = [*taken, *group]
+        attempt = [*applied, *group]
+        new_result = None
         try:
-            new = apply(text, {edit for each in tried for edit in each.edits})
+            new_text = apply(text, {edit for fix in attempt for edit in fix.edits})
         except Overlap:
-            reason, result = "it overlaps another fix", None
+            objection = "it overlaps another fix"
         else:
-            result = self.lint(new)
-            reason = _objection(linted, result, [found for each in tried for found in each.findings])
-        if result is not None and not reason:
-            return tried, new, result
+            new_result = self.lint(new_text)
+            objection = _objection(result, new_result, [finding for fix in attempt for finding in fix.findings])
+        if new_result is not None and not objection:
+            self.text, self.result = new_text, new_result
+            return attempt
         if len(group) == 1:
-            for found in group[0].findings:
-                self.refuse(found, reason)
-            return taken, now, judged
-        half = len(group) // 2
-        taken, now, judged = self.take(group[:half], taken, text, linted, now, judged)
-        return self.take(group[half:], taken, text, linted, now, judged)
+            self.fail(group, objection)
+            return applied
+        middle = len(group) // 2
+        applied = self.apply(group[:middle], applied, text, result)
+        return self.apply(group[middle:], applied, text, result)
+
+    def fail(self, fixes: Iterable[_Fix], reason: str) -> None:
+        """Records why fixes are not applied."""
+        self.failed_fixes += (FailedFix(finding, reason) for fix in fixes for finding in fix.findings)
 
 
-def _leaving_one(changed: Iterable[tuple[Finding, tuple[Change, ...]]]) -> list[tuple[Finding, tuple[Change, ...]]]:
-    """Fixes without those that would take the last entry of a list together with others: an empty list may mean something else than
-    none, and who takes the last entry alone, in the next round, knows that it is the last."""
-    gone: Counter[tuple[int, str]] = Counter()
-    kept = []
-    for found, changes in changed:
-        dropped = [change for change in changes if change.action == "drop"]
-        drops = Counter((id(change.record), change.member) for change in dropped)
-        lengths = {(id(change.record), change.member): len(getattr(change.record, change.member)) for change in dropped}
-        if any(gone[key] and gone[key] + count >= lengths[key] for key, count in drops.items()):
+def _leaving_an_entry(planned: Iterable[tuple[Finding, tuple[Change, ...]]]) -> list[tuple[Finding, tuple[Change, ...]]]:
+    """The fixes without those that would remove the last entry of a list after others removed the rest.
+
+    An empty list may mean something else than no list. In the next round, the entry is the only one, and its fix accounts for that.
+    """
+    dropped: Counter[Member] = Counter()
+    remaining = []
+    for finding, changes in planned:
+        drops = [change for change in changes if change.action == "drop"]
+        counts = Counter((id(change.record), change.member) for change in drops)
+        lengths = {(id(change.record), change.member): len(getattr(change.record, change.member)) for change in drops}
+        if any(dropped[member] and dropped[member] + count >= lengths[member] for member, count in counts.items()):
             continue
-        gone += drops
-        kept.append((found, changes))
-    return kept
+        dropped += counts
+        remaining.append((finding, changes))
+    return remaining
 
 
-def _joined(fixes: Iterable[_Fix]) -> list[_Fix]:
-    """Fixes that have an edit in common become one, where the first of them stands."""
-    made = list(fixes)
-    parents = list(range(len(made)))
+def _joined(fixes: Sequence[_Fix]) -> list[_Fix]:
+    """The fixes, those that have edits in common joined at the place of the first."""
+    parents = list(range(len(fixes)))
 
     def root(n: int) -> int:
         while parents[n] != n:
@@ -183,62 +197,64 @@ def _joined(fixes: Iterable[_Fix]) -> list[_Fix]:
         return n
 
     owners: dict[Edit, int] = {}
-    for n, each in enumerate(made):
-        for edit in each.edits:
-            one, other = sorted((root(owners.setdefault(edit, n)), root(n)))
-            parents[other] = one
+    for n, fix in enumerate(fixes):
+        for edit in fix.edits:
+            first, second = sorted((root(owners.setdefault(edit, n)), root(n)))
+            parents[second] = first
     groups: dict[int, list[_Fix]] = {}
-    for n, each in enumerate(made):
-        groups.setdefault(root(n), []).append(each)
+    for n, fix in enumerate(fixes):
+        groups.setdefault(root(n), []).append(fix)
     return [
-        _Fix(tuple(found for one in group for found in one.findings), tuple(sorted({edit for one in group for edit in one.edits})))
+        _Fix(tuple(finding for fix in group for finding in fix.findings), tuple(sorted({edit for fix in group for edit in fix.edits})))
         for group in groups.values()
     ]
 
 
-def _apart(fixes: Iterable[_Fix]) -> list[_Fix]:
-    """Those that do not overlap one that was chosen before; the others wait for the next round."""
+def _without_overlaps(fixes: Iterable[_Fix]) -> list[_Fix]:
+    """The fixes that do not overlap an earlier one of those returned."""
     chosen: list[_Fix] = []
-    taken: list[Edit] = []
-    for each in fixes:
-        if any(_overlaps(edit, taken) for edit in each.edits):
+    edits: list[Edit] = []
+    for fix in fixes:
+        if any(_overlaps(edit, edits) for edit in fix.edits):
             continue
-        chosen.append(each)
-        for edit in each.edits:
-            insort(taken, edit)
+        chosen.append(fix)
+        for edit in fix.edits:
+            insort(edits, edit)
     return chosen
 
 
-def _overlaps(edit: Edit, taken: Sequence[Edit]) -> bool:
-    """Whether an edit claims text that one of those taken does; they are sorted, and do not overlap among themselves."""
-    at = bisect_left(taken, edit)
-    # Between the neighbours there may be insertions at its ends, which stand beside it.
-    for other in taken[max(at - 2, 0) : at + 2]:
-        (start, end), (from_, to) = edit.span, other.span
-        if (start < to and from_ < end) or edit.span == other.span:
+def _overlaps(edit: Edit, others: Sequence[Edit]) -> bool:
+    """Whether an edit overlaps one of several sorted edits that do not overlap each other."""
+    at = bisect_left(others, edit)
+    # Between an edit and its neighbor there may be insertions at the edit's ends, which do not overlap it.
+    for other in others[max(at - 2, 0) : at + 2]:
+        if edit.span == other.span or (edit.span.start < other.span.end and other.span.start < edit.span.end):
             return True
     return False
 
 
-_INDEX = re.compile(r"\[[0-9]+\]")
+def _kind(finding: Finding) -> Kind:
+    return (finding.code, _INDEX.sub("[]", finding.subject))
 
 
-def _kind(found: Finding) -> Kind:
-    return (found.code, _INDEX.sub("[]", found.subject))
+def _with_suppressed(result: FileResult) -> list[Finding]:
+    # A finding that only moved under a suppression comment is not fixed.
+    return [*result.findings, *(suppressed.finding for suppressed in result.suppressed)]
 
 
-def _objection(before: FileResult, after: FileResult, mended: Sequence[Finding]) -> str:
-    """Why a result cannot be taken: in words, empty where it can."""
-    broken = next((found for found in after.findings if found.fatal and _kind(found) not in set(map(_kind, before.findings))), None)
-    if broken is not None:
-        return f"the result would not read clean: {broken.message}"
-    # A silenced finding is still there: one that only got under a comment is not mended.
-    there = Counter(map(_kind, [*before.findings, *(each.finding for each in before.suppressed)]))
-    left = Counter(map(_kind, [*after.findings, *(each.finding for each in after.suppressed)]))
-    new = next((kind for kind in left if left[kind] > there[kind] and kind[0] != UNUSED), None)
-    if new is not None:
-        brought = next(found for found in [*after.findings, *(each.finding for each in after.suppressed)] if _kind(found) == new)
-        return f"it would bring {brought.rule}: {brought.message}"
-    gone = Counter(map(_kind, mended))
-    kept = next((found for found in mended if left[_kind(found)] > there[_kind(found)] - gone[_kind(found)]), None)
-    return "the finding would stay" if kept is not None and kept.code != UNUSED else ""
+def _objection(before: FileResult, after: FileResult, fixed: Sequence[Finding]) -> str:
+    """Why the result of fixes cannot be kept; empty if it can."""
+    known = set(map(_kind, before.findings))
+    error = next((finding for finding in after.findings if finding.fatal and _kind(finding) not in known), None)
+    if error is not None:
+        return f"the result would have an error: {error.message}"
+    counts_before = Counter(map(_kind, _with_suppressed(before)))
+    findings = _with_suppressed(after)
+    counts = Counter(map(_kind, findings))
+    added = next((kind for kind in counts if counts[kind] > counts_before[kind] and kind[0] != UNUSED_SUPPRESSION), None)
+    if added is not None:
+        finding = next(finding for finding in findings if _kind(finding) == added)
+        return f"it would introduce {finding.rule}: {finding.message}"
+    fixed_counts = Counter(map(_kind, fixed))
+    remaining = any(counts[kind] > counts_before[kind] - count for kind, count in fixed_counts.items() if kind[0] != UNUSED_SUPPRESSION)
+    return "it would not remove the finding" if remaining else ""

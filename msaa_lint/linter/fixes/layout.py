@@ -1,196 +1,186 @@
-"""How collections stand in a text, and edits that put entries in and take them out: brackets or lines, commas, comments, line ends.
+"""Edits that insert entries into the collections of a text and remove entries from them.
 
-Of what is taken out the comments stay, each on a line of its own. `Refused` where that cannot be done cleanly.
+Block or flow style, commas, comments, indentation and line breaks stay as they are. The comments of a removed entry stay as well, each on a
+line of its own. All edits raise NoFix where they cannot be made cleanly.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from itertools import pairwise
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Edit, Span
 
-from .changes import Refused
-from .text_places import Text
+from .changes import NoFix
+from .text_scanner import TextScanner
 
-Edits = list[Edit] | Refused
+_COMPACT_JSON = re.compile(r'":["{\[0-9tf]')
+_LINE_OPENING = re.compile(r" *(?:- +)*")
+_NOT_ON_OWN_LINES = "the entry shares its lines with other text"
 
-_TIGHT = re.compile(r'":["{\[0-9tf]')
-_OPENED = re.compile(r" *(?:- +)*")
 
+class CollectionEditor:
+    """A mapping or a sequence. `items` are the places of its entries: of a mapping's keys with their values, without those merged in."""
 
-class Collection:
-    """The entries of a mapping (a key and its value each) or the items of a sequence, that stand in the collection's own text."""
-
-    def __init__(self, text: Text, node: Node) -> None:
+    def __init__(self, text: TextScanner, node: Node) -> None:
         self.text = text
         self.node = node
         self.start = text.content(node)
         self.flow = text.text[self.start : self.start + 1] in ("{", "[")
-        self.items: list[Span] = []
+        self._values: list[Node] = []
         if node.kind == "mapping":
-            own = [(node.keys[name], value) for name, value in node.value.items() if node.start <= node.keys[name].start < node.end]
-            self.items = sorted(Span(key.start, max(key.end, value.end)) for key, value in own)
+            entries = sorted((key.start, name) for name, key in node.keys.items() if node.start <= key.start < node.end)
+            self._values = [node.value[name] for _, name in entries]
+            self.items = [Span(start, max(node.keys[name].end, node.value[name].end)) for start, name in entries]
         else:
+            self._values = node.value
             self.items = [item.span for item in node.value]
 
     def index(self, start: int) -> int | None:
-        """Which item begins at a place."""
+        """The index of the entry that begins at a place."""
         return next((n for n, item in enumerate(self.items) if item.start == start), None)
 
-    @property
-    def explicit(self) -> bool:
-        """Whether a key is written with a `?`."""
-        return self.node.kind == "mapping" and any(self.text.text[max(0, item.start - 2) : item.start] == "? " for item in self.items)
-
-    def insert(self, new: Sequence[str], after: int | None = None) -> Edits:
-        """Puts entries after another, by default the last."""
-        if self.explicit:
-            return Refused("a key here is written with `?`")
+    def insert(self, entries: Sequence[str], after: int | None = None) -> list[Edit]:
+        """Inserts entries after the one at an index, by default after the last."""
+        self._check_keys()
         if after is None and self.items:
             after = len(self.items) - 1
-        return self._flow_insert(new, after) if self.flow else self._block_insert(new, after)
+        return self._insert_in_flow(entries, after) if self.flow else self._insert_in_block(entries, after)
 
-    def _flow_insert(self, new: Sequence[str], after: int | None) -> Edits:
+    def remove(self, indices: Sequence[int]) -> list[Edit]:
+        """Removes some of the entries."""
+        self._check_keys()
+        if len(indices) == len(self.items):
+            raise NoFix("no entry would remain")
+        if self.flow and len(indices) > 1:
+            return self._keep([n for n in range(len(self.items)) if n not in indices])
+        return [edit for n in indices for edit in (self._remove_from_flow(n) if self.flow else self._remove_from_block(n))]
+
+    def remove_only_item(self, colon: int) -> list[Edit]:
+        """Removes the only item of a sequence that is the value of a key whose `:` ends at `colon`. `[]` remains."""
+        if self.flow:
+            return self._remove_from_flow(0)
+        end = self.items[0].end
+        if not self.text.begins_line(self.start) or not self.text.ends_line(end):
+            raise NoFix(_NOT_ON_OWN_LINES)
+        return [_insertion(colon, " []"), self.text.without_lines(self.start, end)]
+
+    def _check_keys(self) -> None:
+        text = self.text.text
+        if self.node.kind == "mapping" and any(text[max(0, item.start - 2) : item.start] == "? " for item in self.items):
+            raise NoFix("the mapping has keys that are written with `?`")
+
+    def _insert_in_flow(self, entries: Sequence[str], after: int | None) -> list[Edit]:
         text = self.text
         if after is None:
             inner = self.start + 1
-            # A merge key is none of the entries.
-            return [_put(inner, ", ".join(new) if text.gap_end(inner) >= self.node.end - 1 else "".join(f"{each}, " for each in new))]
+            # There may be merge keys, which are not among the items.
+            is_empty = text.gap_end(inner) >= self.node.end - 1
+            return [_insertion(inner, ", ".join(entries) if is_empty else "".join(f"{entry}, " for entry in entries))]
         start, end = self.items[after]
-        following = text.gap_end(end)
-        comma = text.text[following] == ","
-        beside = [_put(end, "".join(f"{self._separator()}{each}" for each in new))]
-        if not (text.begins_line(start) and text.line_start(start) > self.start):
-            return beside
-        lines = [f"{text.line_break(start)}{text.indent(start)}{each}" for each in new]
-        if comma:
-            at = following + 1
-            return [_put(text.line_end(at), "".join(f"{line}," for line in lines))] if text.ends_line(at) else beside
-        at = text.line_end(end)
-        if following < at:
-            return beside
-        return [_put(end, "".join(f",{line}" for line in lines))] if at == end else [_put(end, ","), _put(at, ",".join(lines))]
+        comma = text.gap_end(end)
+        has_comma = text.text[comma] == ","
+        on_same_line = [_insertion(end, "".join(f"{self._separator()}{entry}" for entry in entries))]
+        if not text.begins_line(start) or text.line_start(start) <= self.start:
+            return on_same_line
+        lines = [f"{text.line_break(start)}{text.indent(start)}{entry}" for entry in entries]
+        if has_comma:
+            if not text.ends_line(comma + 1):
+                return on_same_line
+            return [_insertion(text.line_end(comma + 1), "".join(f"{line}," for line in lines))]
+        line_end = text.line_end(end)
+        if comma < line_end:
+            return on_same_line
+        if line_end == end:
+            return [_insertion(end, "".join(f",{line}" for line in lines))]
+        return [_insertion(end, ","), _insertion(line_end, ",".join(lines))]
 
     def _separator(self) -> str:
-        """What stands between two entries of a line."""
-        for one, other in zip(self.items, self.items[1:], strict=False):
+        """The text between two entries on one line."""
+        for one, other in pairwise(self.items):
             between = self.text.text[one.end : other.start]
             if between.strip(" \t") == "," and "\n" not in between:
                 return between
-        return "," if self._tight() else ", "
+        is_compact = self.node.kind == "mapping" and _COMPACT_JSON.search(self.text.text, self.start, self.node.end) is not None
+        return "," if is_compact else ", "
 
-    def _tight(self) -> bool:
-        """Whether a JSON text has no blanks at all."""
-        return self.node.kind == "mapping" and _TIGHT.search(self.text.text, self.start, self.node.end) is not None
-
-    def _block_insert(self, new: Sequence[str], after: int | None) -> Edits:
-        text = self.text
-        column = self.column()
+    def _insert_in_block(self, entries: Sequence[str], after: int | None) -> list[Edit]:
+        text, column = self.text, self._column()
         if column is None:
-            return Refused("its lines are indented in a way that is not understood")
+            raise NoFix("the indentation of the entries is not supported")
         if after is None:
-            return [_put(self.start, "".join(f"{each}{text.line_break(self.start)}{' ' * column}" for each in new))]
+            return [_insertion(self.start, "".join(f"{entry}{text.line_break(self.start)}{' ' * column}" for entry in entries))]
         end = self.items[after].end
-        if not text.ends_line(end) or text.text[text.content(self._value(after))] in "|>":
-            return Refused("there is no line to put it on")
+        if not text.ends_line(end) or text.text[text.content(self._values[after])] in "|>":
+            raise NoFix("the entry before the insertion does not end with its line")
         dash = "- " if self.node.kind == "sequence" else ""
-        return [_put(text.line_end(end), "".join(f"{text.line_break(end)}{' ' * column}{dash}{each}" for each in new))]
+        return [_insertion(text.line_end(end), "".join(f"{text.line_break(end)}{' ' * column}{dash}{entry}" for entry in entries))]
 
-    def _value(self, n: int) -> Node:
-        if self.node.kind == "sequence":
-            items: list[Node] = self.node.value
-            return items[n]
-        entries: dict[str, Node] = self.node.value
-        return next(value for name, value in entries.items() if self.node.keys[name].start == self.items[n].start)
-
-    def column(self) -> int | None:
+    def _column(self) -> int | None:
         """The column of the keys or dashes of a block collection."""
         at = self.items[0].start if self.items and self.node.kind == "mapping" else self.start
         start = self.text.line_start(at)
-        opened = _OPENED.match(self.text.text, start)
-        return at - start if opened is not None and opened.end() >= at else None
+        opening = _LINE_OPENING.match(self.text.text, start)
+        return at - start if opening is not None and opening.end() >= at else None
 
-    def remove(self, numbers: Sequence[int]) -> Edits:
-        """Takes entries out; not all of them."""
-        if self.explicit:
-            return Refused("a key here is written with `?`")
-        if len(numbers) == len(self.items):
-            return Refused("nothing would be left of it")
-        if self.flow and len(numbers) > 1:
-            return self._keep([n for n in range(len(self.items)) if n not in numbers])
-        edits: list[Edit] = []
-        for n in numbers:
-            own = self._flow_remove(n) if self.flow else self._block_remove(n)
-            if isinstance(own, Refused):
-                return own
-            edits += own
-        return edits
+    def _keep(self, indices: Sequence[int]) -> list[Edit]:
+        """Rewrites the collection with the items at the indices, each with the text before it."""
+        items, text = self.items, self.text.text
+        whole = Span(items[0].start, items[-1].end)
+        if self.node.kind == "mapping" or self.text.comments_in(*whole):
+            raise NoFix("comments or merge keys may stand between the entries")
+        first, *others = indices
+        kept = [text[slice(*items[first])], *(text[items[n - 1].end : items[n].end] for n in others)]
+        return [Edit(whole, "".join(kept))]
 
-    def _keep(self, numbers: Sequence[int]) -> Edits:
-        """Writes the items that stay, with what stands before each of them."""
-        items = self.items
-        cut = Span(items[0].start, items[-1].end)
-        if self.node.kind == "mapping" or self.text.comments_in(*cut):
-            return Refused("comments or merge keys may stand in between")
-        text = self.text.text
-        kept = [text[items[n - 1].end : items[n].end] if place else text[slice(*items[n])] for place, n in enumerate(numbers)]
-        return [Edit(cut, "".join(kept))]
-
-    def _flow_remove(self, n: int) -> Edits:
+    def _remove_from_flow(self, index: int) -> list[Edit]:
         text, items = self.text, self.items
-        start, end = items[n]
-        following = text.gap_end(end)
-        comma = text.text[following] == ","
-        last = n == len(items) - 1
-        before = text.gap_end(items[n - 1].end) if n else -1
-        # Between entries there is nothing that is none: merge keys are no entries.
-        if (n and text.gap_end(before + 1) != start) or (not last and text.gap_end(following + 1) != items[n + 1].start):
-            return Refused("a merge key stands beside it")
-        behind = following + 1 if comma else end
-        if text.begins_line(start) and text.line_start(start) > self.start and text.ends_line(behind):
-            edits = [text.without_lines(text.line_start(start), text.next_line(behind), text.indent(start))]
-            return edits if comma or not n else [Edit(Span(before, before + 1), ""), *edits]
-        if last and n:
-            cut = Span(before, following if comma else end)
-        elif not last:
-            cut = Span(start, items[n + 1].start)
+        start, end = items[index]
+        is_last = index == len(items) - 1
+        comma = text.gap_end(end)
+        has_comma = text.text[comma] == ","
+        comma_before = text.gap_end(items[index - 1].end) if index else -1
+        follows_item = index == 0 or text.gap_end(comma_before + 1) == start
+        precedes_item = is_last or text.gap_end(comma + 1) == items[index + 1].start
+        if not follows_item or not precedes_item:
+            raise NoFix("a merge key stands beside the entry")
+        after = comma + 1 if has_comma else end
+        if text.begins_line(start) and text.line_start(start) > self.start and text.ends_line(after):
+            lines = text.without_lines(start, after)
+            return [lines] if has_comma or not index else [Edit(Span(comma_before, comma_before + 1), ""), lines]
+        if not is_last:
+            removed = Span(start, items[index + 1].start)
+        elif index:
+            removed = Span(comma_before, comma if has_comma else end)
         else:
-            cut = Span(start, behind)
-        return Refused("a comment stands in between") if text.comments_in(*cut) else [Edit(cut, "")]
+            removed = Span(start, after)
+        if text.comments_in(*removed):
+            raise NoFix("a comment stands between the entries")
+        return [Edit(removed, "")]
 
-    def _block_remove(self, n: int) -> Edits:
-        text, column = self.text, self.column()
-        start, end = self.items[n]
+    def _remove_from_block(self, index: int) -> list[Edit]:
+        text, column = self.text, self._column()
+        start, end = self.items[index]
         if self.node.kind == "sequence":
-            start = self._dash(n)
+            start = self._dash(index)
         if column is None or start < 0 or not text.begins_line(start) or not text.ends_line(end) or len(self.items) == 1:
-            return Refused("it does not stand on lines of its own")
-        return [text.without_lines(text.line_start(start), text.next_line(end), " " * column)]
+            raise NoFix(_NOT_ON_OWN_LINES)
+        return [text.without_lines(start, end, " " * column)]
 
-    def _dash(self, n: int) -> int:
-        """Where the `-` of an item stands; -1 where it is not found."""
-        column = self.column()
-        if n == 0 or column is None:
+    def _dash(self, index: int) -> int:
+        """The place of the `-` of an item, or -1 if it is not found."""
+        column = self._column()
+        if index == 0 or column is None:
             return self.start
-        at = self.text.line_start(self.items[n].start)
-        while at > self.items[n - 1].end - 1:
-            if self.text.text[at : at + column + 1] == " " * column + "-":
-                return at + column
-            at = self.text.line_start(at - 1)
+        start = self.text.line_start(self.items[index].start)
+        while start > self.items[index - 1].end - 1:
+            if self.text.text[start : start + column + 1] == " " * column + "-":
+                return start + column
+            start = self.text.line_start(start - 1)
         return -1
 
-    def empty(self, colon: int) -> Edits:
-        """Takes the only item of a sequence out, and leaves `[]`, after the `:` at `colon`."""
-        if self.flow:
-            return self._flow_remove(0)
-        start = self.start
-        if not self.text.begins_line(start) or not self.text.ends_line(self.items[0].end):
-            return Refused("it does not stand on lines of its own")
-        lines = self.text.without_lines(self.text.line_start(start), self.text.next_line(self.items[0].end), self.text.indent(start))
-        return [_put(colon, " []"), lines]
 
-
-def _put(at: int, text: str) -> Edit:
+def _insertion(at: int, text: str) -> Edit:
     return Edit(Span(at, at), text)

@@ -1,187 +1,155 @@
-"""Where a frame in Metal's words states the facts that a fix may change, and the changes that take more than a member."""
+"""Fixes of frames in Metal's terms: which members state the facts that a fix may change, and the fixes that rule pages name by `do`."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from functools import partial
 
-from msaa_lint.frame.description.models import Metal, MetalTexture
+from msaa_lint.frame.description.models import MetalTexture
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.facts import Subject
-from msaa_lint.frame.facts.frame import Aspect, Resolve, Target
+from msaa_lint.frame.facts.frame import Aspect, Attachment, Resolve
 from msaa_lint.frame.facts.metal import stated_for
 from msaa_lint.frame.metal.names import KEEPING, MULTISAMPLE_RESOLVES
 
-from .changes import Change, FixContext, Refused
-from .fact_sources import Places, attachment_of, targets_of
-from .usages import TOLD_BY_COMMANDS
+from .actions import Action
+from .changes import Change, NoFix
+from .context import FixContext
+from .fact_sources import FindSources, Source
+from .subject_parts import aspect_of, copied_images, described_image, images_of, pipeline_of
+from .transient import check_unread, dropped_stores, is_needed
 
-_FLAGS = {"shaderRead": "SAMPLED", "shaderWrite": "STORAGE", "shaderAtomic": "STORAGE"}
-
-
-def metal_of(mending: FixContext) -> Metal:
-    """The section that states the frame."""
-    metal = mending.document.description.metal
-    assert metal is not None
-    return metal
+_VULKAN_USAGES = {"shaderRead": "SAMPLED", "shaderWrite": "STORAGE", "shaderAtomic": "STORAGE"}
 
 
-def _texture(member: str) -> Callable[[Subject, FixContext], Places]:
-    def find(subject: Subject, mending: FixContext) -> Places:
-        textures = metal_of(mending).textures
-        found = [textures[target.name] for target in targets_of(subject) if target.image is not None and target.name in textures]
-        return [(texture, member, "") for texture in found] or Refused("the texture is not described")
-
-    return find
-
-
-def _action(*members: str) -> Callable[[Subject, FixContext], Places]:
-    """The first of some members that the structure of an aspect, or of what a resolve reads, has."""
-
-    def find(subject: Subject, mending: FixContext) -> Places:
-        record = _record(subject, mending)
-        member = next((m for m in members if record is not None and m in record.SHAPE), None)
-        if record is None or member is None:
-            return Refused("it is not about one aspect of an attachment that states it")
-        return [(record, member, "")]
-
-    return find
+def _texture_member(member: str, subject: Subject, context: FixContext) -> list[Source]:
+    textures = context.metal.textures
+    names = [target.name for target in images_of(subject) if target.image is not None]
+    sources: list[Source] = [(textures[name], member) for name in names if name in textures]
+    if not sources:
+        raise NoFix("the description does not declare the texture")
+    return sources
 
 
-def _record(subject: Subject, mending: FixContext) -> Record | None:
-    lowered = mending.document.metal
-    assert lowered is not None
+def _attachment_member(members: tuple[str, ...], subject: Subject, context: FixContext) -> list[Source]:
+    """The first of the members that exists for the attachment."""
+    record = _attachment_record(subject, context)
+    sources: list[Source] = [(record, member) for member in members if member in record.SHAPE]
+    if not sources:
+        raise NoFix(f"the attachment has no `{members[0]}`")
+    return sources[:1]
+
+
+def _attachment_record(subject: Subject, context: FixContext) -> Record:
+    """The record of an aspect, or of the source of a resolve."""
     if isinstance(subject.of, Resolve):
-        source = subject.of.source
-        return stated_for(source, subject.of.aspect, lowered) if source is not None else None
-    attachment = attachment_of(subject)
-    aspect = subject.of[1] if isinstance(subject.of, tuple) else None
-    return stated_for(attachment, aspect.name, lowered) if attachment is not None and isinstance(aspect, Aspect) else None
+        source, aspect_name = subject.of.source, subject.of.aspect
+        record = stated_for(source, aspect_name, context.lowered) if source is not None else None
+    else:
+        attachment, aspect = aspect_of(subject)
+        record = stated_for(attachment, aspect.name, context.lowered)
+    if record is None:
+        raise NoFix("the description does not state the attachment")
+    return record
 
 
-def _pipeline(*members: str) -> Callable[[Subject, FixContext], Places]:
-    """A property of a pipeline by the name that it is stated by; the first of its names where it is not."""
-
-    def find(subject: Subject, mending: FixContext) -> Places:
-        pipeline = subject.of[0] if isinstance(subject.of, tuple) else None
-        record = metal_of(mending).renderPipelines.get(pipeline.key) if isinstance(pipeline, Record) else None
-        if record is None:
-            return Refused("the pipeline is not described")
-        return [(record, next((m for m in members if record.states(m)), members[0]), "")]
-
-    return find
+def _pipeline_member(names: tuple[str, ...], subject: Subject, context: FixContext) -> list[Source]:
+    """The property of a pipeline by the name that the description uses for it, or by the first name if it does not state it."""
+    record = context.metal.renderPipelines.get(pipeline_of(subject).key)
+    if record is None:
+        raise NoFix("the description does not declare the pipeline")
+    return [(record, next((name for name in names if record.states(name)), names[0]))]
 
 
-CHANGEABLE: dict[str, Callable[[Subject, FixContext], Places]] = {
-    "image.storage_mode": _texture("storageMode"),
-    "image.texture_type": _texture("textureType"),
-    "image.usage_words": _texture("usage"),
-    "image.samples": _texture("sampleCount"),
-    "image.mip_levels": _texture("mipmapLevelCount"),
-    "aspect.load_action": _action("loadAction"),
-    "aspect.store_action": _action("storeAction"),
-    "aspect.resolve_filter": _action("depthResolveFilter", "stencilResolveFilter"),
-    "resolve.filter": _action("depthResolveFilter", "stencilResolveFilter"),
-    "pipeline.rasterization_samples": _pipeline("rasterSampleCount", "sampleCount"),
-    "pipeline.alpha_to_coverage": _pipeline("isAlphaToCoverageEnabled", "alphaToCoverageEnabled"),
+METAL_FACT_SOURCES: dict[str, FindSources] = {
+    "image.storage_mode": partial(_texture_member, "storageMode"),
+    "image.texture_type": partial(_texture_member, "textureType"),
+    "image.usage_words": partial(_texture_member, "usage"),
+    "image.samples": partial(_texture_member, "sampleCount"),
+    "image.mip_levels": partial(_texture_member, "mipmapLevelCount"),
+    "aspect.load_action": partial(_attachment_member, ("loadAction",)),
+    "aspect.store_action": partial(_attachment_member, ("storeAction",)),
+    "aspect.resolve_filter": partial(_attachment_member, ("depthResolveFilter", "stencilResolveFilter")),
+    "resolve.filter": partial(_attachment_member, ("depthResolveFilter", "stencilResolveFilter")),
+    "pipeline.rasterization_samples": partial(_pipeline_member, ("rasterSampleCount", "sampleCount")),
+    "pipeline.alpha_to_coverage": partial(_pipeline_member, ("isAlphaToCoverageEnabled", "alphaToCoverageEnabled")),
 }
-"""By fact. Of the others it is Vulkan's words alone that state them."""
+"""By fact."""
 
 
-def places(fact: str, subject: Subject, mending: FixContext) -> Places:
-    """The members of Metal's structures that state a fact; why none can be changed, where none can."""
-    find = CHANGEABLE.get(fact)
-    return find(subject, mending) if find is not None else Refused("the fix is in Vulkan's words, and the frame in Metal's")
+def make_memoryless(subject: Subject, context: FixContext) -> list[Change]:
+    """Memoryless storage, without the usages that nothing needs and the stores that nothing reads."""
+    image = described_image(subject)
+    texture = context.metal.textures.get(image.key)
+    if texture is None:
+        raise NoFix("the description does not declare the texture")
+    check_unread(subject)
+    if texture.drawable:
+        raise NoFix("the texture is a drawable")
+    if subject.facts.values.get("image.memoryless_offered") is False:
+        raise NoFix("the GPU does not support memoryless textures")
+    return [
+        *_render_target_usage(texture, context),
+        Change(texture, "storageMode", "set", "memoryless"),
+        *dropped_stores(image, context, partial(_dont_store, context)),
+    ]
 
 
-def make_memoryless(subject: Subject, mending: FixContext) -> list[Change] | Refused:
-    """Memoryless storage; away with usages that nothing needs, and with stores that nothing reads."""
-    target = subject.of
-    texture = metal_of(mending).textures.get(target.name) if isinstance(target, Target) and target.image is not None else None
-    if texture is None or not isinstance(target, Target):
-        return Refused("the texture is not described")
-    values = subject.facts.values
-    if values.get("image.read") is not False or values.get("image.loaded") is not False or texture.drawable:
-        return Refused("something reads or loads it, or may")
-    if values.get("image.memoryless_offered") is False:
-        return Refused("the GPU has no memoryless textures")
-    usage = _usage(texture, mending)
-    actions = _actions(target, mending)
-    if isinstance(usage, Refused):
-        return usage
-    if isinstance(actions, Refused):
-        return actions
-    return [*usage, Change(texture, "storageMode", "set", "memoryless"), *actions]
-
-
-def _usage(texture: MetalTexture, mending: FixContext) -> list[Change] | Refused:
-    """Away with all but renderTarget, as far as the commands say that nothing needs it."""
-    found: list[Change] = []
-    told = mending.frame.has_commands and mending.usages.followed
-    needed = mending.usages.needed(texture.key, None)
-    for word in texture.usage or ():
-        flag = _FLAGS.get(word)
-        if word == "renderTarget":
+def _render_target_usage(texture: MetalTexture, context: FixContext) -> list[Change]:
+    """Reduces the usage of a texture to renderTarget, as far as the commands show that nothing needs the rest."""
+    changes: list[Change] = []
+    for usage in texture.usage or ():
+        if usage == "renderTarget":
             continue
-        if word != "unknown" and (not told or flag is None or flag in needed or flag not in TOLD_BY_COMMANDS):
-            return Refused(f"its usage {word} may be needed")
-        found.append(Change(texture, "usage", "remove", word))
+        if usage != "unknown" and is_needed(_VULKAN_USAGES.get(usage), texture.key, context):
+            raise NoFix(f"`{texture.key}` may need its usage {usage}")
+        changes.append(Change(texture, "usage", "remove", usage))
     if texture.usage is not None and "renderTarget" not in texture.usage:
-        found.append(Change(texture, "usage", "add", "renderTarget"))
-    return found
+        changes.append(Change(texture, "usage", "add", "renderTarget"))
+    return changes
 
 
-def _actions(target: Target, mending: FixContext) -> list[Change] | Refused:
-    """No store of what a memoryless texture has no memory for."""
-    lowered = mending.document.metal
-    assert lowered is not None
-    found: list[Change] = []
-    for each, attachment in mending.attachments.get(id(target.record), ()):
-        if attachment.resolve:
-            return Refused(f"a resolve in `{each.name}` writes it")
-        for aspect in attachment.aspects:
-            record = stated_for(attachment, aspect.name, lowered)
-            store = getattr(record, "storeAction", None)
-            if record is None or store not in KEEPING:
-                continue
-            if mending.timeline.read_later(each, attachment, aspect) is not False:
-                return Refused(f"whether something reads what {attachment.title} stores is not known")
-            found.append(Change(record, "storeAction", "set", "multisampleResolve" if store in MULTISAMPLE_RESOLVES else "dontCare"))
-    return found
+def _dont_store(context: FixContext, attachment: Attachment, aspect: Aspect) -> Change | None:
+    if attachment.resolve:
+        raise NoFix("a pass resolves to the texture")
+    record = stated_for(attachment, aspect.name, context.lowered)
+    action = getattr(record, "storeAction", None)
+    if record is None or action not in KEEPING:
+        return None
+    return Change(record, "storeAction", "set", "multisampleResolve" if action in MULTISAMPLE_RESOLVES else "dontCare")
 
 
-def drop_resolve_texture(subject: Subject, mending: FixContext) -> list[Change] | Refused:
-    """Takes a resolve texture away that no store action resolves to."""
-    record = _record(subject, mending)
-    store = getattr(record, "storeAction", None)
-    if record is None or not record.states("resolveTexture"):
-        return Refused("no resolve texture is stated")
-    if store in MULTISAMPLE_RESOLVES or store in (None, "unknown"):
-        return Refused("the pass resolves to it, or may")
+def drop_resolve_texture(subject: Subject, context: FixContext) -> list[Change]:
+    """Removes a resolve texture that no store action resolves to."""
+    record = _attachment_record(subject, context)
+    action = getattr(record, "storeAction", None)
+    if not record.states("resolveTexture"):
+        raise NoFix("the attachment has no resolve texture")
+    if action in MULTISAMPLE_RESOLVES or action in (None, "unknown"):
+        raise NoFix("the pass resolves to the texture, or may do so")
     return [Change(record, "resolveTexture", "unset")]
 
 
-def resolve_to_copy(subject: Subject, mending: FixContext) -> list[Change] | Refused:
-    """Resolves to the texture that the result is copied to, and takes the copy and the texture between away."""
-    metal, record = metal_of(mending), _record(subject, mending)
-    between, target = (subject.facts.values.get(f"resolve.copied_{end}") for end in ("from", "to"))
-    if record is None or between not in metal.textures or target not in metal.textures:
-        return Refused("a texture of it is not described")
-    mentions = mending.metal_mentions
-    copies = mentions.copies.get((str(between), str(target)), [])
+def resolve_to_copy(subject: Subject, context: FixContext) -> list[Change]:
+    """Resolves to the texture that the result is copied to, and removes the copy and, if nothing else uses it, the texture in between."""
+    metal, record = context.metal, _attachment_record(subject, context)
+    between, target = copied_images(subject)
+    if between not in metal.textures or target not in metal.textures:
+        raise NoFix("the description does not declare both textures of the copy")
+    copies = context.texture_references.copies.get((between, target), [])
     if len(copies) != 1:
-        return Refused("it is copied more than once")
-    to = metal.textures[str(target)]
-    made = [Change(record, "resolveTexture", "set", target), Change(metal, "commands", "drop", copies[0])]
-    if to.usage is not None and "renderTarget" not in to.usage and "unknown" not in to.usage:
-        made.append(Change(to, "usage", "add", "renderTarget"))
-    if mentions.names[str(between)] == 2:
-        made.append(Change(metal, "textures", "drop", list(metal.textures).index(str(between))))
-    return made
+        raise NoFix("the texture is copied more than once")
+    texture = metal.textures[target]
+    changes = [Change(record, "resolveTexture", "set", target), Change(metal, "commands", "drop", copies[0])]
+    if texture.usage is not None and "renderTarget" not in texture.usage and "unknown" not in texture.usage:
+        changes.append(Change(texture, "usage", "add", "renderTarget"))
+    if context.texture_references.counts[between] == 2:
+        changes.append(Change(metal, "textures", "drop", list(metal.textures).index(between)))
+    return changes
 
 
-DEEDS: dict[str, Callable[[Subject, FixContext], list[Change] | Refused]] = {
+METAL_ACTIONS: dict[str, Action] = {
     "make-memoryless": make_memoryless,
     "drop-resolve-texture": drop_resolve_texture,
     "resolve-to-copy": resolve_to_copy,
 }
-"""What pages name by `do`, of frames in Metal's words."""
+"""The fixes that rule pages name by `do`."""

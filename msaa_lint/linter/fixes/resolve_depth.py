@@ -1,82 +1,60 @@
-"""`do: hand-over-depth`: depth is resolved in the pass that draws it, and its readers have the result in place of the samples."""
+"""`do: hand-over-depth`: the pass resolves the depth that it draws, and readers use the result instead of the samples."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from msaa_lint.frame.description.models import (
-    AttachmentDescription,
-    Framebuffer,
-    Image,
-    ReadImage,
-    RenderingAttachment,
-    RenderPass,
-    Subpass,
-)
+from msaa_lint.frame.description.models import AttachmentDescription, Image, ReadImage, RenderPass, Subpass
 from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.frame import Aspect, Attachment, Pass
 from msaa_lint.frame.facts.image import BESIDE_TRANSIENT
 
-from .changes import Change, FixContext, Refused
-from .transient import memory_changes
+from .changes import Change, NoFix
+from .context import FixContext
+from .resolve_targets import new_attachment, rendering_resolve, unused_name
+from .subject_parts import aspect_of
+from .transient import lazy_memory
 
 _MODE = "SAMPLE_ZERO"
-"""What every device offers."""
+"""The mode that every device supports."""
 
 
-def hand_over_depth(subject: Subject, mending: FixContext) -> list[Change] | Refused:
-    """A single-sampled image beside the multisampled one, a resolve to it, readers of it; the samples are not stored."""
-    attachment, aspect = subject.of if isinstance(subject.of, tuple) else (None, None)
-    if not isinstance(attachment, Attachment) or not isinstance(aspect, Aspect) or attachment.target is None:
-        return Refused("it is not one image each time")
-    source = attachment.target.image
-    owners = mending.attachments.get(id(source), [])
-    if source is None or attachment.format is None or len(owners) != 1:
-        return Refused("its image is not described, or other passes use it")
-    within, own = owners[0]
-    if len(own.depth_stencil) == 0 or len(within.subpasses) == 0:
-        return Refused("no subpass draws to it")
-    readers = [each for each in mending.mentions.of.get(source.key, ()) if isinstance(each, ReadImage)]
-    resolved = _resolved(within, own, aspect)
-    if resolved is not None:
-        made, name = [], resolved
-    else:
-        images = mending.document.description.images
-        name = _free(f"{source.key}_resolved", set(images))
-        put = _to(name, within, own, mending)
-        if isinstance(put, Refused):
-            return put
-        made = [Change(mending.document.description, "images", "entry", (name, _image(source, attachment.format.name))), *put]
-    made.append(Change(attachment.record, aspect.store_member, "set", "DONT_CARE"))
-    for reader in readers:
-        made.append(Change(reader, "image", "set", name))
-        made += [Change(reader, "samples", "unset")] if reader.states("samples") else []
-    return [*made, *_transient(source, own, aspect, subject)]
+def resolve_depth(subject: Subject, context: FixContext) -> list[Change]:
+    """Resolves depth to an image with one sample, has its readers read that, and does not store the samples."""
+    attachment, aspect = aspect_of(subject)
+    source = attachment.target.image if attachment.target is not None else None
+    bound = context.attachments.get(id(source), [])
+    if source is None or attachment.format is None or len(bound) != 1:
+        raise NoFix("the description does not declare the image, or more than one attachment uses it")
+    rendered, own = bound[0]
+    if not own.depth_stencil or not rendered.subpasses:
+        raise NoFix("no subpass draws to the image")
+    changes: list[Change] = []
+    name = _existing_result(rendered, own, aspect)
+    if name is None:
+        images = context.document.description.images
+        name = unused_name(f"{source.key}_resolved", images)
+        changes.append(Change(context.document.description, "images", "entry", (name, _image_data(source, attachment.format.name))))
+        changes += _depth_resolve(name, rendered, own, context)
+    changes.append(Change(attachment.record, aspect.store_member, "set", "DONT_CARE"))
+    for reader in context.references.records(source.key):
+        if isinstance(reader, ReadImage):
+            changes.append(Change(reader, "image", "set", name))
+            changes += [Change(reader, "samples", "unset")] if reader.states("samples") else []
+    return [*changes, *_transient(source, own, aspect, subject)]
 
 
-def _transient(source: Image, attachment: Attachment, aspect: Aspect, subject: Subject) -> list[Change]:
-    """What the image of the samples then may be, where its readers alone kept it from that."""
-    others = [each for each in attachment.aspects if each.name != aspect.name]
-    if source.usage is None or set(source.usage) - BESIDE_TRANSIENT != {"SAMPLED"} or aspect.load != "CLEAR":
-        return []
-    if any(each.load == "LOAD" or each.store != "DONT_CARE" for each in others):
-        return []
-    usage = [Change(source, "usage", "remove", "SAMPLED"), Change(source, "usage", "add", "TRANSIENT_ATTACHMENT")]
-    return [*usage, *memory_changes(source, subject.facts.values.get("device.lazy_memory"))]
+def _existing_result(rendered: Pass, attachment: Attachment, aspect: Aspect) -> str | None:
+    """The image that the pass already resolves the aspect to."""
+    for subpass in rendered.subpasses:
+        for resolve in subpass.resolves:
+            resolves = resolve.source is attachment and resolve.aspect == aspect.name and resolve.mode not in (None, "NONE")
+            if resolves and resolve.target_image is not None and resolve.target_image.image is not None:
+                return resolve.target_image.name
+    return None
 
 
-def _resolved(within: Pass, attachment: Attachment, aspect: Aspect) -> str | None:
-    """The image that the pass resolves it to already."""
-    found = [resolve for subpass in within.subpasses for resolve in subpass.resolves if resolve.source is attachment]
-    images = [resolve.target_image for resolve in found if resolve.aspect == aspect.name and resolve.mode not in (None, "NONE")]
-    return next((image.name for image in images if image is not None and image.image is not None), None)
-
-
-def _free(name: str, taken: set[str]) -> str:
-    return next(each for each in (name, *(f"{name}_{n}" for n in range(2, 3 + len(taken)))) if each not in taken)
-
-
-def _image(source: Image, format_name: str) -> dict[str, Any]:
+def _image_data(source: Image, format_name: str) -> dict[str, Any]:
     data: dict[str, Any] = {"format": format_name, "samples": 1, "usage": ["DEPTH_STENCIL_ATTACHMENT", "SAMPLED"]}
     if source.extent is not None:
         sides = {side: getattr(source.extent, side) for side in ("width", "height", "depth")}
@@ -84,26 +62,30 @@ def _image(source: Image, format_name: str) -> dict[str, Any]:
     return data
 
 
-def _to(name: str, within: Pass, attachment: Attachment, mending: FixContext) -> list[Change] | Refused:
-    """A resolve to an image that the pass does not have yet."""
-    record = within.record
-    if not isinstance(record, RenderPass):
-        info = attachment.record
-        if not isinstance(info, RenderingAttachment) or info.resolveImage is not None:
-            return Refused("the pass resolves it otherwise")
-        return [Change(info, "resolveMode", "set", _MODE), Change(info, "resolveImage", "set", name)]
-    subpass = within.subpasses[max(attachment.depth_stencil)].record
-    buffers: list[Framebuffer] = mending.framebuffers.get(within.name, [])
-    if not isinstance(subpass, Subpass) or subpass.depthStencilResolve is not None or len(buffers) > 1:
-        return Refused("the pass resolves it otherwise, or has several framebuffers")
-    listed = record.spelled["attachments"][1].kind == "sequence"
-    key = _free(name, {each.key for each in record.attachments})
-    own = attachment.record
+def _depth_resolve(name: str, rendered: Pass, attachment: Attachment, context: FixContext) -> list[Change]:
+    """Resolves depth to an image that the pass does not use yet."""
+    render_pass, record = rendered.record, attachment.record
+    if not isinstance(render_pass, RenderPass):
+        return rendering_resolve(record, _MODE, name)
+    subpass = rendered.subpasses[max(attachment.depth_stencil)].record
+    if not isinstance(subpass, Subpass) or subpass.depthStencilResolve is not None:
+        raise NoFix("the pass already resolves the attachment to another image")
     data: dict[str, Any] = {"image": name, "loadOp": "DONT_CARE", "storeOp": "STORE"}
-    if isinstance(own, AttachmentDescription) and own.states("initialLayout"):
+    if isinstance(record, AttachmentDescription) and record.states("initialLayout"):
         data["initialLayout"] = "UNDEFINED"
-    if isinstance(own, AttachmentDescription) and own.states("finalLayout"):
+    if isinstance(record, AttachmentDescription) and record.states("finalLayout"):
         data["finalLayout"] = "DEPTH_STENCIL_READ_ONLY_OPTIMAL"
-    resolve = {"attachment": len(record.attachments) if listed else key, "depthResolveMode": _MODE, "stencilResolveMode": "NONE"}
-    made = [Change(record, "attachments", "entry", (key, data)), Change(subpass, "depthStencilResolve", "set", resolve)]
-    return [*made, *(Change(buffer, "attachments", "append", name) for buffer in buffers)]
+    changes, reference = new_attachment(render_pass, name, data, context)
+    resolve = {"attachment": reference, "depthResolveMode": _MODE, "stencilResolveMode": "NONE"}
+    return [*changes, Change(subpass, "depthStencilResolve", "set", resolve)]
+
+
+def _transient(source: Image, attachment: Attachment, aspect: Aspect, subject: Subject) -> list[Change]:
+    """Makes the image of the samples transient if only its readers kept it from that."""
+    others = [other for other in attachment.aspects if other.name != aspect.name]
+    if source.usage is None or set(source.usage) - BESIDE_TRANSIENT != {"SAMPLED"} or aspect.load != "CLEAR":
+        return []
+    if any(other.load == "LOAD" or other.store != "DONT_CARE" for other in others):
+        return []
+    usage = [Change(source, "usage", "remove", "SAMPLED"), Change(source, "usage", "add", "TRANSIENT_ATTACHMENT")]
+    return [*usage, *lazy_memory(source, subject)]

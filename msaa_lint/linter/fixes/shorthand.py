@@ -1,7 +1,7 @@
-"""Fixes in the words of render targets: another word, where what it expands to has the changes of the fix, and none that is not wanted.
+"""Fixes of render targets: another word in place of one, if it expands to what the fix changes and to nothing else.
 
-A word of theirs stands for several members of several structures. What a word does is not told here again: each that may stand in its place
-is tried, expanded, and compared.
+A word of a render target stands for several members of several structures. What it stands for is not repeated here: each word that could
+take its place is tried, expanded and compared.
 """
 
 from __future__ import annotations
@@ -11,136 +11,147 @@ from typing import Any, NamedTuple
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import scalar
-from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Edit, Span
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.document import Document
-from msaa_lint.frame.description.models import AttachmentConfig, AttachmentConfigMSAA, Description, Metal, RenderTarget
+from msaa_lint.frame.description.models import AttachmentConfig, AttachmentConfigMSAA, Description, RenderTarget
 from msaa_lint.frame.description.record import Record
 
-from .aliases import records_of
-from .changes import PLAIN, Change, Refused
+from .aliases import nested_records
+from .changes import Change, NoFix
 
-MOST_PLACES = 4
-"""Words that one fix may be about; more are no matter of one word."""
+MAX_WORDS = 4
+"""How many words of one fix are tried. A fix that concerns more is not a matter of a single word."""
 
 _CONFIGS = {"colorAttachmentConfig": AttachmentConfigMSAA, "stencilAttachmentConfig": AttachmentConfig}
 
 Place = tuple[str, str, int]
-"""A structure's path, its member, and which of the structures of that path it is."""
+"""The path of a structure, a member of it, and which of the structures of that path it is."""
+
+Values = dict[Place, Any]
+"""The values of members, by place. Lists of flags are sets."""
 
 
-class Said(NamedTuple):
-    """The edit of one word, and what it says."""
+class WordEdit(NamedTuple):
+    """The edit of one word, and the title of the fix: the key and the new word."""
 
     edit: Edit
     title: str
 
 
-class Word(NamedTuple):
-    """A word of a render target: the keys that lead to it from the target's name on, and the words that may stand in its place."""
+class _Word(NamedTuple):
+    """A word of a render target: the keys that lead to it, from the target's name on, and the words that may replace it."""
 
     keys: tuple[str, ...]
-    others: tuple[str, ...]
+    alternatives: tuple[str, ...]
 
 
 class Shorthand:
-    """One description with render targets. A target is expanded by itself: what a word does, it does to its own.
+    """One description with render targets. Each target is expanded by itself, because a word only affects its own target.
 
-    `wanted` are all changes that the document's safe fixes make, and all that its fixes make.
+    `requested` are all changes that the document's safe fixes make, and all that its fixes make.
     """
 
-    def __init__(self, source: Source, document: Document, root: Node, wanted: tuple[Sequence[Change], Sequence[Change]]) -> None:
-        self.source = source
-        self.root = root
-        self.words = _words(root, source.text)
-        self.places: dict[int, Place] = {}
-        self.members: dict[Place, Any] = {}
-        for path, nth, record in _records(document.description):
-            self.places.setdefault(id(record), (path, "", nth))
-            self.members.update(_members(path, nth, record))
-        self.wanted = [self._after(changes) for changes in wanted]
-        self._before: dict[str, dict[Place, Any]] = {}
+    def __init__(self, document: Document, root: Node, requested: tuple[Sequence[Change], Sequence[Change]]) -> None:
+        self._source = document.source
+        self._root = root
+        self._words = _words(root, self._source.text)
+        self._records: dict[int, tuple[str, int]] = {}
+        self._members: Values = {}
+        for path, number, record in _compared_records(document.description):
+            self._records.setdefault(id(record), (path, number))
+            self._members.update(_members(path, number, record))
+        self._requested = [self._values_after(changes) for changes in requested]
+        self._before: dict[str, Values] = {}
 
-    def edit(self, made: Sequence[Change]) -> Said | Refused:
-        """The edit of one word that makes some changes, and of others only such as other fixes want, safe ones where these are."""
-        own = self._after(made)
-        if not own or len(own) < len({(id(change.record), change.member) for change in made}):
-            return Refused("no word of the render target's does that")
-        allowed = next((each for each in self.wanted if own.items() <= each.items()), own)
-        spans = {change.record.spelled[change.member][1].span for change in made if change.record.states(change.member)}
-        for span in sorted(spans)[:MOST_PLACES]:
-            word = self.words.get(span)
-            for other in word.others if word is not None else ():
-                changed = self._changed(word, other) if word is not None else None
-                if word is not None and changed is not None and own.items() <= changed.items() <= allowed.items():
-                    return Said(Edit(span, other), f"{word.keys[-1]}: {other}")
-        return Refused("no other word of the render target's does that alone")
+    def edit(self, changes: Sequence[Change]) -> WordEdit:
+        """The edit of one word that makes the changes.
 
-    def _after(self, changes: Iterable[Change]) -> dict[Place, Any]:
-        """What members are to be with some changes, as far as those are of one member."""
-        found: dict[Place, Any] = {}
+        The word may also make changes that other fixes request: safe fixes if those request all of the given changes. Raises NoFix if no
+        word does that.
+        """
+        after = self._values_after(changes)
+        if not after or len(after) < len({(id(change.record), change.member) for change in changes}):
+            raise NoFix("a render target has no word for this")
+        allowed = next((values for values in self._requested if after.items() <= values.items()), after)
+        spans = {change.record.spelled[change.member][1].span for change in changes if change.record.states(change.member)}
+        for span in sorted(spans)[:MAX_WORDS]:
+            word = self._words.get(span)
+            if word is None:
+                continue
+            for alternative in word.alternatives:
+                changed = self._changed(word, alternative)
+                if changed is not None and after.items() <= changed.items() <= allowed.items():
+                    return WordEdit(Edit(span, alternative), f"{word.keys[-1]}: {alternative}")
+        raise NoFix("no other word of the render target changes this alone")
+
+    def _values_after(self, changes: Iterable[Change]) -> Values:
+        """The values of members after the changes that concern a single member."""
+        values: Values = {}
         for change in changes:
-            path, _, nth = self.places.get(id(change.record), ("", "", -1))
-            place = (path, change.member, nth)
-            if change.action not in PLAIN or change.action == "unset" or place not in self.members:
+            path, number = self._records.get(id(change.record), ("", -1))
+            place = (path, change.member, number)
+            if change.structural or change.action == "unset" or place not in self._members:
                 continue
             if change.action == "set":
-                found[place] = change.value
+                values[place] = change.value
                 continue
-            flags = found.get(place, self.members[place]) or frozenset()
-            found[place] = flags | {change.value} if change.action == "add" else flags - {change.value}
-        return found
+            flags = values.get(place, self._members[place]) or frozenset()
+            values[place] = flags | {change.value} if change.action == "add" else flags - {change.value}
+        return values
 
-    def _changed(self, word: Word, other: str) -> dict[Place, Any] | None:
-        """What members are otherwise with another word; None where there are others then."""
+    def _changed(self, word: _Word, alternative: str) -> Values | None:
+        """The values that differ with another word, or None if there are other members then."""
         name = word.keys[0]
         if name not in self._before:
-            self._before[name] = self._expanded(_alone(self.root, name))
-        before, after = self._before[name], self._expanded(_alone(self.root, name, word, other))
-        return {place: value for place, value in after.items() if value != before[place]} if after.keys() == before.keys() else None
+            self._before[name] = self._expanded(_only_target(self._root, name))
+        before, after = self._before[name], self._expanded(_only_target(self._root, name, word, alternative))
+        if after.keys() != before.keys():
+            return None
+        return {place: value for place, value in after.items() if value != before[place]}
 
-    def _expanded(self, root: Node) -> dict[Place, Any]:
+    def _expanded(self, root: Node) -> Values:
         from msaa_lint.input.readers import description
 
-        made = description.read(self.source, root).description
-        return {place: value for path, nth, record in _records(made) for place, value in _members(path, nth, record).items()}
+        expanded = description.read(self._source, root).description
+        values: Values = {}
+        for path, number, record in _compared_records(expanded):
+            values |= _members(path, number, record)
+        return values
 
 
-def shorthand(source: Source, document: Document, number: int, wanted: tuple[Sequence[Change], Sequence[Change]]) -> Shorthand | None:
-    """The shorthand that a document, by its number in the text, was made of; None where it was made of something else: of source code."""
-    documents = parse(source, Limits()).documents
+def shorthand(document: Document, number: int, requested: tuple[Sequence[Change], Sequence[Change]]) -> Shorthand | None:
+    """The render targets that a document is expanded from, by its number in the text, or None if it comes from source code."""
+    documents = parse(document.source, Limits()).documents
     root = documents[number] if number < len(documents) else None
     if root is None or root.kind != "mapping" or "renderTargets" not in root.value:
         return None
-    return Shorthand(source, document, root, wanted)
+    return Shorthand(document, root, requested)
 
 
-def _records(description: Description) -> Iterator[tuple[str, int, Record]]:
-    """The structures that are compared, each with its path and which of that path it is: of a frame in Metal's words those, as the others
-    are made of them."""
-    metal: Metal | None = description.metal
+def _compared_records(description: Description) -> Iterator[tuple[str, int, Record]]:
+    """The records of a description, each with its path and its number among those of the path; Metal's alone if there are any."""
     counts: dict[str, int] = {}
-    for record in records_of(metal if metal is not None else description):
-        counts[record.path] = nth = counts.get(record.path, -1) + 1
-        yield record.path, nth, record
+    for record in nested_records(description.metal if description.metal is not None else description):
+        counts[record.path] = number = counts.get(record.path, -1) + 1
+        yield record.path, number, record
 
 
-def _members(path: str, nth: int, record: Record) -> dict[Place, Any]:
-    """The members of a structure that hold no further ones; of flags the set."""
-    found: dict[Place, Any] = {}
+def _members(path: str, number: int, record: Record) -> Values:
+    """The values of the members that hold no further structures."""
+    values: Values = {}
     for member in record.SHAPE:
         value = getattr(record, member, None)
-        if isinstance(value, tuple) and not any(isinstance(each, Record) for each in value):
-            found[path, member, nth] = frozenset(value)
+        if isinstance(value, tuple) and not any(isinstance(item, Record) for item in value):
+            values[path, member, number] = frozenset(value)
         elif not isinstance(value, (Record, tuple, dict)):
-            found[path, member, nth] = value
-    return found
+            values[path, member, number] = value
+    return values
 
 
-def _words(root: Node, text: str) -> dict[Span, Word]:
-    """The words of a description's render targets by their places; none that has an anchor, or that two targets share by one."""
-    found: dict[Span, Word] = {}
+def _words(root: Node, text: str) -> dict[Span, _Word]:
+    """The words of a description's render targets by place, without those that have an anchor or that several targets share."""
+    words: dict[Span, _Word] = {}
     shared: set[Span] = set()
     for name, target in root.value["renderTargets"].value.items():
         structures: list[tuple[tuple[str, ...], type[Record], Node]] = [((name,), RenderTarget, target)]
@@ -150,25 +161,25 @@ def _words(root: Node, text: str) -> dict[Span, Word]:
                 shape = kind.SHAPE[member]
                 if shape[0] != "word" or not member.endswith(("Mode", "Action")) or text[value.start : value.end] != value.text:
                     continue
-                if value.span in found:
+                if value.span in words:
                     shared.add(value.span)
-                found[value.span] = Word((*keys, member), tuple(word for word in shape[1] if word != value.value))
-    return {span: word for span, word in found.items() if span not in shared}
+                words[value.span] = _Word((*keys, member), tuple(word for word in shape[1] if word != value.value))
+    return {span: word for span, word in words.items() if span not in shared}
 
 
-def _alone(root: Node, name: str, word: Word | None = None, other: str = "") -> Node:
-    """A description with one render target alone, and perhaps another word in it."""
+def _only_target(root: Node, name: str, word: _Word | None = None, alternative: str = "") -> Node:
+    """A description with one of its render targets, and with an alternative in place of a word of it."""
     targets = root.value["renderTargets"]
     target = targets.value[name]
     if word is not None:
-        target = _with(target, word.keys[1:], other)
-    alone = Node("mapping", targets.start, targets.end, {name: target}, {name: targets.keys[name]})
-    return Node("mapping", root.start, root.end, {**root.value, "renderTargets": alone}, root.keys)
+        target = _with_word(target, word.keys[1:], alternative)
+    only = Node("mapping", targets.start, targets.end, {name: target}, {name: targets.keys[name]})
+    return Node("mapping", root.start, root.end, {**root.value, "renderTargets": only}, root.keys)
 
 
-def _with(node: Node, keys: tuple[str, ...], text: str) -> Node:
-    """A structure with another word where some keys lead to."""
+def _with_word(node: Node, keys: tuple[str, ...], word: str) -> Node:
+    """A structure with another word at the end of a path of keys."""
     if not keys:
-        return scalar(text, node.span)
+        return scalar(word, node.span)
     key, *rest = keys
-    return Node("mapping", node.start, node.end, {**node.value, key: _with(node.value[key], tuple(rest), text)}, node.keys)
+    return Node("mapping", node.start, node.end, {**node.value, key: _with_word(node.value[key], tuple(rest), word)}, node.keys)

@@ -1,4 +1,4 @@
-"""Changes as edits of the text: what is not changed stays byte for byte."""
+"""Changes as edits of a document's text, which leave everything else as it is, byte for byte."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from functools import cached_property
 from typing import Any
 
 from msaa_lint.core.text.node import Node
-from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Edit, Span
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import MetalRecord
@@ -17,298 +16,277 @@ from msaa_lint.frame.description.scalars import enumerant
 from msaa_lint.frame.description.shapes import Shape
 from msaa_lint.frame.vulkan.enums import VALUES
 
-from .aliases import NOBODY, Member, Sharing, Wishes, records_of, wish, wishes
-from .changes import PLAIN, Change, Refused
-from .layout import Collection, Edits
-from .rendering import Rendering
-from .spelling import Spelling, quoted
-from .text_places import Text
+from .aliases import Aliases, Member, Requests, all_request, nested_records, requests
+from .changes import Change, NoFix
+from .layout import CollectionEditor
+from .spelling import Spelling
+from .text_scanner import TextScanner
+from .value_writer import ValueWriter, quoted
 
 _MERGE = re.compile(r"<<[\"']?[ \t]*:")
-_ANCHOR, _ALIAS = (re.compile(rf"{sign}([^\s\[\]{{}},]+)") for sign in ("&", r"\*"))
+_ANCHOR = re.compile(r"&([^\s\[\]{},]+)")
+_ALIAS = re.compile(r"\*([^\s\[\]{},]+)")
 _NUMBER = re.compile(r"0[xX][0-9a-fA-F]{1,16}|[0-9]{1,20}")
 
 
-def edits(changes: Sequence[Change], source: Source, document: Document, wanted: Wishes = NOBODY) -> tuple[Edit, ...] | Refused:
-    """The edits that make the changes in a document's text, in their order.
+class TextEditor:
+    """Makes the edits for changes of one document."""
 
-    `wanted` is what other changes that will be made as well want: a text that several members share by an anchor is edited where all of
-    them want the same.
-    """
-    return Writing(source, document).edits(changes, wanted)
-
-
-class Writing:
-    """What is made once for the edits of one document."""
-
-    def __init__(self, source: Source, document: Document) -> None:
+    def __init__(self, document: Document) -> None:
         self.document = document
-        self.text = Text(source, [document.description.node])
+        self.text = TextScanner(document.source, [document.description.node])
         self.dumped = not document.whole
 
     @cached_property
     def _records(self) -> list[Record]:
-        # What a frame in Metal's words was made into stands at places of those words, and is not written.
-        return list(records_of(self.document.description.metal or self.document.description))
+        # The Vulkan records of a frame in Metal's terms have places in the text, but are not written there.
+        return list(nested_records(self.document.description.metal or self.document.description))
 
     @cached_property
     def _spelling(self) -> Spelling:
         return Spelling(self._records, self.dumped)
 
     @cached_property
-    def _sharing(self) -> Sharing | None:
+    def _aliases(self) -> Aliases | None:
         text = self.text.text
-        return Sharing(self._records) if "*" in text and "&" in text else None
+        return Aliases(self._records) if "*" in text and "&" in text else None
 
     @cached_property
-    def _rendering(self) -> Rendering:
-        return Rendering(self.text, self.document.description.node, self._spelling)
+    def _writer(self) -> ValueWriter:
+        return ValueWriter(self.text, self.document.description.node, self._spelling)
 
-    def edits(self, changes: Sequence[Change], wanted: Wishes = NOBODY) -> tuple[Edit, ...] | Refused:
-        """As `edits`."""
+    def edits(self, changes: Sequence[Change], requested: Requests | None = None) -> tuple[Edit, ...]:
+        """The edits that make the changes, in the order of the text. Raises NoFix if the text does not allow one of them.
+
+        `requested` is what all fixes that are made together request, by default these changes. A text that several members share through
+        an anchor is only edited if the same is requested of all of them.
+        """
+        requested = requests(changes) if requested is None else requested
         groups: dict[Member, list[Change]] = {}
         for change in changes:
             groups.setdefault((id(change.record), change.member), []).append(change)
-        asked = _Asked(changes, wanted)
-        made: list[Edit] = []
-        inserts: dict[int, tuple[Record, list[tuple[str, str]]]] = {}
+        edits: list[Edit] = []
+        insertions: dict[int, list[tuple[Change, str]]] = {}
         for group in groups.values():
-            record, member = group[0].record, group[0].member
-            own = self._group(group, asked)
-            if isinstance(own, str):
-                inserts.setdefault(id(record), (record, []))[1].append((member, own))
-            elif isinstance(own, Refused):
-                return own
+            new = self._member_edits(group, requested)
+            if isinstance(new, str):
+                insertions.setdefault(id(group[0].record), []).append((group[0], new))
             else:
-                made += own
-        for record, members in inserts.values():
-            inserted = self._insert(record, members, asked)
-            if isinstance(inserted, Refused):
-                return inserted
-            made += inserted
-        return tuple(sorted(set(self._on_lines_that_stay(made))))
+                edits += new
+        for members in insertions.values():
+            edits += self._insert(members[0][0].record, [(change.member, value) for change, value in members], requested)
+        return tuple(sorted(set(self._on_remaining_lines(edits))))
 
-    def _on_lines_that_stay(self, made: Sequence[Edit]) -> Iterator[Edit]:
-        """The edits, with what would go in at the end of a line that another of them takes away at the end of the line before it."""
-        gone = sorted((each.span for each in made if each.span.start < each.span.end), reverse=True)
-        for edit in made:
+    def _on_remaining_lines(self, edits: Sequence[Edit]) -> Iterator[Edit]:
+        """The edits, with insertions at the end of a line that another edit removes moved to the end of the line before."""
+        removed = sorted((edit.span for edit in edits if edit.span.start < edit.span.end), reverse=True)
+        for edit in edits:
             at = edit.span.start
-            for start, end in gone if edit.text and at == edit.span.end else ():
+            for start, end in removed if edit.text and at == edit.span.end else ():
                 if start < at < end and self.text.begins_line(start) and self.text.line_start(start) > 0:
                     at = self.text.line_end(self.text.line_start(self.text.line_start(start) - 1))
             yield edit if at == edit.span.start else Edit(Span(at, at), edit.text)
 
-    def _group(self, group: Sequence[Change], asked: _Asked) -> Edits | str:
-        """The edits for the changes of one member; or its value, where it is to be inserted."""
-        record, member = group[0].record, group[0].member
+    def _member_edits(self, group: Sequence[Change], requested: Requests) -> list[Edit] | str:
+        """The edits for the changes of one member, or the member's new value if it has to be inserted."""
+        record, member, action, value = group[-1]
         if self.document.metal is not None and not isinstance(record, MetalRecord):
-            return Refused("the change is in Vulkan's words, and the frame in Metal's")
-        if any(change.action not in PLAIN for change in group):
-            return self._structural(group)
+            raise NoFix("the fix is for frames in Vulkan's terms")
+        if any(change.structural for change in group):
+            return self._entry_edits(group)
         if not record.states(member):
-            return self._whole(group)
-        key, value = record.spelled[member]
-        own = record.node.anchor is None and record.node.start <= key.start < record.node.end
-        if self._sharing is not None:
-            if not asked.by_all(self._sharing.of_key(record, member), group):
-                shared = own or group[-1].action == "unset"
-                return Refused(f"others take over this `{member}` by an anchor") if shared else self._whole(group)
-            if not asked.by_all(self._sharing.of_value(record, member), group):
-                if value.anchor is None:
-                    return Refused(f"others take over the value of this `{member}` by an anchor")
-                if group[-1].action != "unset":
-                    return [Edit(value.span, self._whole(group))]
-        value = value.anchor or value
-        if group[-1].action == "unset" and self.dumped:
-            return [Edit(value.span, '"NULL"')]
-        if group[-1].action == "unset":
-            if self._sharing is not None and _MERGE.search(self.text.text, record.node.start, record.node.end):
-                return Refused(f"a merge key may stand in for `{member}`")
-            if self._lends(value):
-                return Refused(f"others take over the value of this `{member}` by an anchor")
-            collection = Collection(self.text, record.node)
-            at = collection.index(key.start)
-            return collection.remove([at]) if at is not None and own else Refused(f"`{member}` is stated elsewhere")
-        if group[-1].action == "set":
-            return self._scalar(value, record.SHAPE[member], group[-1].value, record)
-        return self._flags(group, key, value)
+            return self._new_value(group)
+        key, node = record.spelled[member]
+        is_own = _has_own(record, key)
+        if self._aliases is not None:
+            if not all_request(self._aliases.of_key(record, member), group, requested):
+                if is_own or action == "unset":
+                    raise NoFix(f"an anchor shares this `{member}` with other structures")
+                return self._new_value(group)
+            if not all_request(self._aliases.of_value(record, member), group, requested):
+                if node.anchor is None:
+                    raise NoFix(f"an anchor shares the value of this `{member}` with other members")
+                if action != "unset":
+                    return [Edit(node.span, self._new_value(group))]
+        node = node.anchor or node
+        if action == "unset":
+            return self._unset(record, member, key, node)
+        if action == "set":
+            return [self._scalar(node, record.SHAPE[member], value, record)]
+        return self._flags(group, key, node)
 
-    def _lends(self, node: Node) -> bool:
-        """Whether something outside of a node may be an alias of something in it: by the names, wherever they stand."""
+    def _unset(self, record: Record, member: str, key: Node, node: Node) -> list[Edit]:
+        if self.dumped:
+            return [Edit(node.span, '"NULL"')]
+        if self._aliases is not None and _MERGE.search(self.text.text, record.node.start, record.node.end):
+            raise NoFix(f"a merge key may state `{member}` as well")
+        if self._is_aliased_outside(node):
+            raise NoFix(f"an anchor shares the value of this `{member}` with other members")
+        collection = CollectionEditor(self.text, record.node)
+        index = collection.index(key.start)
+        if index is None or not _has_own(record, key):
+            raise NoFix(f"another structure states `{member}`")
+        return collection.remove([index])
+
+    def _is_aliased_outside(self, node: Node) -> bool:
+        """Whether an alias outside of a node may name an anchor in it, as far as the names in the text tell."""
         text = self.text.text
-        names = set(_ANCHOR.findall(text, node.start, node.end)) if self._sharing is not None else set()
-        taken = {match[1] for match in _ALIAS.finditer(text) if not node.start <= match.start() < node.end} if names else set()
-        return not names.isdisjoint(taken)
+        anchors = set(_ANCHOR.findall(text, node.start, node.end)) if self._aliases is not None else set()
+        return bool(anchors) and any(match[1] in anchors for match in _ALIAS.finditer(text) if not node.start <= match.start() < node.end)
 
-    def _scalar(self, node: Node, shape: Shape, value: Any, record: Record) -> Edits:
-        """Puts a scalar in another one's place, in its quotes and its spelling."""
+    def _scalar(self, node: Node, shape: Shape, value: Any, record: Record) -> Edit:
+        """Replaces a scalar, in the same quotes and spelling."""
         if node.kind != "scalar":
-            return Refused("it is no single value")
+            raise NoFix("the value is not a scalar")
         start = self.text.content(node)
-        before = self.text.text[start : start + 1] if start < node.end else ""
-        if before in ("|", ">"):
-            return Refused("it is a text of several lines")
-        quote = before if before in ("'", '"') else ""
-        new = self._spelling.scalar(shape, value, node if before else None, record)
-        new = quoted(new, quote, not isinstance(value, str) or new.isdecimal())
-        return [Edit(Span(start, node.end), new if before or self.text.text[start - 1 : start] in " \t" else f" {new}")]
+        is_empty = start >= node.end
+        if self._is_block_scalar(node):
+            raise NoFix("the value is a block scalar")
+        text = self._spelling.scalar(shape, value, None if is_empty else node, record)
+        text = quoted(text, self.text.quote(node), not isinstance(value, str) or text.isdecimal())
+        needs_blank = is_empty and self.text.text[start - 1 : start] not in (" ", "\t", "")
+        return Edit(Span(start, node.end), f" {text}" if needs_blank else text)
 
-    def _flags(self, group: Sequence[Change], key: Node, node: Node) -> Edits:
-        record, member = group[0].record, group[0].member
-        enum = record.SHAPE[member][1]
-        # In the order of the list that comes out.
-        gone = [change.value for change in group if change.action == "remove"]
-        come = [change.value for change in group if change.action == "add"]
-        if node.kind != "sequence":
-            return self._flags_text(enum, gone, come, node, record)
-        names = [enumerant(enum, item.text) if item.kind == "scalar" else None for item in node.value]
-        numbers = [n for n, name in enumerate(names) if name in gone]
-        if any(self._lends(node.value[n]) for n in numbers):
-            return Refused("others take over a flag in it by an anchor")
-        edits: list[Edit] = []
-        for n, name in zip(numbers, come, strict=False):
-            replaced = self._scalar(node.value[n].anchor or node.value[n], record.SHAPE[member], name, record)
-            if isinstance(replaced, Refused) or node.value[n].anchor is not None:
-                return Refused("a flag in it is an alias")
-            edits += replaced
-        left, new = numbers[len(come) :], come[len(numbers) :]
-        collection = Collection(self.text, node)
-        more: Edits = []
-        if left and len(left) == len(names):
-            colon = self.text.colon(key)
-            more = collection.empty(colon) if len(left) == 1 and colon is not None else Refused("nothing would be left of it")
-        elif left:
-            more = collection.remove(left)
-        elif new:
-            like = node.value[0].text if node.value and node.value[0].kind == "scalar" else ""
-            quote = self._rendering.item_quote(node)
-            more = collection.insert([quoted(self._spelling.name(enum, name, like, record), quote) for name in new])
-        return more if isinstance(more, Refused) else [*edits, *more]
+    def _is_block_scalar(self, node: Node) -> bool:
+        return self.text.text[self.text.content(node) : node.end][:1] in ("|", ">")
 
-    def _flags_text(self, enum: str, gone: Sequence[str], come: Sequence[str], node: Node, record: Record) -> Edits:
-        """Flags that are one text: `A | B`, or a number."""
-        start, text = self.text.content(node), node.text.strip()
-        before = self.text.text[start : start + 1] if start < node.end else ""
-        if node.kind != "scalar" or before in ("|", ">", "") or text.endswith(")"):
-            return Refused("the flags are written in a way that is not understood")
-        quote = before if before in ("'", '"') else ""
-        if _NUMBER.fullmatch(text):
-            if not self.dumped:
-                return [Edit(Span(start, node.end), self._rendering.flags(enum, come, record))]
-            mask = int(text, 0)
-            for name in gone:
-                mask &= ~VALUES[enum][name]
-            for name in come:
-                mask |= VALUES[enum][name]
-            return [Edit(Span(start, node.end), quoted(hex(mask) if text[:2] in ("0x", "0X") else str(mask), quote, True))]
-        parts = [part.strip() for part in text.split("|")]
-        new = [self._spelling.name(enum, name, parts[0], record) for name in come]
-        kept = []
-        for part in parts:
-            known = enumerant(enum, part)
-            if known in gone:
-                # As in a list, what comes stands where something went.
-                kept += new[:1]
-                del new[:1]
-            elif known is not None and (enum not in VALUES or VALUES[enum][known]):
-                kept.append(part)
-        kept += new
-        if not kept:
-            return [Edit(Span(start, node.end), quoted("0", quote, True) if self.dumped else "[]")]
-        joined = ("|" if "|" in text and " |" not in text else " | ").join(kept)
-        return [Edit(Span(start, node.end), quoted(joined, quote, True))]
-
-    def _whole(self, group: Sequence[Change]) -> str:
-        """The value of a member with changes made, as it is written anew."""
+    def _flags(self, group: Sequence[Change], key: Node, node: Node) -> list[Edit]:
+        """Adds flags to a list and removes flags from it. Added flags replace removed ones as far as there are any."""
         record, member = group[0].record, group[0].member
         shape = record.SHAPE[member]
-        if group[-1].action == "set":
-            return self._rendering.data(shape, group[-1].value, record)
-        flags = list(getattr(record, member) or ())
-        for change in group:
-            if change.action == "add" and change.value not in flags:
-                flags.append(change.value)
-            elif change.action == "remove" and change.value in flags:
-                flags.remove(change.value)
-        return self._rendering.flags(shape[1], flags, record)
+        enum = shape[1]
+        removed = [change.value for change in group if change.action == "remove"]
+        added = [change.value for change in group if change.action == "add"]
+        if node.kind != "sequence":
+            return [self._flags_text(enum, removed, added, node, record)]
+        names = [enumerant(enum, item.text) if item.kind == "scalar" else None for item in node.value]
+        indices = [n for n, name in enumerate(names) if name in removed]
+        if any(self._is_aliased_outside(node.value[n]) for n in indices):
+            raise NoFix("an anchor shares one of the flags with other members")
+        edits = []
+        for n, name in zip(indices, added, strict=False):
+            if node.value[n].anchor is not None:
+                raise NoFix("one of the flags is an alias")
+            edits.append(self._scalar(node.value[n], shape, name, record))
+        surplus, missing = indices[len(added) :], added[len(indices) :]
+        collection = CollectionEditor(self.text, node)
+        if surplus and len(surplus) == len(names):
+            colon = self.text.colon_end(key)
+            if len(surplus) > 1 or colon is None:
+                raise NoFix("no entry would remain")
+            return collection.remove_only_item(colon)
+        if surplus:
+            edits += collection.remove(surplus)
+        elif missing:
+            model = node.value[0].text if node.value and node.value[0].kind == "scalar" else ""
+            quote = self._writer.item_quote(node)
+            edits += collection.insert([quoted(self._spelling.name(enum, name, model, record), quote) for name in missing])
+        return edits
 
-    def _insert(self, record: Record, members: Sequence[tuple[str, str]], asked: _Asked) -> Edits:
-        """Puts members into a record that does not state them in its own text."""
+    def _flags_text(self, enum: str, removed: Sequence[str], added: Sequence[str], node: Node, record: Record) -> Edit:
+        """Changes flags that are one text, `A | B` or a number."""
+        start, text = self.text.content(node), node.text.strip()
+        if node.kind != "scalar" or start >= node.end or self._is_block_scalar(node) or text.endswith(")"):
+            raise NoFix("the form of the flags is not supported")
+        span, quote = Span(start, node.end), self.text.quote(node)
+        if _NUMBER.fullmatch(text):
+            if not self.dumped:
+                return Edit(span, self._writer.flags(enum, added, record))
+            mask = int(text, 0)
+            for name in removed:
+                mask &= ~VALUES[enum][name]
+            for name in added:
+                mask |= VALUES[enum][name]
+            return Edit(span, quoted(hex(mask) if text[:2] in ("0x", "0X") else str(mask), quote, True))
+        parts = [part.strip() for part in text.split("|")]
+        new = [self._spelling.name(enum, name, parts[0], record) for name in added]
+        remaining = []
+        for part in parts:
+            known = enumerant(enum, part)
+            if known in removed:
+                remaining += new[:1]
+                del new[:1]
+            elif known is not None and (enum not in VALUES or VALUES[enum][known]):
+                remaining.append(part)
+        remaining += new
+        if not remaining:
+            return Edit(span, quoted("0", quote, True) if self.dumped else "[]")
+        separator = "|" if "|" in text and " |" not in text else " | "
+        return Edit(span, quoted(separator.join(remaining), quote, True))
+
+    def _new_value(self, group: Sequence[Change]) -> str:
+        """The text of a member's value after the changes."""
+        record, member, action, value = group[-1]
+        shape = record.SHAPE[member]
+        if action == "set":
+            return self._writer.value(shape, value, record)
+        flags = getattr(record, member)
+        for change in group:
+            flags = change.applied_to(flags)
+        return self._writer.flags(shape[1], flags or (), record)
+
+    def _insert(self, record: Record, members: Sequence[tuple[str, str]], requested: Requests) -> list[Edit]:
+        """Inserts members, with the text of their values, that a record does not state in its own mapping."""
         node = record.node
         if node.kind != "mapping" or (self.dumped and any(record.SHAPE[member][0] == "list" for member, _ in members)):
-            return Refused("it does not say this in a mapping of its own")
+            raise NoFix("the structure is not written as a mapping of its own")
         order = list(record.SHAPE)
-        members = sorted(members, key=lambda each: order.index(each[0]))
-        quote = self._rendering.key_quote(node)
-        entries = [f"{quoted(member, quote)}{self._rendering.colon(node)}{value}" for member, value in members]
-        if self._sharing is not None:
-            others = self._sharing.of_mapping(record)
-            if any(not asked.of((other, member)) for other in others for member, _ in members):
-                if node.anchor is None or self._sharing.of_node(record):
-                    return Refused("others take over this mapping by an anchor")
+        members = sorted(members, key=lambda entry: order.index(entry[0]))
+        entries = [self._writer.entry(node, member, value) for member, value in members]
+        if self._aliases is not None:
+            others = self._aliases.of_mapping(record)
+            if any((other, member) not in requested for other in others for member, _ in members):
+                if node.anchor is None or self._aliases.has_same_node(record):
+                    raise NoFix("an anchor shares this structure with others")
                 # The alias becomes a mapping that merges what it named.
                 alias = self.text.text[node.start : node.end]
                 return [Edit(node.span, "{" + ", ".join([f"<<: {alias}", *entries]) + "}")]
             node = node.anchor or node
-        collection = Collection(self.text, node)
-        # Behind the member that comes before it in Vulkan's structure, else at the end.
+        collection = CollectionEditor(self.text, node)
+        # After the member that precedes it in the API's structure, else at the end.
         first = order.index(members[0][0])
-        before = record.spelled.get(order[first - 1]) if first else None
-        return collection.insert(entries, collection.index(before[0].start) if before is not None else None)
+        preceding = record.spelled.get(order[first - 1]) if first else None
+        return collection.insert(entries, collection.index(preceding[0].start) if preceding is not None else None)
 
-    def _structural(self, group: Sequence[Change]) -> Edits | str:
+    def _entry_edits(self, group: Sequence[Change]) -> list[Edit] | str:
+        """The edits for structural changes of one member, or the member's new value if it has to be inserted."""
         record, member = group[0].record, group[0].member
         shape = record.SHAPE[member]
         if self.dumped:
-            return Refused("structures of a tool's dump are not put together anew")
+            raise NoFix("entries of a tool's dump are not edited")
         if not record.states(member):
             if any(change.action != "append" for change in group):
-                return Refused(f"there is no `{member}`")
-            return f"[{', '.join(self._rendering.data(shape[1], change.value, record) for change in group)}]"
-        key, value = record.spelled[member]
-        own = record.node.anchor is None and record.node.start <= key.start < record.node.end and value.anchor is None
-        if not own or (self._sharing is not None and (self._sharing.of_key(record, member) or self._sharing.of_value(record, member))):
-            return Refused(f"an anchor shares `{member}`")
+                raise NoFix(f"there is no `{member}`")
+            return f"[{', '.join(self._writer.value(shape[1], change.value, record) for change in group)}]"
+        key, node = record.spelled[member]
+        aliases = self._aliases
+        is_shared = aliases is not None and (aliases.of_key(record, member) or aliases.of_value(record, member))
+        if is_shared or not _has_own(record, key) or node.anchor is not None:
+            raise NoFix(f"an anchor shares `{member}` with other structures")
         edits: list[Edit] = []
         new: list[str] = []
-        collection = Collection(self.text, value)
+        dropped: list[int] = []
+        collection = CollectionEditor(self.text, node)
         for change in group:
-            if change.action == "append":
-                new.append(self._rendering.data(shape[1], change.value, record))
+            if change.action == "drop":
+                dropped.append(change.value)
+            elif change.action == "append":
+                new.append(self._writer.value(shape[1], change.value, record))
             elif change.action == "entry":
                 name, data = change.value
-                entry = self._rendering.data(shape[1], data, record)
-                if value.kind == "mapping":
-                    entry = f"{quoted(name, self._rendering.key_quote(value))}{self._rendering.colon(value)}{entry}"
-                new.append(entry)
-            elif change.action == "behind":
-                number, data = change.value
-                put_behind = collection.insert([self._rendering.data(shape[1], data, record)], number)
-                if isinstance(put_behind, Refused):
-                    return put_behind
-                edits += put_behind
-            elif change.action == "item":
-                number, data = change.value
-                edits.append(Edit(value.value[number].span, self._rendering.data(shape[1], data, record)))
-        dropped = [change.value for change in group if change.action == "drop"]
-        more = collection.remove(dropped) if dropped else []
-        put = collection.insert(new) if new else []
-        if isinstance(more, Refused) or isinstance(put, Refused):
-            return more if isinstance(more, Refused) else put
-        return [*edits, *more, *put]
+                entry = self._writer.value(shape[1], data, record)
+                new.append(self._writer.entry(node, name, entry) if node.kind == "mapping" else entry)
+            else:
+                index, data = change.value
+                text = self._writer.value(shape[1], data, record)
+                edits += collection.insert([text], index) if change.action == "insert-after" else [Edit(node.value[index].span, text)]
+        if dropped:
+            edits += collection.remove(dropped)
+        if new:
+            edits += collection.insert(new)
+        return edits
 
 
-class _Asked:
-    """What is wanted of members, by some changes and by others that will be made as well."""
-
-    def __init__(self, changes: Sequence[Change], wanted: Wishes) -> None:
-        self._own = wishes(changes)
-        self._wanted = wanted
-
-    def of(self, member: Member) -> set[str]:
-        return {*self._own.get(member, ()), *self._wanted.get(member, ())}
-
-    def by_all(self, members: Sequence[Member], group: Sequence[Change]) -> bool:
-        """Whether all of some members want what a group of changes wants."""
-        own = {wish(change) for change in group}
-        return all(own <= self.of(member) for member in members)
+def _has_own(record: Record, key: Node) -> bool:
+    """Whether a key stands in the text of a record's own mapping, and is not merged or aliased."""
+    return record.node.anchor is None and record.node.start <= key.start < record.node.end

@@ -1,58 +1,83 @@
-"""`do: make-transient`: an image that nothing reads or loads becomes a transient attachment, with all that this takes."""
+"""`do: make-transient`: an image that nothing reads or loads becomes a transient attachment.
+
+Metal's memoryless textures take the same steps in other terms: what both need is here.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from msaa_lint.frame.description.models import Command, Image
 from msaa_lint.frame.facts.facts import Subject
-from msaa_lint.frame.facts.frame import Target
+from msaa_lint.frame.facts.frame import Aspect, Attachment
 from msaa_lint.frame.facts.image import BESIDE_TRANSIENT
 
-from .changes import Change, FixContext, Refused
-from .usages import TOLD_BY_COMMANDS
+from .changes import Change, NoFix
+from .context import FixContext
+from .image_references import COMMAND_USAGES
+from .subject_parts import described_image
 
 
-def make_transient(subject: Subject, mending: FixContext) -> list[Change] | Refused:
-    """TRANSIENT_ATTACHMENT in place of usages that nothing needs; no store; lazily allocated memory where the device may offer it."""
-    target = subject.of
-    if not isinstance(target, Target) or target.image is None:
-        return Refused("the image is not described")
-    values = subject.facts.values
-    if values.get("image.read") is not False or values.get("image.loaded") is not False:
-        return Refused("something reads or loads it, or may")
-    usage = usage_changes(target.image, mending, None)
-    if isinstance(usage, Refused):
-        return usage
-    stores = _stores(target, mending)
-    if isinstance(stores, Refused):
-        return stores
-    return [*usage, *stores, *memory_changes(target.image, values.get("device.lazy_memory"))]
+def make_transient(subject: Subject, context: FixContext) -> list[Change]:
+    """TRANSIENT_ATTACHMENT in place of usages that nothing needs, no stores, and lazily allocated memory if the device may offer it."""
+    image = described_image(subject)
+    check_unread(subject)
+    return [
+        *transient_usage(image, context, None),
+        *dropped_stores(image, context, _dont_store),
+        *lazy_memory(image, subject),
+    ]
 
 
-def usage_changes(image: Image, mending: FixContext, without: Command | None) -> list[Change] | Refused:
-    """TRANSIENT_ATTACHMENT, and out with what may not stand beside it (VUID-VkImageCreateInfo-usage-00963), where no command needs that,
-    one command left out."""
-    conflicts = [flag for flag in image.usage or () if flag not in BESIDE_TRANSIENT]
-    uses = mending.usages.needed(image.key, without)
-    told = mending.frame.has_commands and mending.usages.followed
-    for flag in conflicts:
-        if flag in uses or flag not in TOLD_BY_COMMANDS or not told:
-            return Refused(f"its usage {flag} may be needed")
-    return [*(Change(image, "usage", "remove", flag) for flag in conflicts), Change(image, "usage", "add", "TRANSIENT_ATTACHMENT")]
+def check_unread(subject: Subject) -> None:
+    """Raises NoFix unless it is known that nothing reads or loads the image."""
+    if subject.facts.values.get("image.read") is not False or subject.facts.values.get("image.loaded") is not False:
+        raise NoFix("something reads or loads the image, or may do so")
 
 
-def memory_changes(image: Image, lazy_memory: object) -> list[Change]:
-    """LAZILY_ALLOCATED beside the memory flags that are stated, unless the device offers none."""
-    return [Change(image, "memory", "add", "LAZILY_ALLOCATED")] if image.memory is not None and lazy_memory is not False else []
+def is_needed(usage: str | None, name: str, context: FixContext, without: Command | None = None) -> bool:
+    """Whether a command, other than `without`, may need a usage of an image. True also for usages that commands do not reveal."""
+    complete = context.frame.has_commands and context.uses.complete
+    return not complete or usage not in COMMAND_USAGES or usage in context.uses.needed_usages(name, without)
 
 
-def _stores(target: Target, mending: FixContext) -> list[Change] | Refused:
-    """DONT_CARE where an attachment of the image is stored by mistake: a transient one has no memory to be stored to."""
-    found: list[Change] = []
-    for each, attachment in mending.attachments.get(id(target.record), ()):
-        for aspect in attachment.aspects if attachment.used else ():
-            if aspect.store != "STORE":
+def transient_usage(image: Image, context: FixContext, without: Command | None) -> list[Change]:
+    """Adds TRANSIENT_ATTACHMENT and removes the usages that exclude it (VUID-VkImageCreateInfo-usage-00963).
+
+    Raises NoFix if a command, other than `without`, may need one of those usages.
+    """
+    excluded = [usage for usage in image.usage or () if usage not in BESIDE_TRANSIENT]
+    for usage in excluded:
+        if is_needed(usage, image.key, context, without):
+            raise NoFix(f"`{image.key}` may need its usage {usage}")
+    return [*(Change(image, "usage", "remove", usage) for usage in excluded), Change(image, "usage", "add", "TRANSIENT_ATTACHMENT")]
+
+
+def lazy_memory(image: Image, subject: Subject) -> list[Change]:
+    """Adds LAZILY_ALLOCATED to the stated memory properties, unless the device offers no such memory."""
+    if image.memory is None or subject.facts.values.get("device.lazy_memory") is False:
+        return []
+    return [Change(image, "memory", "add", "LAZILY_ALLOCATED")]
+
+
+StoreChange = Callable[[Attachment, Aspect], Change | None]
+"""The change that drops the store of an aspect, or None if the aspect is not stored."""
+
+
+def dropped_stores(image: Image, context: FixContext, store_change: StoreChange) -> list[Change]:
+    """Drops all stores of an image. Raises NoFix if something may read what a pass stores."""
+    changes: list[Change] = []
+    for rendered, attachment in context.attachments.get(id(image), ()):
+        for aspect in attachment.aspects:
+            change = store_change(attachment, aspect)
+            if change is None:
                 continue
-            if mending.timeline.read_later(each, attachment, aspect) is not False:
-                return Refused(f"whether something reads what {attachment.title} stores is not known")
-            found.append(Change(attachment.record, aspect.store_member, "set", "DONT_CARE"))
-    return found
+            if context.timeline.read_later(rendered, attachment, aspect) is not False:
+                raise NoFix(f"something may read what `{rendered.name}` stores in {attachment.title}")
+            changes.append(change)
+    return changes
+
+
+def _dont_store(attachment: Attachment, aspect: Aspect) -> Change | None:
+    stored = attachment.used and aspect.store == "STORE"
+    return Change(attachment.record, aspect.store_member, "set", "DONT_CARE") if stored else None

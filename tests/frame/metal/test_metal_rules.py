@@ -170,7 +170,7 @@ def test_fixes_of_a_pass_leave_nothing_to_find(storage: str, action: str) -> Non
     """Rules about one attachment do not undo each other's fixes."""
     text = frame(f"resolveTexture: drawable, loadAction: clear, storeAction: {action}", storage=storage)
     done = fixed(text, True)
-    assert done.linted.findings == []
+    assert done.result.findings == []
     assert re.search(r"storeAction: multisampleResolve}.*storeAction: dontCare}", done.text, re.DOTALL)
 
 

@@ -86,7 +86,7 @@ def test_they_are_judged_and_fixed(seed: int, unsafe: bool) -> None:
     done = fixed(text, unsafe)
     after = lint(done.text)
     assert not kinds(after) - kinds(before)
-    assert after.findings == done.linted.findings
+    assert after.findings == done.result.findings
     assert fixed(done.text, unsafe).text == done.text
     for found in after.findings:
         assert "unknown" not in found.message.replace("storeAction unknown", ""), found

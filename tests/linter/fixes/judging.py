@@ -12,8 +12,7 @@ from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.models import Command
 from msaa_lint.frame.description.record import Record
 from msaa_lint.linter.engine import Engine, LintOptions
-from msaa_lint.linter.fixes import fixer as rounds
-from msaa_lint.linter.fixes.fixer import Fixed
+from msaa_lint.linter.fixes.fixer import FixResult, fix_text
 from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.registry import load
 from msaa_lint.linter.rules.rule_file import Rule
@@ -31,8 +30,8 @@ def lint(text: str) -> FileResult:
     return ENGINE.lint(text.encode(), str(RULES / "frame.yaml"), LintOptions(as_written))
 
 
-def fixed(text: str, unsafe: bool = False) -> Fixed:
-    return rounds.fix(lint(text), lint, unsafe)
+def fixed(text: str, unsafe: bool = False) -> FixResult:
+    return fix_text(lint(text), lint, unsafe)
 
 
 def comments_of(text: str) -> list[str]:

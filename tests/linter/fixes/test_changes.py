@@ -8,7 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from msaa_lint.linter.fixes.changes import Change, FixContext, Refused, Structural, applied, changes
+from msaa_lint.linter.fixes.changes import Change, NoFix, StructuralChange, applied
+from msaa_lint.linter.fixes.context import FixContext
+from msaa_lint.linter.fixes.planning import plan
 from msaa_lint.linter.rules.rule_file import FixSpec, Setting
 from tests.linter.fixes.judging import lint, meaning
 
@@ -37,21 +39,22 @@ LINTED = lint(TEXT)
 DOCUMENT = JUDGED.document
 
 
-def found(mend: FixSpec, kind: str, path: str) -> tuple[Change, ...] | Refused:
+def planned(spec: FixSpec, kind: str, path: str) -> Any:
+    """The changes of a fix, or why there are none."""
     from msaa_lint.frame.facts.subjects import subjects
 
     subject = next(each for each in subjects(DOCUMENT) if (each.kind, each.path) == (kind, path))
-    return changes(mend, subject, FixContext(DOCUMENT))
+    try:
+        changes = plan(spec, subject, FixContext(DOCUMENT))
+    except NoFix as error:
+        return str(error)
+    return [(change.record.path, change.member, change.action, change.value) for change in changes]
 
 
-def mend(action: str, fact: str, value: Any) -> FixSpec:
+def spec(action: str, fact: str, value: Any) -> FixSpec:
     from msaa_lint.core.text.span import Span
 
     return FixSpec("", "safe", **{action: (Setting(fact, value, Span(0, 0)),)})
-
-
-def described(made: tuple[Change, ...] | Refused) -> Any:
-    return made.reason if isinstance(made, Refused) else [(c.record.path, c.member, c.action, c.value) for c in made]
 
 
 COLOR = "renderPasses.main.attachments.color"
@@ -61,10 +64,10 @@ COLOR = "renderPasses.main.attachments.color"
     ("action", "fact", "value", "kind", "path", "expected"),
     [
         ("set", "aspect.store", "DONT_CARE", "aspect", COLOR, [(COLOR, "storeOp", "set", "DONT_CARE")]),
-        ("set", "aspect.store", "STORE", "aspect", COLOR, "it is stated like that already"),
+        ("set", "aspect.store", "STORE", "aspect", COLOR, "the description already states this"),
         ("add", "image.usage", "SAMPLED", "image", "images.ms", [("images.ms", "usage", "add", "SAMPLED")]),
-        ("remove", "image.usage", "SAMPLED", "image", "images.ms", "it is stated like that already"),
-        ("remove", "image.memory", "DEVICE_LOCAL", "image", "images.ms2", "it is stated like that already"),
+        ("remove", "image.usage", "SAMPLED", "image", "images.ms", "the description already states this"),
+        ("remove", "image.memory", "DEVICE_LOCAL", "image", "images.ms2", "the description already states this"),
         # Of images that alternate all are changed.
         (
             "add",
@@ -76,9 +79,9 @@ COLOR = "renderPasses.main.attachments.color"
         ),
         # A count is changed wherever it is stated.
         ("set", "image.samples", 2, "image", "images.ms", [("images.ms", "samples", "set", 2), (COLOR, "samples", "set", 2)]),
-        ("set", "image.samples", "{image.samples}", "image", "images.ms", "it is stated like that already"),
-        ("add", "image.usage", "{image.flags}", "image", "images.ms", "it is stated like that already"),
-        ("add", "image.usage", "{image.encoding}", "image", "images.ms", "{image.encoding} is not known"),
+        ("set", "image.samples", "{image.samples}", "image", "images.ms", "the description already states this"),
+        ("add", "image.usage", "{image.flags}", "image", "images.ms", "the description already states this"),
+        ("add", "image.usage", "{image.encoding}", "image", "images.ms", "the value of image.encoding is not known"),
         ("set", "attachment.final_layout", "GENERAL", "attachment", COLOR, [(COLOR, "finalLayout", "set", "GENERAL")]),
         (
             "set",
@@ -86,12 +89,12 @@ COLOR = "renderPasses.main.attachments.color"
             "MIN",
             "resolve",
             "renderPasses.main.subpasses[0].resolveAttachments[0]",
-            "Vulkan fixes the mode of this resolve",
+            "Vulkan prescribes the mode of this resolve",
         ),
     ],
 )
 def test_facts_are_changed_where_they_are_stated(action: str, fact: str, value: Any, kind: str, path: str, expected: Any) -> None:
-    assert described(found(mend(action, fact, value), kind, path)) == expected
+    assert planned(spec(action, fact, value), kind, path) == expected
 
 
 @given(st.lists(st.sampled_from(["set", "unset", "add", "remove"]), max_size=6), st.booleans())
@@ -116,6 +119,9 @@ def test_what_was_comes_back_exactly(actions: list[str], fails: bool) -> None:
 def test_structures_are_not_changed_in_place() -> None:
     before = meaning(LINTED)
     image = DOCUMENT.description.images["ms"]
-    with pytest.raises(Structural), applied([Change(image, "samples", "set", 8), Change(DOCUMENT.description, "commands", "drop", 0)]):
+    with (
+        pytest.raises(StructuralChange),
+        applied([Change(image, "samples", "set", 8), Change(DOCUMENT.description, "commands", "drop", 0)]),
+    ):
         pass
     assert meaning(LINTED) == before

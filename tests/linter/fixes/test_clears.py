@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import textwrap
 
-from msaa_lint.linter.fixes.changes import Refused
+from msaa_lint.linter.fixes.changes import NoFix
 from msaa_lint.linter.fixes.document_fixes import DocumentFixes
 from tests.linter.fixes.judging import fixed, lint
 
@@ -33,16 +33,22 @@ def reasons(text: str, rule: str) -> list[str]:
     """Why the fixes of a rule's findings cannot be made."""
     linted = lint(text)
     assert linted.source is not None
-    offers = DocumentFixes(linted.source, linted.documents[0])
-    made = [offers.changes(found) for found in linted.findings if found.rule == rule]
-    return [each.reason for each in made if isinstance(each, Refused)]
+    fixes = DocumentFixes(linted.documents[0])
+    found = []
+    for finding in linted.findings:
+        try:
+            if finding.rule == rule and fixes.covers(finding):
+                fixes.changes(finding)
+        except NoFix as error:
+            found.append(str(error))
+    return found
 
 
 def test_a_clear_becomes_the_load_operation_and_has_its_value() -> None:
     """VUID-VkRenderPassBeginInfo-clearValueCount-00902: values up to the last attachment that is cleared."""
     text = FRAME + BEGIN % 0 + f"  - {CLEAR % '{aspect: DEPTH}'}\n  - draw: {{vertexCount: 3}}\n  - endRenderPass\n"
     done = fixed(text, True)
-    assert [found.rule for found in done.fixed] == ["clear-command-instead-of-load-op"]
+    assert [found.rule for found in done.fixed_findings] == ["clear-command-instead-of-load-op"]
     assert "depth: {image: depth, loadOp: CLEAR, storeOp: STORE}" in done.text
     assert "color: {image: color, loadOp: LOAD, storeOp: STORE}" in done.text
     assert commands(done.text) == "commands:\n" + BEGIN % 2 + "  - draw: {vertexCount: 3}\n  - endRenderPass\n"
@@ -63,7 +69,7 @@ def test_of_a_command_for_several_attachments_the_others_stay() -> None:
 
 def test_a_pass_that_is_begun_several_times_is_left_alone() -> None:
     once = BEGIN % 2 + f"  - {CLEAR % '{aspect: COLOR, colorAttachment: 0}'}\n  - endRenderPass\n"
-    assert reasons(FRAME + once + once, "clear-command-instead-of-load-op") == ["the pass is begun several times"]
+    assert reasons(FRAME + once + once, "clear-command-instead-of-load-op") == ["the pass begins more than once"]
 
 
 def test_a_clear_in_vain_goes_and_the_load_operation_stays() -> None:

@@ -174,7 +174,7 @@ def test_what_cannot_be_fixed_says_why(folder: Path) -> None:
     shared = shared.replace("[color]", "[color, normals]").replace("[output]", "[output, null]")
     (folder / "frame.msaa.yaml").write_text(shared, encoding="utf-8")
     done = run(folder, "check", ".", "--fix")
-    reason = "frame.msaa.yaml:8: multisampled-attachment-stored is not fixed: others take over this `storeOp` by an anchor"
+    reason = "frame.msaa.yaml:8: multisampled-attachment-stored is not fixed: an anchor shares this `storeOp` with other structures"
     assert reason in done.stderr
 
 

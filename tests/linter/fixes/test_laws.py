@@ -10,7 +10,8 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from msaa_lint.core.text.edits import apply
-from msaa_lint.linter.fixes.changes import METAL, PLAIN, Change, Refused, _after, applied
+from msaa_lint.frame.description.models import MetalRecord
+from msaa_lint.linter.fixes.changes import Change, NoFix, applied
 from msaa_lint.linter.fixes.document_fixes import DocumentFixes
 from msaa_lint.linter.results import FileResult
 from tests.linter.fixes.judging import _meaning, comments_of, fixed, kinds, lint, meaning, rules
@@ -24,8 +25,8 @@ TEXTS = {str(each): each.text for each in all_examples() if each.kind == "bad"}
 TEXTS |= {path.stem: path.read_text(encoding="utf-8") for path in EXAMPLES}
 DATA = {name: data_of(text) for name, text in TEXTS.items() if "\n---\n" not in text}
 """What is no stream of several documents."""
-MENDABLE = sorted(name for name, text in TEXTS.items() if name in DATA and fixed(text, True).fixed)
-BESIDE = ("a comment stands in between", "comments or merge keys may stand in between")
+MENDABLE = sorted(name for name, text in TEXTS.items() if name in DATA and fixed(text, True).fixed_findings)
+BESIDE = ("a comment stands between the entries", "comments or merge keys may stand between the entries")
 
 
 @pytest.mark.parametrize("unsafe", [False, True])
@@ -40,18 +41,18 @@ def check(text: str, unsafe: bool) -> None:
     done = fixed(text, unsafe)
     after = lint(done.text)
     assert [found for found in after.findings if found.fatal] == []
-    assert after.findings == done.linted.findings
+    assert after.findings == done.result.findings
     gone = kinds(before) - kinds(after)
     assert not kinds(after) - kinds(before)
-    assert {found.rule for found in done.fixed} <= {rule for rule, _ in gone}
-    assert len(done.fixed) <= gone.total()
-    assert (done.text == text) == (not done.fixed)
-    refused = {(each.finding.rule, each.finding.span) for each in done.unfixed}
+    assert {found.rule for found in done.fixed_findings} <= {rule for rule, _ in gone}
+    assert len(done.fixed_findings) <= gone.total()
+    assert (done.text == text) == (not done.fixed_findings)
+    refused = {(each.finding.rule, each.finding.span) for each in done.failed_fixes}
     for found in after.findings:
         may = found.fix is not None and not found.fix.shown and (found.fix.safe or unsafe)
         assert not may or (found.rule, found.span) in refused
     again = fixed(done.text, unsafe)
-    assert (again.text, again.fixed) == (done.text, ())
+    assert (again.text, again.fixed_findings) == (done.text, ())
     assert comments_of(done.text) == comments_of(text)
 
 
@@ -64,10 +65,10 @@ def test_however_it_is_written(name: str, seed: int, unsafe: bool) -> None:
     assert not [found for found in lint(text).findings if found.fatal], text
     check(text, unsafe)
     plain, done = fixed(TEXTS[name], unsafe), fixed(text, unsafe)
-    if any(each.reason in BESIDE for each in done.unfixed):
+    if any(each.reason in BESIDE for each in done.failed_fixes):
         return
-    assert rules(done.fixed) == rules(plain.fixed), text
-    assert meaning(done.linted) == meaning(plain.linted)
+    assert rules(done.fixed_findings) == rules(plain.fixed_findings), text
+    assert meaning(done.result) == meaning(plain.result)
     if "\r\n" in text:
         assert done.text.count("\n") == done.text.count("\r\n")
     assert done.text.endswith("\n") == text.endswith("\n")
@@ -86,18 +87,21 @@ def edits_make_changes(text: str) -> int:
     assert not [found for found in linted.findings if found.fatal], text
     assert linted.source is not None
     (judged,) = linted.documents
-    offers = DocumentFixes(linted.source, judged)
+    fixes = DocumentFixes(judged)
     count = 0
     for found in linted.findings:
-        made = offers.changes(found)
-        if made is None or isinstance(made, Refused) or any(change.action not in PLAIN for change in made):
+        if not fixes.covers(found):
             continue
-        edits = offers.edits(made)
-        if isinstance(edits, Refused):
+        try:
+            made = fixes.changes(found)
+            if any(change.structural for change in made):
+                continue
+            edits = fixes.edits(made)
+        except NoFix:
             continue
         count += 1
         after = apply(text, edits)
-        if any(isinstance(change.record, METAL) for change in made):
+        if any(isinstance(change.record, MetalRecord) for change in made):
             assert stated(lint(after)) == stated_with(linted, made), after
         else:
             with applied(made):
@@ -115,7 +119,7 @@ def stated(linted: FileResult) -> object:
 def stated_with(linted: FileResult, made: Sequence[Change]) -> object:
     before = [(change.record, change.member, getattr(change.record, change.member)) for change in made]
     for change in made:
-        setattr(change.record, change.member, _after(change, getattr(change.record, change.member)))
+        setattr(change.record, change.member, change.applied_to(getattr(change.record, change.member)))
     found = stated(linted)
     for record, member, value in reversed(before):
         setattr(record, member, value)

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 
+from msaa_lint.core.text.span import Edit
 from msaa_lint.frame.facts.table import FACTS, SUBJECTS
 from msaa_lint.linter.engine import Engine, LintOptions
-from msaa_lint.linter.fixes.actions import DEEDS
-from msaa_lint.linter.fixes.fact_sources import CHANGEABLE, ONLY
+from msaa_lint.linter.fixes.actions import ACTIONS
+from msaa_lint.linter.fixes.fact_sources import FACT_SOURCES, ONLY_VALUES
 from msaa_lint.linter.fixes.fix_checks import problems
-from msaa_lint.linter.fixes.metal import CHANGEABLE as METAL_CHANGEABLE
-from msaa_lint.linter.fixes.metal import DEEDS as METAL_DEEDS
+from msaa_lint.linter.fixes.metal import METAL_ACTIONS, METAL_FACT_SOURCES
 from msaa_lint.linter.rules.registry import load
 from tests.linter.fixes.judging import fixed, lint
 from tests.marked import unmarked
@@ -49,19 +50,22 @@ def loaded(folder: Path, fix: str) -> tuple[list[tuple[str, str]], list[str]]:
     ("fix", "message"),
     [
         ("fix: {title: x, safety: safe, set: {⟦aspect.stor⟧: DONT_CARE}}", "there is no fact aspect.stor"),
-        ("fix: {title: x, safety: safe, set: {aspect.name: ⟦color⟧}}", "aspect.name cannot be changed by a fix; what can is "),
-        ("fix: {title: x, safety: safe, set: {resolve.mode: ⟦MIN⟧}}", "there is no fact resolve.mode of aspect"),
-        ("fix: {title: x, safety: safe, set: {aspect.store: ⟦DONTCARE⟧}}", "aspect.store is never 'DONTCARE'; did you mean 'DONT_CARE'?"),
+        ("fix: {title: x, safety: safe, set: {aspect.name: ⟦color⟧}}", "fixes cannot change `aspect.name`; use one of "),
+        ("fix: {title: x, safety: safe, set: {resolve.mode: ⟦MIN⟧}}", "subject `aspect` has no fact `resolve.mode`"),
+        ("fix: {title: x, safety: safe, set: {aspect.store: ⟦DONTCARE⟧}}", "`aspect.store` is never `DONTCARE`; did you mean `DONT_CARE`?"),
         ("fix: {title: x, safety: safe, set: {aspect.store: ⟦4⟧}}", "a value of aspect.store (STRING) is due here"),
         ("fix: {title: x, safety: safe, set: {⟦image.usage⟧: SAMPLED}}", "image.usage is a list: `set` is not for it"),
         ("fix: {title: x, safety: safe, add: {⟦aspect.store⟧: STORE}}", "aspect.store is no list: `add` is not for it"),
         (
             "fix: {title: x, safety: safe, add: {image.usage: [SAMPLED, ⟦SMAPLED⟧]}}",
-            "image.usage is never 'SMAPLED'; did you mean 'SAMPLED'?",
+            "`image.usage` is never `SMAPLED`; did you mean `SAMPLED`?",
         ),
-        ('fix: {title: x, safety: safe, set: {aspect.store: ⟦"{image.samples}"⟧}}', "{image.samples} is no fact of the same type"),
+        (
+            'fix: {title: x, safety: safe, set: {aspect.store: ⟦"{image.samples}"⟧}}',
+            "`{image.samples}` does not refer to a fact of type STRING",
+        ),
         ("fix: ⟦{title: x, safety: safe}⟧", "a fix states what it changes: `set`, `add`, `remove` or `do`"),
-        ("fix: ⟦{title: x, safety: safe, do: nothing}⟧", "no `do: nothing`; there are make-transient, resolve-in-pass"),
+        ("fix: ⟦{title: x, safety: safe, do: nothing}⟧", "unknown action `do: nothing`; use one of make-transient, resolve-in-pass"),
         ("cases: [{when: image.samples > 1, fix: ⟦{safety: unsafe}⟧}]", "a fix is a mapping with `title`, `safety` (safe, unsafe, shown)"),
         (
             "fix: {title: x, safety: safe, set: {aspect.store: NONE}}\ncases: [{when: image.samples > 1, fix: {safety: ⟦often⟧}}]",
@@ -101,16 +105,16 @@ cases:
 
 
 def test_the_facts_that_can_be_changed_are_facts() -> None:
-    assert set(CHANGEABLE) <= set(FACTS)
-    assert set(ONLY) <= set(CHANGEABLE)
+    assert set(FACT_SOURCES) <= set(FACTS)
+    assert set(ONLY_VALUES) <= set(FACT_SOURCES)
 
 
 def test_the_catalogue() -> None:
     rules = load().rules
     assert [each for rule in rules for each in problems(rule)] == []
-    assert {mend.do for rule in rules for mend in rule.fix_specs if mend.do} == {*DEEDS, *METAL_DEEDS}
+    assert {mend.do for rule in rules for mend in rule.fix_specs if mend.do} == {*ACTIONS, *METAL_ACTIONS}
     changed = {setting.fact for rule in rules for mend in rule.fix_specs for setting in (*mend.set, *mend.add, *mend.remove)}
-    assert changed <= {*CHANGEABLE, *METAL_CHANGEABLE}
+    assert changed <= {*FACT_SOURCES, *METAL_FACT_SOURCES}
     for rule in rules:
         assert {fact.name for fact in SUBJECTS[rule.subject]}
 
@@ -119,7 +123,7 @@ def test_the_catalogue() -> None:
 def test_a_fixed_example_is_what_the_fix_writes(rule: object) -> None:
     """The page shows a bad example and, below it, exactly what this rule's fix makes of it."""
     from msaa_lint.core.text.edits import apply
-    from msaa_lint.linter.fixes.changes import Refused
+    from msaa_lint.linter.fixes.changes import NoFix
     from msaa_lint.linter.fixes.document_fixes import DocumentFixes
 
     name = getattr(rule, "name", "")
@@ -131,10 +135,13 @@ def test_a_fixed_example_is_what_the_fix_writes(rule: object) -> None:
         text = "".join(line for line in example.text.splitlines(keepends=True) if not line.startswith("#") or "^" not in line)
         linted = lint(text)
         assert linted.source is not None
-        offers = DocumentFixes(linted.source, linted.documents[0])
-        made = [offers.changes(found) for found in linted.findings if found.rule == name]
-        edits = [offers.edits(each) for each in made if each is not None and not isinstance(each, Refused)]
-        results.append(apply(text, {edit for each in edits if not isinstance(each, Refused) for edit in each}))
+        fixes = DocumentFixes(linted.documents[0])
+        edits: set[Edit] = set()
+        for finding in linted.findings:
+            if finding.rule == name and fixes.covers(finding):
+                with suppress(NoFix):
+                    edits.update(fixes.edits(fixes.changes(finding)))
+        results.append(apply(text, edits))
     assert wanted
     assert {example.text for example in wanted} <= set(results)
 
@@ -145,22 +152,22 @@ def test_a_fixed_example_is_what_the_fix_writes(rule: object) -> None:
         (
             "backbuffer: {format: R8_UNORM",
             "backbuffer: {format: R8_SRGB",
-            "sample counts and formats do not show that a pass can resolve it",
+            "the sample counts and formats do not show that a pass can resolve the image",
         ),
         (
             "  - endRenderPass\n",
             "  - endRenderPass\n  - pipelineBarrier: {images: [ms]}\n",
-            "the images have other uses, or barriers, in between",
+            "other commands or barriers use the images between the pass and the resolve",
         ),
         (
             "  - endRenderPass\n",
             "  - endRenderPass\n  - clearColorImage: {image: backbuffer}\n",
-            "the images have other uses, or barriers, in between",
+            "other commands or barriers use the images between the pass and the resolve",
         ),
         (
             "  - endRenderPass\n",
             "  - endRenderPass\n  - beginRenderPass: {renderPass: scene}\n  - endRenderPass\n",
-            "the pass that draws it does not come once, just before it",
+            "the pass that draws the image does not run exactly once, right before the command",
         ),
     ],
 )
@@ -168,7 +175,7 @@ def test_a_resolve_stays_outside_where_there_is_a_doubt(old: str, new: str, reas
     text = RESOLVED.replace(old, new, 1)
     assert text != RESOLVED
     done = fixed(text, True)
-    assert [(each.finding.rule, each.reason) for each in done.unfixed if each.finding.code == "MSAA301"] == [
+    assert [(each.finding.rule, each.reason) for each in done.failed_fixes if each.finding.code == "MSAA301"] == [
         ("resolve-outside-pass", reason)
     ]
 
@@ -220,10 +227,10 @@ commands:
 
 
 def test_a_resolve_moves_into_a_pass_with_a_framebuffer() -> None:
-    from msaa_lint.linter.fixes import fixer as rounds
+    from msaa_lint.linter.fixes.fixer import fix_text
 
-    done = rounds.fix(lint(RESOLVED), lint, True, lambda found: found.code == "MSAA301")
-    assert [found.rule for found in done.fixed] == ["resolve-outside-pass"]
+    done = fix_text(lint(RESOLVED), lint, True, lambda found: found.code == "MSAA301")
+    assert [found.rule for found in done.fixed_findings] == ["resolve-outside-pass"]
     assert done.text == INSIDE
 
 
@@ -232,6 +239,6 @@ def test_of_samples_that_are_read_again_the_store_stays() -> None:
         "TRANSFER_SRC]", "TRANSFER_SRC, SAMPLED]"
     )
     done = fixed(text, True)
-    assert "resolve-outside-pass" in {found.rule for found in done.fixed}
+    assert "resolve-outside-pass" in {found.rule for found in done.fixed_findings}
     assert "loadOp: CLEAR, storeOp: STORE, initialLayout: UNDEFINED, finalLayout: TRANSFER_SRC_OPTIMAL}" in done.text
     assert "usage: [COLOR_ATTACHMENT, SAMPLED]" in done.text

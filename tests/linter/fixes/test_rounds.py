@@ -8,7 +8,7 @@ import pytest
 
 from msaa_lint.core.finding import Finding, Fix
 from msaa_lint.core.text.span import Edit, Span
-from msaa_lint.linter.fixes.fixer import MAX_TRIALS, _apart, _Fix, _joined
+from msaa_lint.linter.fixes.fixer import MAX_TRIALS, _Fix, _joined, _without_overlaps
 from tests.linter.fixes.judging import fixed, lint, rules
 
 STORED = """\
@@ -36,16 +36,16 @@ renderPasses:
 
 def test_one_edit_mends_two_findings() -> None:
     done = fixed(STORED)
-    assert rules(done.fixed) == ["multisampled-attachment-stored", "resolve-target-loaded", "transient-needs-memory"]
+    assert rules(done.fixed_findings) == ["multisampled-attachment-stored", "resolve-target-loaded", "transient-needs-memory"]
     assert done.text == MENDED
-    assert done.linted.findings == []
+    assert done.result.findings == []
 
 
 def test_wishes_are_respected() -> None:
-    from msaa_lint.linter.fixes import fixer as rounds
+    from msaa_lint.linter.fixes.fixer import fix_text
 
-    done = rounds.fix(lint(STORED), lint, False, lambda found: found.code == "MSAA205")
-    assert rules(done.fixed) == ["resolve-target-loaded"]
+    done = fix_text(lint(STORED), lint, False, lambda found: found.code == "MSAA205")
+    assert rules(done.fixed_findings) == ["resolve-target-loaded"]
 
 
 def test_a_suppressed_finding_stays() -> None:
@@ -53,7 +53,7 @@ def test_a_suppressed_finding_stays() -> None:
         "storeOp: STORE}\n      output", "storeOp: STORE}  # msaa-lint: ignore[MSAA201, MSAA403] a viewer reads it\n      output"
     )
     done = fixed(text)
-    assert rules(done.fixed) == ["resolve-target-loaded"]
+    assert rules(done.fixed_findings) == ["resolve-target-loaded"]
     assert done.text == text.replace("loadOp: LOAD", "loadOp: DONT_CARE")
 
 
@@ -63,7 +63,7 @@ def test_a_suppression_that_a_fix_makes_unused_goes() -> None:
         "storeOp: STORE}\n      output", "storeOp: STORE}  # msaa-lint: ignore[transient-needs-memory] once\n      output"
     )
     done = fixed(text)
-    assert rules(done.fixed) == ["multisampled-attachment-stored", "resolve-target-loaded", "unused-suppression"]
+    assert rules(done.fixed_findings) == ["multisampled-attachment-stored", "resolve-target-loaded", "unused-suppression"]
     assert done.text == MENDED
 
 
@@ -79,7 +79,7 @@ renderPasses:
         dstSubpass: 0
 """
     done = fixed(text)
-    assert rules(done.fixed) == ["reused-attachment-unsynchronised"]
+    assert rules(done.fixed_findings) == ["reused-attachment-unsynchronised"]
     added = "        srcStageMask: [COLOR_ATTACHMENT_OUTPUT]\n        srcAccessMask: [COLOR_ATTACHMENT_WRITE]\n"
     assert done.text == text + added
 
@@ -94,25 +94,25 @@ pipelines:
   glass: {renderPass: main, multisampleState: {rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 4}}
 """
     done = fixed(text, True)
-    assert (done.text, done.fixed) == (text, ())
-    (unfixed,) = done.unfixed
-    assert unfixed.finding.code == "MSAA510"
-    assert unfixed.reason.startswith("it would bring sample-shading-everywhere: `glass` runs")
+    assert (done.text, done.fixed_findings) == (text, ())
+    (failed,) = done.failed_fixes
+    assert failed.finding.code == "MSAA510"
+    assert failed.reason.startswith("it would introduce sample-shading-everywhere: `glass` runs")
 
 
 def test_one_that_fails_does_not_keep_the_others() -> None:
     bad = "    g{0}: {{renderPass: main, multisampleState: {{rasterizationSamples: 4, sampleShadingEnable: {1}, minSampleShading: 4}}}}\n"
     text = PASS + "pipelines:\n" + "".join(bad.format(n, "true" if n == 5 else "false") for n in range(9))
     done = fixed(text, True)
-    assert len(done.fixed) == 8
-    assert [each.finding.subject for each in done.unfixed] == ["pipelines.g5"]
+    assert len(done.fixed_findings) == 8
+    assert [each.finding.subject for each in done.failed_fixes] == ["pipelines.g5"]
     assert done.text.count("minSampleShading: 1.0") == 8
 
 
 def test_documents_of_a_stream() -> None:
     text = f"{STORED}---\n# two\n{STORED}...\n"
     done = fixed(text)
-    assert len(done.fixed) == 6
+    assert len(done.fixed_findings) == 6
     assert done.text == f"{MENDED}---\n# two\n{MENDED}...\n"
 
 
@@ -123,7 +123,7 @@ def test_what_cannot_be_read_is_not_touched(text: str) -> None:
 
 def test_a_broken_document_does_not_keep_the_others() -> None:
     done = fixed(f"{STORED}---\nimages: {{a: {{smaples: 4}}}}\n")
-    assert len(done.fixed) == 3
+    assert len(done.fixed_findings) == 3
 
 
 def test_thousands_of_fixes_take_no_quadratic_time() -> None:
@@ -133,7 +133,7 @@ def test_thousands_of_fixes_take_no_quadratic_time() -> None:
     text += f"    subpasses:\n      - {{colorAttachments: [{references}], resolveAttachments: [{', '.join(['out'] * 1000)}]}}\n"
     start = time.monotonic()
     done = fixed(text, True)
-    assert len(done.fixed) == 1000
+    assert len(done.fixed_findings) == 1000
     assert time.monotonic() - start < 30
 
 
@@ -142,9 +142,9 @@ def test_thousands_of_fixes_that_fail_are_given_up() -> None:
     text = PASS + "pipelines:\n" + "".join(each.format(n) for n in range(200))
     start = time.monotonic()
     done = fixed(text, True)
-    assert done.fixed == ()
-    assert len(done.unfixed) == 200
-    assert done.unfixed[-1].reason == "too many fixes of this input cannot be made"
+    assert done.fixed_findings == ()
+    assert len(done.failed_fixes) == 200
+    assert done.failed_fixes[-1].reason == "too many fixes of this input failed"
     assert time.monotonic() - start < 30
     assert MAX_TRIALS == 60
 
@@ -177,12 +177,12 @@ def test_fixes_with_an_edit_in_common_are_one() -> None:
 )
 def test_overlaps(taken: tuple[int, int, str], other: tuple[int, int, str], apart: bool) -> None:
     for one, two in ((taken, other), (other, taken)):
-        assert len(_apart([made(one), made(two)])) == (2 if apart else 1)
+        assert len(_without_overlaps([made(one), made(two)])) == (2 if apart else 1)
 
 
 def test_what_a_refused_fix_stood_in_the_way_of_is_made() -> None:
     from msaa_lint.core.text.source import Source
-    from msaa_lint.linter.fixes import fixer as rounds
+    from msaa_lint.linter.fixes.fixer import fix_text
     from msaa_lint.linter.results import FileResult
 
     def finding(code: str, severity: str, fix: Fix | None = None) -> Finding:
@@ -198,7 +198,7 @@ def test_what_a_refused_fix_stood_in_the_way_of_is_made() -> None:
             found.append(finding("MSAA3", "warning"))
         return FileResult("f", Source("f", text), found, [], [])
 
-    done = rounds.fix(judged("ab"), judged, False, lambda _: True)
+    done = fix_text(judged("ab"), judged, False, lambda _: True)
     assert done.text == "aB"
-    assert rules(done.fixed) == ["msaa2"]
-    assert [(each.finding.code, each.reason) for each in done.unfixed] == [("MSAA1", "it would bring msaa3: ")]
+    assert rules(done.fixed_findings) == ["msaa2"]
+    assert [(each.finding.code, each.reason) for each in done.failed_fixes] == [("MSAA1", "it would introduce msaa3: ")]

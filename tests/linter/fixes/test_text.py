@@ -8,12 +8,12 @@ import pytest
 
 from msaa_lint.core.text.edits import apply
 from msaa_lint.core.text.source import Source
-from msaa_lint.core.text.span import Edit
 from msaa_lint.core.text.tree import Limits, parse
-from msaa_lint.linter.fixes.changes import Change, FixContext, Refused
-from msaa_lint.linter.fixes.layout import Collection
-from msaa_lint.linter.fixes.text_edits import Writing
-from msaa_lint.linter.fixes.text_places import Text
+from msaa_lint.linter.fixes.changes import Change, NoFix
+from msaa_lint.linter.fixes.context import FixContext
+from msaa_lint.linter.fixes.layout import CollectionEditor
+from msaa_lint.linter.fixes.text_edits import TextEditor
+from msaa_lint.linter.fixes.text_scanner import TextScanner
 from tests.linter.fixes.judging import fixed, lint, rules
 from tests.paths import ROOT
 
@@ -24,8 +24,10 @@ def changed(text: str, *changes: tuple[str, str, str, object]) -> str:
     """A text with changes made: the path of a record, a member, an action, a value; or the reason why not."""
     (judged,) = lint(text).documents
     made = [Change(_record(judged.document.description, path), member, action, value) for path, member, action, value in changes]
-    edits = Writing(Source("", text), judged.document).edits(made)
-    return f"refused: {edits.reason}" if isinstance(edits, Refused) else apply(text, edits)
+    try:
+        return apply(text, TextEditor(judged.document).edits(made))
+    except NoFix as error:
+        return f"refused: {error}"
 
 
 def _record(record: object, path: str) -> object:
@@ -56,7 +58,7 @@ UNSET = ("images.a", "tiling", "unset", None)
         ("images: {a: {tiling: IMAGE_TILING_LINEAR}}", SET, "images: {a: {tiling: IMAGE_TILING_OPTIMAL}}"),
         ("images:\n  a:\n    tiling:   &t !!str LINEAR   # why\n", SET, "images:\n  a:\n    tiling:   &t !!str OPTIMAL   # why\n"),
         ("images:\n  a:\n    tiling:\n      LINEAR\n", SET, "images:\n  a:\n    tiling:\n      OPTIMAL\n"),
-        ("images:\n  a:\n    tiling: |-\n      LINEAR\n", SET, "refused: it is a text of several lines"),
+        ("images:\n  a:\n    tiling: |-\n      LINEAR\n", SET, "refused: the value is a block scalar"),
         ("images: {a: {samples: SAMPLE_COUNT_8}}", ("images.a", "samples", "set", 4), "images: {a: {samples: SAMPLE_COUNT_4}}"),
         ('images: {a: {samples: "8"}}', ("images.a", "samples", "set", 4), 'images: {a: {samples: "4"}}'),
         (
@@ -131,11 +133,11 @@ UNSET = ("images.a", "tiling", "unset", None)
         ("images:\n  a:\n    usage: # u\n      - SAMPLED\n", REMOVE, "images:\n  a:\n    usage: [] # u\n"),
         ("images: {a: {usage: [\n  STORAGE,\n  SAMPLED\n]}}", REMOVE, "images: {a: {usage: [\n  STORAGE\n]}}"),
         ("images: {a: {usage: [\n  STORAGE,\n  SAMPLED, # s\n]}}", REMOVE, "images: {a: {usage: [\n  STORAGE,\n  # s\n]}}"),
-        ("images: {a: {usage: [STORAGE, # s\n  SAMPLED]}}", REMOVE, "refused: a comment stands in between"),
+        ("images: {a: {usage: [STORAGE, # s\n  SAMPLED]}}", REMOVE, "refused: a comment stands between the entries"),
         # A member that goes.
         ("images: {a: {format: R8_UNORM, tiling: LINEAR}}", UNSET, "images: {a: {format: R8_UNORM}}"),
         ("images:\n  a:\n    tiling: LINEAR # t\n    format: R8_UNORM\n", UNSET, "images:\n  a:\n    # t\n    format: R8_UNORM\n"),
-        ("images: {a: {tiling: LINEAR}}", UNSET, "refused: nothing would be left of it"),
+        ("images: {a: {tiling: LINEAR}}", UNSET, "refused: no entry would remain"),
     ],
 )
 def test_edits(before: str, change: tuple[str, str, str, object], after: str) -> None:
@@ -151,7 +153,7 @@ def test_several_flags_go_at_once() -> None:
     gone = [("images.a", "usage", "remove", name) for name in ("SAMPLED", "STORAGE")]
     assert changed("images: {a: {usage: [TRANSFER_SRC, SAMPLED,  STORAGE]}}", *gone) == "images: {a: {usage: [TRANSFER_SRC]}}"
     assert changed("images: {a: {usage: [SAMPLED,  TRANSFER_SRC, STORAGE]}}", *gone) == "images: {a: {usage: [TRANSFER_SRC]}}"
-    assert changed("images: {a: {usage: [SAMPLED, STORAGE]}}", *gone) == "refused: nothing would be left of it"
+    assert changed("images: {a: {usage: [SAMPLED, STORAGE]}}", *gone) == "refused: no entry would remain"
 
 
 def test_several_members_come_at_once() -> None:
@@ -162,7 +164,7 @@ def test_several_members_come_at_once() -> None:
 
 A = "renderPasses.p.attachments.a"
 STORE = (A, "storeOp", "set", "DONT_CARE")
-SHARED = "others take over this mapping by an anchor"
+SHARED = "an anchor shares this structure with others"
 
 
 @pytest.mark.parametrize(
@@ -170,7 +172,7 @@ SHARED = "others take over this mapping by an anchor"
     [
         # An alias makes way for the value; what it named stays.
         ("b: {storeOp: &s STORE}, a: {storeOp: *s}", STORE, "b: {storeOp: &s STORE}, a: {storeOp: DONT_CARE}"),
-        ("a: {storeOp: &s STORE}, b: {storeOp: *s}", STORE, "refused: others take over the value of this `storeOp` by an anchor"),
+        ("a: {storeOp: &s STORE}, b: {storeOp: *s}", STORE, "refused: an anchor shares the value of this `storeOp` with other members"),
         # Of a mapping that is merged, the member is stated beside the merge.
         ("b: &b {storeOp: STORE}, a: {<<: *b}", STORE, "b: &b {storeOp: STORE}, a: {storeOp: DONT_CARE, <<: *b}"),
         (
@@ -178,7 +180,7 @@ SHARED = "others take over this mapping by an anchor"
             STORE,
             "b: &b {storeOp: STORE}, a: {<<: *b, loadOp: CLEAR, storeOp: DONT_CARE}",
         ),
-        ("a: &b {storeOp: STORE}, b: {<<: *b}", STORE, "refused: others take over this `storeOp` by an anchor"),
+        ("a: &b {storeOp: STORE}, b: {<<: *b}", STORE, "refused: an anchor shares this `storeOp` with other structures"),
         # Of a mapping that is an alias as a whole, a merge takes its place.
         ("b: &b {storeOp: STORE}, a: *b", STORE, "b: &b {storeOp: STORE}, a: {<<: *b, storeOp: DONT_CARE}"),
         ("b: &b {storeOp: STORE}, a: *b", (A, "samples", "set", 4), "b: &b {storeOp: STORE}, a: {<<: *b, samples: 4}"),
@@ -195,7 +197,7 @@ def test_a_shared_text_is_edited_where_all_want_the_same() -> None:
     before = "renderPasses: {p: {attachments: {a: &b {storeOp: STORE}, b: *b, c: {<<: *b}}}}"
     wanted = [(f"renderPasses.p.attachments.{name}", "storeOp", "set", "DONT_CARE") for name in "abc"]
     assert changed(before, *wanted) == before.replace("STORE", "DONT_CARE")
-    assert changed(before, *wanted[:2]) == "refused: others take over this `storeOp` by an anchor"
+    assert changed(before, *wanted[:2]) == "refused: an anchor shares this `storeOp` with other structures"
     values = "renderPasses: {p: {attachments: {a: {storeOp: &s STORE}, b: {storeOp: *s}}}}"
     assert changed(values, *wanted[:2]) == values.replace("STORE", "DONT_CARE")
 
@@ -230,7 +232,7 @@ commands:
 
 def test_a_finding_that_stands_for_two_is_mended_for_both() -> None:
     done = fixed(ALIASED)
-    assert rules(done.fixed) == ["multisampled-attachment-stored"]
+    assert rules(done.fixed_findings) == ["multisampled-attachment-stored"]
     assert done.text == ALIASED.replace("CLEAR, storeOp: STORE", "CLEAR, storeOp: DONT_CARE")
 
 
@@ -238,7 +240,7 @@ def test_a_store_that_one_of_two_needs_stays() -> None:
     """In the frame as it is told, pass two loads what pass one stored; its own store nobody reads."""
     read = ALIASED.replace("  two: {attachments: *two,", "  two: {attachments: {color: {<<: *color, loadOp: LOAD}, output: {image: out}},")
     done = fixed(read)
-    assert rules(done.fixed) == ["multisampled-attachment-stored"]
+    assert rules(done.fixed_findings) == ["multisampled-attachment-stored"]
     assert done.text == read.replace("{<<: *color, loadOp: LOAD}", "{<<: *color, loadOp: LOAD, storeOp: DONT_CARE}")
 
 
@@ -246,7 +248,7 @@ def test_vulkan_sc_json() -> None:
     text = (DATA / "vulkan_sc_renderpass2.json").read_text(encoding="utf-8")
     assert fixed(text).text == text
     done = fixed(text, True)
-    assert rules(done.fixed) == ["depth-averaged", "load-from-undefined"]
+    assert rules(done.fixed_findings) == ["depth-averaged", "load-from-undefined"]
     lines = zip(text.splitlines(keepends=True), done.text.splitlines(keepends=True), strict=True)
     assert [(one.strip(), other.strip()) for one, other in lines if one != other] == [
         ('"stencilLoadOp" : "VK_ATTACHMENT_LOAD_OP_LOAD",', '"stencilLoadOp" : "VK_ATTACHMENT_LOAD_OP_DONT_CARE",'),
@@ -257,7 +259,7 @@ def test_vulkan_sc_json() -> None:
 def test_a_dumped_pointer_that_goes_is_null() -> None:
     text = (DATA / "vulkan_sc_renderpass.json").read_text(encoding="utf-8")
     done = fixed(text, True)
-    assert rules(done.fixed) == ["multisampled-attachment-stored", "sample-mask-drops-samples", "sample-shading-ineffective"]
+    assert rules(done.fixed_findings) == ["multisampled-attachment-stored", "sample-mask-drops-samples", "sample-shading-ineffective"]
     assert '"sampleShadingEnable" : "VK_FALSE",' in done.text
     assert "0x7" not in done.text
     assert done.text.count('"NULL"') == text.count('"NULL"') + 1
@@ -271,8 +273,7 @@ def test_a_dumped_enumerant_may_be_a_number(written: str, after: str) -> None:
     text = json.dumps({"GraphicsPipelineState": {"Renderpass": {"pAttachments": [{"storeOp": "X", "samples": 4}]}}}).replace('"X"', written)
     (judged,) = lint(text).documents
     record = judged.document.description.renderPasses["Renderpass"].attachments[0]
-    edits = Writing(Source("", text), judged.document).edits([Change(record, "storeOp", "set", "DONT_CARE")])
-    assert not isinstance(edits, Refused)
+    edits = TextEditor(judged.document).edits([Change(record, "storeOp", "set", "DONT_CARE")])
     assert apply(text, edits) == text.replace(written, after, 1)
 
 
@@ -294,19 +295,18 @@ def test_dumped_flags(mask: str, after: str) -> None:
     (root,) = parse(Source("", text), Limits()).documents
     description = Binder(dumped=True).record(Description, root, "", "", Span(0, 0))
     document = Document(Source("", text), description, (), whole=False)
-    edits = Writing(document.source, document).edits([Change(description.images["a"], "usage", "add", "TRANSIENT_ATTACHMENT")])
-    assert not isinstance(edits, Refused)
+    edits = TextEditor(document).edits([Change(description.images["a"], "usage", "add", "TRANSIENT_ATTACHMENT")])
     assert apply(text, edits) == text.replace(mask, after, 1)
 
 
 def test_of_several_items_with_comments_none_goes() -> None:
     text = "[a, # 1\n b, c]"
     (root,) = parse(Source("", text), Limits()).documents
-    assert isinstance(Collection(Text(Source("", text), [root]), root).remove([1, 2]), Refused)
+    with pytest.raises(NoFix):
+        CollectionEditor(TextScanner(Source("", text), [root]), root).remove([1, 2])
     clean = "[a,   b, c , d]"
     (root,) = parse(Source("", clean), Limits()).documents
-    edits = Collection(Text(Source("", clean), [root]), root).remove([1, 2])
-    assert isinstance(edits, list) and all(isinstance(edit, Edit) for edit in edits)
+    edits = CollectionEditor(TextScanner(Source("", clean), [root]), root).remove([1, 2])
     assert apply(clean, edits) == "[a , d]"
 
 
@@ -337,7 +337,7 @@ metal:
   commands: [{{renderPass: main}}, {{present: drawable}}]
 """
     done = fixed(before.replace("\n", line), unsafe=True)
-    assert [found.rule for found in done.fixed] == ["metal-usage-blocks-memoryless"]
+    assert [found.rule for found in done.fixed_findings] == ["metal-usage-blocks-memoryless"]
     moved = before.replace("      - shaderRead\n", "").replace("- renderTarget\n", "- renderTarget\n      storageMode: memoryless\n")
     assert done.text.replace(line, "\n").replace("# to be read", "").split() == moved.replace("# to be read", "").split()
     assert done.text.count("# to be read") == bool(comment)

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from msaa_lint.core.finding import Finding
 from msaa_lint.frame.facts.events import MAX_STEPS
-from msaa_lint.linter.fixes import fixer as rounds
+from msaa_lint.linter.fixes.fixer import fix_text
 from msaa_lint.linter.results import FileResult
 from tests.linter.lifetimes import watched as given_frames
 from tests.linter.lifetimes.watched import given_text, lint
@@ -42,9 +42,9 @@ def undecided(linted: FileResult) -> set[tuple[str, str]]:
 
 def fixed(text: str, code: str) -> str:
     """The text with the fixes of one rule made, the unsafe ones too; no finding of the rule is left."""
-    done = rounds.fix(lint(text), lambda other: lint(other), True, lambda found: found.code == code)
-    assert [found.code for found in done.fixed] == [code]
-    assert code not in {found.code for found in done.linted.findings}
+    done = fix_text(lint(text), lambda other: lint(other), True, lambda found: found.code == code)
+    assert [found.code for found in done.fixed_findings] == [code]
+    assert code not in {found.code for found in done.result.findings}
     return done.text
 
 

@@ -1,0 +1,122 @@
+"""What the fixes of one document look up in its frame."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from msaa_lint.core.text.span import Span
+from msaa_lint.frame.description.document import Document, Lowered
+from msaa_lint.frame.description.models import ClearAttachments, Framebuffer, Metal, PipelineBarrier, SubpassDependency
+from msaa_lint.frame.facts.frame import Attachment, Frame, Pass, Resolve
+from msaa_lint.frame.facts.image import Bindings
+from msaa_lint.frame.facts.resolve import Writers, writers_of
+from msaa_lint.frame.facts.resolve_uses import Results
+from msaa_lint.frame.facts.timeline import Timeline
+
+from .changes import Change
+from .image_references import CommandUses, ImageReferences, MetalTextureReferences
+
+Wait = SubpassDependency | PipelineBarrier
+
+
+class FixContext:
+    """The frame of a document and indexes of it, each built when a fix first needs it."""
+
+    def __init__(self, document: Document) -> None:
+        self.document = document
+
+    @cached_property
+    def frame(self) -> Frame:
+        return Frame(self.document)
+
+    @cached_property
+    def bindings(self) -> Bindings:
+        return Bindings(self.frame)
+
+    @cached_property
+    def timeline(self) -> Timeline:
+        return Timeline(self.frame)
+
+    @cached_property
+    def writers(self) -> Writers:
+        return writers_of(self.frame)
+
+    @cached_property
+    def results(self) -> Results:
+        return Results(self.frame, self.timeline)
+
+    @cached_property
+    def uses(self) -> CommandUses:
+        return CommandUses(self.frame)
+
+    @cached_property
+    def references(self) -> ImageReferences:
+        return ImageReferences(self.frame)
+
+    @property
+    def metal(self) -> Metal:
+        """The section that describes the frame, for a frame in Metal's terms."""
+        metal = self.document.description.metal
+        assert metal is not None
+        return metal
+
+    @property
+    def lowered(self) -> Lowered:
+        """Where the Vulkan records come from, for a frame in Metal's terms."""
+        assert self.document.metal is not None
+        return self.document.metal
+
+    @cached_property
+    def texture_references(self) -> MetalTextureReferences:
+        return MetalTextureReferences(self.metal)
+
+    @cached_property
+    def commands_at(self) -> dict[Span, list[tuple[int, int | None]]]:
+        """The commands by the places that facts point to: each one's position and, for an entry of vkCmdClearAttachments, the entry."""
+        commands: dict[Span, list[tuple[int, int | None]]] = {}
+        for position, command in enumerate(self.frame.commands):
+            commands.setdefault(command.head, []).append((position, None))
+            if isinstance(command.body, ClearAttachments):
+                for entry, cleared in enumerate(command.body.attachments):
+                    commands.setdefault(cleared.place("aspect"), []).append((position, entry))
+        return commands
+
+    @cached_property
+    def waits(self) -> dict[Span, list[Wait]]:
+        """The subpass dependencies and barriers by the place of their source stages."""
+        waits: list[Wait] = [wait for record in self.document.description.renderPasses.values() for wait in record.dependencies]
+        waits += (command.body for command in self.frame.commands if isinstance(command.body, PipelineBarrier))
+        by_place: dict[Span, list[Wait]] = {}
+        for wait in waits:
+            if wait.states("srcStageMask"):
+                by_place.setdefault(wait.place("srcStageMask"), []).append(wait)
+        return by_place
+
+    @cached_property
+    def resolves(self) -> dict[tuple[int, str], Resolve]:
+        """The resolves within passes, by the identity of their record and their aspect."""
+        subpasses = [subpass for rendered in self.frame.passes for subpass in rendered.subpasses]
+        return {(id(resolve.record), resolve.aspect): resolve for subpass in subpasses for resolve in subpass.resolves}
+
+    @cached_property
+    def framebuffers(self) -> dict[str, list[Framebuffer]]:
+        """The framebuffers by render pass."""
+        framebuffers: dict[str, list[Framebuffer]] = {}
+        for framebuffer in self.document.description.framebuffers.values():
+            framebuffers.setdefault(framebuffer.renderPass or "", []).append(framebuffer)
+        return framebuffers
+
+    @cached_property
+    def attachments(self) -> dict[int, list[tuple[Pass, Attachment]]]:
+        """The attachments that an image is bound to, with their passes, by the identity of the image's record."""
+        attachments: dict[int, list[tuple[Pass, Attachment]]] = {}
+        for rendered in self.frame.passes:
+            for attachment in rendered.attachments:
+                for record in {id(target.record) for target in attachment.targets}:
+                    attachments.setdefault(record, []).append((rendered, attachment))
+        return attachments
+
+    def drop_command(self, position: int) -> Change:
+        """Removes the command at a position of the frame."""
+        # Rules only run on documents without errors, so the frame has all commands of the description.
+        return Change(self.document.description, "commands", "drop", position)

@@ -1,0 +1,177 @@
+"""`do: resolve-in-pass` and `do: resolve-before-read`: the pass that draws the samples resolves them.
+
+The first replaces a vkCmdResolveImage. The second replaces a shader that averages the samples it reads: the shader reads an image with one
+sample instead and has to be rewritten for it, so that this fix is only shown and priced. Both refuse a frame that leaves a doubt: other
+uses in between, barriers, several framebuffers, unknown sizes or formats.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from typing import Any, NamedTuple
+
+from msaa_lint.frame.description.models import AttachmentDescription, Command, Image, ReadImage, RenderPass, Subpass
+from msaa_lint.frame.facts.facts import Subject
+from msaa_lint.frame.facts.frame import RENDERING, Attachment, Pass, Target
+from msaa_lint.frame.facts.pass_begin import targets_at
+from msaa_lint.frame.facts.timeline import READ
+
+from .changes import Change, NoFix
+from .context import FixContext
+from .resolve_targets import new_attachment, next_use, rendering_resolve, target_usage, unused_name
+from .subject_parts import read_of, resolve_of
+from .transient import lazy_memory, transient_usage
+
+MAX_ATTACHMENTS = 64
+"""Per pass. No device supports more."""
+
+_MULTISAMPLED_SUFFIXES = ("_multisampled", "_msaa", "_ms", "MSAA", "Ms", "MS")
+_FINAL_LAYOUTS = {"present": "PRESENT_SRC_KHR", "readImage": "SHADER_READ_ONLY_OPTIMAL"}
+
+
+class DrawnSamples(NamedTuple):
+    """A command that reads the samples of an image, and the pass before it that drew them."""
+
+    command: Command
+    position: int
+    rendered: Pass
+    attachment: Attachment
+    image: Image
+    begin: int
+
+
+def resolve_in_pass(subject: Subject, context: FixContext) -> list[Change]:
+    """Moves the resolve of a vkCmdResolveImage into the pass."""
+    resolve = resolve_of(subject)
+    position = context.uses.positions.get(id(resolve.record))
+    if resolve.aspect != "color":
+        raise NoFix("the mode of a depth resolve has to be chosen")
+    if position is None:
+        raise NoFix("the frame has more commands than are analyzed")
+    images = (resolve.source_image, resolve.target_image)
+    source, target = (context.frame.target(image.name) if image is not None else None for image in images)
+    if source is None or source.image is None or target is None or target.image is None:
+        raise NoFix("the description does not declare both images of the resolve")
+    if (source.samples or 0) < 2 or target.samples != 1 or source.format is None or source.format != target.format:
+        raise NoFix("the sample counts and formats do not show that a pass can resolve the image")
+    drawn = _drawn_samples(source, position, context)
+    if context.uses.used_between(target.name, drawn.begin, position) or not context.uses.in_barriers.isdisjoint((source.name, target.name)):
+        raise NoFix("other commands or barriers use the images between the pass and the resolve")
+    mode = "SAMPLE_ZERO" if source.format.numeric in ("UINT", "SINT") else "AVERAGE"
+    final_layout = _FINAL_LAYOUTS.get(next_use(target.image, position, context))
+    changes = _color_resolve(drawn, target.name, mode, final_layout, context)
+    if _has_other_readers(drawn, context):
+        if source.image.usage is not None and "TRANSFER_SRC" not in context.uses.needed_usages(source.name, drawn.command):
+            changes.append(Change(source.image, "usage", "remove", "TRANSFER_SRC"))
+    else:
+        changes += _without_reader(drawn, "TRANSFER_SRC_OPTIMAL", subject, context)
+    return [*changes, *target_usage(target.image, drawn.command, context), context.drop_command(position)]
+
+
+def resolve_before_read(subject: Subject, context: FixContext) -> list[Change]:
+    """Resolves in the pass to a new image, which the shader then reads."""
+    position, name = read_of(subject)
+    source = context.frame.target(name)
+    if source is None or source.image is None:
+        raise NoFix("the description does not declare the image")
+    if (source.samples or 0) < 2 or source.format is None or "color" not in source.format.aspects:
+        raise NoFix("the sample count and format do not show how a pass can resolve the image")
+    drawn = _drawn_samples(source, position, context)
+    images = context.document.description.images
+    short = next((source.name.removesuffix(suffix) for suffix in _MULTISAMPLED_SUFFIXES if source.name.endswith(suffix)), "")
+    name = short if short and short not in images else unused_name(f"{source.name}_resolved", images)
+    data: dict[str, Any] = {"format": source.format.name, "samples": 1}
+    if source.image.usage is not None:
+        data["usage"] = ["COLOR_ATTACHMENT", "SAMPLED"]
+    if source.image.extent is not None:
+        sides = {side: getattr(source.image.extent, side) for side in ("width", "height")}
+        data["extent"] = {side: length for side, length in sides.items() if length is not None}
+    changes = [Change(context.document.description, "images", "entry", (name, data))]
+    changes += _color_resolve(drawn, name, "AVERAGE", "SHADER_READ_ONLY_OPTIMAL", context)
+    if not _has_other_readers(drawn, context):
+        changes += _without_reader(drawn, "SHADER_READ_ONLY_OPTIMAL", subject, context)
+    body = drawn.command.body
+    assert isinstance(body, ReadImage)
+    changes.append(Change(body, "image", "set", name))
+    if body.states("samples"):
+        changes.append(Change(body, "samples", "set", 1))
+    if body.states("resolves"):
+        changes.append(Change(body, "resolves", "unset"))
+    return changes
+
+
+def _drawn_samples(source: Target, position: int, context: FixContext) -> DrawnSamples:
+    """The last pass before a position that draws to an image, as a plain color attachment."""
+    frame = context.frame
+    writers = context.writers.get(source.name, [])
+    last = bisect_left(writers, position, key=lambda writer: writer[0]) - 1
+    begin, rendered = writers[last] if last >= 0 else (0, None)
+    if rendered is None or len(rendered.begun) != 1 or rendered.custom_resolve or _suspends(rendered):
+        raise NoFix("the pass that draws the image does not run exactly once, right before the command")
+    if len(rendered.attachments) > MAX_ATTACHMENTS:
+        raise NoFix(f"the pass has more than {MAX_ATTACHMENTS} attachments")
+    attachments = [
+        attachment
+        for attachment in rendered.attachments
+        if any(target.record is source.record for target in targets_at(frame, attachment, begin))
+    ]
+    if len(attachments) != 1 or attachments[0].target is None or not attachments[0].color or attachments[0].input:
+        raise NoFix("the image is not bound to exactly one color attachment of the pass, or is also an input attachment")
+    assert source.image is not None
+    return DrawnSamples(frame.commands[position], position, rendered, attachments[0], source.image, begin)
+
+
+def _suspends(rendered: Pass) -> bool:
+    return rendered.kind == RENDERING and not {"SUSPENDING", "RESUMING"}.isdisjoint(getattr(rendered.record, "flags", ()))
+
+
+def _color_resolve(drawn: DrawnSamples, name: str, mode: str, final_layout: str | None, context: FixContext) -> list[Change]:
+    """Resolves a color attachment to the image `name` at the end of its pass.
+
+    In a render pass that takes a new attachment, and a reference to it at the index of the color attachment in its last subpass.
+    """
+    attachment, record = drawn.attachment, drawn.rendered.record
+    if drawn.rendered.kind == RENDERING:
+        return rendering_resolve(attachment.record, mode, name, "COLOR_ATTACHMENT_OPTIMAL")
+    subpass = drawn.rendered.subpasses[max(attachment.color)]
+    if not isinstance(record, RenderPass) or not isinstance(subpass.record, Subpass) or subpass.color.count(attachment) != 1:
+        raise NoFix("the subpass uses the attachment for more than one color output")
+    changes, reference = new_attachment(record, name, _attachment_data(drawn, name, final_layout), context)
+    index, resolves = subpass.color.index(attachment), subpass.record.resolveAttachments
+    if index < len(resolves):
+        if resolves[index].attachment is not None or resolves[index].node.kind != "scalar":
+            raise NoFix("the pass already resolves the attachment to another image")
+        return [*changes, Change(subpass.record, "resolveAttachments", "replace", (index, reference))]
+    references = [*(None for _ in range(len(resolves), index)), reference]
+    return [*changes, *(Change(subpass.record, "resolveAttachments", "append", each) for each in references)]
+
+
+def _attachment_data(drawn: DrawnSamples, name: str, final_layout: str | None) -> dict[str, Any]:
+    """The members of the new attachment: its image, or its format and samples if a framebuffer binds the image."""
+    record = drawn.attachment.record
+    assert isinstance(record, AttachmentDescription) and drawn.attachment.format is not None
+    named = record.image is not None
+    data: dict[str, Any] = {"image": name} if named else {"format": drawn.attachment.format.name, "samples": 1}
+    data |= {"loadOp": "DONT_CARE", "storeOp": "STORE"}
+    if record.states("initialLayout"):
+        data["initialLayout"] = "UNDEFINED"
+    if record.states("finalLayout") and final_layout is not None:
+        data["finalLayout"] = final_layout
+    return data
+
+
+def _has_other_readers(drawn: DrawnSamples, context: FixContext) -> bool:
+    """Whether something besides the command reads the samples, or may."""
+    uses = context.timeline.uses.get(drawn.image.key, [])
+    return not context.timeline.followed or any(use.kind == READ and use.position != drawn.position for use in uses)
+
+
+def _without_reader(drawn: DrawnSamples, read_layout: str, subject: Subject, context: FixContext) -> list[Change]:
+    """Without the command that reads them, the samples are not stored and take no memory."""
+    record = drawn.attachment.record
+    changes = [Change(record, "storeOp", "set", "DONT_CARE")] if record.storeOp == "STORE" else []
+    if getattr(record, "finalLayout", None) == read_layout:
+        changes.append(Change(record, "finalLayout", "set", "COLOR_ATTACHMENT_OPTIMAL"))
+    if drawn.image.usage is None:
+        return changes
+    return [*changes, *transient_usage(drawn.image, context, drawn.command), *lazy_memory(drawn.image, subject)]

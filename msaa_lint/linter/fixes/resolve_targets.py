@@ -1,0 +1,65 @@
+"""What fixes share that resolve within a pass: the attachment and the usage that the result needs."""
+
+from __future__ import annotations
+
+from collections.abc import Container
+from typing import Any
+
+from msaa_lint.frame.description.models import Command, Image, RenderingAttachment, RenderPass
+from msaa_lint.frame.description.record import Record
+
+from .changes import Change, NoFix
+from .context import FixContext
+
+
+def unused_name(name: str, taken: Container[str]) -> str:
+    """The name itself if it is free, else the name with the first number that makes it so."""
+    number, candidate = 1, name
+    while candidate in taken:
+        number += 1
+        candidate = f"{name}_{number}"
+    return candidate
+
+
+def rendering_resolve(record: Record, mode: str, image: str, layout: str | None = None) -> list[Change]:
+    """Resolves an attachment of a dynamic rendering to an image, which has the layout if the attachment states one."""
+    if not isinstance(record, RenderingAttachment) or record.resolveImage is not None:
+        raise NoFix("the pass already resolves the attachment to another image")
+    changes = [Change(record, "resolveMode", "set", mode), Change(record, "resolveImage", "set", image)]
+    if layout is not None and record.states("imageLayout"):
+        changes.append(Change(record, "resolveImageLayout", "set", layout))
+    return changes
+
+
+def new_attachment(record: RenderPass, image: str, data: dict[str, Any], context: FixContext) -> tuple[list[Change], int | str]:
+    """Adds an attachment for an image to a render pass and to its framebuffer.
+
+    `data` are the members of the attachment. Also returns what subpasses refer to the attachment by: its index, or its name if the
+    attachments are named.
+    """
+    is_list = record.spelled["attachments"][1].kind == "sequence"
+    key = unused_name(image, {attachment.key for attachment in record.attachments})
+    changes = [Change(record, "attachments", "entry", (key, data))]
+    framebuffers = context.framebuffers.get(record.key, [])
+    if framebuffers:
+        if len(framebuffers) > 1 or not framebuffers[0].states("attachments") or "IMAGELESS" in framebuffers[0].flags:
+            raise NoFix("the pass has several framebuffers, or one that names no images")
+        changes.append(Change(framebuffers[0], "attachments", "append", image))
+    return changes, len(record.attachments) if is_list else key
+
+
+def target_usage(image: Image, command: Command, context: FixContext) -> list[Change]:
+    """The usage of an image that a pass resolves to in place of a command that wrote it."""
+    if image.usage is None:
+        return []
+    unneeded = "TRANSFER_DST" not in context.uses.needed_usages(image.key, command)
+    removed = [Change(image, "usage", "remove", "TRANSFER_DST")] if unneeded else []
+    return [*removed, Change(image, "usage", "add", "COLOR_ATTACHMENT")]
+
+
+def next_use(image: Image, position: int, context: FixContext) -> str:
+    """The kind of the first command after a position that uses an image: `present` for an unused presentable image, else empty."""
+    following = context.uses.next_use(image.key, position)
+    if following is None:
+        return "present" if image.presentable else ""
+    return context.frame.commands[following].kind
