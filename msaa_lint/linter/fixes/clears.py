@@ -47,7 +47,7 @@ def _command(subject: Subject, fact: str, context: FixContext) -> tuple[int, int
     place = subject.facts.places.get(fact)
     commands = context.commands_at.get(place, []) if place is not None else []
     if len(commands) != 1:
-        raise NoFix("several commands share the place in the text that states this one")
+        raise NoFix("an alias repeats the command")
     return commands[0]
 
 

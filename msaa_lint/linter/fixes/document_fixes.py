@@ -81,7 +81,7 @@ class DocumentFixes:
 
     def _word_edit(self, changes: Sequence[Change]) -> WordEdit:
         if self._shorthand is None:
-            raise NoFix("the text states this in other terms")
+            raise NoFix("the change cannot be written in the source text")
         return self._shorthand.edit(changes)
 
     @cached_property

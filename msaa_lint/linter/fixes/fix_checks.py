@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
+from msaa_lint.core.suggestions import question
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.facts.table import FACTS, SUBJECTS, WORDS
 from msaa_lint.frame.vulkan.names import nearest_name
@@ -50,5 +51,4 @@ def _value_problems(setting: Setting, known: set[str]) -> Iterator[tuple[Span, s
 
         words = WORDS[fact.enum] if fact.enum in WORDS else tuple(VALUES.get(fact.enum, ()))
         if value not in words:
-            close = nearest_name(value, words)
-            yield setting.at, f"`{fact.name}` is never `{value[:80]}`" + (f"; did you mean `{close}`?" if close else "")
+            yield setting.at, f"`{fact.name}` is never `{value[:80]}`{question(nearest_name(value, words))}"

@@ -18,16 +18,17 @@ _FACT_REFERENCE = re.compile(r"\{([a-z_.0-9]+)\}")
 def plan(spec: FixSpec, subject: Subject, context: FixContext) -> tuple[Change, ...]:
     """The changes that a fix makes for a subject. Raises NoFix if it cannot be made or changes nothing."""
     actions, sources = _tables(context)
+    api = "Vulkan" if context.document.metal is None else "Metal"
     changes: list[Change] = []
     if spec.do:
         if spec.do not in actions:
-            raise NoFix("the fix is for frames in the terms of another API")
+            raise NoFix(f"the fix does not apply to {api} descriptions")
         changes += actions[spec.do](subject, context)
     for action, settings in (("set", spec.set), ("add", spec.add), ("remove", spec.remove)):
         for setting in settings:
             values = _values(setting, subject)
             if setting.fact not in sources:
-                raise NoFix("the fix is for frames in the terms of another API")
+                raise NoFix(f"the fix does not apply to {api} descriptions")
             member_action = "unset" if action == "set" and setting.fact in SET_BY_UNSET else action
             for record, member in sources[setting.fact](subject, context):
                 changes += (Change(record, member, member_action, value) for value in values)

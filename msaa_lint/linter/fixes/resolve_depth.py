@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from msaa_lint.frame.description.models import AttachmentDescription, Image, ReadImage, RenderPass, Subpass
+from msaa_lint.frame.description.models import Image, ReadImage, RenderPass, Subpass
 from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.frame import Aspect, Attachment, Pass
 from msaa_lint.frame.facts.image import BESIDE_TRANSIENT
 
 from .changes import Change, NoFix
 from .context import FixContext
-from .resolve_targets import new_attachment, rendering_resolve, unused_name
+from .resolve_targets import new_attachment, new_image, rendering_resolve, unused_name
 from .subject_parts import aspect_of
 from .transient import lazy_memory
 
@@ -34,7 +32,7 @@ def resolve_depth(subject: Subject, context: FixContext) -> list[Change]:
     if name is None:
         images = context.document.description.images
         name = unused_name(f"{source.key}_resolved", images)
-        changes.append(Change(context.document.description, "images", "entry", (name, _image_data(source, attachment.format.name))))
+        changes.append(new_image(name, source, attachment.format.name, ["DEPTH_STENCIL_ATTACHMENT", "SAMPLED"], context))
         changes += _depth_resolve(name, rendered, own, context)
     changes.append(Change(attachment.record, aspect.store_member, "set", "DONT_CARE"))
     for reader in context.references.records(source.key):
@@ -54,14 +52,6 @@ def _existing_result(rendered: Pass, attachment: Attachment, aspect: Aspect) -> 
     return None
 
 
-def _image_data(source: Image, format_name: str) -> dict[str, Any]:
-    data: dict[str, Any] = {"format": format_name, "samples": 1, "usage": ["DEPTH_STENCIL_ATTACHMENT", "SAMPLED"]}
-    if source.extent is not None:
-        sides = {side: getattr(source.extent, side) for side in ("width", "height", "depth")}
-        data["extent"] = {side: length for side, length in sides.items() if length is not None}
-    return data
-
-
 def _depth_resolve(name: str, rendered: Pass, attachment: Attachment, context: FixContext) -> list[Change]:
     """Resolves depth to an image that the pass does not use yet."""
     render_pass, record = rendered.record, attachment.record
@@ -70,12 +60,7 @@ def _depth_resolve(name: str, rendered: Pass, attachment: Attachment, context: F
     subpass = rendered.subpasses[max(attachment.depth_stencil)].record
     if not isinstance(subpass, Subpass) or subpass.depthStencilResolve is not None:
         raise NoFix("the pass already resolves the attachment to another image")
-    data: dict[str, Any] = {"image": name, "loadOp": "DONT_CARE", "storeOp": "STORE"}
-    if isinstance(record, AttachmentDescription) and record.states("initialLayout"):
-        data["initialLayout"] = "UNDEFINED"
-    if isinstance(record, AttachmentDescription) and record.states("finalLayout"):
-        data["finalLayout"] = "DEPTH_STENCIL_READ_ONLY_OPTIMAL"
-    changes, reference = new_attachment(render_pass, name, data, context)
+    changes, reference = new_attachment(render_pass, name, attachment, "DEPTH_STENCIL_READ_ONLY_OPTIMAL", context)
     resolve = {"attachment": reference, "depthResolveMode": _MODE, "stencilResolveMode": "NONE"}
     return [*changes, Change(subpass, "depthStencilResolve", "set", resolve)]
 

@@ -8,9 +8,9 @@ uses in between, barriers, several framebuffers, unknown sizes or formats.
 from __future__ import annotations
 
 from bisect import bisect_left
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from msaa_lint.frame.description.models import AttachmentDescription, Command, Image, ReadImage, RenderPass, Subpass
+from msaa_lint.frame.description.models import Command, Image, ReadImage, RenderPass, Subpass
 from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.frame import RENDERING, Attachment, Pass, Target
 from msaa_lint.frame.facts.pass_begin import targets_at
@@ -18,7 +18,7 @@ from msaa_lint.frame.facts.timeline import READ
 
 from .changes import Change, NoFix
 from .context import FixContext
-from .resolve_targets import new_attachment, next_use, rendering_resolve, target_usage, unused_name
+from .resolve_targets import new_attachment, new_image, next_use, rendering_resolve, target_usage, unused_name
 from .subject_parts import read_of, resolve_of
 from .transient import lazy_memory, transient_usage
 
@@ -80,13 +80,8 @@ def resolve_before_read(subject: Subject, context: FixContext) -> list[Change]:
     images = context.document.description.images
     short = next((source.name.removesuffix(suffix) for suffix in _MULTISAMPLED_SUFFIXES if source.name.endswith(suffix)), "")
     name = short if short and short not in images else unused_name(f"{source.name}_resolved", images)
-    data: dict[str, Any] = {"format": source.format.name, "samples": 1}
-    if source.image.usage is not None:
-        data["usage"] = ["COLOR_ATTACHMENT", "SAMPLED"]
-    if source.image.extent is not None:
-        sides = {side: getattr(source.image.extent, side) for side in ("width", "height")}
-        data["extent"] = {side: length for side, length in sides.items() if length is not None}
-    changes = [Change(context.document.description, "images", "entry", (name, data))]
+    usage = ["COLOR_ATTACHMENT", "SAMPLED"] if source.image.usage is not None else None
+    changes = [new_image(name, source.image, source.format.name, usage, context)]
     changes += _color_resolve(drawn, name, "AVERAGE", "SHADER_READ_ONLY_OPTIMAL", context)
     if not _has_other_readers(drawn, context):
         changes += _without_reader(drawn, "SHADER_READ_ONLY_OPTIMAL", subject, context)
@@ -136,7 +131,7 @@ def _color_resolve(drawn: DrawnSamples, name: str, mode: str, final_layout: str 
     subpass = drawn.rendered.subpasses[max(attachment.color)]
     if not isinstance(record, RenderPass) or not isinstance(subpass.record, Subpass) or subpass.color.count(attachment) != 1:
         raise NoFix("the subpass uses the attachment for more than one color output")
-    changes, reference = new_attachment(record, name, _attachment_data(drawn, name, final_layout), context)
+    changes, reference = new_attachment(record, name, attachment, final_layout, context)
     index, resolves = subpass.color.index(attachment), subpass.record.resolveAttachments
     if index < len(resolves):
         if resolves[index].attachment is not None or resolves[index].node.kind != "scalar":
@@ -144,20 +139,6 @@ def _color_resolve(drawn: DrawnSamples, name: str, mode: str, final_layout: str 
         return [*changes, Change(subpass.record, "resolveAttachments", "replace", (index, reference))]
     references = [*(None for _ in range(len(resolves), index)), reference]
     return [*changes, *(Change(subpass.record, "resolveAttachments", "append", each) for each in references)]
-
-
-def _attachment_data(drawn: DrawnSamples, name: str, final_layout: str | None) -> dict[str, Any]:
-    """The members of the new attachment: its image, or its format and samples if a framebuffer binds the image."""
-    record = drawn.attachment.record
-    assert isinstance(record, AttachmentDescription) and drawn.attachment.format is not None
-    named = record.image is not None
-    data: dict[str, Any] = {"image": name} if named else {"format": drawn.attachment.format.name, "samples": 1}
-    data |= {"loadOp": "DONT_CARE", "storeOp": "STORE"}
-    if record.states("initialLayout"):
-        data["initialLayout"] = "UNDEFINED"
-    if record.states("finalLayout") and final_layout is not None:
-        data["finalLayout"] = final_layout
-    return data
 
 
 def _has_other_readers(drawn: DrawnSamples, context: FixContext) -> bool:

@@ -1,12 +1,13 @@
-"""What fixes share that resolve within a pass: the attachment and the usage that the result needs."""
+"""What fixes that resolve within a pass share: the image and the attachment that they resolve to."""
 
 from __future__ import annotations
 
 from collections.abc import Container
 from typing import Any
 
-from msaa_lint.frame.description.models import Command, Image, RenderingAttachment, RenderPass
+from msaa_lint.frame.description.models import AttachmentDescription, Command, Image, RenderingAttachment, RenderPass
 from msaa_lint.frame.description.record import Record
+from msaa_lint.frame.facts.frame import Attachment
 
 from .changes import Change, NoFix
 from .context import FixContext
@@ -31,12 +32,33 @@ def rendering_resolve(record: Record, mode: str, image: str, layout: str | None 
     return changes
 
 
-def new_attachment(record: RenderPass, image: str, data: dict[str, Any], context: FixContext) -> tuple[list[Change], int | str]:
-    """Adds an attachment for an image to a render pass and to its framebuffer.
+def new_image(name: str, source: Image, format: str, usage: list[str] | None, context: FixContext) -> Change:
+    """Declares an image with one sample and the extent of another."""
+    data: dict[str, Any] = {"format": format, "samples": 1}
+    if usage is not None:
+        data["usage"] = usage
+    if source.extent is not None:
+        sides = {side: getattr(source.extent, side) for side in ("width", "height", "depth")}
+        data["extent"] = {side: length for side, length in sides.items() if length is not None}
+    return Change(context.document.description, "images", "entry", (name, data))
 
-    `data` are the members of the attachment. Also returns what subpasses refer to the attachment by: its index, or its name if the
-    attachments are named.
+
+def new_attachment(
+    record: RenderPass, image: str, source: Attachment, final_layout: str | None, context: FixContext
+) -> tuple[list[Change], int | str]:
+    """Adds an attachment, the target of a resolve of another one, to a render pass and to its framebuffer.
+
+    It states what the other one states: its image or, if a framebuffer binds that, its format and samples; and its layouts. Also returns
+    what subpasses refer to it by: its index, or its name if the attachments are named.
     """
+    stated = source.record
+    assert isinstance(stated, AttachmentDescription) and source.format is not None
+    data: dict[str, Any] = {"image": image} if stated.image is not None else {"format": source.format.name, "samples": 1}
+    data |= {"loadOp": "DONT_CARE", "storeOp": "STORE"}
+    if stated.states("initialLayout"):
+        data["initialLayout"] = "UNDEFINED"
+    if stated.states("finalLayout") and final_layout is not None:
+        data["finalLayout"] = final_layout
     is_list = record.spelled["attachments"][1].kind == "sequence"
     key = unused_name(image, {attachment.key for attachment in record.attachments})
     changes = [Change(record, "attachments", "entry", (key, data))]

@@ -72,7 +72,7 @@ class Shorthand:
         """
         after = self._values_after(changes)
         if not after or len(after) < len({(id(change.record), change.member) for change in changes}):
-            raise NoFix("a render target has no word for this")
+            raise NoFix("render targets cannot express the change")
         allowed = next((values for values in self._requested if after.items() <= values.items()), after)
         spans = {change.record.spelled[change.member][1].span for change in changes if change.record.states(change.member)}
         for span in sorted(spans)[:MAX_WORDS]:
@@ -83,7 +83,7 @@ class Shorthand:
                 changed = self._changed(word, alternative)
                 if changed is not None and after.items() <= changed.items() <= allowed.items():
                     return WordEdit(Edit(span, alternative), f"{word.keys[-1]}: {alternative}")
-        raise NoFix("no other word of the render target changes this alone")
+        raise NoFix("no other word of the render target makes only this change")
 
     def _values_after(self, changes: Iterable[Change]) -> Values:
         """The values of members after the changes that concern a single member."""

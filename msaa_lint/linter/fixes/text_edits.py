@@ -91,7 +91,7 @@ class TextEditor:
         """The edits for the changes of one member, or the member's new value if it has to be inserted."""
         record, member, action, value = group[-1]
         if self.document.metal is not None and not isinstance(record, MetalRecord):
-            raise NoFix("the fix is for frames in Vulkan's terms")
+            raise NoFix("the fix does not apply to Metal descriptions")
         if any(change.structural for change in group):
             return self._entry_edits(group)
         if not record.states(member):

@@ -129,7 +129,7 @@ VULKANS = [
 @pytest.mark.parametrize(("kind", "path", "mend"), VULKANS)
 def test_vulkans_words_are_never_written(kind: str, path: str, mend: FixSpec) -> None:
     refused = mended(ARTICLE, subject(ARTICLE, kind, path), mend)
-    assert refused.startswith("refused: ") and "terms" in refused
+    assert "does not apply" in refused
 
 
 def test_what_it_was_made_into_is_never_written() -> None:
@@ -139,7 +139,7 @@ def test_what_it_was_made_into_is_never_written() -> None:
         (read.description.renderPasses["forward"].attachments[0], "storeOp", "DONT_CARE"),
         (read.description, "commands", 0),
     ):
-        with pytest.raises(NoFix, match="terms"):
+        with pytest.raises(NoFix, match="does not apply"):
             TextEditor(read).edits([Change(record, member, "drop" if member == "commands" else "set", value)])
 
 
@@ -147,7 +147,7 @@ def test_metals_words_are_never_written_into_vulkans() -> None:
     text = "images: {a: {format: R8_UNORM, samples: 4}}"
     for mend in (FixSpec("", "safe", set=setting("image.storage_mode", "memoryless")), FixSpec("", "safe", do="make-memoryless")):
         refused = mended(text, subject(text, "image", "a"), mend)
-        assert refused.startswith("refused: ") and "terms" in refused
+        assert "does not apply" in refused
 
 
 def test_records_of_metal_are_read_anew() -> None:
