@@ -1,4 +1,4 @@
-"""`msaa-lint baseline`: writes down what is found today."""
+"""`msaa-lint baseline`: records the current findings."""
 
 from __future__ import annotations
 
@@ -7,39 +7,42 @@ import sys
 from collections.abc import Sequence
 
 from msaa_lint.linter.run import Request, run
-from msaa_lint.linter.suppress import baseline as counts
+from msaa_lint.linter.suppress import baseline as baselines
 
+from .common import warn
 from .report.escape import visible
 from .report.summary import plural
 
 
 def baseline(paths: Sequence[str], file: str, prune: bool, config: str | None, isolated: bool) -> int:
-    """Writes the baseline of today's findings, or takes away from it what is no longer found; 2 where that cannot be."""
-    outcome = run(Request(paths, {}, config, isolated, without_baseline=True))
-    for found in outcome.result.findings:
-        if found.fatal:
-            print(f"msaa-lint: {visible(found.file)}: {visible(found.message)}", file=sys.stderr)
-    if any(found.fatal for found in outcome.result.findings):
-        print("msaa-lint: mend these first: what cannot be read cannot be counted", file=sys.stderr)
+    """Writes the baseline of the current findings, or with `prune` removes fixed findings from it; returns 2 if it cannot."""
+    result = run(Request(paths, {}, config, isolated, without_baseline=True)).result
+    fatal = [finding for finding in result.findings if finding.fatal]
+    for finding in fatal:
+        warn(f"{finding.file}: {finding.message}")
+    if fatal:
+        warn("no baseline is written: fix these errors first")
         return 2
-    made: counts.Baseline
+    before = 0
     if prune:
-        loaded = counts.load(file)
-        if isinstance(loaded, counts.Refused):
-            print(f"msaa-lint: {visible(loaded.findings[0].message)}", file=sys.stderr)
+        loaded = baselines.load(file)
+        if isinstance(loaded, baselines.Refused):
+            warn(loaded.findings[0].message)
             return 2
-        made = counts.prune(loaded, outcome.result.findings, outcome.result.files)
-        before = sum(sum(rules.values()) for rules in loaded.entries.values())
+        new = baselines.prune(loaded, result.findings, result.files)
+        before = _count(loaded)
     else:
-        made = counts.build(outcome.result.findings, os.path.dirname(os.path.abspath(file)))
-        before = 0
+        new = baselines.build(result.findings, os.path.dirname(os.path.abspath(file)))
     try:
-        counts.save(made, file)
+        baselines.save(new, file)
     except OSError as error:
-        print(f"msaa-lint: {visible(file)} cannot be written: {error.strerror}", file=sys.stderr)
+        warn(f"cannot write {file}: {error.strerror}")
         return 2
-    after = sum(sum(rules.values()) for rules in made.entries.values())
-    counted = f"{plural(after, 'finding')} in {plural(len(made.entries), 'file')}"
-    said = f"{before - after} of {before} taken away" if prune else counted
-    print(f"{visible(file)}: {said}. Use it: msaa-lint check --baseline {visible(file)} …", file=sys.stderr)
+    after = _count(new)
+    change = f"removed {before - after} of {before}" if prune else f"{plural(after, 'finding')} in {plural(len(new.entries), 'file')}"
+    print(f"{visible(file)}: {change}. To use it: msaa-lint check --baseline {visible(file)} ...", file=sys.stderr)
     return 0
+
+
+def _count(baseline: baselines.Baseline) -> int:
+    return sum(sum(rules.values()) for rules in baseline.entries.values())

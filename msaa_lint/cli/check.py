@@ -4,114 +4,122 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from functools import partial
 from typing import IO, Any
 
 from msaa_lint.core.finding import is_confident, rank
-from msaa_lint.core.package import VERSION
 from msaa_lint.input.discovery import STDIN
 from msaa_lint.linter.run import Outcome, Request, run
 from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
 
-from .common import Target, colored, ended, outputs, settings, utf_8
+from .common import (
+    Target,
+    input_options,
+    overrides,
+    parse_outputs,
+    report_options,
+    run_command,
+    set_utf_8,
+    use_color,
+    warn,
+    write_output,
+)
+from .options import Arguments
 
 EXAMPLE = "sarif=findings.sarif"
 LIMITS = {"max_depth": "depth", "max_nodes": "nodes", "max_bytes": "bytes"}
 
-ERRORS = "<standard error>"
-"""In place of an output's file: the standard error stream."""
+STDERR = "<standard error>"
+"""The `path` of a target that is the standard error stream."""
+
+_ROOTS = {"github": "GITHUB_WORKSPACE", "sarif": "GITHUB_WORKSPACE", "gitlab": "CI_PROJECT_DIR"}
+"""The environment variables that hold the folder which an output's paths are relative to."""
 
 
-def check(given: Mapping[str, Any]) -> int:
-    """Lints what the arguments name and prints it; the exit code."""
-    return ended(_check, given)
+def check(arguments: Arguments) -> int:
+    """Lints what the arguments name and prints the result; returns the exit code."""
+    return run_command(_check, arguments)
 
 
-def _check(given: Mapping[str, Any]) -> int:
-    targets = outputs(given.get("output", ()), OUTPUT_FORMATS, EXAMPLE)
+def _check(arguments: Arguments) -> int:
+    targets = parse_outputs(arguments.get("output", ()), OUTPUT_FORMATS, EXAMPLE)
     fallback = "full" if sys.stdout.isatty() else "concise"
-    outcome = run(request(given, targets, fallback), _progress())
+    outcome = run(request(arguments, targets, fallback), _progress())
     if not targets:
-        targets = outputs(outcome.settings.output, OUTPUT_FORMATS, EXAMPLE) or [Target(fallback, None)]
-    from .report.escape import visible
-
+        targets = parse_outputs(outcome.settings.output, OUTPUT_FORMATS, EXAMPLE) or [Target(fallback, None)]
     for note in outcome.notes:
-        print(f"msaa-lint: {visible(note)}", file=sys.stderr)
-    if given.get("fix") or given.get("diff"):
-        code = _fixed(targets, outcome, given)
-        if code is not None:
-            return code
-    for target in targets:
-        if not _print(target, outcome, given):
-            return 2
-    code = exit_code(outcome, bool(given.get("exit_zero")))
-    for file in _dear(outcome) if code == 1 else ():
-        print(f"msaa-lint: the findings of {visible(file)} cost {outcome.settings.fail_on_cost} together, or more", file=sys.stderr)
+        warn(note)
+    if arguments.get("diff"):
+        return _print_diff(targets, outcome, arguments)
+    if arguments.get("fix"):
+        targets = _print_fixes(targets, outcome, arguments)
+    _print_reports(targets, outcome, arguments)
+    code = exit_code(outcome, bool(arguments.get("exit_zero")))
+    for file in _over_budget(outcome) if code == 1 else ():
+        warn(f"{file}: its findings together cost at least {outcome.settings.fail_on_cost}")
     return code
 
 
-def _fixed(targets: list[Target], outcome: Outcome, given: Mapping[str, Any]) -> int | None:
-    """Prints what fixes did, or would do; the exit code where that is all. What goes to standard output then has it for itself."""
-    from .fixing import print_diff, print_text, remarks
-    from .report.escape import visible
+def _print_diff(targets: Sequence[Target], outcome: Outcome, arguments: Arguments) -> int:
+    """Prints what fixes would change, and the reports that go to files; returns the exit code."""
+    from .fix_report import fix_summary, print_diff
 
-    written = not given.get("diff")
-    if not written or STDIN in given["paths"]:
-        others = [target for target in targets if target.path is not None]
-        if written:
-            print_text(outcome, given.get("stdin_filename") or "<stdin>")
-            others += [target._replace(path=ERRORS) for target in targets if target.path is None]
-        targets[:] = others
-    changed = not written and print_diff(outcome, colored(given.get("color", "auto"), sys.stdout.isatty()))
-    for line in remarks(outcome, written, bool(given.get("unsafe_fixes"))):
-        print(f"msaa-lint: {visible(line)}", file=sys.stderr)
-    if written:
-        return None
-    for target in targets:
-        if not _print(target, outcome, given):
-            return 2
-    if any(found.fatal for found in outcome.result.findings):
+    changed = print_diff(outcome, use_color(arguments.get("color", "auto"), sys.stdout.isatty()))
+    for line in fix_summary(outcome, False, bool(arguments.get("unsafe_fixes"))):
+        warn(line)
+    _print_reports([target for target in targets if target.path is not None], outcome, arguments)
+    if any(finding.fatal for finding in outcome.result.findings):
         return 2
-    return int(changed and not given.get("exit_zero"))
+    return int(changed and not arguments.get("exit_zero"))
 
 
-def request(given: Mapping[str, Any], targets: Sequence[Target] = (), fallback: str = "concise") -> Request:
-    """What the arguments ask of a run. `fallback` is the output where neither they nor a configuration name one."""
-    overrides = settings(given)
-    limits = {limit: given[name] for name, limit in LIMITS.items() if name in given}
+def _print_fixes(targets: Sequence[Target], outcome: Outcome, arguments: Arguments) -> list[Target]:
+    """Prints what fixes did. The fixed text of standard input goes to standard output, and what would go there to standard error: returns
+    the targets that are left to print."""
+    from .fix_report import fix_summary, print_text
+
+    stdin = STDIN in arguments["paths"]
+    if stdin:
+        print_text(outcome, arguments.get("stdin_filename") or "<stdin>")
+    for line in fix_summary(outcome, True, bool(arguments.get("unsafe_fixes"))):
+        warn(line)
+    return [target._replace(path=STDERR) if stdin and target.path is None else target for target in targets]
+
+
+def request(arguments: Arguments, targets: Sequence[Target] = (), fallback: str = "concise") -> Request:
+    """The request that arguments make. `fallback` is the output format if neither they nor a configuration names one."""
+    settings = overrides(arguments)
+    limits = {limit: arguments[name] for name, limit in LIMITS.items() if name in arguments}
     if limits:
-        overrides["limits"] = limits
+        settings["limits"] = limits
     return Request(
-        paths=given["paths"],
-        overrides=overrides,
-        config=given.get("config"),
-        isolated=bool(given.get("isolated")),
-        ignores=not given.get("no_ignores"),
-        format=given.get("input_format"),
-        stdin_filename=given.get("stdin_filename"),
+        **input_options(arguments),
+        overrides=settings,
+        ignores=not arguments.get("no_ignores"),
         full_rules=any(target.format == "sarif" for target in targets),
-        formats=[*(target.format for target in targets), *(["statistics"] if given.get("statistics") else [])],
+        formats=[*(target.format for target in targets), *(["statistics"] if arguments.get("statistics") else [])],
         fallback=fallback,
-        by_price=given.get("sort") == "price",
-        fix="show" if given.get("diff") else "write" if given.get("fix") else None,
-        unsafe_fixes=bool(given.get("unsafe_fixes")),
+        by_price=arguments.get("sort") == "price",
+        fix="show" if arguments.get("diff") else "write" if arguments.get("fix") else None,
+        unsafe_fixes=bool(arguments.get("unsafe_fixes")),
     )
 
 
 def exit_code(outcome: Outcome, exit_zero: bool = False) -> int:
-    """2 where an input or the configuration could not be used, 1 where a finding is as severe as `fail-on`, or findings as dear as
-    `fail-on-cost`, of those with the confidence `fail-confidence`, else 0."""
-    if any(found.fatal for found in outcome.result.findings):
+    """2 if an input or the configuration cannot be used; 1 if a finding reaches `fail-on`, or an input's findings reach `fail-on-cost`,
+    counting only findings that reach `fail-confidence`; else 0."""
+    if any(finding.fatal for finding in outcome.result.findings):
         return 2
     if exit_zero:
         return 0
-    least, confidence = rank(outcome.settings.fail_on), outcome.settings.fail_confidence
-    failing = any(rank(found.severity) >= least and is_confident(found, confidence) for found in outcome.result.findings)
-    return int(failing or bool(_dear(outcome)))
+    severity, confidence = rank(outcome.settings.fail_on), outcome.settings.fail_confidence
+    failing = any(rank(finding.severity) >= severity and is_confident(finding, confidence) for finding in outcome.result.findings)
+    return int(failing or bool(_over_budget(outcome)))
 
 
-def _dear(outcome: Outcome) -> list[str]:
-    """The inputs whose findings cost together what `fail-on-cost` allows, or more."""
+def _over_budget(outcome: Outcome) -> list[str]:
+    """The inputs whose findings together reach `fail-on-cost`."""
     if outcome.settings.fail_on_cost is None:
         return []
     from msaa_lint.linter.settings.cost_limit import budget, reached
@@ -120,69 +128,47 @@ def _dear(outcome: Outcome) -> list[str]:
     return [file for file, price in outcome.charged.items() if reached(price, limit)]
 
 
-def _print(target: Target, outcome: Outcome, given: Mapping[str, Any]) -> bool:
+def _print_reports(targets: Sequence[Target], outcome: Outcome, arguments: Arguments) -> None:
+    for target in targets:
+        render = partial(_render, target.format, outcome, arguments)
+        if target.path == STDERR:
+            set_utf_8(sys.stderr)
+            render(sys.stderr)
+        else:
+            write_output(target.path, render)
+
+
+def _render(format: str, outcome: Outcome, arguments: Arguments, out: IO[str]) -> None:
     from .report import render
 
-    if target.path not in (None, ERRORS):
-        try:
-            with open(target.path, "w", encoding="utf-8", newline="\n") as file:
-                render(target.format, outcome.result, file.write, _options(target, outcome, given, file))
-        except OSError as error:
-            print(f"msaa-lint: {target.path} cannot be written: {error.strerror}", file=sys.stderr)
-            return False
-        return True
-    out = sys.stdout if target.path is None else sys.stderr
-    utf_8(out)
-    options = _options(target, outcome, given, out)
-    if given.get("statistics") and target.format in ("full", "concise"):
-        from .report.statistics import render as count
-
-        count(outcome.result, out.write, options)
-    else:
-        render(target.format, outcome.result, out.write, options)
-    out.flush()
-    return True
-
-
-def _options(target: Target, outcome: Outcome, given: Mapping[str, Any], out: IO[str]) -> Any:
-    from .report import Options
-
-    terminal = out.isatty()
-    width = 0
-    if terminal:
-        import shutil
-
-        width = shutil.get_terminal_size().columns
-    edition = outcome.settings.edition
-    return Options(
-        color=target.format in ("full", "concise") and colored(given.get("color", "auto"), terminal),
-        width=width or 140,
-        root=os.environ.get("GITHUB_WORKSPACE", "") if target.format in ("github", "sarif") else _gitlab_root(target.format),
-        version=VERSION,
-        edition=edition or "",
-        show_suppressed=bool(given.get("show_suppressed")),
-        statistics=bool(given.get("statistics")),
+    text = format in ("full", "concise")
+    options = report_options(arguments, out, color=text)._replace(
+        root=os.environ.get(_ROOTS.get(format, ""), ""),
+        edition=outcome.settings.edition or "",
+        show_suppressed=bool(arguments.get("show_suppressed")),
         fail_confidence=outcome.settings.fail_confidence,
     )
+    if arguments.get("statistics") and text and out in (sys.stdout, sys.stderr):
+        from .report import statistics
+
+        statistics.render(outcome.result, out.write, options)
+    else:
+        render(format, outcome.result, out.write, options._replace(statistics=bool(arguments.get("statistics"))))
 
 
-def _gitlab_root(format: str) -> str:
-    return os.environ.get("CI_PROJECT_DIR", "") if format == "gitlab" else ""
-
-
-MANY = 200
-"""Inputs from which a progress bar is worth the 40 ms that importing rich takes."""
+PROGRESS_INPUTS = 200
+"""The number of inputs from which a progress bar is worth the 40 ms that importing rich takes."""
 
 
 def _progress() -> Any:
-    """A progress bar on a terminal's standard error stream, once there are many inputs."""
+    """A callback that draws a progress bar if standard error is a terminal and there are many inputs; None if it is not."""
     if not sys.stderr.isatty():
         return None
     bar: Any = None
 
     def advance(done: int, total: int, name: str) -> None:
         nonlocal bar
-        if total < MANY:
+        if total < PROGRESS_INPUTS:
             return
         if bar is None:
             from rich.console import Console

@@ -1,110 +1,116 @@
-"""What commands share: how they end, outputs, sizes, colour, the settings that arguments state. It imports nothing of what commands do."""
-
-from __future__ import annotations
+"""What the commands share: parsing option values, writing outputs, and ending with the right exit code."""
 
 import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from typing import IO, Any, NamedTuple
+from typing import IO, Any, NamedTuple, TypeVar
+
+from msaa_lint.core.package import VERSION
+
+from .options import Arguments
+from .report import Options
+from .report.escape import visible
 
 BROKEN_PIPE = 2
-"""The exit code where whoever reads the output has gone."""
+"""The exit code if the reader of the output is gone."""
 
-MOST_PIXELS = 16384
-"""A side of what is drawn, at most."""
+MAX_RENDER_SIDE = 16384
+"""Width and height of a rendered picture, in pixels."""
 
-OVERRIDES = ("edition", "profile", "fail_on", "fail_on_cost", "fail_confidence", "min_severity", "baseline")
-SELECTORS = ("select", "extend_select", "ignore")
+_OVERRIDES = ("edition", "profile", "fail_on", "fail_on_cost", "fail_confidence", "min_severity", "baseline", "rules")
+_SELECTORS = ("select", "extend_select", "ignore")
+
+Value = TypeVar("Value")
 
 
-class Mistake(Exception):
-    """An option that says nothing that can be used; its text is for the user."""
+class UsageError(Exception):
+    """Arguments that cannot be used; its text is for the user."""
 
 
 class Target(NamedTuple):
-    """An output, and the file it goes to; None is standard output."""
+    """An output format, and the file to write it to; None is standard output."""
 
     format: str
     path: str | None
 
 
-def ended(
-    command: Callable[[Mapping[str, Any]], int],
-    given: Mapping[str, Any],
-    refusals: tuple[type[Exception], ...] = (),
-    terminable: bool = False,
+def warn(text: str) -> None:
+    """Prints a line to the standard error stream."""
+    print(f"msaa-lint: {visible(text)}", file=sys.stderr)
+
+
+def run_command(
+    command: Callable[[Arguments], int], arguments: Arguments, errors: tuple[type[Exception], ...] = (), terminable: bool = False
 ) -> int:
-    """Runs a command and gives the exit code, however it ends.
+    """Runs a command and returns its exit code, however it ends.
 
-    That is the command's own; 2 for a Mistake, for one of the `refusals`, whose texts are for the user too, and where the program itself
-    failed, which `--traceback` raises; BROKEN_PIPE; 130 where it is interrupted. SIGTERM ends what is `terminable` in order, so that no
-    child and no file is left.
+    Returns 2 for a UsageError, for the given `errors`, whose texts are for the user too, and for any other exception unless `--traceback`
+    is given, which raises it; BROKEN_PIPE; 130 on an interrupt. If `terminable`, SIGTERM unwinds the stack, so that no child process and no
+    temporary file is left.
     """
-    told: tuple[type[Exception], ...] = (Mistake, *refusals)
-    before = _terminable() if terminable else None
+    reported: tuple[type[Exception], ...] = (UsageError, *errors)
+    previous = _unwind_on_sigterm() if terminable else None
     try:
-        return command(given)
-    except told as error:
-        from .report.escape import visible
-
-        print(f"msaa-lint: {visible(str(error))}", file=sys.stderr)
+        return command(arguments)
+    except reported as error:
+        warn(str(error))
         return 2
     except BrokenPipeError:
-        # Whoever reads us has gone; Python would complain once more when it closes the stream.
+        # Python would report the error again when it closes the stream.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return BROKEN_PIPE
     except KeyboardInterrupt:
         return 130
     except Exception as error:
-        if given.get("traceback"):
+        if arguments.get("traceback"):
             raise
-        from .report.escape import visible
-
-        reason = visible(str(error)[:300])
-        print(f"msaa-lint: the program failed: {type(error).__name__}: {reason} (--traceback shows where)", file=sys.stderr)
+        # Commands without a table of options have no --traceback.
+        hint = " (--traceback shows where)" if arguments else ""
+        warn(f"internal error: {type(error).__name__}: {str(error)[:300]}{hint}")
         return 2
     finally:
-        if before is not None:
+        if previous is not None:
             import signal
 
-            signal.signal(signal.SIGTERM, before)
+            signal.signal(signal.SIGTERM, previous)
 
 
-def _terminable() -> Any:
-    """Has SIGTERM end us in order; what it did before, None where that is not ours to change."""
+def _unwind_on_sigterm() -> Any:
+    """Makes SIGTERM raise SystemExit. Returns the previous handler; None in a thread, which cannot set one."""
     import signal
 
-    def end(number: int, _: object) -> None:
+    def unwind(number: int, _: object) -> None:
         raise SystemExit(128 + number)
 
     try:
-        return signal.signal(signal.SIGTERM, end)
+        return signal.signal(signal.SIGTERM, unwind)
     except ValueError:
         return None
 
 
-def outputs(stated: Sequence[str], formats: Sequence[str], example: str) -> list[Target]:
-    """The outputs that `FORMAT[=FILE]` name. Mistake for one that is none of `formats`, and for two on standard output; `example` is one
+def parse_outputs(texts: Sequence[str], formats: Sequence[str], example: str) -> list[Target]:
+    """The targets that values of `--output` name. UsageError for an unknown format, and if two go to standard output; `example` is a value
     with a file."""
     targets = []
-    for text in stated:
+    for text in texts:
         name, equals, path = text.partition("=")
         if name not in formats:
             from msaa_lint.core.suggestions import nearest
 
             close = nearest(name, formats)
-            hint = f"did you mean {close}?" if close else f"there are {', '.join(formats)}"
-            raise Mistake(f"no output {name[:40]!r}; {hint}")
+            raise UsageError(
+                f"unknown output format {name[:40]!r}: " + (f"did you mean {close}?" if close else f"use one of {', '.join(formats)}")
+            )
         targets.append(Target(name, path if equals and path not in ("", "-") else None))
     if sum(target.path is None for target in targets) > 1:
-        raise Mistake(f"two outputs go to standard output: give all but one a file, as in --output {example}")
+        raise UsageError(f"only one output can go to standard output; write the others to files, as in --output {example}")
     return targets
 
 
-def written(path: str | None, render: Callable[[IO[str]], None]) -> None:
-    """Has a file, or standard output, written to in UTF-8. Mistake where a file cannot be."""
+def write_output(path: str | None, render: Callable[[IO[str]], None]) -> None:
+    """Calls `render` with a file, or standard output, opened for UTF-8. UsageError if a file cannot be written."""
     if path is None:
-        utf_8(sys.stdout)
+        set_utf_8(sys.stdout)
         render(sys.stdout)
         sys.stdout.flush()
         return
@@ -112,40 +118,89 @@ def written(path: str | None, render: Callable[[IO[str]], None]) -> None:
         with open(path, "w", encoding="utf-8", newline="\n") as file:
             render(file)
     except OSError as error:
-        raise Mistake(f"{path} cannot be written: {error.strerror}") from None
+        raise UsageError(f"cannot write {path}: {error.strerror}") from None
 
 
-def utf_8(out: IO[str]) -> None:
-    """Has a stream take every character: its own encoding may lack what an excerpt shows, and a machine format is UTF-8 whatever the
-    locale."""
+def write_chart(path: str, option: str, draw: Callable[[str], bytes]) -> None:
+    """Writes what `draw` returns for the format of a file. UsageError if it cannot be written or matplotlib is missing."""
+    try:
+        data = draw(chart_format(path, option))
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] != "matplotlib":
+            raise
+        raise UsageError(f"{option} needs matplotlib, which is not installed: pip install 'msaa-lint[chart]'") from None
+    try:
+        with open(path, "wb") as file:
+            file.write(data)
+    except OSError as error:
+        raise UsageError(f"cannot write {path}: {error.strerror}") from None
+
+
+def chart_format(path: str, option: str) -> str:
+    """`svg` or `png`, by a file's extension. UsageError for another one."""
+    extension = os.path.splitext(path)[1].lower()
+    if extension not in (".svg", ".png"):
+        raise UsageError(f"{option} {path[:80]!r}: expected the name of an .svg or .png file")
+    return extension[1:]
+
+
+def set_utf_8(out: IO[str]) -> None:
+    """Makes a stream accept all characters: its own encoding may lack some, and machine formats are UTF-8 whatever the locale."""
     reconfigure = getattr(out, "reconfigure", None)
     if reconfigure is not None:
         reconfigure(encoding="utf-8", errors="backslashreplace")
 
 
-def size(text: str, most: int) -> tuple[int, int]:
-    """Width and height in pixels of `1920x1080`. Mistake where it is no such thing, and where one is above `most`."""
-    sides = [int(side) for side in text.lower().split("x") if side.isascii() and side.isdigit() and len(side) <= len(str(most))]
-    if len(sides) != 2 or text.lower().count("x") != 1 or not all(1 <= side <= most for side in sides):
-        raise Mistake(f"--size {text[:40]!r}: WIDTHxHEIGHT in pixels is due, at most {most} each, as in 1920x1080")
+def parse_size(text: str, limit: int) -> tuple[int, int]:
+    """Width and height in pixels of `1920x1080`. UsageError for anything else, and for a side above `limit`."""
+    sides = [int(side) for side in text.lower().split("x") if side.isascii() and side.isdigit() and len(side) <= len(str(limit))]
+    if len(sides) != 2 or text.lower().count("x") != 1 or not all(1 <= side <= limit for side in sides):
+        raise UsageError(f"--size {text[:40]!r}: expected WIDTHxHEIGHT in pixels, at most {limit} each, as in 1920x1080")
     return sides[0], sides[1]
 
 
-def settings(given: Mapping[str, Any]) -> dict[str, Any]:
-    """The settings that arguments state, which go before those of a configuration."""
-    stated = {name: given[name] for name in OVERRIDES if name in given}
-    for name in SELECTORS:
-        if name in given:
-            stated[name] = [word.strip() for each in given[name] for word in each.split(",") if word.strip()]
-    if "rules" in given:
-        stated["rules"] = given["rules"]
-    return stated
+def parse_list(text: str, option: str, choices: Mapping[str, Value]) -> list[Value]:
+    """The values of a comma-separated list. UsageError for a word that is not one of the `choices`."""
+    words = [word.strip() for word in text.split(",")]
+    if any(word not in choices for word in words):
+        raise UsageError(f"{option} {text[:40]!r}: expected a comma-separated list of {', '.join(choices)}")
+    return [choices[word] for word in words]
 
 
-def colored(asked: str, terminal: bool) -> bool:
-    """Whether to colour: as asked, else by NO_COLOR (no-color.org), FORCE_COLOR and CLICOLOR_FORCE, else on a terminal that is not dumb."""
-    if asked != "auto":
-        return asked == "always"
+def overrides(arguments: Arguments) -> dict[str, Any]:
+    """The settings that arguments state, which take precedence over a configuration."""
+    settings = {name: arguments[name] for name in _OVERRIDES if name in arguments}
+    for name in _SELECTORS:
+        if name in arguments:
+            settings[name] = [word.strip() for text in arguments[name] for word in text.split(",") if word.strip()]
+    return settings
+
+
+def input_options(arguments: Arguments) -> dict[str, Any]:
+    """The members of a `linter.run.Request` that all commands fill alike."""
+    return {
+        "paths": arguments["paths"],
+        "config": arguments.get("config"),
+        "isolated": bool(arguments.get("isolated")),
+        "format": arguments.get("input_format"),
+        "stdin_filename": arguments.get("stdin_filename"),
+    }
+
+
+def report_options(arguments: Arguments, out: IO[str], *, color: bool = True, width: int = 140) -> Options:
+    """How to print to a stream: `width` cells unless it is a terminal, without color unless `color` is true."""
+    terminal = out.isatty()
+    if terminal:
+        import shutil
+
+        width = shutil.get_terminal_size().columns or width
+    return Options(color=color and use_color(arguments.get("color", "auto"), terminal), width=width, version=VERSION)
+
+
+def use_color(mode: str, terminal: bool) -> bool:
+    """Whether to use color: by `--color`, else by NO_COLOR (no-color.org), FORCE_COLOR, and CLICOLOR_FORCE, else on a terminal that can."""
+    if mode != "auto":
+        return mode == "always"
     if os.environ.get("NO_COLOR"):
         return False
     if os.environ.get("FORCE_COLOR") or os.environ.get("CLICOLOR_FORCE", "0") not in ("", "0"):

@@ -2,28 +2,39 @@
 
 from __future__ import annotations
 
+import json
 import math
-import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import partial
-from typing import IO, TYPE_CHECKING, Any, NamedTuple
+from typing import IO, Any, NamedTuple
 
-from msaa_lint.core.package import VERSION
 from msaa_lint.experiments.confirm.child import Limits
+from msaa_lint.experiments.confirm.outcome import DeviceRun, about, exit_code
 from msaa_lint.experiments.confirm.results import NotWritten, Unusable
+from msaa_lint.experiments.confirm.session import Session, environment
 
-from .common import MOST_PIXELS, Mistake, Target, colored, ended, outputs, settings, size, written
+from .common import (
+    MAX_RENDER_SIDE,
+    Target,
+    UsageError,
+    input_options,
+    overrides,
+    parse_outputs,
+    parse_size,
+    report_options,
+    run_command,
+    warn,
+    write_output,
+)  # fmt: skip
+from .options import Arguments
 from .report.escape import visible
-
-if TYPE_CHECKING:
-    from msaa_lint.experiments.confirm.session import Session
 
 FORMATS = ("full", "json")
 COUNTS = (1, 2, 4, 8, 16, 32, 64)
 
 
-class Options(NamedTuple):
-    """The options, read. `time` is None where the device decides."""
+class ConfirmOptions(NamedTuple):
+    """The options, parsed. `time` is None if the device decides."""
 
     targets: list[Target]
     devices: list[str | None]
@@ -38,149 +49,123 @@ class Options(NamedTuple):
     resolves: bool
 
 
-def confirm(given: Mapping[str, Any]) -> int:
-    """Tries what the arguments name on a device and prints what came of it; the exit code."""
-    return ended(_confirm, given, (NotWritten, Unusable), terminable=True)
+def confirm(arguments: Arguments) -> int:
+    """Renders what the arguments name on a device and prints the verdicts; returns the exit code."""
+    return run_command(_confirm, arguments, (NotWritten, Unusable), terminable=True)
 
 
-def options(given: Mapping[str, Any]) -> Options:
-    """The options of the command line. Mistake where one says nothing."""
-    if given.get("time") and given.get("no_time"):
-        raise Mistake("--time and --no-time contradict each other")
-    samples = given.get("samples")
+def _confirm(arguments: Arguments) -> int:
+    options = parse_options(arguments)
+    if arguments.get("list_devices"):
+        return _list_devices(options)
+    if not arguments["paths"]:
+        raise UsageError("no input: give files or folders to confirm, or --list-devices")
+    with _session(options, options.devices[0]) as session:
+        # The device opens while the inputs are read.
+        session.start()
+        return _run(arguments, options, session)
+
+
+def parse_options(arguments: Arguments) -> ConfirmOptions:
+    """The options of the command line. UsageError if one cannot be used."""
+    if arguments.get("time") and arguments.get("no_time"):
+        raise UsageError("--time and --no-time contradict each other")
+    samples = arguments.get("samples")
     if samples is not None and samples not in COUNTS:
-        raise Mistake(f"--samples {samples}: one of {', '.join(map(str, COUNTS))} is due")
-    return Options(
-        outputs(given.get("output", ()), FORMATS, "json=confirm.json") or [Target("full", None)],
-        list(dict.fromkeys(given.get("device", ()))) or [None],
-        Limits(seconds=_seconds(given["timeout"])) if "timeout" in given else Limits(),
-        not given.get("no_layer"),
-        not given.get("no_gate"),
-        given.get("image"),
-        True if given.get("time") else False if given.get("no_time") else None,
-        given.get("repeats", 15),
-        size(given["size"], MOST_PIXELS) if "size" in given else None,
+        raise UsageError(f"--samples must be one of {', '.join(map(str, COUNTS))}, found {samples}")
+    return ConfirmOptions(
+        parse_outputs(arguments.get("output", ()), FORMATS, "json=confirm.json") or [Target("full", None)],
+        list(dict.fromkeys(arguments.get("device", ()))) or [None],
+        Limits(seconds=_parse_seconds(arguments["timeout"])) if "timeout" in arguments else Limits(),
+        not arguments.get("no_layer"),
+        not arguments.get("no_gate"),
+        arguments.get("image"),
+        True if arguments.get("time") else False if arguments.get("no_time") else None,
+        arguments.get("repeats", 15),
+        parse_size(arguments["size"], MAX_RENDER_SIDE) if "size" in arguments else None,
         samples,
-        bool(given.get("resolves")),
+        bool(arguments.get("resolves")),
     )
 
 
-def _seconds(text: object) -> float:
+def _parse_seconds(text: str) -> float:
     try:
-        value = float(str(text))
+        seconds = float(text)
     except ValueError:
-        value = math.nan
-    if not 0 < value <= 86400:
-        raise Mistake(f"--timeout {str(text)[:40]!r}: seconds are due, above 0 and at most a day")
-    return value
+        seconds = math.nan
+    if not 0 < seconds <= 86400:
+        raise UsageError(f"--timeout {text[:40]!r}: expected seconds, above 0 and at most a day (86400)")
+    return seconds
 
 
-def _confirm(given: Mapping[str, Any]) -> int:
-    if given.get("list_devices"):
-        return list_devices(given)
-    if not given["paths"]:
-        raise Mistake("PATH... is due: files and folders to confirm, or --list-devices")
-    asked = options(given)
-    from msaa_lint.experiments.confirm.session import Session, environment
-
-    with Session(asked.devices[0], validation=asked.layer, limits=asked.limits, environment=environment(asked.devices[0])) as first:
-        # The device opens while we read.
-        first.start()
-        return _tried(given, asked, first)
+def _session(options: ConfirmOptions, device: str | None) -> Session:
+    return Session(device, validation=options.layer, limits=options.limits, environment=environment(device))
 
 
-def _tried(given: Mapping[str, Any], asked: Options, first: Session) -> int:
-    from msaa_lint.experiments.confirm.session import Session, environment
+def _run(arguments: Arguments, options: ConfirmOptions, session: Session) -> int:
+    from msaa_lint.experiments.confirm.inputs import Inputs, inputs
     from msaa_lint.experiments.confirm.trial import Terms, trial
+    from msaa_lint.linter.run import Request
 
-    terms = Terms(asked.gate, asked.image, asked.time, asked.repeats, asked.size, asked.samples, len(asked.devices) > 1, asked.resolves)
-    runs = []
-    found: list[Any] = []
+    several = len(options.devices) > 1
+    terms = Terms(
+        options.gate, options.image, options.time, options.repeats, options.size, options.samples, several, options.resolves
+    )  # fmt: skip
+    read: list[Inputs] = []
 
-    def read() -> Any:
-        if not found:
-            found.append(_inputs(given))
-        return found[0].inputs
+    def documents() -> Any:
+        if not read:
+            read.append(inputs(Request(**input_options(arguments), overrides=overrides(arguments))))
+        return read[0].inputs
 
-    shown = any(target.format == "full" for target in asked.targets)
-    runs.append(trial(first, read, terms, meanwhile=_warm if shown else None))
-    for name in asked.devices[1:]:
-        with Session(name, validation=asked.layer, limits=asked.limits, environment=environment(name)) as session:
-            runs.append(trial(session, read, terms, meanwhile=_warm))
-    (read_inputs,) = found
-    from msaa_lint.experiments.confirm.outcome import exit_code
-
-    for note in read_inputs.notes:
-        print(f"msaa-lint: {visible(note)}", file=sys.stderr)
-    for wrong in read_inputs.wrong:
-        print(f"msaa-lint: {visible(wrong.file)}: {visible(wrong.message)}", file=sys.stderr)
+    text = any(target.format == "full" for target in options.targets)
+    runs = [trial(session, documents, terms, meanwhile=_import_rich if text else None)]
+    for name in options.devices[1:]:
+        with _session(options, name) as other:
+            runs.append(trial(other, documents, terms))
+    _, errors, notes = read[0]
+    for note in notes:
+        warn(note)
+    for error in errors:
+        warn(f"{error.file}: {error.message}")
     for run in runs:
         if run.unusable:
-            print(f"msaa-lint: {visible(run.title)}: {visible(run.unusable)}", file=sys.stderr)
-        for text in run.printed if given.get("verbose") else ():
-            for line in text.splitlines():
-                print(f"msaa-lint: driver or layer: {visible(line)}", file=sys.stderr)
-    for target in asked.targets:
-        written(target.path, partial(_render, target.format, runs, read_inputs.wrong, given))
-    return exit_code(runs, bool(read_inputs.wrong))
+            warn(f"{run.title}: {run.unusable}")
+        for printed in run.printed if arguments.get("verbose") else ():
+            for line in printed.splitlines():
+                warn(f"driver or layer: {line}")
+    for target in options.targets:
+        write_output(target.path, partial(_render, target.format, runs, errors, arguments))
+    return exit_code(runs, bool(errors))
 
 
-def _warm() -> None:
-    """Imports what the text report needs, while the child draws."""
+def _import_rich() -> None:
+    """Imports what the text report needs, while the child renders."""
     import rich.box
     import rich.console
     import rich.table  # noqa: F401
 
 
-def _inputs(given: Mapping[str, Any]) -> Any:
-    from msaa_lint.experiments.confirm.inputs import inputs
-    from msaa_lint.linter.run import Request
-
-    return inputs(
-        Request(
-            paths=given["paths"],
-            overrides=settings(given),
-            config=given.get("config"),
-            isolated=bool(given.get("isolated")),
-            format=given.get("input_format"),
-            stdin_filename=given.get("stdin_filename"),
-        )
-    )
-
-
-def _render(format: str, runs: Sequence[Any], wrong: Sequence[Any], given: Mapping[str, Any], out: IO[str]) -> None:
+def _render(format: str, runs: Sequence[DeviceRun], errors: Sequence[Any], arguments: Arguments, out: IO[str]) -> None:
+    options = report_options(arguments, out)
     if format == "json":
-        from .report.confirm_json import render as as_json
+        from .report import confirm_json
 
-        as_json(runs, wrong, out.write, VERSION)
-        return
-    from .report import Options as Shown
-    from .report.confirm_text import render
+        confirm_json.render(runs, errors, out.write, options)
+    else:
+        from .report import confirm_text
 
-    terminal = out.isatty()
-    width = 140
-    if terminal:
-        import shutil
-
-        width = shutil.get_terminal_size().columns
-    shown = Shown(color=colored(given.get("color", "auto"), terminal), width=width, statistics=bool(given.get("verbose")))
-    render(runs, out.write, shown)
+        confirm_text.render(runs, out.write, options, verbose=bool(arguments.get("verbose")))
 
 
-def list_devices(given: Mapping[str, Any]) -> int:
-    """Prints the devices that the loader finds; 2 where it finds none."""
-    from msaa_lint.experiments.confirm.outcome import about
-    from msaa_lint.experiments.confirm.session import Session
-
-    asked = options(given)
-    with Session(limits=asked.limits, execute="msaa_lint.experiments.confirm.devices") as session:
-        found = [about(device) for device in session.devices()]
-    if any(target.format == "json" for target in asked.targets):
-        import json
-
-        print(json.dumps({"schema": "msaa-lint/confirm-devices-v1", "devices": [each._asdict() for each in found]}, indent=2))
+def _list_devices(options: ConfirmOptions) -> int:
+    """Prints the devices that the loader finds."""
+    with Session(limits=options.limits, execute="msaa_lint.experiments.confirm.devices") as session:
+        devices = [about(device) for device in session.devices()]
+    if any(target.format == "json" for target in options.targets):
+        print(json.dumps({"schema": "msaa-lint/confirm-devices-v1", "devices": [device._asdict() for device in devices]}, indent=2))
         return 0
-    for device in found:
+    for device in devices:
         words = [device.name, f"Vulkan {device.api_version}", device.type.lower().replace("_", " "), device.driver]
         print(visible(", ".join(word for word in words if word)))
     return 0

@@ -1,113 +1,104 @@
-"""`msaa-lint convert`: a capture, or what states a frame in other words, as a description that one can read, edit, fix and confirm."""
+"""`msaa-lint convert`: a capture, source code, or a frame in other terms as a description to read, edit, fix, and confirm."""
 
 from __future__ import annotations
 
 import os
 import sys
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
+from msaa_lint.core.text.emitter import written
 from msaa_lint.core.text.source import Source, Unreadable, decode
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.input.opening import load
 from msaa_lint.input.source_file import SourceFile
 
+from .common import warn
 from .report.escape import visible
-
-if TYPE_CHECKING:
-    from msaa_lint.frame.description.document import Document
 
 
 def convert(path: str, output: str | None, format: str | None, force: bool) -> int:
-    """Writes the description to a file, or prints it; with a file, the code of the shaders that it names into `shaders/` beside it.
+    """Writes the description to a file, with the shader modules that it names in `shaders/` next to it, or prints it.
 
-    2 where the input cannot be read, has mistakes or is a plain description; and where a capture cannot be read to its end: what could be
-    read of it is written all the same.
+    Returns 2 if the input cannot be read, has mistakes, or is a plain description already; and if a capture is truncated, whose readable
+    part is still written.
     """
-    try:
-        made = load(path, Limits(), format=format)
-    except (OSError, Unreadable) as error:
-        return _failed(path, getattr(error, "strerror", None) or str(error))
-    if isinstance(made, bytes):
-        return _text(path, made, output, format, force)
-    if isinstance(made, SourceFile):
-        return _program(path, made, output, force)
-    if not _output(made.source.text, made.modules, output, force):
-        return 2
-    for note in made.notes:
-        print(f"msaa-lint: {visible(note)}", file=sys.stderr)
-    return _failed(path, f"the capture ends in the middle: {made.broken}") if made.broken else 0
-
-
-def _text(path: str, data: bytes, output: str | None, format: str | None, force: bool) -> int:
-    """Writes the descriptions that the documents of a text give, one after another."""
-    from msaa_lint.core.text.emitter import written
-    from msaa_lint.input import readers
-
     name = "<stdin>" if path == "-" else path
     try:
-        source = Source(name, decode(data))
-    except Unreadable as error:
-        return _failed(path, str(error))
-    parsed = parse(source, Limits())
-    documents: list[Document] = [readers.read(source, root, format) for root in parsed.documents]
-    mistakes = [(each.code, each.message, each.span) for each in parsed.problems]
-    mistakes += [(each.code, each.message, each.span) for document in documents for each in document.problems]
-    for code, message, span in mistakes:
-        line, column = source.position(span.start)
-        print(f"{visible(name)}:{line}:{column}: {visible(message)} ({code})", file=sys.stderr)
-    if mistakes:
+        data = load(path, Limits(), format=format)
+        if isinstance(data, bytes):
+            _write(_convert_text(name, data, format), {}, output, force)
+        elif isinstance(data, SourceFile):
+            _convert_source(data, output, force)
+        else:
+            _write(data.source.text, data.modules, output, force)
+            for note in data.notes:
+                warn(note)
+            if data.broken:
+                raise _ConvertError(f"{name}: the capture is truncated: {data.broken}")
+    except _ConvertError as error:
+        for line in error.args:
+            warn(line)
         return 2
-    if all(each.tree is None for each in documents):
-        return _failed(path, "this is no capture: what `check` reads as it stands needs no conversion")
-    trees = [each.tree if each.tree is not None else root for each, root in zip(documents, parsed.documents, strict=True)]
-    return 0 if _output("---\n".join(map(written, trees)), {}, output, force) else 2
+    except (OSError, Unreadable) as error:
+        warn(f"{name}: {getattr(error, 'strerror', None) or error}")
+        return 2
+    return 0
 
 
-def _program(path: str, code: SourceFile, output: str | None, force: bool) -> int:
-    """Writes what was read of source code, a document for each of its parts. What had to be assumed is said beside it."""
-    from msaa_lint.core.text.emitter import written
+class _ConvertError(Exception):
+    """Why nothing, or not all, is converted: each argument is a line for the user."""
 
-    name = visible(code.source.name)
-    trees = [document.tree for document in code.program.documents if document.tree is not None]
+
+def _convert_text(name: str, data: bytes, format: str | None) -> str:
+    """The descriptions that the documents of a text stand for."""
+    from msaa_lint.input import readers
+
+    source = Source(name, decode(data))
+    parsed = parse(source, Limits())
+    documents = [readers.read(source, root, format) for root in parsed.documents]
+    problems = [(problem.code, problem.message, problem.span) for problem in parsed.problems]
+    problems += [(problem.code, problem.message, problem.span) for document in documents for problem in document.problems]
+    if problems:
+        places = [source.position(span.start) for _, _, span in problems]
+        lines = zip(problems, places, strict=True)
+        raise _ConvertError(*(f"{name}:{line}:{column}: {message} ({code})" for (code, message, _), (line, column) in lines))
+    if all(document.tree is None for document in documents):
+        raise _ConvertError(f"{name}: nothing to convert: `check` reads this input directly")
+    trees = [document.tree if document.tree is not None else root for document, root in zip(documents, parsed.documents, strict=True)]
+    return "---\n".join(map(written, trees))
+
+
+def _convert_source(code: SourceFile, output: str | None, force: bool) -> None:
+    """Writes what source code states, a document for each part, and prints what had to be assumed."""
+    documents = code.program.documents
+    trees = [document.tree for document in documents if document.tree is not None]
     if not trees:
-        return _failed(path, "nothing is read in it: no attachment, image, pipeline or sample count")
-    for number, notes in enumerate(code.program.assumed):
-        where = f"{name}, document {number + 1}" if len(trees) > 1 else name
+        raise _ConvertError(f"{code.source.name}: found no attachment, image, pipeline, or sample count")
+    for number, notes in enumerate(code.program.assumed, 1):
+        where = f"{code.source.name}, document {number}" if len(trees) > 1 else code.source.name
         for note in notes:
-            print(f"msaa-lint: {where}: {visible(note)}", file=sys.stderr)
-    head = f"# Read in {name}: what is not stated is not known.\n"
-    modules = {name: module for document in code.program.documents for name, module in document.modules.items()}
-    return 0 if _output(head + "---\n".join(map(written, trees)), modules, output, force) else 2
+            warn(f"{where}: {note}")
+    head = f"# Read from {visible(code.source.name)}; what it does not state is left out.\n"
+    modules = {name: module for document in documents for name, module in document.modules.items()}
+    _write(head + "---\n".join(map(written, trees)), modules, output, force)
 
 
-def _output(text: str, modules: Mapping[str, bytes], output: str | None, force: bool) -> bool:
-    """Writes a description and the modules that it names, or prints it; False, and a line that says why, where that cannot be."""
+def _write(text: str, modules: Mapping[str, bytes], output: str | None, force: bool) -> None:
+    """Writes a description and the shader modules that it names, or prints it without them."""
     if output is None or output == "-":
         sys.stdout.write(text)
         if modules:
-            print(f"msaa-lint: {len(modules)} shaders are left out: -o FILE writes them beside the description", file=sys.stderr)
-    elif os.path.lexists(output) and not force:
-        _failed(output, "it exists already: --force writes over it")
-        return False
-    else:
-        try:
-            _write(output, text.encode())
-            for name, code in modules.items():
-                target = os.path.join(os.path.dirname(output), *name.split("/"))
-                os.makedirs(os.path.dirname(target) or os.curdir, exist_ok=True)
-                _write(target, code)
-        except OSError as error:
-            _failed(output, error.strerror or str(error))
-            return False
-    return True
-
-
-def _write(path: str, data: bytes) -> None:
-    with open(path, "wb") as file:
-        file.write(data)
-
-
-def _failed(path: str, why: str) -> int:
-    print(f"msaa-lint: {visible(path)}: {visible(why)}", file=sys.stderr)
-    return 2
+            warn(f"{len(modules)} shaders are not written; -o FILE writes them next to the description")
+        return
+    if os.path.lexists(output) and not force:
+        raise _ConvertError(f"{output} already exists; --force overwrites it")
+    folder = os.path.dirname(output)
+    files = {output: text.encode(), **{os.path.join(folder, *name.split("/")): code for name, code in modules.items()}}
+    try:
+        for path, data in files.items():
+            if path != output:
+                os.makedirs(os.path.dirname(path) or os.curdir, exist_ok=True)
+            with open(path, "wb") as file:
+                file.write(data)
+    except OSError as error:
+        raise _ConvertError(f"cannot write {output}: {error.strerror or error}") from None

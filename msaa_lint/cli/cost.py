@@ -5,12 +5,10 @@ from __future__ import annotations
 import math
 import os
 import sys
-from collections.abc import Mapping
 from functools import partial
-from typing import IO, Any, NamedTuple
+from typing import IO
 
 from msaa_lint.core.finding import Result
-from msaa_lint.core.package import VERSION
 from msaa_lint.core.project import shown
 from msaa_lint.frame.cost.amounts import Terms
 from msaa_lint.frame.cost.input_cost import Compared, compared
@@ -19,197 +17,148 @@ from msaa_lint.frame.cost.variants import DEFAULT_COUNTS
 from msaa_lint.linter.cost_run import CostResult, name_of, run_costs, with_fixes
 from msaa_lint.linter.run import Request
 
-from .common import Mistake, Target, colored, ended, outputs, size, utf_8, written
-from .report import Options
+from .common import (
+    Target,
+    UsageError,
+    chart_format,
+    input_options,
+    parse_list,
+    parse_outputs,
+    parse_size,
+    report_options,
+    run_command,
+    set_utf_8,
+    warn,
+    write_chart,
+    write_output,
+)  # fmt: skip
+from .options import Arguments
 from .report.escape import visible
 
 FORMATS = ("full", "json", "markdown")
-MOST = 2**31 - 1
-"""Pixels a side."""
+MAX_SIDE = 2**31 - 1
+"""Width and height of a frame, in pixels."""
 
 
-def cost(given: Mapping[str, Any]) -> int:
-    """Prints what inputs cost; 0, or 2 where an input, an option or the configuration could not be used."""
-    return ended(_cost, given)
+def cost(arguments: Arguments) -> int:
+    """Prints what inputs cost; returns 0, or 2 if an input, an option, or the configuration cannot be used."""
+    return run_command(_cost, arguments)
 
 
-class Shown(NamedTuple):
-    """What is printed: the frames, or the two inputs that are compared."""
-
-    reckoned: CostResult
-    compared: Compared | None
-
-
-def _cost(given: Mapping[str, Any]) -> int:
-    targets = outputs(given.get("output", ()), FORMATS, "markdown=cost.md") or [Target("full", None)]
-    terms = terms_of(given)
-    counts = sample_counts(given["samples"]) if "samples" in given else DEFAULT_COUNTS
-    chart = given.get("chart")
+def _cost(arguments: Arguments) -> int:
+    targets = parse_outputs(arguments.get("output", ()), FORMATS, "markdown=cost.md") or [Target("full", None)]
+    terms = parse_terms(arguments)
+    counts = parse_list(arguments["samples"], "--samples", {str(n): n for n in COUNTS}) if "samples" in arguments else DEFAULT_COUNTS
+    chart = arguments.get("chart")
     if chart is not None:
-        chart_format(chart)
-    request = Request(
-        paths=given["paths"],
-        overrides={"profile": given["profile"]} if "profile" in given else {},
-        config=given.get("config"),
-        isolated=bool(given.get("isolated")),
-        format=given.get("input_format"),
-        stdin_filename=given.get("stdin_filename"),
-    )
-    reckoned = run_costs(request, terms, counts, with_fixes)
-    made = Shown(reckoned, _compared(reckoned, request, bool(given.get("each"))))
-    for note in reckoned.notes:
-        print(f"msaa-lint: {visible(note)}", file=sys.stderr)
-    _print_errors(reckoned.wrong, given)
+        chart_format(chart, "--chart")
+    request = Request(**input_options(arguments), overrides={"profile": arguments["profile"]} if "profile" in arguments else {})
+    result = run_costs(request, terms, counts, with_fixes)
+    comparison = None if arguments.get("each") else _comparison(result, request)
+    for note in result.notes:
+        warn(note)
+    _print_errors(result.wrong, arguments)
     for target in targets:
-        written(target.path, partial(_render, target.format, made, given))
+        write_output(target.path, partial(_render, target.format, result, comparison, arguments))
     if chart is not None:
-        _draw(chart, made)
-    return 2 if reckoned.wrong.findings else 0
+        _draw_chart(chart, result, comparison)
+    return 2 if result.wrong.findings else 0
 
 
-def _compared(reckoned: CostResult, request: Request, each: bool) -> Compared | None:
-    """Two inputs that are named and no folders are compared; where one of them cannot be used, the other is shown alone."""
-    if each or len(request.paths) != 2 or any(os.path.isdir(path) for path in request.paths):
+def _comparison(result: CostResult, request: Request) -> Compared | None:
+    """The comparison of two files; None for other inputs, and if one of the two cannot be used: the other is then shown alone."""
+    if len(request.paths) != 2 or any(os.path.isdir(path) for path in request.paths):
         return None
     old, new = (name_of(request, path) if path == "-" else shown(path) for path in request.paths)
-    frames = reckoned.of(old), reckoned.of(new)
-    return compared(old, frames[0], new, frames[1]) if all(frames) else None
+    old_frames, new_frames = result.of(old), result.of(new)
+    return compared(old, old_frames, new, new_frames) if old_frames and new_frames else None
 
 
-def terms_of(given: Mapping[str, Any]) -> Terms:
-    """How to reckon, by the options."""
-    width, height = size(given["size"], MOST) if "size" in given else (None, None)
+def parse_terms(arguments: Arguments) -> Terms:
+    """The terms that the options state."""
+    width, height = parse_size(arguments["size"], MAX_SIDE) if "size" in arguments else (None, None)
+    power = arguments.get("milliwatts_per_gbps")
     return Terms(
-        fps=_above_zero(given["fps"], "--fps") if "fps" in given else None,
+        fps=_positive(arguments["fps"], "--fps") if "fps" in arguments else None,
         width=width,
         height=height,
-        milliwatts_per_gbps=_above_zero(given["milliwatts_per_gbps"], "--milliwatts-per-gbps") if "milliwatts_per_gbps" in given else None,
-        budget_milliwatts=_power(given["budget"]) if "budget" in given else Terms().budget_milliwatts,
+        milliwatts_per_gbps=_positive(power, "--milliwatts-per-gbps") if power is not None else None,
+        budget_milliwatts=_parse_power(arguments["budget"]) if "budget" in arguments else Terms().budget_milliwatts,
     )
 
 
-def sample_counts(text: str) -> list[int]:
-    """The counts of `1,2,4`."""
-    words = [word.strip() for word in text.split(",")]
-    known = {str(count): count for count in COUNTS}
-    wrong = [word for word in words if word not in known]
-    if wrong:
-        raise Mistake(f"--samples '{visible(text)}': numbers of {', '.join(known)} are due, with commas between")
-    return [known[word] for word in words]
-
-
-def _above_zero(value: float, option: str) -> float:
+def _positive(value: float, option: str) -> float:
     if not (math.isfinite(value) and value > 0):
-        raise Mistake(f"{option}: a number above 0 is due")
+        raise UsageError(f"{option} must be a number above 0, found {value:g}")
     return value
 
 
-def _power(text: str) -> float:
+def _parse_power(text: str) -> float:
     """Milliwatts of `2500`, `2500mW`, `2.5W`."""
     from msaa_lint.linter.settings.cost_limit import budget
 
     try:
-        return _above_zero(float(text), "--budget")
+        return _positive(float(text), "--budget")
     except ValueError:
         pass
     try:
-        found = budget(text)
+        limit = budget(text)
     except ValueError:
-        found = None
-    if found is None or found.measures != "power":
-        raise Mistake(f"--budget '{visible(text)}': a power above 0 is due, as in 2500, 2500mW or 2.5W")
-    return found.most
+        limit = None
+    if limit is None or limit.measures != "power":
+        raise UsageError(f"--budget '{visible(text)}': expected a power above 0, as in 2500, 2500mW, or 2.5W")
+    return limit.most
 
 
-def _print_errors(wrong: Result, given: Mapping[str, Any]) -> None:
-    """What could not be used, as `check` prints it, on the standard error stream."""
-    if not wrong.findings:
+def _print_errors(errors: Result, arguments: Arguments) -> None:
+    """Prints inputs that cannot be used as `check` prints them, to the standard error stream."""
+    if not errors.findings:
         return
-    terminal = sys.stderr.isatty()
-    options = _options(given, sys.stderr, True)
-    if terminal:
-        from .report.full import paragraph
+    from .report import concise, full
 
-        lines = [paragraph(found, wrong, options, set()) + "\n" for found in wrong.findings]
-    else:
-        from .report.concise import line
-
-        lines = [line(found, wrong, options) for found in wrong.findings]
-    utf_8(sys.stderr)
-    for text in lines:
-        print(text, file=sys.stderr)
+    options = report_options(arguments, sys.stderr, width=0)
+    set_utf_8(sys.stderr)
+    for finding in errors.findings:
+        if sys.stderr.isatty():
+            print(full.paragraph(finding, errors, options, set()) + "\n", file=sys.stderr)
+        else:
+            print(concise.line(finding, errors, options), file=sys.stderr)
 
 
-def _render(format: str, made: Shown, given: Mapping[str, Any], out: IO[str]) -> None:
-    options = _options(given, out, format == "full")
-    frames, wrong, both = made.reckoned.frames, made.reckoned.wrong, made.compared
+def _render(format: str, result: CostResult, comparison: Compared | None, arguments: Arguments, out: IO[str]) -> None:
+    from .report import cost_full, cost_json, cost_markdown
+
+    options = report_options(arguments, out, color=format == "full", width=0)
     if format == "json":
-        from .report import cost_json
-
-        if both is not None:
-            cost_json.render_comparison(both, wrong, out.write, options)
+        if comparison is not None:
+            cost_json.render_comparison(comparison, result.wrong, out.write, options)
         else:
-            cost_json.render(frames, wrong, out.write, options)
+            cost_json.render(result.frames, result.wrong, out.write, options)
     elif format == "markdown":
-        from .report import cost_markdown
-
-        if both is not None:
-            cost_markdown.render_comparison(both, out.write, options)
+        if comparison is not None:
+            cost_markdown.render_comparison(comparison, out.write, options)
         else:
-            cost_markdown.render(frames, wrong, out.write, options)
+            cost_markdown.render(result.frames, result.wrong, out.write, options)
+    elif comparison is not None:
+        cost_full.render_comparison(comparison, out.write, options)
     else:
-        from .report import cost_full
-
-        if both is not None:
-            cost_full.render_comparison(both, out.write, options)
-        else:
-            cost_full.render(frames, out.write, options)
+        cost_full.render(result.frames, out.write, options)
 
 
-def _options(given: Mapping[str, Any], out: IO[str], paints: bool) -> Options:
-    terminal = out.isatty()
-    width = 0
-    if terminal:
-        import shutil
-
-        width = shutil.get_terminal_size().columns
-    return Options(color=paints and colored(given.get("color", "auto"), terminal), width=width, version=VERSION)
-
-
-def chart_format(path: str) -> str:
-    """The format of a chart, by its file's ending."""
-    from .report.cost_chart import FORMATS as KNOWN
-
-    ending = os.path.splitext(path)[1].lower().removeprefix(".")
-    if ending not in KNOWN:
-        raise Mistake(f"--chart '{visible(path)}': the name of an .svg or .png file is due")
-    return ending
-
-
-def _draw(path: str, made: Shown) -> None:
-    from .report import cost_chart as chart
+def _draw_chart(path: str, result: CostResult, comparison: Compared | None) -> None:
+    from .report import cost_chart
     from .report.cost_rows import head
     from .report.paths import shown_path
 
-    frames = made.reckoned.frames
-    if made.compared is not None and len(made.compared.old) == len(made.compared.new) == 1:
-        found, costed = chart.compared_bars(made.compared), made.compared.new[0]
-        title = f"{shown_path(made.compared.old_file, '')} → {shown_path(costed.file, '')}"
-    elif made.compared is None and len(frames) == 1:
-        found, costed = chart.bars(frames[0]), frames[0]
-        title = shown_path(costed.file, "")
+    frames = result.frames
+    if comparison is not None and len(comparison.old) == len(comparison.new) == 1:
+        bars, frame = cost_chart.compared_bars(comparison), comparison.new[0]
+        title = f"{shown_path(comparison.old_file, '')} → {shown_path(frame.file, '')}"
+    elif comparison is None and len(frames) == 1:
+        bars, frame = cost_chart.bars(frames[0]), frames[0]
+        title = shown_path(frame.file, "")
     elif frames:
-        raise Mistake(f"--chart: it is of one frame, or of two that are compared, not of {len(frames)}")
+        raise UsageError(f"--chart draws one frame, or two that are compared, not {len(frames)}")
     else:
         return
-    try:
-        data = chart.draw(found, title, visible(head(costed.cost)), costed.cost, chart_format(path))
-    except ModuleNotFoundError as error:
-        if (error.name or "").partition(".")[0] != "matplotlib":
-            raise
-        raise Mistake("--chart needs matplotlib, which is not installed: pip install 'msaa-lint[chart]'") from None
-    try:
-        with open(path, "wb") as file:
-            file.write(data)
-    except OSError as error:
-        raise Mistake(f"{visible(path)} cannot be written: {error.strerror}") from None
+    write_chart(path, "--chart", partial(cost_chart.draw, bars, title, visible(head(frame.cost)), frame.cost))

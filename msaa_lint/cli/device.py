@@ -1,14 +1,19 @@
-"""`msaa-lint device`: what a built-in device, a report or the running driver offers for multisampling."""
+"""`msaa-lint device`: what a built-in device, a report, or an installed driver supports for multisampling."""
 
 from __future__ import annotations
 
+import json
 import os
 import sys
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal
+from typing import Literal, TypeVar
+
+from rich.console import Console
+from rich.table import Table
 
 from msaa_lint.core.text.source import Unreadable
 from msaa_lint.frame.devices import builtin, names
+from msaa_lint.frame.devices import wording as words
 from msaa_lint.frame.devices.mapping import description
 from msaa_lint.frame.devices.offer import Offer, builtin_offer, record
 from msaa_lint.frame.devices.paths import is_path, split
@@ -16,157 +21,115 @@ from msaa_lint.frame.devices.reports import EXPECTED, MAX_BYTES, NotAReport, pic
 from msaa_lint.frame.devices.reports.members import Report
 from msaa_lint.frame.profiles import Problem, parsed, profile_of, reports
 
+from .common import UsageError, run_command, set_utf_8, warn
 from .report.escape import shown
 
-if TYPE_CHECKING:
-    from rich.console import Console
-
+Answer = TypeVar("Answer")
 Output = Literal["text", "json", "description"]
 SCHEMA = "msaa-lint/device-v1"
 WIDTH = 140
-"""Columns where there is no terminal to ask."""
+"""Columns if there is no terminal."""
 
-MOST_SECONDS = 30.0
-
-
-class Missing(Exception):
-    """A device that cannot be had; its text is for the user."""
+MAX_SECONDS = 30.0
+"""Time limit for the drivers to report their devices."""
 
 
 def device(stated: Sequence[str], output: Output = "text", listing: bool = False) -> int:
-    """Prints what devices offer; 0, or 2 where one cannot be had."""
-    try:
-        code = _list(output) if listing else _show(stated, output)
-        sys.stdout.flush()
-        return code
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 2
-    except KeyboardInterrupt:
-        return 130
-    except Exception as error:
-        print(f"msaa-lint: the program failed: {type(error).__name__}: {shown(str(error)[:300])}", file=sys.stderr)
-        return 2
+    """Prints what devices support; returns 0, or 2 if one is unknown or cannot be read."""
+    return run_command(lambda _: _list(output) if listing else _show(stated, output), {})
 
 
 def _show(stated: Sequence[str], output: Output) -> int:
     offers: list[Offer] = []
     failed = False
-    for name in stated:
+    for name in stated or (None,):
         try:
-            offers += _named(name)
-        except Missing as error:
+            offers += _installed() if name is None else _named(name)
+        except UsageError as error:
             failed = True
-            print(f"msaa-lint: {shown(str(error))}", file=sys.stderr)
-    if not stated:
-        try:
-            offers = _running()
-        except Missing as error:
-            failed = True
-            print(f"msaa-lint: {shown(str(error))}", file=sys.stderr)
+            warn(str(error).strip())
     if output == "json":
-        import json
-
         print(json.dumps({"schema": SCHEMA, "devices": [record(offer) for offer in offers]}, indent=2))
     elif output == "description":
-        _utf_8()
+        set_utf_8(sys.stdout)
         print("---\n".join(description(offer) for offer in offers), end="")
     else:
         _print(offers)
+    sys.stdout.flush()
     return 2 if failed else 0
 
 
 def _named(name: str) -> list[Offer]:
-    """The devices that an argument means: a built-in one, or all of a report unless it picks one; `-` is a report on standard input."""
-    found = builtin_offer(name)
-    if found is not None:
-        return [found]
-    path, which = split(name)
+    """The devices that an argument names: a built-in one, or all devices of a report unless it picks one; `-` reads standard input."""
+    offer = builtin_offer(name)
+    if offer is not None:
+        return [offer]
+    path, selector = split(name)
     if name == "-":
-        path, listed = "<stdin>", _stdin()
+        path, devices = "<stdin>", _stdin()
     elif os.path.isfile(name) or is_path(name):
         if os.path.isfile(name):
-            path, which = name, ""
-        read = reports(path, path)
-        if isinstance(read, Problem):
-            raise Missing(_worded(read))
-        listed = read
+            path, selector = name, ""
+        devices = _usable(reports(path, path))
     else:
-        known = profile_of(name)
-        if isinstance(known, Problem):
-            raise Missing(_worded(known))
-        return [Offer(Report(known), name)]
-    if which:
-        chosen = pick(listed, which)
-        if chosen is None:
-            raise Missing(_worded(profile_problem(name)))
-        listed = [chosen]
+        return [Offer(Report(_usable(profile_of(name))), name)]
+    if selector:
+        chosen = pick(devices, selector)
+        # If the report has no such device, its profile says so.
+        devices = [chosen if chosen is not None else Report(_usable(profile_of(name)))]
     if name == "-":
-        return [Offer(each) for each in listed]
-    several = len(listed) > 1
-    return [Offer(each, f"{path}#{number}" if several else name) for number, each in enumerate(listed, 1)]
+        return [Offer(report) for report in devices]
+    several = len(devices) > 1
+    return [Offer(report, f"{path}#{number}" if several else name) for number, report in enumerate(devices, 1)]
 
 
-def profile_problem(name: str) -> Problem:
-    """Why a report has no device of that name."""
-    found = profile_of(name)
-    assert isinstance(found, Problem)
-    return found
-
-
-def _worded(problem: Problem) -> str:
-    return f"{problem.message}; {problem.help}" if problem.help else problem.message
+def _usable(answer: Answer | Problem) -> Answer:
+    """The answer. UsageError if it is a problem."""
+    if isinstance(answer, Problem):
+        raise UsageError(f"{answer.message}; {answer.help}" if answer.help else answer.message)
+    return answer
 
 
 def _stdin() -> list[Report]:
     data = sys.stdin.buffer.read(MAX_BYTES + 1)
     if len(data) > MAX_BYTES:
-        raise Missing(f"the report on standard input is larger than {MAX_BYTES >> 20} MiB")
+        raise UsageError(f"the report on standard input is larger than {MAX_BYTES >> 20} MiB")
     try:
         return parsed(data, "<stdin>")
     except (NotAReport, Unreadable) as error:
-        raise Missing(f"standard input: {error}; expected {EXPECTED}") from None
+        raise UsageError(f"standard input: {error}; expected {EXPECTED}") from None
 
 
-def _running() -> list[Offer]:
+def _installed() -> list[Offer]:
+    """The devices of the installed drivers."""
     from msaa_lint.experiments.confirm.devices import running
     from msaa_lint.experiments.confirm.results import Unusable
 
     try:
-        return [Offer(report) for report in running(MOST_SECONDS)]
+        return [Offer(report) for report in running(MAX_SECONDS)]
     except Unusable as error:
-        raise Missing(f"{error}; `msaa-lint device --list` names the built-in devices") from None
+        raise UsageError(f"{error}; `msaa-lint device --list` names the built-in devices") from None
 
 
 def _list(output: Output) -> int:
+    profiles = {name: profile for name in names() if (profile := builtin(name)) is not None}
     if output == "json":
-        import json
-
-        found = [profile for profile in map(builtin, names()) if profile is not None]
-        rows = [{"key": key, "name": p.name, "source": p.source} for key, p in zip(names(), found, strict=True)]
+        rows = [{"key": key, "name": profile.name, "source": profile.source} for key, profile in profiles.items()]
         print(json.dumps({"schema": SCHEMA, "profiles": rows}, indent=2))
         return 0
-    from rich.table import Table
-
     table = Table("name", "device", "source", box=None, pad_edge=False)
-    for key in names():
-        profile = builtin(key)
-        if profile is not None:
-            table.add_row(key, profile.name, profile.source)
+    for key, profile in profiles.items():
+        table.add_row(key, profile.name, profile.source)
     console = _console()
-    with console.capture() as captured:
+    with console.capture() as capture:
         console.print(table)
-    _write(captured.get())
+    _write(capture.get())
     return 0
 
 
 def _print(offers: Sequence[Offer]) -> None:
-    from rich.table import Table
-
-    from msaa_lint.frame.devices import wording as words
-
     console = _console()
-    with console.capture() as captured:
+    with console.capture() as capture:
         for number, offer in enumerate(offers):
             console.print(*([""] if number else []), shown(words.title(offer)), sep="\n", style="bold")
             counts = words.table(offer)
@@ -180,22 +143,15 @@ def _print(offers: Sequence[Offer]) -> None:
             for fact in words.rows(offer):
                 facts.add_row(shown(fact.label), shown(fact.text))
             console.print(facts)
-    _write(captured.get())
+    _write(capture.get())
 
 
 def _write(text: str) -> None:
-    """Prints what was laid out, without the blanks that fill up its lines."""
+    """Prints a layout without the spaces that pad its lines."""
     sys.stdout.write("".join(line.rstrip() + "\n" for line in text.splitlines()))
+    sys.stdout.flush()
 
 
 def _console() -> Console:
-    from rich.console import Console
-
-    _utf_8()
+    set_utf_8(sys.stdout)
     return Console(markup=False, highlight=False, emoji=False, width=None if sys.stdout.isatty() else WIDTH)
-
-
-def _utf_8() -> None:
-    if hasattr(sys.stdout, "reconfigure"):
-        # The console's own encoding may not have what a device is called.
-        sys.stdout.reconfigure(encoding="utf-8", errors="backslashreplace")

@@ -1,4 +1,4 @@
-"""`msaa-lint init`: the first files of a project that adopts the linter."""
+"""`msaa-lint init`: writes the first files of a project that adopts the linter."""
 
 from __future__ import annotations
 
@@ -8,29 +8,30 @@ import sys
 from msaa_lint.core.package import VERSION
 from msaa_lint.linter.rules.registry import EDITIONS
 
+from .common import warn
 from .report.escape import visible
 
 CONFIGURATION = f"""\
-# msaa-lint's configuration. Every key may be left out; `msaa-lint rule --all` lists the rules.
+# Configuration of msaa-lint. All keys are optional; `msaa-lint rule --all` lists the rules.
 
-# The default rules of this edition: a new release never turns a green job red by itself.
+# Use the default rules of this edition: a new release of msaa-lint then adds no findings.
 edition = "{EDITIONS[-1]}"
 
-# The device, class of devices or vendor that descriptions without a `device:` are judged for.
+# The device, device class, or vendor to assume for inputs that name no device.
 # profile = "portable-tiler"
 
-# Rules by name, code or the beginning of a code (MSAA2). `select` replaces the edition's rules, the others add and take away.
+# Rules by name, code, or code prefix (MSAA2). `select` replaces the edition's rules; the others add and remove rules.
 # select = ["ALL"]
 # extend-select = ["MSAA706"]
 # ignore = ["framebuffer-readback"]
 
-# The severity from which on `msaa-lint check` exits with 1: note, warning or error.
+# The lowest severity that makes `msaa-lint check` exit with 1: note, warning, or error.
 fail-on = "warning"
 
-# The confidence that findings need to do so: low, medium or high. Those of source code are low.
+# The lowest confidence that does: low, medium, or high. Findings in source code have low confidence.
 # fail-confidence = "medium"
 
-# Pages with rules of your own, or folders of them.
+# Pages with custom rules, or folders of pages.
 # rules = ["ci/msaa-rules"]
 
 # exclude = ["third_party/**"]
@@ -44,8 +45,8 @@ fail-on = "warning"
 """
 
 DESCRIPTION = """\
-# A frame, or part of one, in Vulkan's own words. What you do not state stays unknown, and rules on it undecided.
-# Completion and checking in an editor: msaa-lint schema > msaa-lint.schema.json, and this line:
+# A frame, or part of one, in Vulkan's terms. What you leave out is unknown, and rules that need it are undecided.
+# For completion and validation in an editor, run `msaa-lint schema > msaa-lint.schema.json` and keep this line:
 # yaml-language-server: $schema=msaa-lint.schema.json
 frame: {width: 1920, height: 1080, fps: 60}
 
@@ -63,34 +64,32 @@ renderPasses:
 """
 
 HOOK = f"""\
-For pre-commit, in .pre-commit-config.yaml:
+To use pre-commit, add this to .pre-commit-config.yaml:
 
   - repo: https://github.com/msaa-lint/msaa-lint
     rev: v{VERSION}
     hooks:
       - id: msaa-lint
 
-Now: msaa-lint check frame.msaa.yaml
+Next: msaa-lint check frame.msaa.yaml
 """
 
 
 def init(folder: str) -> int:
-    """Writes msaa-lint.toml and frame.msaa.yaml where they are not there yet; 2 where that cannot be."""
+    """Writes msaa-lint.toml and frame.msaa.yaml unless they exist; returns 2 if it cannot."""
+    path = folder
     try:
         os.makedirs(folder, exist_ok=True)
-    except OSError as error:
-        print(f"msaa-lint: {visible(folder)} cannot be made: {error.strerror}", file=sys.stderr)
-        return 2
-    for name, text in (("msaa-lint.toml", CONFIGURATION), ("frame.msaa.yaml", DESCRIPTION)):
-        path = os.path.join(folder, name)
-        try:
+        for name, text in (("msaa-lint.toml", CONFIGURATION), ("frame.msaa.yaml", DESCRIPTION)):
+            path = os.path.join(folder, name)
+            if os.path.lexists(path):
+                print(f"{visible(path)} already exists: left unchanged", file=sys.stderr)
+                continue
             with open(path, "x", encoding="utf-8", newline="\n") as file:
                 file.write(text)
             print(f"wrote {visible(path)}", file=sys.stderr)
-        except FileExistsError:
-            print(f"{visible(path)} is there already: left as it is", file=sys.stderr)
-        except OSError as error:
-            print(f"msaa-lint: {visible(path)} cannot be written: {error.strerror}", file=sys.stderr)
-            return 2
+    except OSError as error:
+        warn(f"cannot write {path}: {error.strerror}")
+        return 2
     print(HOOK, end="")
     return 0

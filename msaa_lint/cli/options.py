@@ -1,132 +1,227 @@
-"""The options of `check`, as data: read straight from the arguments where they are well formed, by typer where they are not.
+"""The options of `check`, `cost`, `confirm`, and `study`, as tables.
 
-typer (0.29) imports pydantic for any command it runs, 130 ms on a machine where Python itself starts in 14: three times what the rest of a
-run takes. So what parses needs no typer, and help, errors, suggestions and completion are typer's, from the same table.
+`parse` reads well-formed arguments. Help, errors, suggestions, and completion are typer's, from the same tables. Importing typer (0.29),
+which imports pydantic, takes 130 ms on a machine where Python starts in 14: three times as long as the rest of a run of `check`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
+from importlib import import_module
 from typing import Any, NamedTuple
 
 from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
 
-_OUTPUTS = ", ".join(OUTPUT_FORMATS)
 LEVELS = ("note", "warning", "error")
 CONFIDENCES = ("low", "medium", "high")
-
 
 INPUT_FORMATS = (
     "description", "vulkan-sc", "gfxreconstruct", "api-dump", "renderdoc", "fossilize", "c", "cpp", "swift", "glsl", "markdown",
 )  # fmt: skip
-"""The names of `readers.FORMATS`, `readers.CAPTURES` and `programs.LANGUAGES`, for help and errors that import no reader."""
+"""The names in `readers.FORMATS`, `readers.CAPTURES`, and `code.LANGUAGES`, so that help and errors import no reader."""
+
+Arguments = dict[str, Any]
+"""Values by option name, and `paths`. Options that are not on the command line are not in it."""
 
 
 class Option(NamedTuple):
-    """One option: `kind` is flag, text, number or choice; `many` for one that may be given again."""
+    """One option. `kind` is flag, text, integer, decimal, or choice; `repeatable` options collect their values in a list."""
 
     name: str
     kind: str
     help: str
     metavar: str = ""
     choices: tuple[str, ...] = ()
-    many: bool = False
+    repeatable: bool = False
 
     @property
     def flag(self) -> str:
         return "--" + self.name.replace("_", "-")
 
 
+class Command(NamedTuple):
+    """A command whose module and function have its name. A path is required unless one of the flags `standalone` is given."""
+
+    help: str
+    options: tuple[Option, ...]
+    paths: str = "Files and folders; - is standard input."
+    standalone: tuple[str, ...] = ()
+
+
+_RULES = (
+    Option("select", "text", "Rules to enable instead of the edition's: names, codes, prefixes (MSAA2), ALL.", "RULES", repeatable=True),
+    Option("extend_select", "text", "Rules to enable in addition.", "RULES", repeatable=True),
+    Option("ignore", "text", "Rules to disable.", "RULES", repeatable=True),
+    Option("rules", "text", "Page or folder of custom rules.", "PATH", repeatable=True),
+)
+_PROFILE = Option("profile", "text", "Device, device class, or vendor to assume for inputs that name none.", "NAME")
+
 SHARED = (
-    Option("stdin_filename", "text", "What to call the input from `-`.", "NAME"),
-    Option("input_format", "choice", "Read inputs as this, whatever they look like.", choices=INPUT_FORMATS),
+    Option("stdin_filename", "text", "Name to use for standard input.", "NAME"),
+    Option("input_format", "choice", "Read all inputs as this format instead of detecting it.", choices=INPUT_FORMATS),
     Option("config", "text", "Use this configuration file.", "FILE"),
-    Option("isolated", "flag", "Use no configuration file."),
-    Option("color", "choice", "Colour in text output.  [default: auto]", choices=("auto", "always", "never")),
-    Option("traceback", "flag", "Show where the program itself failed."),
+    Option("isolated", "flag", "Ignore configuration files."),
+    Option("color", "choice", "Color text output.  [default: auto]", choices=("auto", "always", "never")),
+    Option("traceback", "flag", "Show a traceback if msaa-lint itself fails."),
 )
-"""Options that `check`, `cost`, `confirm` and `study` have."""
+"""Options of all these commands."""
 
-CHECK = (
-    Option("select", "text", "Rules to use in place of the edition's: names, codes, prefixes (MSAA2), ALL.", "RULES", many=True),
-    Option("extend_select", "text", "Rules to use as well.", "RULES", many=True),
-    Option("ignore", "text", "Rules to leave out.", "RULES", many=True),
-    Option("rules", "text", "A page or a folder of pages with rules of your own.", "PATH", many=True),
-    Option("edition", "text", "The default rules of that edition.", "EDITION"),
-    Option("profile", "text", "The device, device class or vendor that inputs without a device are judged for.", "NAME"),
-    Option("fail_on", "choice", "Exit with 1 from this severity on.  [default: warning]", choices=LEVELS),
-    Option("fail_on_cost", "text", "Exit with 1 where the findings of an input cost this together: 50MB/s, 100mW, 16MiB.", "BUDGET"),
-    Option("fail_confidence", "choice", "Findings of less confidence never fail a run.  [default: medium]", choices=CONFIDENCES),
-    Option("fix", "flag", "Mend what has a safe fix, in the files; of `-` the mended text is printed."),
-    Option("unsafe_fixes", "flag", "With --fix or --diff: use fixes too that may change the picture, or are a choice."),
-    Option("diff", "flag", "Print what --fix would change and write nothing; exit with 1 if that is anything."),
-    Option("exit_zero", "flag", "Exit with 0 whatever is found."),
-    Option("min_severity", "choice", "Leave out what is below.  [default: note]", choices=LEVELS),
-    Option(
-        "output",
-        "text",
-        f"{', '.join(OUTPUT_FORMATS)}; =FILE writes there.  [default: full; concise in a pipe]",
-        "FORMAT[=FILE]",
-        many=True,
+
+def _output(formats: str, default: str = "full") -> Option:
+    return Option("output", "text", f"{formats}; =FILE writes to a file.  [default: {default}]", "FORMAT[=FILE]", repeatable=True)
+
+
+COMMANDS = {
+    "check": Command(
+        """Lint descriptions, captures, source code, pipeline JSON, and folders of them.
+
+        Exits with 0 if there are no findings, 1 if there are, and 2 if an input, the configuration, or msaa-lint failed.
+        """,
+        (
+            *_RULES,
+            Option("edition", "text", "Use the default rules of this edition.", "EDITION"),
+            _PROFILE,
+            Option("fail_on", "choice", "Lowest severity that exits with 1.  [default: warning]", choices=LEVELS),
+            Option("fail_on_cost", "text", "Exit with 1 if an input's findings cost this much: 50MB/s, 100mW, 16MiB.", "BUDGET"),
+            Option("fail_confidence", "choice", "Lowest confidence that exits with 1.  [default: medium]", choices=CONFIDENCES),
+            Option("fix", "flag", "Apply safe fixes in place; for `-`, print the fixed text."),
+            Option("unsafe_fixes", "flag", "With --fix or --diff: include fixes that may change the picture."),
+            Option("diff", "flag", "Print what --fix would change without writing it; exit with 1 if there is a change."),
+            Option("exit_zero", "flag", "Exit with 0 even if there are findings."),
+            Option("min_severity", "choice", "Lowest severity to report.  [default: note]", choices=LEVELS),
+            _output(", ".join(OUTPUT_FORMATS), "full; concise in a pipe"),
+            Option("sort", "choice", "Sort findings by place, or the most expensive first.  [default: place]", choices=("place", "price")),
+            Option("statistics", "flag", "Print counts and costs by rule instead of findings."),
+            Option("baseline", "text", "Hide the findings that this baseline file counts.", "FILE"),
+            Option("no_ignores", "flag", "Disregard suppression comments."),
+            Option("show_suppressed", "flag", "Report suppressed findings as well, marked as suppressed."),
+            Option("max_depth", "integer", "Maximum nesting depth of an input.  [default: 100]", "N"),
+            Option("max_nodes", "integer", "Maximum number of nodes in an input, aliases expanded.  [default: 1000000]", "N"),
+            Option("max_bytes", "integer", "Maximum size of an input in bytes.  [default: 67108864]", "N"),
+            *SHARED,
+        ),
     ),
-    Option("sort", "choice", "Order of the findings; price is the dearest first.  [default: place]", choices=("place", "price")),
-    Option("statistics", "flag", "Count findings and add up their prices by rule instead of listing them."),
-    Option("baseline", "text", "Silence what this baseline file counts.", "FILE"),
-    Option("no_ignores", "flag", "Disregard suppression comments."),
-    Option("show_suppressed", "flag", "Report silenced findings as such (sarif, json)."),
-    Option("max_depth", "number", "Deepest nesting of an input.  [default: 100]", "N"),
-    Option("max_nodes", "number", "Most nodes of an input, aliases expanded.  [default: 1000000]", "N"),
-    Option("max_bytes", "number", "Largest input.  [default: 67108864]", "N"),
-    *SHARED,
-)
+    "cost": Command(
+        """Show what a frame costs: MB/s, MiB, and mW per pass and attachment; or what a change adds.
 
-Given = dict[str, Any]
-"""Option names with their values, and `paths`. What is not given is not in it."""
+        Exits with 0, or with 2 if an input, an option, the configuration, or msaa-lint failed; the other inputs are still shown.
+        """,
+        (
+            Option("fps", "decimal", "Frames per second, overriding the input.", "FPS"),
+            Option("size", "text", "Size in pixels of inputs that state none.", "WxH"),
+            Option("profile", "text", "Device to assume for inputs that name none.", "NAME|PATH"),
+            Option("milliwatts_per_gbps", "decimal", "Power per GB/s of traffic.  [default: the device's, else 100]", "MW"),
+            Option("budget", "text", "Power budget to compare with.  [default: 2.5W]", "POWER"),
+            Option("samples", "text", "Other sample counts to estimate.  [default: 1,2,4,8]", "N,..."),
+            Option("each", "flag", "Show two inputs one after the other instead of comparing them."),
+            _output("full, json, markdown"),
+            Option("chart", "text", "Draw a chart to an .svg or .png file (extra `chart`).", "FILE"),
+            *SHARED,
+        ),
+        "Files and folders; - is standard input. Exactly two files are compared: what the second adds.",
+    ),
+    "confirm": Command(
+        """Render inputs on a Vulkan device: are they created, does the validation layer agree, do fixes keep the picture?
+
+        Exits with 0 if everything is confirmed, 1 if something disagrees or a driver died, and 2 if an input or the environment failed.
+        """,
+        (
+            Option("device", "text", "Device, by part of its name.  [default: llvmpipe, else the first]", "NAME", repeatable=True),
+            Option("list_devices", "flag", "List the devices that the Vulkan loader finds, and exit."),
+            Option("image", "text", "Write pictures to this folder: as written, fixed, difference, enlarged edge (PNG).", "DIR"),
+            Option("no_gate", "flag", "Also try what the device does not support; a driver may crash, in its own process."),
+            Option("no_layer", "flag", "Do not load the validation layer."),
+            Option("timeout", "text", "Time limit for one pass.  [default: 30]", "SECONDS"),
+            Option("time", "flag", "Measure times.  [default: on a GPU, not on a software driver]"),
+            Option("no_time", "flag", "Do not measure times."),
+            Option("repeats", "integer", "Number of timed runs of each version of a pass.  [default: 15]", "N"),
+            Option("resolves", "flag", "Compare color resolves with their samples, too; depth and stencil always are."),
+            Option("size", "text", "Size in pixels, overriding the input.", "WxH"),
+            Option("samples", "integer", "Sample count of all multisampled images, overriding the input.", "N"),
+            *_RULES,
+            _PROFILE,
+            _output("full, json"),
+            Option("verbose", "flag", "Also show what only msaa-lint reports, layer noise, and output of driver and layer."),
+            *SHARED,
+        ),
+        standalone=("list_devices",),
+    ),
+    "study": Command(
+        """Show what accuracy costs in time: the error of 1 to 16 samples, sample shading, and supersampling.
+
+        Studies scenes by name (--list-scenes), meshes (.obj, .ply), and descriptions. Exits with 0, or with 2 if something failed.
+        """,
+        (
+            Option("list_scenes", "flag", "List the scenes, and exit."),
+            Option("samples", "text", "Sample counts.  [default: 1,2,4,8,16]", "N,..."),
+            Option("techniques", "text", "Techniques to compare.  [default: msaa,sample-shading,ssaa]", "NAME,..."),
+            Option("size", "text", "Size in pixels.  [default: the description's, else 1920x1080]", "WxH"),
+            Option("device", "text", "Measure times on this Vulkan device, by part of its name.  [default: no times]", "NAME"),
+            Option("repeats", "integer", "Number of timed runs of each technique.  [default: 15]", "N"),
+            Option("profile", "text", "Device whose traffic to estimate for inputs that name none.", "NAME"),
+            Option("bits", "choice", "Sub-pixel precision of vertices, in bits.  [default: 8]", choices=("4", "8")),
+            Option("ssim", "flag", "Also measure structural similarity (extra `ssim`)."),
+            _output("full, json"),
+            Option("plot", "text", "Plot error against time to an .svg or .png file (extra `chart`).", "FILE"),
+            Option("crops", "text", "Write enlarged crops of each scene to this folder (PNG).", "DIR"),
+            Option("record", "flag", "Write a record next to each description, for rule sample-count-above-four."),
+            Option("resume", "text", "Save finished points in this folder, and reuse those already there.", "FOLDER"),
+            Option("jobs", "integer", "Points to simulate at once.  [default: one per core, or per cluster worker]", "N"),
+            Option(
+                "backend", "choice", "joblib backend.  [default: loky, local processes]", choices=("loky", "threading", "dask", "ray")
+            ),
+            *SHARED,
+        ),
+        "Scenes, meshes, descriptions; - is standard input.",
+        ("list_scenes",),
+    ),
+}  # fmt: skip
+"""The commands whose arguments `parse` reads."""
 
 
-def read(arguments: Sequence[str], table: Sequence[Option] = CHECK, alone: Sequence[str] = ()) -> Given | None:
-    """What the arguments of a command say; None where they are not well formed or ask for help.
+def run(name: str, arguments: Arguments) -> int:
+    """Runs a command of `COMMANDS` and returns its exit code."""
+    code: int = getattr(import_module(f".{name}", __package__), name)(arguments)
+    return code
 
-    A path is due, unless one of the flags `alone` stands for it.
-    """
-    options = {option.flag: option for option in table}
-    given: Given = {"paths": []}
-    rest = iter(arguments)
-    for argument in rest:
-        if argument == "--":
-            given["paths"].extend(rest)
+
+def parse(name: str, words: Sequence[str]) -> Arguments | None:
+    """The arguments of a command; None if they are malformed or ask for help, which typer handles."""
+    command = COMMANDS[name]
+    options = {option.flag: option for option in command.options}
+    arguments: Arguments = {"paths": []}
+    rest = iter(words)
+    for word in rest:
+        if word == "--":
+            arguments["paths"].extend(rest)
             break
-        if argument == "-" or not argument.startswith("-"):
-            given["paths"].append(argument)
+        if word == "-" or not word.startswith("-"):
+            arguments["paths"].append(word)
             continue
-        flag, equals, value = argument.partition("=")
+        flag, equals, text = word.partition("=")
         option = options.get(flag)
-        if option is None:
+        if option is None or (option.kind == "flag" and equals):
             return None
         if option.kind == "flag":
-            if equals:
-                return None
-            given[option.name] = True
+            arguments[option.name] = True
             continue
-        if not equals:
-            following = next(rest, None)
-            if following is None:
-                return None
-            value = following
-        if not _take(option, value, given):
+        value = _value(option, text if equals else next(rest, None))
+        if value is None:
             return None
-    return given if given["paths"] or any(given.get(name) for name in alone) else None
+        if option.repeatable:
+            arguments.setdefault(option.name, []).append(value)
+        else:
+            arguments[option.name] = value
+    return arguments if arguments["paths"] or any(name in arguments for name in command.standalone) else None
 
 
-def _take(option: Option, value: str, given: Given) -> bool:
-    if option.kind == "choice" and value not in option.choices:
-        return False
-    if option.kind == "number":
-        if not (value.isascii() and value.isdigit() and 0 < len(value) < 12 and int(value) > 0):
-            return False
-        given[option.name] = int(value)
-    elif option.many:
-        given.setdefault(option.name, []).append(value)
-    else:
-        given[option.name] = value
-    return True
+def _value(option: Option, text: str | None) -> str | int | float | None:
+    """What `text` means to an option; None if it is malformed or missing."""
+    if text is None or (option.kind == "choice" and text not in option.choices):
+        return None
+    if option.kind == "integer":
+        return int(text) if text.isascii() and text.isdigit() and len(text) < 12 and int(text) > 0 else None
+    if option.kind == "decimal":
+        try:
+            return float(text)
+        except ValueError:
+            return None
+    return text

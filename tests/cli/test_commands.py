@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint import __version__
-from msaa_lint.cli.options import CHECK, INPUT_FORMATS, SHARED, read
+from msaa_lint.cli.options import COMMANDS, INPUT_FORMATS, SHARED, parse
 from msaa_lint.cli.report import FORMATS
 from msaa_lint.input import readers
 from msaa_lint.input.code import LANGUAGES
@@ -23,7 +23,7 @@ from tests.strength import examples
 def test_version_and_help(tmp_path: Path) -> None:
     assert run(tmp_path, "--version").stdout == f"msaa-lint {__version__}\n"
     shown = run(tmp_path, "check", "--help").stdout
-    assert all(option.flag in shown for option in CHECK)
+    assert all(option.flag in shown for option in COMMANDS["check"].options)
 
 
 def test_did_you_mean(tmp_path: Path) -> None:
@@ -93,17 +93,17 @@ def test_cost_reads_as_the_format_that_is_named(tmp_path: Path) -> None:
 def test_commands_end_alike_where_an_output_is_wrong(tmp_path: Path, command: str) -> None:
     (tmp_path / "a.yaml").write_text("images: {}\n", encoding="utf-8")
     done = run(tmp_path, command, "a.yaml", "--output", "jsn=\u202e")
-    assert (done.returncode, done.stdout, done.stderr) == (2, "", "msaa-lint: no output 'jsn'; did you mean json?\n")
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", "msaa-lint: unknown output format 'jsn': did you mean json?\n")
     done = run(tmp_path, command, "a.yaml", "--output", "json", "--output", "full=-")
     assert (done.returncode, done.stdout) == (2, "")
-    assert "msaa-lint: two outputs go to standard output: give all but one a file, as in --output " in done.stderr
+    assert "msaa-lint: only one output can go to standard output; write the others to files, as in --output " in done.stderr
     done = run(tmp_path, command, "a.yaml", "--output", "\u202e")
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith("msaa-lint: no output '\\u202e'; ")
+    assert done.stderr.startswith("msaa-lint: unknown output format '\\u202e': ")
 
 
 words = st.sampled_from(
-    [word for option in CHECK for word in (option.flag, f"{option.flag}=x")]
+    [word for option in COMMANDS["check"].options for word in (option.flag, f"{option.flag}=x")]
     + ["a.yaml", "-", "--", "x", "7", "0", "note", "error", "always", "json", "--help", "-x", "--fail-on=error", "--color=never", ""]
 )
 
@@ -112,7 +112,7 @@ words = st.sampled_from(
 @given(st.lists(words, max_size=6))
 def test_both_ways_to_read_arguments_agree(arguments: list[str]) -> None:
     """Where the table reads the arguments, typer reads the same from them."""
-    given_fast = read(arguments)
+    given_fast = parse("check", arguments)
     if given_fast is None or "" in arguments:
         return
     from typer.main import get_command

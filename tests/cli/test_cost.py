@@ -172,22 +172,22 @@ def test_samples(folder: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (["--size", "100"], "--size '100': WIDTHxHEIGHT in pixels is due"),
+        (["--size", "100"], "--size '100': expected WIDTHxHEIGHT in pixels"),
         (["--size", "0x5"], "--size '0x5'"),
         (["--size", "9999999999x5"], "--size"),
         (["--size", "1x2x3"], "--size"),
-        (["--fps", "0"], "--fps: a number above 0 is due"),
-        (["--fps", "nan"], "--fps: a number above 0 is due"),
-        (["--milliwatts-per-gbps", "inf"], "--milliwatts-per-gbps: a number above 0 is due"),
-        (["--budget", "50MB/s"], "--budget '50MB/s': a power above 0 is due"),
-        (["--budget", "0"], "--budget: a number above 0 is due"),
-        (["--samples", "3"], "--samples '3': numbers of 1, 2, 4, 8, 16, 32, 64 are due"),
+        (["--fps", "0"], "--fps must be a number above 0, found 0"),
+        (["--fps", "nan"], "--fps must be a number above 0, found nan"),
+        (["--milliwatts-per-gbps", "inf"], "--milliwatts-per-gbps must be a number above 0, found inf"),
+        (["--budget", "50MB/s"], "--budget '50MB/s': expected a power above 0"),
+        (["--budget", "0"], "--budget must be a number above 0"),
+        (["--samples", "3"], "--samples '3': expected a comma-separated list of 1, 2, 4, 8, 16, 32, 64"),
         (["--samples", ""], "--samples"),
         (["--samples", "\x1b[2J"], "'\\x1b[2J'"),
         (["--output", "sarif"], "no output 'sarif'; there are full, json, markdown"),
         (["--output", "json", "--output", "markdown"], "two outputs go to standard output"),
         (["--output", "json=no/such/folder/x.json"], "no/such/folder/x.json cannot be written"),
-        (["--chart", "x.pdf"], "the name of an .svg or .png file is due"),
+        (["--chart", "x.pdf"], "expected the name of an .svg or .png file"),
         (["--profile", "mali-g67"], "no profile `mali-g67`"),
         (["--config", "none.toml"], "none.toml"),
     ],
@@ -269,8 +269,8 @@ def test_chart(folder: Path) -> None:
     assert (folder / "x.PNG").read_bytes().startswith(b"\x89PNG")
     done = run(folder, "cost", ".", "--chart", "y.svg")
     assert done.returncode == 2
-    assert "it is of one frame, or of two that are compared, not of 3" in done.stderr
-    assert "cannot be written" in run(folder, "cost", "a.msaa.yaml", "--chart", "no/such/x.svg").stderr
+    assert "--chart draws one frame, or two that are compared, not 3" in done.stderr
+    assert "cannot write no/such/x.svg" in run(folder, "cost", "a.msaa.yaml", "--chart", "no/such/x.svg").stderr
 
 
 def test_chart_without_matplotlib_says_how_to_install_it(folder: Path) -> None:

@@ -86,7 +86,7 @@ def test_what_others_cost_counts_alone(folder: Path) -> None:
     done = run(folder, *arguments, "--fail-on-cost", "400MB/s", "--fail-on", "error")
     assert done.returncode == 1
     assert "the findings of a.msaa.yaml cost 400MB/s together, or more" in done.stderr
-    assert "Together they cost 2488 MB/s written" in done.stdout
+    assert "Fixing all of them saves 2488 MB/s written" in done.stdout
 
 
 def test_the_summary_says_how_many(folder: Path) -> None:

@@ -1,16 +1,13 @@
-"""Prints a lint result: one module per output, each with `render(result, out, options)`.
+"""Reports: one module per output format, each with `render(result, out, options)`.
 
-A reporter knows findings alone. `out` is called with pieces of text, as `sys.stdout.write` is; what the pieces hold never depends on
-anything but the result and the options, so the same run gives the same bytes.
+A reporter knows findings alone. It calls `out` with pieces of text, as `sys.stdout.write` is called; they depend on nothing but the result
+and the options, so the same run prints the same bytes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-if TYPE_CHECKING:
-    from msaa_lint.core.finding import Result
+from msaa_lint.core.finding import Result
 
 Write = Callable[[str], object]
 
@@ -24,16 +21,16 @@ FORMATS = {
     "junit": "msaa_lint.cli.report.junit",
     "markdown": "msaa_lint.cli.report.markdown",
 }
-"""Name of an output -> the module that prints it, imported when it is asked for."""
+"""The outputs of `check`, and the modules that print them, imported when they are needed."""
 
 
 class Options(NamedTuple):
     """How to print.
 
     `root` is the folder that paths are shown relative to (empty: as given). `width` is in terminal cells (0: lines are never cut).
-    `max_undecided` is how many missing facts a summary names. `sarif_category` tells several runs on one commit apart.
-    `step_summary` is the file that the GitHub output appends a table to: None asks GITHUB_STEP_SUMMARY, empty writes none.
-    `fail_confidence` is what a finding needs to fail the run: summaries say how many have less.
+    `max_undecided` is the number of missing facts that a summary names. `sarif_category` distinguishes several runs on one commit.
+    `step_summary` is the file that the GitHub output appends a table to: None uses GITHUB_STEP_SUMMARY, empty writes none.
+    `fail_confidence` is the confidence that findings need to fail the run; summaries count those below it.
     """
 
     color: bool = False
@@ -50,7 +47,7 @@ class Options(NamedTuple):
 
 
 def render(name: str, result: Result, out: Write, options: Options) -> None:
-    """Prints `result` as the output called `name`; ValueError where there is none of that name."""
+    """Prints `result` in the format called `name`. ValueError for an unknown format."""
     if name not in FORMATS:
-        raise ValueError(f"no output is called {name!r}; there are {', '.join(FORMATS)}")
+        raise ValueError(f"unknown output format {name!r}: use one of {', '.join(FORMATS)}")
     __import__(FORMATS[name], fromlist=["render"]).render(result, out, options)

@@ -1,4 +1,4 @@
-"""Terminal colours of the text outputs, as SGR sequences."""
+"""Terminal colors of the text outputs, as SGR sequences."""
 
 from __future__ import annotations
 
@@ -8,5 +8,5 @@ SEVERITY = {"error": "1;31", "warning": "1;33", "note": "1;36"}
 
 
 def paint(text: str, style: str, color: bool) -> str:
-    """`text` in `style`, or as it is without `color`."""
+    """`text` in `style`; unchanged without `color` or a style."""
     return f"\x1b[{style}m{text}\x1b[0m" if color and text and style else text

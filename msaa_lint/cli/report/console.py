@@ -1,18 +1,18 @@
-"""rich's console for the reports that print tables: it writes where a report is told to, and takes nothing of texts for markup."""
+"""The rich console of reports that print tables."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from rich import box
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
 
 from . import Options, Write
-
-if TYPE_CHECKING:
-    from rich.console import Console
+from .escape import shown
 
 
-def opened(out: Write, options: Options) -> Console:
-    """A console that prints to `out`, as wide and as coloured as the options say."""
-    from rich.console import Console
+def open_console(out: Write, options: Options) -> Console:
+    """A console that prints to `out`, as wide and as colored as the options say, and interprets no markup."""
 
     class Sink:
         def write(self, text: str) -> int:
@@ -32,3 +32,13 @@ def opened(out: Write, options: Options) -> Console:
         emoji=False,
         legacy_windows=False,
     )
+
+
+def new_table() -> Table:
+    """An empty table with a line below its header."""
+    return Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False)
+
+
+def cell(text: str, style: str = "") -> Text:
+    """Text from an input, escaped."""
+    return Text(shown(text), style=style)

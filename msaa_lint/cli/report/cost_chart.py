@@ -1,40 +1,24 @@
-"""One figure of what a frame costs: as written, fixed, and with other sample counts, resolved inline and separately.
-
-matplotlib is an extra and is imported when a chart is drawn; nothing of it that a user configures takes part, so that the same frame
-gives the same SVG.
-"""
+"""The chart of `cost --chart`: a frame as written, fixed, and with other sample counts, resolved inline and separately."""
 
 from __future__ import annotations
 
-import io
-import warnings
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from msaa_lint.frame.cost.amounts import FrameCost
 from msaa_lint.frame.cost.input_cost import Compared, Costed
 from msaa_lint.frame.cost.variants import AS_WRITTEN, NONE, Variant
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-FORMATS = ("svg", "png")
+from .figure import save_figure
 
 READ_COLOR, WRITE_COLOR = "#56B4E9", "#D55E00"
-"""Sky blue and vermilion of Okabe and Ito's palette: apart for every kind of colour blindness, and in grey; reads are hatched besides."""
+"""Sky blue and vermilion of Okabe and Ito's palette, distinct for all kinds of color blindness and in grayscale; reads are also hatched."""
 
 _BAR, _GAP = 0.72, 0.55
-_SETTINGS: Any = {
-    "svg.hashsalt": "msaa-lint",
-    "svg.fonttype": "none",
-    "text.parse_math": False,
-    "font.size": 10,
-    "hatch.linewidth": 0.6,
-}
 
 
 class Bar(NamedTuple):
-    """A frame's traffic in MB/s and its power in mW under a name; `group` changes where a gap is due."""
+    """A frame's traffic in MB/s and power in mW; there is a gap between bars of different groups."""
 
     name: str
     group: str
@@ -43,30 +27,27 @@ class Bar(NamedTuple):
     milliwatts: float
 
 
-def bars(costed: Costed) -> list[Bar]:
-    """What is drawn of a frame, from top to bottom."""
-    found = [_bar("as written", "", costed.cost)]
-    if costed.fixed is not None:
-        found.append(_bar("fixed", "", costed.fixed))
-    return found + list(_variants(costed.variants))
+def bars(frame: Costed) -> list[Bar]:
+    """The bars of a frame, from top to bottom."""
+    fixed = [] if frame.fixed is None else [_bar("fixed", "", frame.fixed)]
+    return [_bar("as written", "", frame.cost), *fixed, *_variants(frame.variants)]
 
 
-def compared_bars(found: Compared) -> list[Bar]:
-    """What is drawn of two inputs of one frame each: both as written, and of the new one the rest."""
-    made = [_bar("old, as written", "", each.cost) for each in found.old]
-    for each in found.new:
-        made += [bar._replace(name=f"new, {bar.name}") if not bar.group else bar for bar in bars(each)]
-    return made
+def compared_bars(comparison: Compared) -> list[Bar]:
+    """The bars of two inputs with one frame each: the old one as written, then all of the new one."""
+    old = [_bar("old, as written", "", frame.cost) for frame in comparison.old]
+    new = [bar if bar.group else bar._replace(name=f"new, {bar.name}") for frame in comparison.new for bar in bars(frame)]
+    return old + new
 
 
 def _variants(variants: Sequence[Variant]) -> Iterator[Bar]:
-    placed = {each.samples for each in variants if each.resolve not in (AS_WRITTEN, NONE)}
-    for each in variants:
-        if each.resolve == AS_WRITTEN and each.samples in placed:
+    placed = {variant.samples for variant in variants if variant.resolve not in (AS_WRITTEN, NONE)}
+    for variant in variants:
+        if variant.resolve == AS_WRITTEN and variant.samples in placed:
             continue
-        place = f", {each.resolve}" if each.samples in placed else ""
-        offered = " (not offered)" if each.offered is False else ""
-        yield _bar(f"{each.samples}x{place}{offered}", str(each.samples), each.cost)
+        place = f", {variant.resolve}" if variant.samples in placed else ""
+        offered = " (not supported)" if variant.offered is False else ""
+        yield _bar(f"{variant.samples}x{place}{offered}", str(variant.samples), variant.cost)
 
 
 def _bar(name: str, group: str, cost: FrameCost) -> Bar:
@@ -74,37 +55,23 @@ def _bar(name: str, group: str, cost: FrameCost) -> Bar:
     return Bar(name, group, total.read_mb_per_s, total.write_mb_per_s, total.milliwatts)
 
 
-def draw(found: Sequence[Bar], title: str, subtitle: str, cost: FrameCost, format: str) -> bytes:
-    """A figure of the bars as SVG or PNG. `title` and `subtitle` are shown as they are: whoever calls has escaped them.
+def draw(bars: Sequence[Bar], title: str, subtitle: str, cost: FrameCost, format: str) -> bytes:
+    """The chart as SVG or PNG; `title` and `subtitle` are already escaped. ModuleNotFoundError if matplotlib is not installed."""
+    positions = _positions(bars)
 
-    `cost` has the power of a GB/s and the budget. ModuleNotFoundError where matplotlib is not installed.
-    """
-    import matplotlib
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    with matplotlib.rc_context(), warnings.catch_warnings():
-        # A glyph that the font does not have is a box: no reason to print anything.
-        warnings.simplefilter("ignore")
-        matplotlib.rcdefaults()
-        matplotlib.rcParams.update(_SETTINGS)
-        positions = _positions(found)
-        figure = Figure(figsize=(10, 1.9 + 0.36 * (positions[-1] if positions else 0)), layout="constrained")
-        FigureCanvasAgg(figure)
+    def draw_on(figure: Any) -> None:
         axes = figure.add_subplot()
-        _bars(axes, found, positions, cost)
+        _draw_bars(axes, bars, positions, cost)
         figure.suptitle(title, x=0.01, ha="left", fontweight="bold")
         axes.set_title(subtitle, loc="left", fontsize=9)
-        out = io.BytesIO()
-        about: dict[str, Any] = {"Date": None, "Creator": "msaa-lint"} if format == "svg" else {"Software": "msaa-lint"}
-        figure.savefig(out, format=format, metadata=about, dpi=150)
-    return out.getvalue()
+
+    return save_figure(10, 1.9 + 0.36 * (positions[-1] if positions else 0), draw_on, format)
 
 
-def _positions(found: Sequence[Bar]) -> list[float]:
+def _positions(bars: Sequence[Bar]) -> list[float]:
     positions: list[float] = []
-    at, group = 0.0, found[0].group if found else ""
-    for bar in found:
+    at, group = 0.0, bars[0].group if bars else ""
+    for bar in bars:
         at += _GAP if bar.group != group else 0.0
         group = bar.group
         positions.append(at)
@@ -112,21 +79,21 @@ def _positions(found: Sequence[Bar]) -> list[float]:
     return positions
 
 
-def _bars(axes: Axes, found: Sequence[Bar], positions: Sequence[float], cost: FrameCost) -> None:
-    reads, writes = [bar.read for bar in found], [bar.write for bar in found]
+def _draw_bars(axes: Any, bars: Sequence[Bar], positions: Sequence[float], cost: FrameCost) -> None:
+    reads, writes = [bar.read for bar in bars], [bar.write for bar in bars]
     edge: dict[str, Any] = {"height": _BAR, "edgecolor": "black", "linewidth": 0.6}
     axes.barh(positions, reads, color=READ_COLOR, hatch="///", label="read", **edge)
     axes.barh(positions, writes, left=reads, color=WRITE_COLOR, label="write", **edge)
-    longest = max((bar.read + bar.write for bar in found), default=0.0) or 1.0
-    for bar, at in zip(found, positions, strict=True):
+    longest = max((bar.read + bar.write for bar in bars), default=0.0) or 1.0
+    for bar, at in zip(bars, positions, strict=True):
         share = 100 * bar.milliwatts / cost.budget_milliwatts
         text = f"{bar.read + bar.write:.0f} MB/s, {bar.milliwatts:.0f} mW ({share:.1f} %)"
         box = {"facecolor": "white", "edgecolor": "none", "pad": 1}
         axes.text(bar.read + bar.write + longest * 0.01, at, text, va="center", fontsize=9, bbox=box)
-    axes.set_yticks(positions, [bar.name for bar in found])
+    axes.set_yticks(positions, [bar.name for bar in bars])
     axes.invert_yaxis()
     axes.set_xlim(0, longest * 1.4)
-    axes.set_xlabel(f"traffic with external memory, MB/s; in brackets the share of {cost.budget_milliwatts:g} mW")
+    axes.set_xlabel(f"traffic with external memory, MB/s (share of {cost.budget_milliwatts:g} mW in parentheses)")
     axes.ticklabel_format(axis="x", style="plain", useOffset=False)
     axes.grid(axis="x", color="#CCCCCC", linewidth=0.6)
     axes.set_axisbelow(True)

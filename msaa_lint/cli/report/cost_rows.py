@@ -1,6 +1,4 @@
-"""What the tables of `msaa-lint cost` hold, before they are laid out: texts as the input has them, figures as text."""
-
-from __future__ import annotations
+"""The rows of the tables of `msaa-lint cost`, before layout: texts as the input has them, figures as text."""
 
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
@@ -14,7 +12,7 @@ from msaa_lint.frame.cost.variants import AS_WRITTEN, NONE, Variant
 PASS, LINE, TOTAL = "pass", "line", "total"
 
 AT_LEAST = "≥ "
-"""Before what cannot be counted whole."""
+"""Before a figure that is incomplete."""
 
 COLUMNS = ("pass, attachment", "aspect", "action", "samples")
 FIGURES = ("read MB/s", "write MB/s", "corrected MB/s", "memory MiB", "mW", "budget")
@@ -22,15 +20,37 @@ CHANGES = ("old MB/s", "new MB/s", "read MB/s", "write MB/s", "memory MiB", "mW"
 
 
 class Row(NamedTuple):
-    """A row: its kind, the texts on its left, and the figures under `FIGURES` or `CHANGES`; empty ones are not known, or do not apply."""
+    """A row: its kind, the texts on its left, and the figures below `FIGURES` or `CHANGES`, empty if unknown or not applicable."""
 
     kind: str
     texts: tuple[str, ...]
     figures: tuple[str, ...]
 
 
+class Table(NamedTuple):
+    """A table: the headings of its texts and of its figures, and its rows."""
+
+    texts: tuple[str, ...]
+    figures: tuple[str, ...]
+    rows: list[Row]
+
+
+def frame_tables(frame: Costed) -> list[Table]:
+    """The tables of a frame: what its passes cost, what it would cost otherwise, and the memory of its images."""
+    return [
+        Table(COLUMNS, FIGURES, list(rows(frame.cost))),
+        Table(("the frame",), FIGURES, alternatives(frame)),
+        Table(("image", ""), ("in full MiB", "committed MiB"), images(frame.cost)),
+    ]
+
+
+def totals(frames: Sequence[Costed], names: Sequence[str]) -> Table:
+    """The total of each frame, by name."""
+    return Table(("frame",), FIGURES, [Row(LINE, (name,), _of_frame(frame.cost)) for name, frame in zip(names, frames, strict=True)])
+
+
 def figure(value: float, digits: int = 2, sign: bool = False) -> str:
-    """A number with its decimals; nothing is `0.00`, with a sign or not, and what no table holds has an exponent."""
+    """A number with its decimals; zero is `0.00` without a sign, and large numbers have an exponent."""
     if abs(value) >= 1e9:
         return f"{value:+.4g}" if sign else f"{value:.4g}"
     text = f"{value:+.{digits}f}" if sign else f"{value:.{digits}f}"
@@ -38,17 +58,17 @@ def figure(value: float, digits: int = 2, sign: bool = False) -> str:
 
 
 def rows(cost: FrameCost) -> Iterator[Row]:
-    """The passes of a frame, each with what moves its attachments, and the total."""
+    """The passes of a frame, each with the traffic of its attachments, and the total."""
     rates = Rates(cost.fps, cost.milliwatts_per_gbps)
     memory = {image.name: image.committed for image in cost.images}
-    for each in cost.passes:
-        times = f", {each.times} times" if each.times != 1 else ""
-        figures = _figures(each.amount, each.corrected, cost.budget_milliwatts, bool(each.unknown))
-        yield Row(PASS, (title(each) + times, "", "", ""), figures)
-        shown: set[str] = set()
-        for line in each.lines:
-            committed = None if line.image in shown else memory.get(line.image)
-            shown.add(line.image)
+    for pass_cost in cost.passes:
+        times = f", {pass_cost.times} times" if pass_cost.times != 1 else ""
+        figures = _figures(pass_cost.amount, pass_cost.corrected, cost.budget_milliwatts, bool(pass_cost.unknown))
+        yield Row(PASS, (title(pass_cost) + times, "", "", ""), figures)
+        images: set[str] = set()
+        for line in pass_cost.lines:
+            committed = None if line.image in images else memory.get(line.image)
+            images.add(line.image)
             yield _line(line, rates, committed, cost.budget_milliwatts)
     yield Row(TOTAL, ("total", "", "", ""), _of_frame(cost))
 
@@ -69,18 +89,16 @@ def _line(line: Line, rates: Rates, committed: int | None, budget: float) -> Row
 
 
 def _of_frame(cost: FrameCost) -> tuple[str, ...]:
-    return _figures(cost.total, cost.corrected, cost.budget_milliwatts, any(each.unknown for each in cost.passes), _memory_unknown(cost))
-
-
-def _memory_unknown(cost: FrameCost) -> bool:
-    return any(image.bytes is None for image in cost.images)
+    unknown_traffic = any(pass_cost.unknown for pass_cost in cost.passes)
+    unknown_memory = any(image.bytes is None for image in cost.images)
+    return _figures(cost.total, cost.corrected, cost.budget_milliwatts, unknown_traffic, unknown_memory)
 
 
 def _figures(
-    amount: Amount, corrected: Amount | None, budget: float, uncounted: bool = False, more_memory: bool = False
+    amount: Amount, corrected: Amount | None, budget: float, unknown_traffic: bool = False, unknown_memory: bool = False
 ) -> tuple[str, ...]:
-    """The figures of a pass or a frame; `uncounted` says that there is traffic, `more_memory` that there is memory, beside them."""
-    least, least_memory = (AT_LEAST if more else "" for more in (uncounted, more_memory))
+    """The figures of a pass or a frame, marked as lower bounds if some traffic or memory is unknown."""
+    least, least_memory = (AT_LEAST if unknown else "" for unknown in (unknown_traffic, unknown_memory))
     return (
         least + figure(amount.read_mb_per_s),
         least + figure(amount.write_mb_per_s),
@@ -95,42 +113,39 @@ def _share(amount: Amount, budget: float) -> str:
     return f"{figure(100 * amount.milliwatts / budget, 1)} %"
 
 
-def options_of(costed: Costed) -> list[Row]:
-    """The frame as it is written, with its findings mended, and with other sample counts; none where there is nothing to choose."""
-    if not costed.variants and costed.fixed is None:
+def alternatives(frame: Costed) -> list[Row]:
+    """The frame as written, with its findings fixed, and with other sample counts; empty if there is no alternative."""
+    if not frame.variants and frame.fixed is None:
         return []
-    found = [("as written", costed.cost)]
-    if costed.fixed is not None:
-        found.append(("fixed", costed.fixed))
-    found += [(variant_title(each), each.cost) for each in costed.variants if not _told(each, costed.variants)]
-    return [Row(LINE, (name,), _of_frame(cost)) for name, cost in found]
+    costs = [("as written", frame.cost), *([("fixed", frame.fixed)] if frame.fixed is not None else [])]
+    costs += [(variant_title(variant), variant.cost) for variant in frame.variants if not _is_repeated(variant, frame.variants)]
+    return [Row(LINE, (name,), _of_frame(cost)) for name, cost in costs]
 
 
-def _told(variant: Variant, others: Sequence[Variant]) -> bool:
-    """Whether a variant that resolves as written is one of those with the same count that resolve otherwise."""
+def _is_repeated(variant: Variant, variants: Sequence[Variant]) -> bool:
+    """Whether a variant that resolves as written equals another one with the same count."""
     return variant.resolve == AS_WRITTEN and any(
-        each.samples == variant.samples and each.resolve != AS_WRITTEN and each.cost.total == variant.cost.total for each in others
+        other.samples == variant.samples and other.resolve != AS_WRITTEN and other.cost.total == variant.cost.total for other in variants
     )
 
 
+_RESOLVES = {"as written": ", resolved as written", "inline": ", resolved inline", "separate": ", resolved separately", NONE: ""}
+
+
 def variant_title(variant: Variant) -> str:
-    """`4x, inline`; with what is known of the device."""
-    text = f"{variant.samples}x" if variant.resolve == NONE else f"{variant.samples}x, {_PLACES[variant.resolve]}"
-    return f"{text} (not offered)" if variant.offered is False else text
-
-
-_PLACES = {"as written": "resolved as written", "inline": "resolved inline", "separate": "resolved separately"}
+    """`4x, resolved inline`, and whether the device does not support it."""
+    return f"{variant.samples}x{_RESOLVES[variant.resolve]}" + (" (not supported)" if variant.offered is False else "")
 
 
 def images(cost: FrameCost) -> list[Row]:
-    """Each image and a remark on it, with its size in full and what is committed of it."""
-    found = []
+    """Each image, with its full size and its committed memory."""
+    table = []
     for image in cost.images:
         remark = "lazily allocated" if image.bytes and image.committed == 0 else ""
         if image.committed_by_use:
-            remark += ", but a pass loads or stores it: the driver then commits it"
-        found.append(Row(LINE, (image.name, remark), (_mib(image.bytes), _mib(image.committed))))
-    return found
+            remark += ", but a pass loads or stores it, which commits the memory"
+        table.append(Row(LINE, (image.name, remark), (_mib(image.bytes), _mib(image.committed))))
+    return table
 
 
 def _mib(size: int | None) -> str:
@@ -138,98 +153,103 @@ def _mib(size: int | None) -> str:
 
 
 def details(cost: FrameCost) -> list[tuple[str, str]]:
-    """What passes take of the tile, and how often fragment shaders run in them: word and sentence."""
-    tiles = [("tile", f"{each.name}: {_tile(each)}") for each in cost.passes if each.tile is not None]
-    return tiles + [("shading", f"{each.name}: {_shading(each.shading)}") for each in cost.passes if each.shading is not None]
+    """How passes use the tile, and how often their fragment shaders run: word and sentence."""
+    tiles = [("tile", f"{row.name}: {_tile(row)}") for row in cost.passes if row.tile is not None]
+    return tiles + [("shading", f"{row.name}: {_shading(row.shading)}") for row in cost.passes if row.shading is not None]
 
 
-def _tile(each: PassCost) -> str:
-    use = each.tile
+def _tile(cost: PassCost) -> str:
+    use = cost.tile
     assert use is not None
-    spilt = "; it does not fit and spills to memory" if use.spills else ""
-    return f"{use.pixels} pixels a tile ({use.full} with one sample), {use.bytes_per_pixel} bytes a pixel{spilt}"
+    spills = "; the tile is too small, and attachments spill to memory" if use.spills else ""
+    return f"{use.pixels} pixels per tile ({use.full} with one sample), {use.bytes_per_pixel} bytes per pixel{spills}"
 
 
 SHOWN_LEG = 4
-"""Of small triangles those of this many pixels stand in texts; JSON has them all."""
+"""The size in pixels of the small triangles that text reports mention; JSON has all sizes."""
 
 
-def _shading(found: Shading) -> str:
-    text = f"{figure(found.msaa)} million fragment shader invocations a frame"
-    if found.samples == 1:
+def _shading(shading: Shading) -> str:
+    text = f"{figure(shading.msaa)} million fragment shader invocations per frame"
+    if shading.samples == 1:
         return text
-    text += f" at {found.samples} samples ({figure(found.sample_shading)} with sample shading, {figure(found.super_sampling)} supersampled"
-    if found.demanded is not None and found.demanded != found.msaa:
-        text += f", {figure(found.demanded)} demanded"
-    factor = dict(found.edges).get(SHOWN_LEG)
+    text += f" at {shading.samples} samples ({figure(shading.sample_shading)} with sample shading"
+    text += f", {figure(shading.super_sampling)} with supersampling"
+    if shading.demanded is not None and shading.demanded != shading.msaa:
+        text += f", {figure(shading.demanded)} as requested"
+    factor = dict(shading.edges).get(SHOWN_LEG)
     return text + (f"; {figure(factor)} times as many for triangles of {SHOWN_LEG} pixels)" if factor is not None else ")")
 
 
-def changes(found: Comparison) -> list[Row]:
-    """What passes cost more than before, but for those that cost the same; the total; and that as the device compresses, where known."""
-    made = [_change(each) for each in (*found.passes, found.total) if each.status != SAME or each is found.total]
-    more = found.total.corrected
-    if more is not None:
-        signed = (*(figure(value, sign=True) for value in more[:3]), figure(more.milliwatts, 1, sign=True))
-        made.append(Row(TOTAL, ("total, corrected", ""), ("", "", *signed, "")))
-    return made
+def changes(comparison: Comparison) -> Table:
+    """The changes of passes, except those that cost the same; of the total; and of the corrected total, if known."""
+    table = [_change(change) for change in (*comparison.passes, comparison.total) if change.status != SAME or change is comparison.total]
+    corrected = comparison.total.corrected
+    if corrected is not None:
+        signed = (*(figure(value, sign=True) for value in corrected[:3]), figure(corrected.milliwatts, 1, sign=True))
+        table.append(Row(TOTAL, ("total, corrected", ""), ("", "", *signed, "")))
+    return Table(("pass", "change"), CHANGES, table)
 
 
-def _change(each: Change) -> Row:
-    more = each.difference
+def _change(change: Change) -> Row:
+    difference = change.difference
     return Row(
-        TOTAL if each.kind == TOTAL else LINE,
-        (each.name, each.status),
+        TOTAL if change.kind == TOTAL else LINE,
+        (change.name, change.status),
         (
-            "" if each.old is None else figure(each.old.traffic_mb_per_s),
-            "" if each.new is None else figure(each.new.traffic_mb_per_s),
-            figure(more.read_mb_per_s, sign=True),
-            figure(more.write_mb_per_s, sign=True),
-            figure(more.memory_mib, sign=True),
-            figure(more.milliwatts, 1, sign=True),
-            "" if each.per_cent is None else f"{figure(each.per_cent, 1, sign=True)} %",
+            "" if change.old is None else figure(change.old.traffic_mb_per_s),
+            "" if change.new is None else figure(change.new.traffic_mb_per_s),
+            figure(difference.read_mb_per_s, sign=True),
+            figure(difference.write_mb_per_s, sign=True),
+            figure(difference.memory_mib, sign=True),
+            figure(difference.milliwatts, 1, sign=True),
+            "" if change.per_cent is None else f"{figure(change.per_cent, 1, sign=True)} %",
         ),
     )
 
 
-def sentence(found: Comparison, budget: float) -> str:
+def sentence(comparison: Comparison, budget: float) -> str:
     """`This change: +2247.78 MB/s read, ..., +449.6 mW (+18.0 % of 2500 mW)`."""
-    more = found.total.difference
-    if found.total.status == SAME:
+    if comparison.total.status == SAME:
         return "This change costs nothing"
-    share = figure(100 * more.milliwatts / budget, 1, sign=True)
+    difference = comparison.total.difference
+    share = figure(100 * difference.milliwatts / budget, 1, sign=True)
     parts = (
-        f"{figure(more.read_mb_per_s, sign=True)} MB/s read",
-        f"{figure(more.write_mb_per_s, sign=True)} MB/s written",
-        f"{figure(more.memory_mib, sign=True)} MiB",
-        f"{figure(more.milliwatts, 1, sign=True)} mW ({share} % of {budget:g} mW)",
+        f"{figure(difference.read_mb_per_s, sign=True)} MB/s read",
+        f"{figure(difference.write_mb_per_s, sign=True)} MB/s written",
+        f"{figure(difference.memory_mib, sign=True)} MiB",
+        f"{figure(difference.milliwatts, 1, sign=True)} mW ({share} % of {budget:g} mW)",
     )
     return f"This change: {', '.join(parts)}"
 
 
 def head(cost: FrameCost) -> str:
-    """What a frame is reckoned with. Our own words come first, so that no line begins with text of an input."""
+    """The terms of an estimate. A fixed word comes first, so that no line begins with text from an input."""
     device = cost.device if cost.device is not None else "no device"
-    return f"{cost.fps:g} frames a second on {device}, {cost.milliwatts_per_gbps:g} mW for each GB/s, budget {cost.budget_milliwatts:g} mW"
+    return f"{cost.fps:g} frames per second on {device}, {cost.milliwatts_per_gbps:g} mW per GB/s, budget {cost.budget_milliwatts:g} mW"
 
 
 def remarks(cost: FrameCost) -> list[tuple[str, str]]:
-    """What was taken for granted, and what could not be counted: word and text."""
+    """Assumptions, and what could not be counted: word and text."""
     return [*(("assumed", text) for text in cost.assumed), *(("unknown", text) for text in cost.unknown)]
 
 
-def remarks_on(found: Compared, number: int) -> list[tuple[str, str]]:
-    """What makes a comparison uncertain: word and text. What both sides assume, or do not know, stands once."""
-    same = sum(each.status == SAME for each in found.frames[number].passes)
-    told = [("note", f"{same} {'pass costs' if same == 1 else 'passes cost'} the same")] if same else []
-    told += [("note", text) for text in found.frames[number].remarks]
-    sides = [dict.fromkeys(row for each in side if each.number == number for row in remarks(each.cost)) for side in (found.old, found.new)]
-    told += [row for row in sides[0] if row in sides[1]]
-    for side, name in zip(sides, ("old", "new"), strict=True):
-        told += [(f"{word} of the {name}", text) for word, text in side if not all((word, text) in each for each in sides)]
-    return told
+def comparison_remarks(compared: Compared, number: int) -> list[tuple[str, str]]:
+    """What makes a comparison uncertain: word and text. Remarks that apply to both sides appear once."""
+    comparison = compared.frames[number]
+    same = sum(change.status == SAME for change in comparison.passes)
+    lines = [("note", f"{same} {'pass costs' if same == 1 else 'passes cost'} the same")] if same else []
+    lines += [("note", text) for text in comparison.remarks]
+    old, new = (
+        dict.fromkeys(remark for frame in side if frame.number == number for remark in remarks(frame.cost))
+        for side in (compared.old, compared.new)
+    )
+    lines += [remark for remark in old if remark in new]
+    lines += [(f"{word} in the old input", text) for word, text in old if (word, text) not in new]
+    lines += [(f"{word} in the new input", text) for word, text in new if (word, text) not in old]
+    return lines
 
 
-def budget_of(found: Compared) -> float:
+def budget_of(compared: Compared) -> float:
     """The power budget of a comparison, in mW."""
-    return next(each.cost.budget_milliwatts for each in (*found.new, *found.old))
+    return next(frame.cost.budget_milliwatts for frame in (*compared.new, *compared.old))

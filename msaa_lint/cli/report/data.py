@@ -1,25 +1,59 @@
-"""JSON text of a report: ASCII alone, one element of a list per line, no NaN."""
+"""JSON text of a report: ASCII only, one list element per line, no NaN."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import TYPE_CHECKING
+import json
+from collections.abc import Iterable, Iterator, Mapping
 
-if TYPE_CHECKING:
-    from . import Write
+from msaa_lint.core.finding import Result
+from msaa_lint.core.text.span import Span
+
+from . import Write
+from .escape import clip, whole
+from .place import place
+
+Json = dict[str, object]
 
 
 def dump(value: object) -> str:
-    """`value` on one line. ASCII, so that any encoding of an output stream holds it and no terminal acts on it."""
-    import json
-
+    """`value` on one line. It is ASCII, so every encoding of an output stream can hold it and no terminal acts on it."""
     return json.dumps(value, ensure_ascii=True, allow_nan=False)
 
 
+def text(value: str) -> str:
+    """Text of an input, a driver, or a layer: unchanged, except lone surrogates and what exceeds `escape.MAX_LENGTH`."""
+    return whole(clip(value))
+
+
+def write_object(members: Mapping[str, object], out: Write) -> None:
+    """A JSON object with one member per line. Lists and iterators have one element per line, so that a large report is neither built as a
+    whole nor one endless line."""
+    separator = "{\n"
+    for key, value in members.items():
+        out(f"{separator}  {dump(key)}: ")
+        separator = ",\n"
+        if isinstance(value, (list, Iterator)):
+            write_list(value, out, "  ")
+        else:
+            out(dump(value))
+    out("\n}\n")
+
+
 def write_list(items: Iterable[object], out: Write, indent: str = "") -> None:
-    """A JSON list with an element per line, so that a large report is neither built whole nor one endless line."""
-    first = True
+    """A JSON list with one element per line."""
+    separator = "["
     for item in items:
-        out(("[" if first else ",") + f"\n{indent}  {dump(item)}")
-        first = False
-    out("[]" if first else f"\n{indent}]")
+        out(f"{separator}\n{indent}  {dump(item)}")
+        separator = ","
+    out("[]" if separator == "[" else f"\n{indent}]")
+
+
+def head(schema: str, version: str) -> Json:
+    """The members that every report begins with."""
+    return {"schema": schema, "version": version} if version else {"schema": schema}
+
+
+def start(result: Result, file: str, span: Span | None) -> Json:
+    """The line and column where a span begins; null for an input without text."""
+    at = place(result, file, span)
+    return {"line": at.line if at else None, "column": at.column if at else None}

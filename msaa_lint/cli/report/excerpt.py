@@ -1,29 +1,26 @@
-"""Source lines with what is meant underlined, in the manner of rustc."""
-
-from __future__ import annotations
+"""Source lines with underlined marks, in the style of rustc."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
+
+from msaa_lint.core.text.source import Source
 
 from .color import SECONDARY, paint
 from .window import CUT, Window, line_end, window
 
-if TYPE_CHECKING:
-    from msaa_lint.core.text.source import Source
-
-MOST_MARKS = 30
+MAX_MARKS = 30
 """Places of one finding that an excerpt shows."""
 
-_MOST_BARS = 3
-_MOST_LINES_BETWEEN = 4
-_NARROWEST = 30
-_FAR = 4096
+_MAX_BARS = 3
+_MAX_LINES_BETWEEN = 4
+_MIN_WIDTH = 30
+_MAX_LINE = 4096
 
 _Row = list[tuple[str, str]]  # pieces of a line, each with its style
 
 
 class Mark(NamedTuple):
-    """A place to underline: offsets, half-open, and what is said of it, already visible (may be empty)."""
+    """A place to underline, as half-open offsets, and its text, already escaped (may be empty)."""
 
     start: int
     end: int
@@ -32,15 +29,8 @@ class Mark(NamedTuple):
     primary: bool
 
 
-class Excerpt(NamedTuple):
-    """`digits` is how many cells the line numbers take, so that what stands above and below can be aligned."""
-
-    digits: int
-    lines: list[str]
-
-
 class _Arm(NamedTuple):
-    """One end of a mark that goes over several lines: `bar` is its column in the margin."""
+    """One end of a mark that spans several lines; `bar` is its column in the margin."""
 
     bar: int
     offset: int
@@ -48,20 +38,21 @@ class _Arm(NamedTuple):
     opens: bool
 
 
-def excerpt(source: Source, marks: Sequence[Mark], width: int, color: bool) -> Excerpt:
-    """The lines that `marks` (at least one) are on, none wider than `width` cells but for what is said (0: no limit)."""
+def excerpt(source: Source, marks: Sequence[Mark], width: int, color: bool) -> tuple[int, list[str]]:
+    """The number of cells that line numbers take, and the lines with the `marks` (at least one). Without the texts of the marks, no line is
+    wider than `width` cells (0: no limit)."""
     text = source.text
     singles: dict[int, list[Mark]] = {}
     arms: dict[int, list[_Arm]] = {}
     starts: dict[int, int] = {}
     bars = 0
-    for mark in marks[:MOST_MARKS]:
+    for mark in marks[:MAX_MARKS]:
         mark = mark._replace(start=max(0, min(mark.start, len(text))), end=max(0, min(mark.end, len(text))))
         line, column = source.position(mark.start)
         last = max(mark.start, mark.end - 1)
         last_line, last_column = source.position(last)
         starts[line] = mark.start - column + 1
-        if last_line == line or bars == _MOST_BARS:
+        if last_line == line or bars == _MAX_BARS:
             singles.setdefault(line, []).append(mark)
             continue
         starts[last_line] = last - last_column + 1
@@ -70,7 +61,7 @@ def excerpt(source: Source, marks: Sequence[Mark], width: int, color: bool) -> E
         arms.setdefault(last_line, []).append(_Arm(bars, last, mark, False))
         bars += 1
     digits = len(str(max(starts)))
-    room = max(_NARROWEST, width - digits - 3 - 2 * bars) if width else 0
+    room = max(_MIN_WIDTH, width - digits - 3 - 2 * bars) if width else 0
     margin = [""] * bars
     rows: list[_Row] = [_edge(digits, "", margin)]
     before = 0
@@ -79,16 +70,16 @@ def excerpt(source: Source, marks: Sequence[Mark], width: int, color: bool) -> E
             rows.append([(f"{CUT:<{digits + 3}}", SECONDARY), *_bars(margin)])
         before = line
         rows += _line(text, line, starts[line], singles.get(line, []), arms.get(line, []), digits, margin, room)
-    return Excerpt(digits, [_joined(row, color) for row in rows])
+    return digits, [_joined(row, color) for row in rows]
 
 
 def _add_between(text: str, first: int, last: int, starts: dict[int, int]) -> None:
-    """Adds the few lines between the ends of a mark; where there are many, or one is very long, they stay out."""
-    if last - first - 1 > _MOST_LINES_BETWEEN:
+    """Adds the lines between the ends of a mark; none if there are many, or one is very long."""
+    if last - first - 1 > _MAX_LINES_BETWEEN:
         return
     offset = starts[first]
     for number in range(first + 1, last):
-        end = line_end(text, offset, _FAR)
+        end = line_end(text, offset, _MAX_LINE)
         if end is None:
             return
         offset = end + (2 if text.startswith("\r\n", end) else 1)
@@ -96,13 +87,13 @@ def _add_between(text: str, first: int, last: int, starts: dict[int, int]) -> No
 
 
 def _line(text: str, number: int, start: int, marks: list[Mark], arms: list[_Arm], digits: int, margin: list[str], room: int) -> list[_Row]:
-    """One source line with its marks; more than once where one window cannot hold them. Opens and closes the bars of `margin`."""
+    """One source line with its marks, repeated if one window cannot hold them all. Opens and closes the bars of `margin`."""
     rows = []
     while True:
         view = window(text, start, min([mark.start for mark in marks] + [arm.offset for arm in arms], default=start), room)
         inside = [mark for mark in marks if view.shows(mark.start)]
         here = [arm for arm in arms if view.shows(arm.offset)]
-        # A mark that begins with the line opens its bar beside it.
+        # A mark that begins with the line opens its bar next to it.
         simple = [arm for arm in here if arm.opens and _begins_line(text, start, arm.offset)]
         bars = _bars(margin)
         for arm in simple:
@@ -121,20 +112,20 @@ def _line(text: str, number: int, start: int, marks: list[Mark], arms: list[_Arm
 
 
 def _underlines(view: Window, marks: list[Mark]) -> list[_Row]:
-    """The row of `^` and `-` with the text of the rightmost mark, then the texts of the others, each under its mark."""
+    """The row of `^` and `-` with the text of the rightmost mark, then a row for each other text, under its mark."""
     places = []
     for mark in marks:
         start = view.cell(mark.start)
         end = view.cell(mark.end) + (len(CUT) if view.cut and mark.end > view.end else 0)
         places.append((start, max(end, start + 1), mark))
     row: _Row = [(" ", "")] * max(end for _, end, _ in places)
-    # Of two marks on one cell the shorter is drawn over the longer, else it would not be seen.
+    # Of two marks on one cell, the shorter is drawn over the longer, which would hide it.
     for start, end, mark in sorted(places, key=lambda place: (place[0] - place[1], place[2].primary)):
         row[start:end] = [("^" if mark.primary else "-", mark.style)] * (end - start)
-    beside = max(places, key=lambda place: (place[1], place[0], place[2].text))
-    if beside[2].text:
-        row = [*row, (" " + beside[2].text, beside[2].style)]
-    below = sorted((place for place in places if place is not beside and place[2].text), key=lambda place: (place[0], place[1]))
+    inline = max(places, key=lambda place: (place[1], place[0], place[2].text))
+    if inline[2].text:
+        row = [*row, (" " + inline[2].text, inline[2].style)]
+    below = sorted((place for place in places if place is not inline and place[2].text), key=lambda place: (place[0], place[1]))
     rows = [row]
     if below:
         rows.append(_connectors(below))
@@ -155,12 +146,12 @@ def _connectors(places: list[tuple[int, int, Mark]]) -> _Row:
 def _arm(arm: _Arm, view: Window, bars: int) -> _Row:
     """From the bar in the margin to the first or last character of the mark."""
     reach = 2 * (bars - arm.bar) - 1 + view.cell(arm.offset)
-    said = "" if arm.opens or not arm.mark.text else " " + arm.mark.text
-    return [((" " if arm.opens else "|") + "_" * reach + ("^" if arm.mark.primary else "-") + said, arm.mark.style)]
+    text = "" if arm.opens or not arm.mark.text else " " + arm.mark.text
+    return [((" " if arm.opens else "|") + "_" * reach + ("^" if arm.mark.primary else "-") + text, arm.mark.style)]
 
 
 def _begins_line(text: str, start: int, offset: int) -> bool:
-    return offset - start < _NARROWEST and not text[start:offset].strip(" -")
+    return offset - start < _MIN_WIDTH and not text[start:offset].strip(" -")
 
 
 def _edge(digits: int, number: str = "", margin: Sequence[str] = ()) -> _Row:

@@ -1,39 +1,34 @@
-"""GitHub Actions: findings as workflow commands, which become annotations, and a table in the step's summary."""
+"""GitHub Actions: findings as workflow commands, which become annotations, and a table in the step summary."""
 
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
 
-from msaa_lint.core.finding import rank
+from msaa_lint.core.finding import Finding, Result, rank
+from msaa_lint.core.text.source import Source
 
+from . import Options, Write
 from .escape import shown, visible
 from .markdown import literal, table
 from .paths import relative
 from .place import place
 from .summary import fixable, plural, sentence
 
-if TYPE_CHECKING:
-    from msaa_lint.core.finding import Finding, Result
-    from msaa_lint.core.text.source import Source
+MAX_ANNOTATIONS = 10
+"""Annotations of one level that GitHub keeps for a step; it silently drops the rest."""
 
-    from . import Options, Write
-
-MOST = 10
-"""Annotations of one level that GitHub keeps of a step; the rest vanish without a word."""
-
-SUMMARY_BYTES = 1 << 20
-"""Size from which GitHub drops a step's whole summary."""
+MAX_SUMMARY_BYTES = 1 << 20
+"""The size from which GitHub drops the whole summary of a step."""
 
 _LEVEL = {"error": "error", "warning": "warning", "note": "notice"}
 
 
 def render(result: Result, out: Write, options: Options) -> None:
-    """Prints at most ten commands a level, errors first, and appends the summary to the file of `options.step_summary`."""
-    room = {"error": MOST, "warning": MOST, "note": MOST}
+    """Prints at most ten commands per level, errors first, and appends the summary to the file `options.step_summary`."""
+    room = dict.fromkeys(_LEVEL, MAX_ANNOTATIONS)
     severities = [finding.severity for finding in result.findings]
-    if any(severities.count(severity) > most for severity, most in room.items()):
-        room["note"] -= 1  # for the last one, which counts the rest
+    if any(severities.count(severity) > MAX_ANNOTATIONS for severity in room):
+        room["note"] -= 1  # for the last one, which counts the others
     left_out = 0
     for finding in sorted(result.findings, key=lambda finding: -rank(finding.severity)):
         if room[finding.severity] > 0:
@@ -42,12 +37,12 @@ def render(result: Result, out: Write, options: Options) -> None:
         else:
             left_out += 1
     path = os.environ.get("GITHUB_STEP_SUMMARY", "") if options.step_summary is None else options.step_summary
-    trouble = _append(path, result, options) if path else ""
+    problem = _append(path, result, options) if path else ""
     if left_out:
-        where = "see the summary of this step" if path and not trouble else "GitHub shows no more of one step"
+        where = "see the summary of this step" if path and not problem else "GitHub shows at most ten per level and step"
         out(f"::notice title=msaa-lint::{plural(left_out, 'more finding')}, {where}\n")
-    if trouble:
-        out(f"::warning title=msaa-lint::{_data('the summary of this step could not be written: ' + shown(trouble))}\n")
+    if problem:
+        out(f"::warning title=msaa-lint::{_data('cannot write the summary of this step: ' + shown(problem))}\n")
 
 
 def _command(finding: Finding, result: Result, options: Options) -> str:
@@ -61,12 +56,12 @@ def _command(finding: Finding, result: Result, options: Options) -> str:
     properties["title"] = f"{shown(finding.rule)} ({shown(finding.code)})"
     lines = [shown(finding.message)]
     lines += [f"help: {shown(text)}" for text in (finding.help or (finding.fix.title if finding.fix else ""),) if text.strip()]
-    told = ",".join(f"{name}={_property(str(value))}" for name, value in properties.items())
-    return f"::{_LEVEL[finding.severity]} {told}::{_data(chr(10).join(lines))}"
+    joined = ",".join(f"{name}={_property(str(value))}" for name, value in properties.items())
+    return f"::{_LEVEL[finding.severity]} {joined}::{_data(chr(10).join(lines))}"
 
 
 def _region(source: Source, start: int, end: int) -> dict[str, str | int]:
-    """Lines, and columns where it is one line, as GitHub wants them; never below the last line with text, where it shows nothing."""
+    """Lines, and columns if it is one line, in GitHub's terms; never below the last line with text, where it shows nothing."""
     text = source.text
     start = min(start, len(text))
     end = max(start, min(end, len(text)))
@@ -84,10 +79,10 @@ def _region(source: Source, start: int, end: int) -> dict[str, str | int]:
 
 
 def _append(path: str, result: Result, options: Options) -> str:
-    """Appends the table to the summary as far as it fits; what went wrong, or nothing."""
+    """Appends the table to the summary, as far as it fits; returns the error, or an empty string."""
     try:
         with open(path, "ab") as file:
-            room = SUMMARY_BYTES - file.seek(0, os.SEEK_END)
+            room = MAX_SUMMARY_BYTES - file.seek(0, os.SEEK_END)
             head = "".join(f"{literal(line)}\n\n" for line in (sentence(result, options), fixable(result)) if line)
             head = f"### msaa-lint\n\n{head}"
             rows = table(result, options, room - _size(head), _size) if result.findings else ()

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from msaa_lint.core.finding import Finding, Result
 
+from . import Options, Write
 from .data import write_list
 from .escape import shown, visible
 from .fingerprint import fingerprints
 from .paths import relative
 from .place import place
 
-if TYPE_CHECKING:
-    from msaa_lint.core.finding import Finding, Result
-
-    from . import Options, Write
-
 _SEVERITY = {"note": "info", "warning": "minor", "error": "major"}
 
 
 def render(result: Result, out: Write, options: Options) -> None:
-    """Prints the list; an empty one where nothing was found."""
+    """Prints the list, which is empty if there are no findings."""
     names = fingerprints(result.findings, options.root)
     write_list((_issue(finding, name, result, options) for finding, name in zip(result.findings, names, strict=True)), out)
     out("\n")

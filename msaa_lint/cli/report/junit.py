@@ -1,31 +1,26 @@
-"""JUnit's XML: a test suite for each file, a test case for each finding, and a passing one for each clean file."""
+"""JUnit XML: a test suite per file, a test case per finding, and a passing test case for each clean file."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
-from msaa_lint.core.finding import is_confident
+from msaa_lint.core.finding import Finding, Result, is_confident
 
+from . import Options, Write
 from .escape import shown, visible
 from .paths import relative
 from .place import place
-
-if TYPE_CHECKING:
-    from msaa_lint.core.finding import Finding, Result
-
-    from . import Options, Write
 
 _ESCAPES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&apos;"})
 
 
 def render(result: Result, out: Write, options: Options) -> None:
-    """Prints the document. An unusable input is an error, a note a passing case that prints it, and so is what is not sure enough to fail
-    the run; the rest are failures."""
+    """Prints the document. An unusable input is an error; a note, or a finding below `fail_confidence`, is a passing case that prints it;
+    other findings are failures."""
     suites: dict[str, list[Finding]] = {file: [] for file in result.files}
     for finding in result.findings:
         suites.setdefault(finding.file, []).append(finding)
-    suites = suites or {"msaa-lint": []}  # Jenkins and GitLab take an empty report for a broken one
+    suites = suites or {"msaa-lint": []}  # Jenkins and GitLab consider an empty report broken
     tests = sum(max(1, len(findings)) for findings in suites.values())
     out('<?xml version="1.0" encoding="UTF-8"?>\n')
     out(f"<testsuites{_attributes(name='msaa-lint', tests=tests, **_counts(result.findings, options))}>\n")
@@ -51,12 +46,12 @@ def _case(finding: Finding, path: str, result: Result, options: Options) -> str:
         text = f"line {at.line}, column {at.column}, {message}"
     # One element: Jenkins keeps only the first of several.
     if not _fails(finding, options):
-        told = f"<system-out>{_xml(text)}</system-out>"
+        body = f"<system-out>{_xml(text)}</system-out>"
     else:
         kind = "error" if finding.fatal else "failure"
-        told = f"<{kind}{_attributes(message=message, type=shown(finding.rule))}>{_xml(text)}</{kind}>"
+        body = f"<{kind}{_attributes(message=message, type=shown(finding.rule))}>{_xml(text)}</{kind}>"
     severity = f"<properties><property{_attributes(name='severity', value=finding.severity)}/></properties>"
-    return f"    <testcase{_attributes(**attributes)}>\n      {severity}\n      {told}\n    </testcase>\n"
+    return f"    <testcase{_attributes(**attributes)}>\n      {severity}\n      {body}\n    </testcase>\n"
 
 
 def _counts(findings: Sequence[Finding], options: Options) -> dict[str, str | int]:
@@ -79,5 +74,5 @@ def _attributes(**values: str | int) -> str:
 
 
 def _xml(text: str) -> str:
-    """`text`, already without the characters that XML 1.0 forbids, as character data or an attribute's value."""
+    """`text`, which has none of the characters that XML 1.0 forbids, as character data or an attribute value."""
     return text.translate(_ESCAPES)

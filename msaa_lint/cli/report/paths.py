@@ -1,4 +1,4 @@
-"""File names as outputs show them."""
+"""File names as outputs display them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from .escape import visible
 
 
 def relative(file: str, root: str, resolve: bool = False) -> str:
-    """`file` relative to `root` with `/` between folders, or as given where it is not below `root` or is no file (`-`, `<stdin>`).
+    """`file` relative to `root`, with `/` between folders; unchanged if it is not below `root` or not a file (`-`, `<stdin>`).
 
     `resolve` follows symbolic links first.
     """
@@ -22,19 +22,19 @@ def relative(file: str, root: str, resolve: bool = False) -> str:
             if full.startswith(below):
                 return full[len(below) :].replace(os.sep, "/")
     except (OSError, ValueError):
-        pass  # a name that no file can have, e.g. with a NUL from a configuration
+        pass  # an impossible name, for example with a NUL from a configuration
     return _without_dot(name)
 
 
 def shown_path(file: str, root: str) -> str:
-    """`relative` for a text output. A CI runner takes a line that begins with `::` as an order, so a name that could begin one, with the
-    colon that comes after it, gets `./` before it."""
+    """`relative`, escaped for a text output. CI runners obey lines that begin with `::`, so a name that could begin such a line, together
+    with the colon that follows it, is prefixed with `./`."""
     path = visible(relative(file, root))
     return "./" + path if path.lstrip().startswith((":", "##")) else path
 
 
 def uri(file: str, root: str) -> str:
-    """A URI reference relative to `root`, percent-encoded as UTF-8; `file:` where the file is not below `root`."""
+    """A URI reference relative to `root`, percent-encoded as UTF-8; a `file:` URI if the file is not below `root`."""
     path = relative(file, root, resolve=True)
     if path.startswith("/"):
         return "file://" + _percent(path)

@@ -1,15 +1,14 @@
 """Lines and columns of findings: 1-based, in code points, the end column after the last character."""
 
-from __future__ import annotations
+from typing import NamedTuple
 
-from typing import TYPE_CHECKING, NamedTuple
-
-if TYPE_CHECKING:
-    from msaa_lint.core.finding import Result
-    from msaa_lint.core.text.span import Span
+from msaa_lint.core.finding import Result
+from msaa_lint.core.text.span import Span
 
 
 class Place(NamedTuple):
+    """A range of text."""
+
     line: int
     column: int
     end_line: int
@@ -17,7 +16,7 @@ class Place(NamedTuple):
 
 
 def place(result: Result, file: str, span: Span | None) -> Place | None:
-    """Where `span` is in `file`; None for an input without text."""
+    """The place of `span` in `file`; None for an input without text."""
     source = result.sources.get(file)
     if span is None or source is None:
         return None

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
-from msaa_lint.core.finding import RuleInfo, rank
+from msaa_lint.core.finding import Finding, Fix, Result, RuleInfo, Suppressed, rank
+from msaa_lint.core.text.span import Span
 
+from . import Options, Write
 from .data import dump, write_list
 from .escape import clip, shown, whole
 from .fingerprint import fingerprints
@@ -15,19 +16,13 @@ from .paths import uri
 from .place import place
 from .summary import tally, together, undecided, usable_price
 
-if TYPE_CHECKING:
-    from msaa_lint.core.finding import Finding, Fix, Result, Suppressed
-    from msaa_lint.core.text.span import Span
-
-    from . import Options, Write
-
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 
-MOST_RESULTS = 25_000
-MOST_LOCATIONS = 1_000
-MOST_LINKS = 10
-LONGEST_DESCRIPTION = 1024
-LONGEST_NAME = 255
+MAX_RESULTS = 25_000
+MAX_LOCATIONS = 1_000
+MAX_LINKS = 10
+MAX_DESCRIPTION = 1024
+MAX_NAME = 255
 
 _PROBLEM = {"error": "error", "warning": "warning", "note": "recommendation"}
 _KIND = {"inline": "inSource", "baseline": "external"}
@@ -47,7 +42,7 @@ _LINK = re.compile(r"https://[!-~]+")
 
 
 def render(result: Result, out: Write, options: Options) -> None:
-    """Prints one run. Silenced findings are in it only with `show_suppressed`."""
+    """Prints one run, with suppressed findings only if `show_suppressed` is true."""
     pairs: list[tuple[Finding, Suppressed | None]] = [(finding, None) for finding in result.findings]
     if options.show_suppressed:
         pairs += [(entry.finding, entry) for entry in result.suppressed]
@@ -55,7 +50,7 @@ def render(result: Result, out: Write, options: Options) -> None:
     rules = _rules(result, [finding for finding, _ in pairs])
     index = {rule.code: n for n, rule in enumerate(rules)}
     numbered = list(zip(pairs, names, strict=True))
-    kept = _worst(numbered)
+    results = _most_severe(numbered)
     driver: dict[str, object] = {"name": "msaa-lint"}
     if options.version:
         key = "semanticVersion" if _SEMANTIC_VERSION.fullmatch(options.version) else "version"
@@ -67,26 +62,26 @@ def render(result: Result, out: Write, options: Options) -> None:
     if options.sarif_category:
         out(f'"automationDetails": {dump({"id": f"msaa-lint/{whole(options.sarif_category)}/"})},\n')
     out('"columnKind": "unicodeCodePoints",\n')
-    out(f'"invocations": [{dump(_invocation(result, options, len(numbered) - len(kept)))}],\n"results": ')
-    write_list((_result(finding, entry, name, index, result, options) for (finding, entry), name in kept), out)
+    out(f'"invocations": [{dump(_invocation(result, options, len(numbered) - len(results)))}],\n"results": ')
+    write_list((_result(finding, entry, name, index, result, options) for (finding, entry), name in results), out)
     price = together(result)
     if price:
         out(f',\n"properties": {dump({"price": price._asdict()})}')
     out("\n}]\n}\n")
 
 
-def _worst(
+def _most_severe(
     numbered: list[tuple[tuple[Finding, Suppressed | None], str]],
 ) -> list[tuple[tuple[Finding, Suppressed | None], str]]:
-    """As many as one run may hold, the least severe left out first, in the order given."""
-    if len(numbered) <= MOST_RESULTS:
+    """As many as one run can hold, leaving out the least severe, in the given order."""
+    if len(numbered) <= MAX_RESULTS:
         return numbered
     order = sorted(range(len(numbered)), key=lambda n: (numbered[n][0][1] is not None, -rank(numbered[n][0][0].severity), n))
-    return [numbered[n] for n in sorted(order[:MOST_RESULTS])]
+    return [numbered[n] for n in sorted(order[:MAX_RESULTS])]
 
 
 def _rules(result: Result, findings: Sequence[Finding]) -> list[RuleInfo]:
-    """The enabled rules and those of the findings that no page describes (9xx), by code."""
+    """The enabled rules and the diagnostics (9xx) among the findings, by code."""
     rules = {rule.code: rule for rule in result.rules}
     for finding in findings:
         if finding.code not in rules:
@@ -98,15 +93,15 @@ def _descriptor(rule: RuleInfo) -> dict[str, object]:
     summary = shown(rule.summary) or shown(rule.name).replace("-", " ").capitalize() or shown(rule.code)
     links = [reference for reference in rule.references if _LINK.fullmatch(reference)]
     page = whole(rule.markdown.strip()) or summary
-    seen = "\n".join(f"- {whole(reference)}" for reference in rule.references if reference not in page)
+    references = "\n".join(f"- {whole(reference)}" for reference in rule.references if reference not in page)
     tags = ["msaa", "vulkan", *_family(rule)]
-    made: dict[str, object] = {
+    descriptor: dict[str, object] = {
         "id": shown(rule.code),
-        "name": clip(shown(rule.name), LONGEST_NAME) or shown(rule.code),
-        "shortDescription": {"text": clip(summary, LONGEST_DESCRIPTION)},
-        "fullDescription": {"text": clip(summary, LONGEST_DESCRIPTION)},
-        # GitHub shows no helpUri, so the links are in the page too.
-        "help": {"text": page, "markdown": f"{page}\n\nReferences:\n\n{seen}" if seen else page},
+        "name": clip(shown(rule.name), MAX_NAME) or shown(rule.code),
+        "shortDescription": {"text": clip(summary, MAX_DESCRIPTION)},
+        "fullDescription": {"text": clip(summary, MAX_DESCRIPTION)},
+        # GitHub does not show helpUri, so the links are in the page, too.
+        "help": {"text": page, "markdown": f"{page}\n\nReferences:\n\n{references}" if references else page},
         "defaultConfiguration": {"level": rule.severity},
         "properties": {
             "precision": rule.confidence,
@@ -115,8 +110,8 @@ def _descriptor(rule: RuleInfo) -> dict[str, object]:
         },
     }
     if links:
-        made["helpUri"] = links[0]
-    return made
+        descriptor["helpUri"] = links[0]
+    return descriptor
 
 
 def _family(rule: RuleInfo) -> list[str]:
@@ -127,15 +122,15 @@ def _family(rule: RuleInfo) -> list[str]:
 def _invocation(result: Result, options: Options, left_out: int) -> dict[str, object]:
     notifications = []
     if left_out:
-        text = f"{left_out} results of the lowest severity are left out: code scanning takes at most {MOST_RESULTS}."
+        text = f"{left_out} results of the lowest severity are left out: code scanning accepts at most {MAX_RESULTS}."
         notifications.append({"level": "warning", "message": {"text": text}})
     reasons = undecided(tally(result), options)
     if reasons:
         notifications.append({"level": "note", "message": {"text": _linkless(f"{reasons}.")}})
-    made: dict[str, object] = {"executionSuccessful": not any(finding.fatal for finding in result.findings)}
+    invocation: dict[str, object] = {"executionSuccessful": not any(finding.fatal for finding in result.findings)}
     if notifications:
-        made["toolExecutionNotifications"] = notifications
-    return made
+        invocation["toolExecutionNotifications"] = notifications
+    return invocation
 
 
 def _result(
@@ -143,7 +138,7 @@ def _result(
 ) -> dict[str, object]:
     artifact = {"uri": uri(finding.file, options.root)}
     region = _region(result, finding.file, finding.span)
-    # Without all four GitHub refuses the file, an input without text or not.
+    # GitHub rejects a file without all four, even for an input without text.
     location: dict[str, object] = {
         "physicalLocation": {
             "artifactLocation": artifact,
@@ -163,10 +158,10 @@ def _result(
         properties["price"] = price._asdict()
     if finding.notes:
         properties["notes"] = [shown(note) for note in finding.notes]
-    made: dict[str, object] = {
+    sarif: dict[str, object] = {
         "ruleId": shown(finding.code),
         "ruleIndex": index[finding.code],
-        # Code scanning fails a pull request on an error, which what is not sure must not do.
+        # Code scanning fails a pull request on an error, which an uncertain finding must not do.
         "level": "warning" if finding.confidence == "low" and finding.severity == "error" else finding.severity,
         "message": {"text": _message(finding, [text for text, _ in labels])},
         "locations": [location],
@@ -174,30 +169,30 @@ def _result(
         "properties": properties,
     }
     if related:
-        made["relatedLocations"] = related
+        sarif["relatedLocations"] = related
     fixes = list(_fix(finding.fix, finding.file, artifact, result)) if finding.fix else []
     if fixes:
-        made["fixes"] = fixes
+        sarif["fixes"] = fixes
     if options.show_suppressed:
-        made["suppressions"] = []
+        sarif["suppressions"] = []
         if entry:
             reason = {"justification": shown(entry.reason)} if entry.reason.strip() else {}
-            made["suppressions"] = [{"kind": _KIND[entry.how], **reason}]
-    return made
+            sarif["suppressions"] = [{"kind": _KIND[entry.how], **reason}]
+    return sarif
 
 
 def _labels(finding: Finding, result: Result) -> list[tuple[str, dict[str, int]]]:
-    """What the labels say, and where, but for those at the finding's own place."""
-    apart = [label for label in finding.labels if label.span != finding.span][:MOST_LOCATIONS]
-    placed = [(_linkless(shown(label.text)), _region(result, finding.file, label.span)) for label in apart]
+    """The texts and regions of the labels, except those at the finding's own span."""
+    labels = [label for label in finding.labels if label.span != finding.span][:MAX_LOCATIONS]
+    placed = [(_linkless(shown(label.text)), _region(result, finding.file, label.span)) for label in labels]
     return [(text, region) for text, region in placed if region]
 
 
 def _message(finding: Finding, labels: list[str]) -> str:
-    """The message as a sentence of its own, which GitHub takes for the title; then the labels, as links, and what helps."""
+    """The message as the first sentence, which GitHub uses as the title, then the labels, as links, and the help text."""
     parts = [_linkless(shown(finding.message))]
-    parts += [_linkless(shown(label.text)) for label in finding.labels[:MOST_LINKS] if label.span == finding.span]
-    for n, text in enumerate(labels[:MOST_LINKS], 1):
+    parts += [_linkless(shown(label.text)) for label in finding.labels[:MAX_LINKS] if label.span == finding.span]
+    for n, text in enumerate(labels[:MAX_LINKS], 1):
         if text:
             escaped = text.replace("\\", "\\\\").replace("[", "\\[").replace("]", "\\]")
             parts.append(f"[{escaped}]({n})")
@@ -206,7 +201,7 @@ def _message(finding: Finding, labels: list[str]) -> str:
 
 
 def _linkless(text: str) -> str:
-    """`text` without an embedded link (SARIF 3.11.6)."""
+    """`text` without embedded links (SARIF 3.11.6)."""
     return text.replace("](", "] (")
 
 

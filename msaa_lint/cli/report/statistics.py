@@ -1,49 +1,45 @@
-"""How often each rule fired, as a text table."""
+"""Findings by rule, as a text table."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
-from msaa_lint.core.finding import rank
+from msaa_lint.core.finding import Finding, Price, Result, rank
 
+from . import Options, Write
 from .escape import shown
 from .summary import together, usable_price
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from msaa_lint.core.finding import Finding, Price, Result
-
-    from . import Options, Write
+UNITS = ("MB/s", "MiB", "mW")
 
 
 def render(result: Result, out: Write, options: Options) -> None:
-    """Prints the table: count, code, rule and severity, the most frequent rule first. Nothing where there is no finding."""
+    """Prints the table; nothing if there is no finding."""
     for line in table(result):
         out(line + "\n")
 
 
 def table(result: Result) -> list[str]:
-    """The lines of the table. A rule whose findings differ in severity has a line for each.
+    """The lines of the table, the most frequent rule first. A rule whose findings differ in severity has a line for each severity.
 
-    Where findings have prices, columns give their sums, and a last line what all of them cost together, which is at most the sum.
+    If findings have prices, more columns have their sums, and the last line what all findings cost together, which is at most the sum.
     """
-    found: dict[tuple[str, str, str], list[Finding]] = {}
+    groups: dict[tuple[str, str, str], list[Finding]] = {}
     for finding in result.findings:
-        found.setdefault((shown(finding.code), shown(finding.rule), finding.severity), []).append(finding)
-    if not found:
+        groups.setdefault((shown(finding.code), shown(finding.rule), finding.severity), []).append(finding)
+    if not groups:
         return []
-    rows = sorted(found.items(), key=lambda item: (-len(item[1]), -rank(item[0][2]), item[0]))
+    rows = sorted(groups.items(), key=lambda item: (-len(item[1]), -rank(item[0][2]), item[0]))
     cells = [["count", "code", "rule", "severity", *UNITS]]
     for (code, rule, severity), findings in rows:
         prices = [price for price in map(usable_price, findings) if price is not None]
         cells.append([str(len(findings)), code, rule, severity, *(_figures(prices) if prices else [""] * len(UNITS))])
-    whole = together(result)
-    if whole is not None:
-        cells.append(["", "", "together", "", *_figures([whole])])
+    total = together(result)
+    if total is not None:
+        cells.append(["", "", "together", "", *_figures([total])])
     else:
         cells = [row[:4] for row in cells]
-    # The count comes first, so that no line begins with text of an input.
+    # The count comes first, so that no line begins with text from an input.
     widths = [max(len(row[column]) for row in cells) for column in range(len(cells[0]))]
     return ["  ".join(map(_aligned, row, widths, range(len(row)))).rstrip() for row in cells]
 
@@ -52,10 +48,7 @@ def _aligned(cell: str, width: int, column: int) -> str:
     return f"{cell:<{width}}" if column in (1, 2, 3) else f"{cell:>{width}}"
 
 
-UNITS = ("MB/s", "MiB", "mW")
-
-
 def _figures(prices: Sequence[Price]) -> list[str]:
-    """Sums of prices: traffic read and written, memory, power."""
+    """Sums of prices: total traffic, memory, power."""
     traffic = sum(price.read_mb_per_s + price.write_mb_per_s for price in prices)
     return [f"{value:.1f}" for value in (traffic, sum(p.memory_mib for p in prices), sum(p.milliwatts for p in prices))]

@@ -1,60 +1,56 @@
-"""The versioned JSON of `msaa-lint study`; `study_v1.schema.json` beside this file is its schema.
+"""The versioned JSON of `msaa-lint study`; `study_v1.schema.json` next to this file is its schema.
 
-Figures have nine significant digits; what is infinite or no number is null. How long the simulation took is not in it: it is nobody's GPU.
+Numbers have nine significant digits; infinities and NaN are null. The duration of the simulation is left out: no GPU takes that long.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any
 
-from msaa_lint.experiments.study.outcome import Study
+from msaa_lint.experiments.study.outcome import SceneSummary, Study
 from msaa_lint.experiments.study.points import Point
 
-from . import Write
-from .data import dump, write_list
-from .escape import clip, whole
+from . import Options, Write
+from .data import Json, head, text, write_object
 
 SCHEMA = "msaa-lint/study-v1"
 
-Json = dict[str, Any]
 
-
-def render(study: Study, out: Write, version: str = "") -> None:
+def render(study: Study, out: Write, options: Options) -> None:
     """Prints one JSON object."""
-    out("{\n")
-    head: Json = {"schema": SCHEMA, **({"version": version} if version else {})}
-    head |= {"device": _text(study.device) or None, "model": _text(study.model) or None, "size": list(study.size), "bits": study.bits}
-    for key, value in head.items():
-        out(f"  {dump(key)}: {dump(value)},\n")
-    effects = [[{"name": name, "why": _text(why)} for name, why in scene.effects] for scene in study.scenes]
-    lists: dict[str, list[Json]] = {
-        "scenes": [
-            {
-                "name": _text(scene.name),
-                "says": _text(scene.description),
-                "error_of": "coverage" if scene.coverage else "color",
-                "edge_pixels": max((point.edge_pixels for point in study.of(scene.name)), default=0),
-                "effects": own,
-            }
-            for scene, own in zip(study.scenes, effects, strict=True)
-        ],
+    members: Json = {
+        **head(SCHEMA, options.version),
+        "device": text(study.device) or None,
+        "model": text(study.model) or None,
+        # A tuple stays on one line.
+        "size": tuple(study.size),
+        "bits": study.bits,
+        "scenes": [_scene(scene, study) for scene in study.scenes],
         "points": [_point(point) for point in study.points],
-        "advice": [{"scene": _text(each.scene), "says": _text(each.text), "because": _text(each.reason)} for each in study.advice],
-        "untimed": [{"name": each.name, "reason": _text(each.reason)} for each in study.untimed],
-        "failed": [{"scene": _text(each.scene), "name": each.technique.name, "reason": _text(each.reason)} for each in study.failed],
-        "errors": [{"file": _text(each.file), "code": each.code, "message": _text(each.message)} for each in study.wrong],
+        "advice": [{"scene": text(advice.scene), "says": text(advice.text), "because": text(advice.reason)} for advice in study.advice],
+        "untimed": [{"name": untimed.name, "reason": text(untimed.reason)} for untimed in study.untimed],
+        "failed": [
+            {"scene": text(failure.scene), "name": failure.technique.name, "reason": text(failure.reason)} for failure in study.failed
+        ],
+        "errors": [{"file": text(error.file), "code": error.code, "message": text(error.message)} for error in study.wrong],
     }
-    for number, (key, items) in enumerate(lists.items()):
-        out((",\n" if number else "") + f"  {dump(key)}: ")
-        write_list(items, out, "  ")
-    out("\n}\n")
+    write_object(members, out)
+
+
+def _scene(scene: SceneSummary, study: Study) -> Json:
+    return {
+        "name": text(scene.name),
+        "says": text(scene.description),
+        "error_of": "coverage" if scene.coverage else "color",
+        "edge_pixels": max((point.edge_pixels for point in study.of(scene.name)), default=0),
+        "effects": [{"name": name, "why": text(why)} for name, why in scene.effects],
+    }
 
 
 def _point(point: Point) -> Json:
     technique = point.technique
     return {
-        "scene": _text(point.scene),
+        "scene": text(point.scene),
         "technique": technique.kind,
         "samples": technique.samples,
         "shaded": technique.shaded,
@@ -67,7 +63,7 @@ def _point(point: Point) -> Json:
         "psnr_display_db": _number(point.psnr_display_db),
         "ssim": _number(point.ssim),
         "time_ms": _number(point.time_ms),
-        "time_from": _text(point.time_from),
+        "time_from": text(point.time_from),
         "ratio": _number(point.ratio),
         "bytes_per_frame": _number(point.bytes_per_frame),
         "milliwatts": _number(point.milliwatts),
@@ -78,9 +74,5 @@ def _point(point: Point) -> Json:
 
 
 def _number(value: float | None) -> float | None:
-    """What JSON can hold; `-0.0` is 0."""
+    """A number that JSON can hold; `-0.0` becomes 0."""
     return None if value is None or not math.isfinite(value) else float(f"{value:.9g}") + 0.0
-
-
-def _text(text: str) -> str:
-    return whole(clip(text))

@@ -1,70 +1,70 @@
-"""What a person reads of `msaa-lint study`: a table by scene, what ran and why, and what it comes to."""
+"""The text report of `msaa-lint study`: a table per scene, its effects and advice, and the origin of the figures."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any
+
+from rich.console import Console
+from rich.table import Table
 
 from msaa_lint.experiments.study.outcome import SceneSummary, Study
 from msaa_lint.experiments.study.points import Point
 
 from . import Options, Write
-from .console import opened
+from .console import new_table, open_console
 from .escape import shown
+from .summary import plural
 
 MARK = "*"
 
 
 def render(study: Study, out: Write, options: Options) -> None:
-    """Prints every scene's table, effects and advice, then where the figures are from."""
-    console = opened(out, options)
+    """Prints each scene, then the origin of the figures."""
+    console = open_console(out, options)
     for number, scene in enumerate(study.scenes):
         if number:
             console.print()
         _scene(scene, study, console)
     if study.scenes:
         console.print()
-    for line in _about(study):
+    for line in _summary(study):
         console.print(line, soft_wrap=True)
 
 
-def _scene(scene: SceneSummary, study: Study, console: Any) -> None:
+def _scene(scene: SceneSummary, study: Study, console: Console) -> None:
     points = study.of(scene.name)
     console.print(shown(scene.name), style="bold", soft_wrap=True)
     if scene.description:
         console.print(shown(scene.description), soft_wrap=True)
     if points:
-        of = "pixels that an edge crosses" if scene.coverage else "pixels that are looked at for their colour"
-        console.print(f"{max(point.edge_pixels for point in points):,} of {study.size[0] * study.size[1]:,} are {of}", soft_wrap=True)
+        edges = f"{max(point.edge_pixels for point in points):,} of {study.size[0] * study.size[1]:,} pixels"
+        console.print(f"{edges} {'are crossed by an edge' if scene.coverage else 'are compared by color'}", soft_wrap=True)
         console.print()
         console.print(_table(points, scene))
         console.print()
-    for name, why in scene.effects:
-        console.print(f"ran {shown(name)}: {shown(why)}" if why else f"ran {shown(name)}", soft_wrap=True)
+    for name, reason in scene.effects:
+        console.print(f"effect {shown(name)}" + (f": {shown(reason)}" if reason else ""), soft_wrap=True)
     if not scene.effects:
-        console.print("no effect ran: the scene calls for none", soft_wrap=True)
-    for failed in study.failed:
-        if failed.scene == scene.name:
-            console.print(f"{failed.technique.name} failed: {shown(failed.reason)}", style="red", soft_wrap=True)
-    for each in study.advice:
-        if each.scene == scene.name:
-            console.print(f"- {shown(each.text)} ({shown(each.reason)})", soft_wrap=True)
+        console.print("no effects: the scene needs none", soft_wrap=True)
+    for failure in study.failed:
+        if failure.scene == scene.name:
+            console.print(f"{failure.technique.name} failed: {shown(failure.reason)}", style="red", soft_wrap=True)
+    for advice in study.advice:
+        if advice.scene == scene.name:
+            console.print(f"- {shown(advice.text)} ({shown(advice.reason)})", soft_wrap=True)
 
 
-def _table(points: Sequence[Point], scene: SceneSummary) -> Any:
-    from rich import box
-    from rich.table import Table
-
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False)
+def _table(points: Sequence[Point], scene: SceneSummary) -> Table:
+    table = new_table()
     table.add_column("")
     table.add_column("samples", no_wrap=True)
-    columns = [name for name, of in _COLUMNS.items() if name not in _OPTIONAL or any(of(point) not in ("-", "") for point in points)]
+    columns = [name for name, text_of in _COLUMNS.items() if name not in _OPTIONAL or any(text_of(point) != "-" for point in points)]
     for name in columns:
-        table.add_column(name.replace("edges", "edges" if scene.coverage else "colour"), justify="right", overflow="fold")
+        table.add_column(name if scene.coverage else name.replace("edges", "color"), justify="right", overflow="fold")
     for point in points:
-        style = "green" if point.best else ""
-        table.add_row(MARK if point.best else "", point.technique.name, *(_COLUMNS[name](point) for name in columns), style=style)
+        cells = [MARK if point.best else "", point.technique.name, *(_COLUMNS[name](point) for name in columns)]
+        table.add_row(*cells, style="green" if point.best else "")
     return table
 
 
@@ -86,34 +86,31 @@ _COLUMNS: dict[str, Callable[[Point], str]] = {
     "SSIM": lambda point: _number(point.ssim, ".4f"),
     "time\nms": lambda point: _number(point.time_ms, ".3g"),
     "time\nto 1x": lambda point: _number(point.ratio, ".2f"),
-    "MB a\nframe": lambda point: _number(point.bytes_per_frame / 1e6 if point.bytes_per_frame is not None else None, ".1f"),
+    "MB per\nframe": lambda point: _number(point.bytes_per_frame / 1e6 if point.bytes_per_frame is not None else None, ".1f"),
     "mW": lambda point: _number(point.milliwatts, ".0f"),
     "MiB": lambda point: _number(point.memory_mib, ".1f"),
 }
-_OPTIONAL = frozenset({"SSIM", "time\nms", "time\nto 1x", "MB a\nframe", "mW", "MiB"})
-"""Columns that are left out where nothing of them is known."""
+_OPTIONAL = frozenset({"SSIM", "time\nms", "time\nto 1x", "MB per\nframe", "mW", "MiB"})
+"""Columns that are left out if nothing in them is known."""
 
 
-def _about(study: Study) -> Iterator[str]:
+def _summary(study: Study) -> Iterator[str]:
     size = f"{study.size[0]}x{study.size[1]}, vertices snapped to {study.bits} bits"
     if study.points:
         if study.device:
-            yield f"{size}; time: {shown(study.device)}, by its own clock"
-            yield f"{MARK} nothing here has less error for as little time"
+            yield f"{size}; times measured by the clock of {shown(study.device)}"
+            yield f"{MARK} Pareto-optimal: no other technique has less error in as little time"
         else:
-            yield f"{size}; no time is known: --device NAME measures it"
-            yield f"{MARK} nothing here has less error for as few samples, shader invocations and bytes"
-        yield f"bytes, power and memory: the cost model{f' for {shown(study.model)}' if study.model else ''}, samples kept on the tile"
-    reasons: dict[str, list[str]] = {}
-    for each in study.untimed:
-        reasons.setdefault(each.reason, []).append(each.name)
-    for reason, names in reasons.items():
-        yield f"not timed: {'; '.join(names)}: {shown(reason)}"
+            yield f"{size}; no times: --device NAME measures them"
+            yield f"{MARK} Pareto-optimal: no other technique has less error for as few samples, shader invocations, and bytes"
+        model = f" for {shown(study.model)}" if study.model else ""
+        yield f"bytes, power, and memory: the cost model{model}, with samples kept on the tile"
+    names: dict[str, list[str]] = {}
+    for untimed in study.untimed:
+        names.setdefault(untimed.reason, []).append(untimed.name)
+    for reason, techniques in names.items():
+        yield f"not timed: {'; '.join(techniques)}: {shown(reason)}"
     for path in (*study.pictures, *study.records):
         yield f"written: {shown(path)}"
     failed = f", {len(study.failed)} failed" if study.failed else ""
-    yield f"{_counted(len(study.points), 'point')} of {_counted(len(study.scenes), 'scene')}{failed}"
-
-
-def _counted(count: int, word: str) -> str:
-    return f"{count} {word}{'' if count == 1 else 's'}"
+    yield f"{plural(len(study.points), 'point')} of {plural(len(study.scenes), 'scene')}{failed}"

@@ -1,21 +1,15 @@
-"""The figures of a run, and the sentences that give them."""
+"""The figures of a run, and the sentences that state them."""
 
-from __future__ import annotations
+from typing import NamedTuple
 
-from typing import TYPE_CHECKING, NamedTuple
+from msaa_lint.core.finding import CONFIDENCES, Finding, Price, Result, is_confident
 
-from msaa_lint.core.finding import CONFIDENCES, is_confident
-
+from . import Options
 from .escape import shown
-
-if TYPE_CHECKING:
-    from msaa_lint.core.finding import Finding, Price, Result
-
-    from . import Options
 
 
 class Tally(NamedTuple):
-    """Counts of a run. `missing` is each missing fact with the number of rules that lacked it, most first."""
+    """Counts of a run. `missing` has each missing fact with the number of rules that need it, the largest number first."""
 
     errors: int
     warnings: int
@@ -35,13 +29,14 @@ class Tally(NamedTuple):
 
 
 def tally(result: Result) -> Tally:
+    """The counts of a run."""
     severities = [finding.severity for finding in result.findings]
     edits = [finding.fix.safe for finding in result.findings if finding.fix and finding.fix.edits]
-    lacking: dict[str, set[str]] = {}
+    rules_by_fact: dict[str, set[str]] = {}
     for entry in result.undecided:
         for fact in entry.missing:
-            lacking.setdefault(fact, set()).add(entry.code)
-    missing = sorted(((fact, len(codes)) for fact, codes in lacking.items()), key=lambda item: (-item[1], item[0]))
+            rules_by_fact.setdefault(fact, set()).add(entry.code)
+    missing = sorted(((fact, len(codes)) for fact, codes in rules_by_fact.items()), key=lambda item: (-item[1], item[0]))
     with_findings = {finding.file for finding in result.findings}
     return Tally(
         errors=severities.count("error"),
@@ -58,21 +53,26 @@ def tally(result: Result) -> Tally:
     )
 
 
+def summary(result: Result, options: Options) -> list[str]:
+    """The lines that end a report: the findings, what they cost together, how many have a fix."""
+    return [line for line in (sentence(result, options), total_price(result), fixable(result)) if line]
+
+
 def sentence(result: Result, options: Options) -> str:
-    """One line: what was found, where, what was silenced and what stayed undecided for lack of which facts."""
+    """One line: the findings, the number of files, what is suppressed, and what is undecided for lack of which facts."""
     count = tally(result)
     if count.findings:
         kinds = [plural(n, word) for n, word in ((count.errors, "error"), (count.warnings, "warning"), (count.notes, "note")) if n]
-        within = plural(count.files, "file")
+        files = plural(count.files, "file")
         if count.files_with_findings < count.files:
-            within = f"{count.files_with_findings} of {within}"
-        text = f"Found {plural(count.findings, 'finding')} ({', '.join(kinds)}) in {within}"
+            files = f"{count.files_with_findings} of {files}"
+        text = f"Found {plural(count.findings, 'finding')} ({', '.join(kinds)}) in {files}"
     else:
         text = f"No findings in {plural(count.files, 'file')}"
-    unsure = sum(not is_confident(found, options.fail_confidence) for found in result.findings)
-    if unsure:
-        below = " or ".join(CONFIDENCES[: CONFIDENCES.index(options.fail_confidence)])
-        text += f"; {unsure} of {below} confidence, below --fail-confidence"
+    unconfident = sum(not is_confident(finding, options.fail_confidence) for finding in result.findings)
+    if unconfident:
+        levels = " or ".join(CONFIDENCES[: CONFIDENCES.index(options.fail_confidence)])
+        text += f"; {unconfident} of {levels} confidence, below --fail-confidence"
     if count.suppressed:
         text += f"; {count.suppressed} suppressed"
     reasons = undecided(count, options)
@@ -80,63 +80,62 @@ def sentence(result: Result, options: Options) -> str:
 
 
 def undecided(count: Tally, options: Options) -> str:
-    """`4 rules undecided for lack of: image.usage (2), ...`; empty where none is."""
+    """`4 rules undecided, missing facts: image.usage (2), ...`; empty if none is."""
     if not count.undecided_rules:
         return ""
-    named = [f"{shown(fact)} ({n})" for fact, n in count.missing[: options.max_undecided]]
+    facts = [f"{shown(fact)} ({n})" for fact, n in count.missing[: options.max_undecided]]
     if len(count.missing) > options.max_undecided:
-        named.append(f"and {len(count.missing) - options.max_undecided} more")
-    return f"{plural(count.undecided_rules, 'rule')} undecided for lack of: {', '.join(named)}"
+        facts.append(f"and {len(count.missing) - options.max_undecided} more")
+    return f"{plural(count.undecided_rules, 'rule')} undecided, missing facts: {', '.join(facts)}"
 
 
 def fixable(result: Result) -> str:
-    """`3 with a fix, 2 of them safe: --fix makes the safe ones, ...`; empty where nothing has one."""
+    """`3 fixable: 2 with --fix, 1 more with --unsafe-fixes`; empty if no finding has a fix with edits."""
     count = tally(result)
-    fixes = count.safe_fixes + count.unsafe_fixes
-    if not fixes:
-        return ""
-    how = {0: "--fix --unsafe-fixes makes them", fixes: "--fix makes them"}
-    both = "--fix makes the safe ones, with --unsafe-fixes all"
-    return f"{fixes} with a fix, {count.safe_fixes} of them safe: {how.get(count.safe_fixes, both)}"
+    safe, unsafe = count.safe_fixes, count.unsafe_fixes
+    if not unsafe:
+        return f"{safe} fixable with --fix" if safe else ""
+    if not safe:
+        return f"{unsafe} fixable with --fix --unsafe-fixes"
+    return f"{safe + unsafe} fixable: {safe} with --fix, {unsafe} more with --unsafe-fixes"
 
 
-def price_of_all(result: Result) -> str:
-    """`CombinedPrice they cost 2248 MB/s written, ...`; empty where nothing has a price."""
+def total_price(result: Result) -> str:
+    """`Fixing all of them saves 2248 MB/s written, ...`; empty if no finding has a price."""
+    subject = "it" if len(result.findings) == 1 else "all of them"
     figures = figures_of(together(result))
-    return f"Together they cost {', '.join(f'{_size(value)} {unit}' for value, unit in figures)}" if figures else ""
+    return f"Fixing {subject} saves {', '.join(f'{_number(value)} {unit}' for value, unit in figures)}" if figures else ""
 
 
 def together(result: Result) -> Price | None:
-    """What all findings of a run cost together: those of one file are worked out together, files are frames of their own."""
-    every = [price for price in result.together.values() if _usable(price)]
-    if not every:
-        return None
-    # A price is a tuple of four: Price itself is not needed here to make one.
-    return type(every[0])(*(sum(column) for column in zip(*every, strict=True)))
+    """What all findings of a run cost together. Those of one file share costs; files are separate frames, whose costs add up."""
+    prices = [price for price in result.together.values() if _is_usable(price)]
+    return Price(*(sum(column) for column in zip(*prices, strict=True))) if prices else None
 
 
 def plural(n: int, word: str) -> str:
-    return f"{n} {word}" if n == 1 else f"{n} {word}s"
+    """`1 pass`, `2 passes`."""
+    return f"{n} {word}" if n == 1 else f"{n} {word}es" if word.endswith("s") else f"{n} {word}s"
 
 
 def usable_price(finding: Finding) -> Price | None:
-    """The finding's price, or None where a figure went out of range: such a price says nothing and JSON cannot hold it."""
+    """The finding's price; None if a figure is out of range, which means nothing and cannot be written as JSON."""
     price = finding.price
-    return price if price is not None and _usable(price) else None
+    return price if price is not None and _is_usable(price) else None
 
 
-def _usable(price: Price) -> bool:
+def _is_usable(price: Price) -> bool:
     limit = 1e300
     return all(-limit < figure < limit for figure in price)
 
 
-def cost(finding: Finding) -> str:
-    """`+2248 MB/s written, +31.6 MiB of memory`; empty where there is no price or it is nothing."""
-    return ", ".join(f"{'+' if value > 0 else ''}{_size(value)} {unit}" for value, unit in figures_of(usable_price(finding)))
+def price_text(finding: Finding) -> str:
+    """`+2248 MB/s written, +31.6 MiB of memory`; empty if there is no price or it is zero."""
+    return ", ".join(f"{'+' if value > 0 else ''}{_number(value)} {unit}" for value, unit in figures_of(usable_price(finding)))
 
 
 def figures_of(price: Price | None) -> list[tuple[float, str]]:
-    """The figures of a price that are not nothing, with their units."""
+    """The nonzero figures of a price, with their units."""
     if price is None:
         return []
     figures = (
@@ -148,5 +147,5 @@ def figures_of(price: Price | None) -> list[tuple[float, str]]:
     return [(value, unit) for value, unit in figures if value]
 
 
-def _size(value: float) -> str:
+def _number(value: float) -> str:
     return f"{value:.0f}" if 100 <= abs(value) < 1e7 else f"{value:.3g}"

@@ -1,9 +1,7 @@
-"""The part of a source line that fits on a terminal, with a cell for each character.
+"""The part of a source line that fits on a terminal, with the cell of each character.
 
-A line may be 64 MiB long: nothing here looks further than the window.
+A line can be 64 MiB long: nothing here looks beyond the window.
 """
-
-from __future__ import annotations
 
 import re
 from collections.abc import Sequence
@@ -14,14 +12,14 @@ from .escape import pieces, visible
 CUT = "..."
 _LINE_END = re.compile(r"[\r\n]")
 _TAB = "    "
-# More marks than this on one letter are no script's, but cover the lines above and below.
-_MOST_COMBINING = 4
+# No script has more marks on one letter; more would cover the lines above and below.
+_MAX_COMBINING = 4
 
 
 class Window(NamedTuple):
-    """`text` as shown. `cells[i]` is the cell where the source character at offset `start + i` begins, its last entry where the text ends.
+    """A displayed text. `cells[i]` is where the source character at offset `start + i` begins; the last entry is where the text ends.
 
-    `cut` says that the line goes on behind the window.
+    `cut` means that the line continues after the window.
     """
 
     start: int
@@ -44,7 +42,7 @@ class Window(NamedTuple):
 
 
 def line_end(text: str, offset: int, longest: int) -> int | None:
-    """Where the line that `offset` is on ends, None where that is more than `longest` characters away."""
+    """The end of the line that contains `offset`; None if it is more than `longest` characters away."""
     found = _LINE_END.search(text, offset, min(len(text), offset + longest))
     if found:
         return found.start()
@@ -52,16 +50,14 @@ def line_end(text: str, offset: int, longest: int) -> int | None:
 
 
 def window(text: str, line_start: int, focus: int, width: int) -> Window:
-    """The whole line from `line_start` if it fits into `width` cells, else the part around the character at `focus`, with `...` where cut.
-
-    `width` 0 never cuts.
-    """
+    """The whole line from `line_start` if it fits into `width` cells (0: always), else the part around the character at `focus`, with `...`
+    where it is cut."""
     if not width:
         end = line_end(text, line_start, len(text))
         assert end is not None
         return _lay(text, line_start, end, 0, "", "")
-    # A shown cell stands for at most this many characters, as combining marks are limited.
-    reach = (width + 1) * (_MOST_COMBINING + 1)
+    # Combining marks are limited, so a cell holds at most `_MAX_COMBINING` + 1 characters.
+    reach = (width + 1) * (_MAX_COMBINING + 1)
     end = line_end(text, line_start, reach)
     if end is not None:
         whole = _lay(text, line_start, end, 0, "", "")
@@ -80,7 +76,7 @@ def window(text: str, line_start: int, focus: int, width: int) -> Window:
 
 
 def _back(text: str, line_start: int, focus: int, room: int) -> int:
-    """The first character from which the text before `focus` takes no more than `room` cells."""
+    """The first offset from which the text before `focus` takes at most `room` cells."""
     start = max(line_start, focus - room)
     shown, widths = _measure(text[start:focus])
     total = sum(widths)
@@ -91,7 +87,7 @@ def _back(text: str, line_start: int, focus: int, room: int) -> int:
 
 
 def _lay(text: str, start: int, end: int, room: int, before: str, after: str) -> Window:
-    """The characters from `start` on up to `end`, or as many as end by cell `room` (0: all), between `before` and `after`."""
+    """The characters from `start` to `end`, or as many as fit before cell `room` (0: all), between `before` and `after`."""
     raw = text[start:end]
     if raw.isascii() and raw == visible(raw):
         count = min(len(raw), room - len(before)) if room else len(raw)
@@ -106,7 +102,7 @@ def _lay(text: str, start: int, end: int, room: int, before: str, after: str) ->
 
 
 def _measure(text: str) -> tuple[list[str], list[int]]:
-    """What to show for each character, and how many cells it takes."""
+    """The displayed text of each character, and its width in cells."""
     shown = pieces(text)
     if text.isascii():
         for i, c in enumerate(text if "\t" in text else ""):
@@ -124,8 +120,8 @@ def _measure(text: str) -> tuple[list[str], list[int]]:
         if width == 1 and not c.isascii():
             if category(c) in ("Mn", "Me"):
                 combining += 1
-                # At the start of the window a mark would fall on the gutter.
-                if combining > _MOST_COMBINING or i == 0:
+                # At the start of the window, a mark would be drawn on the gutter.
+                if combining > _MAX_COMBINING or i == 0:
                     shown[i] = f"\\u{ord(c):04x}" if ord(c) < 0x10000 else f"\\U{ord(c):08x}"
                     width = len(shown[i])
                 else:

@@ -1,7 +1,7 @@
 import pytest
 from hypothesis import given
 
-from msaa_lint.cli.report.escape import LONGEST, clip, pieces, shown, visible, whole
+from msaa_lint.cli.report.escape import MAX_LENGTH, clip, pieces, shown, visible, whole
 from tests.cli.report.hostile import texts
 
 
@@ -36,8 +36,8 @@ def test_visible_is_printable_and_stays_as_it_is(text: str) -> None:
 
 def test_shown_trims_and_cuts() -> None:
     assert shown("  a\n") == "a"
-    assert shown("x" * LONGEST) == "x" * LONGEST
-    assert shown("x" * (LONGEST + 1)) == "x" * (LONGEST - 3) + "..."
+    assert shown("x" * MAX_LENGTH) == "x" * MAX_LENGTH
+    assert shown("x" * (MAX_LENGTH + 1)) == "x" * (MAX_LENGTH - 3) + "..."
     assert clip("abcdef", 5) == "ab..."
 
 

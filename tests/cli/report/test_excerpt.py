@@ -4,13 +4,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from msaa_lint.cli.report.excerpt import MOST_MARKS, Mark, excerpt
+from msaa_lint.cli.report.excerpt import MAX_MARKS, Mark, excerpt
 from tests.cli.report.sample import Source
 
 
 def lines(text: str, *marks: tuple[int, int, str], width: int = 0) -> list[str]:
     made = [Mark(start, end, said, "", n == 0) for n, (start, end, said) in enumerate(marks)]
-    return excerpt(Source("x", text), made, width, False).lines
+    return excerpt(Source("x", text), made, width, False)[1]
 
 
 def test_one_mark() -> None:
@@ -24,7 +24,7 @@ def test_the_primary_mark_may_come_last_in_the_file() -> None:
 def test_line_numbers_are_aligned() -> None:
     text = "k\n" * 12
     assert lines(text, (0, 1, ""), (22, 23, "")) == ["   |", " 1 | k", "   | ^", "12 | k", "   | -"]
-    assert excerpt(Source("x", text), [Mark(22, 23, "", "", True)], 0, False).digits == 2
+    assert excerpt(Source("x", text), [Mark(22, 23, "", "", True)], 0, False)[0] == 2
 
 
 @pytest.mark.parametrize(
@@ -70,7 +70,7 @@ def test_carets_stand_under_what_is_shown(before: str, part: str, carets: str) -
 def test_at_most_so_many_marks_are_drawn() -> None:
     text = "k\n" * 100
     rows = lines(text, *((2 * n, 2 * n + 1, "") for n in range(100)))
-    assert sum(row.endswith(("^", "-")) for row in rows) == MOST_MARKS
+    assert sum(row.endswith(("^", "-")) for row in rows) == MAX_MARKS
 
 
 def test_more_long_marks_than_bars_fall_back_to_their_first_line() -> None:

@@ -3,7 +3,7 @@ import json
 import jsonschema
 import pytest
 
-from msaa_lint.cli.report.escape import LONGEST
+from msaa_lint.cli.report.escape import MAX_LENGTH
 from msaa_lint.core.finding import Fix, Price, Undecided
 from msaa_lint.core.text.span import Edit, Label, Span
 from tests.cli.report.sample import FORWARD, finding, frame, printed, result
@@ -65,11 +65,11 @@ def test_price_out_of_range_is_null() -> None:
 
 
 def test_texts_are_as_they_are_but_for_lone_surrogates_and_length() -> None:
-    text = printed("json", result(finding("\x1b\u202e|日\ud800", file="bad\udc80\x1b", subject="x" * (LONGEST + 1))))
+    text = printed("json", result(finding("\x1b\u202e|日\ud800", file="bad\udc80\x1b", subject="x" * (MAX_LENGTH + 1))))
     assert text.isascii() and text.replace("\n", "").isprintable()
     (item,) = json.loads(text)["findings"]
     assert (item["message"], item["file"]) == ("\x1b\u202e|日\\ud800", "bad\\udc80\x1b")
-    assert item["subject"] == "x" * (LONGEST - 3) + "..."
+    assert item["subject"] == "x" * (MAX_LENGTH - 3) + "..."
 
 
 def test_columns_are_code_points() -> None:

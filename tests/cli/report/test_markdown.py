@@ -5,7 +5,7 @@ from hypothesis import HealthCheck, given
 from markdown_it import MarkdownIt
 
 from msaa_lint.cli.report.escape import shown
-from msaa_lint.cli.report.markdown import LONGEST_COMMENT, literal
+from msaa_lint.cli.report.markdown import MAX_COMMENT, literal
 from msaa_lint.core.finding import Result
 from msaa_lint.core.text.span import Span
 from tests.cli.report.hostile import TOKENS, results, texts
@@ -88,7 +88,7 @@ def test_fence_is_longer_than_any_in_the_source(token: str) -> None:
 
 def test_comment_is_never_longer_than_a_forge_takes() -> None:
     text = printed("markdown", result(*(finding("x" * 500, span=Span(0, 1)) for _ in range(500)), text="abc"))
-    assert len(text) <= LONGEST_COMMENT
+    assert len(text) <= MAX_COMMENT
     assert re.search(r"\n\d+ more findings not shown\.\n", text)
-    assert re.search(r"\nThe details of \d+ more findings do not fit here\.\n$", text)
+    assert re.search(r"\nThe details of \d+ more findings do not fit into this comment\.\n$", text)
     assert text.count("<details>") == text.count("</details>") > 10

@@ -85,7 +85,7 @@ def test_invocation_tells_of_failure_and_of_what_stayed_undecided() -> None:
     (invocation,) = run_of(frame())["invocations"]
     assert invocation["executionSuccessful"] is False
     assert invocation["toolExecutionNotifications"] == [
-        {"level": "note", "message": {"text": "2 rules undecided for lack of: image.usage (2), image.memory (1)."}}
+        {"level": "note", "message": {"text": "2 rules undecided, missing facts: image.usage (2), image.memory (1)."}}
     ]
 
 
@@ -107,7 +107,7 @@ def test_category() -> None:
 
 
 def test_least_severe_results_are_left_out_first(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sarif, "MOST_RESULTS", 3)
+    monkeypatch.setattr(sarif, "MAX_RESULTS", 3)
     severities = ["note", "error", "warning", "note", "error"]
     run = run_of(result(*(finding(f"m{n}", severity=severity) for n, severity in enumerate(severities))))
     assert [one["message"]["text"] for one in run["results"]] == ["m1.", "m2.", "m4."]

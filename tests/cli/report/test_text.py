@@ -38,10 +38,10 @@ def test_summary_names_the_missing_facts_most_lacked_first() -> None:
     )
     run = result(files=("f",), undecided=undecided)
     assert printed("concise", run) == (
-        "No findings in 1 file; 3 rules undecided for lack of: image.memory (2), device.name (1), image.usage (1)\n"
+        "No findings in 1 file; 3 rules undecided, missing facts: image.memory (2), device.name (1), image.usage (1)\n"
     )
     assert printed("concise", run, max_undecided=1) == (
-        "No findings in 1 file; 3 rules undecided for lack of: image.memory (2), and 2 more\n"
+        "No findings in 1 file; 3 rules undecided, missing facts: image.memory (2), and 2 more\n"
     )
 
 
@@ -49,9 +49,9 @@ def test_summary_names_the_missing_facts_most_lacked_first() -> None:
     ("safe", "expected"),
     [
         ((), ""),
-        ((True,), "1 with a fix, 1 of them safe: --fix makes them\n"),
-        ((False, False), "2 with a fix, 0 of them safe: --fix --unsafe-fixes makes them\n"),
-        ((True, False), "2 with a fix, 1 of them safe: --fix makes the safe ones, with --unsafe-fixes all\n"),
+        ((True,), "1 fixable with --fix\n"),
+        ((False, False), "2 fixable with --fix --unsafe-fixes\n"),
+        ((True, False), "2 fixable: 1 with --fix, 1 more with --unsafe-fixes\n"),
     ],
 )
 def test_summary_counts_fixes_that_have_edits(safe: tuple[bool, ...], expected: str) -> None:
@@ -81,7 +81,7 @@ def test_help_and_fix() -> None:
     assert remarks(fix=Fix("do it", True, edits)) == ["help: do it (safe: --fix)"]
     assert remarks(fix=Fix("do it", False, edits)) == ["help: do it (unsafe: --fix --unsafe-fixes)"]
     assert remarks(help="do it", fix=Fix("do it", True, edits)) == ["help: do it (safe: --fix)"]
-    assert remarks(help="why", fix=Fix("do it", False, (), True)) == ["help: why", "fix: do it (yours to decide)"]
+    assert remarks(help="why", fix=Fix("do it", False, (), True)) == ["help: why", "fix: do it (not automatic: the choice is yours)"]
     assert remarks(help="why", fix=Fix("do it", True, edits)) == ["help: why", "fix: do it (safe: --fix)"]
 
 
@@ -151,11 +151,11 @@ def test_statistics_add_up_prices_and_say_what_all_cost_together() -> None:
 def test_summary_says_what_the_findings_of_all_files_cost_together() -> None:
     one, other = Price(0.0, 2247.78, 0.0, 224.8), Price(1.0, 0.0, 31.6, 0.1)
     run = result(finding(), files=("a", "b"), together={"a": one, "b": other})
-    assert "Together they cost 2248 MB/s written, 1 MB/s read, 31.6 MiB of memory, 225 mW\n" in printed("concise", run)
-    assert "Together" not in printed("concise", result(finding(), together={"a": Price(0.0, 0.0, 0.0, 0.0)}))
-    assert "Together" not in printed("concise", result(finding(), together={"a": Price(float("inf"), 0.0, 0.0, 0.0)}))
+    assert "Fixing it saves 2248 MB/s written, 1 MB/s read, 31.6 MiB of memory, 225 mW\n" in printed("concise", run)
+    assert "saves" not in printed("concise", result(finding(), together={"a": Price(0.0, 0.0, 0.0, 0.0)}))
+    assert "saves" not in printed("concise", result(finding(), together={"a": Price(float("inf"), 0.0, 0.0, 0.0)}))
 
 
 def test_unknown_output_is_refused() -> None:
-    with pytest.raises(ValueError, match="no output is called 'yaml'; there are full, concise, json,"):
+    with pytest.raises(ValueError, match="unknown output format 'yaml': use one of full, concise, json,"):
         render("yaml", result(), print, Options())

@@ -13,7 +13,7 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from msaa_lint.cli.confirm_options import CONFIRM, read
+from msaa_lint.cli.options import COMMANDS, parse
 from tests.paths import ROOT
 
 SCHEMA = json.loads((ROOT / "msaa_lint" / "cli" / "report" / "confirm_v1.schema.json").read_text())
@@ -64,15 +64,15 @@ def test_schema_is_one() -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--timeout", "0"], "--timeout '0': seconds are due, above 0 and at most a day"),
-        (["--timeout", "nan"], "--timeout 'nan': seconds are due"),
-        (["--size", "1920"], "--size '1920': WIDTHxHEIGHT in pixels is due"),
+        (["--timeout", "0"], "--timeout '0': expected seconds, above 0 and at most a day"),
+        (["--timeout", "nan"], "--timeout 'nan': expected seconds"),
+        (["--size", "1920"], "--size '1920': expected WIDTHxHEIGHT in pixels"),
         (["--size", "0x5"], "--size '0x5'"),
         (["--size", "99999x5"], "at most 16384 each"),
-        (["--samples", "3"], "--samples 3: one of 1, 2, 4, 8, 16, 32, 64 is due"),
+        (["--samples", "3"], "--samples must be one of 1, 2, 4, 8, 16, 32, 64, found 3"),
         (["--time", "--no-time"], "--time and --no-time contradict each other"),
-        (["--output", "sarif"], "no output 'sarif'; there are full, json"),
-        (["--output", "json", "--output", "full"], "two outputs go to standard output"),
+        (["--output", "sarif"], "unknown output format 'sarif': use one of full, json"),
+        (["--output", "json", "--output", "full"], "only one output can go to standard output"),
     ],
 )
 def test_options_that_say_nothing_end_with_2(tmp_path: Path, arguments: list[str], words: str) -> None:
@@ -86,19 +86,19 @@ def test_no_path_ends_with_2(tmp_path: Path) -> None:
 
 
 def test_options_are_read_without_typer() -> None:
-    given = read(["a.yaml", "--device", "llvm", "--device=nvidia", "--no-gate", "--timeout", "3", "--repeats", "9"])
+    given = parse("confirm", ["a.yaml", "--device", "llvm", "--device=nvidia", "--no-gate", "--timeout", "3", "--repeats", "9"])
     assert given == {"paths": ["a.yaml"], "device": ["llvm", "nvidia"], "no_gate": True, "timeout": "3", "repeats": 9}
-    assert read(["--list-devices"]) == {"paths": [], "list_devices": True}
-    assert (
-        read(["a", "--repeats", "0"]) is read(["a", "--nothing"]) is read(["a", "--no-gate=1"]) is read([]) is read(["a", "--size"]) is None
-    )
-    assert len({option.flag for option in CONFIRM}) == len(CONFIRM)
+    assert parse("confirm", ["--list-devices"]) == {"paths": [], "list_devices": True}
+    for wrong in (["a", "--repeats", "0"], ["a", "--nothing"], ["a", "--no-gate=1"], [], ["a", "--size"]):
+        assert parse("confirm", wrong) is None
+    options = COMMANDS["confirm"].options
+    assert len({option.flag for option in options}) == len(options)
 
 
 def test_help_names_every_option(tmp_path: Path) -> None:
     done = run(tmp_path, "--help")
     assert done.returncode == 0
-    assert [option.flag for option in CONFIRM if option.flag not in done.stdout] == []
+    assert [option.flag for option in COMMANDS["confirm"].options if option.flag not in done.stdout] == []
 
 
 def test_no_driver_says_what_to_install(tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ import jsonschema
 import pytest
 
 from msaa_lint.cli import study as command
-from msaa_lint.cli.study_options import STUDY, read
+from msaa_lint.cli.options import COMMANDS, parse
 from msaa_lint.experiments.study import measure
 from msaa_lint.experiments.study.points import MSAA, Point, Technique, techniques
 from msaa_lint.experiments.study.scenes import NAMES
@@ -60,9 +60,10 @@ def test_schema_is_one() -> None:
 
 
 def test_options_are_read_without_typer() -> None:
-    given = read(["edge-fan", "--samples", "1,4", "--jobs=2", "--record", "--bits", "4", "--output", "json", "--output=full=a.txt"])
+    words = ["edge-fan", "--samples", "1,4", "--jobs=2", "--record", "--bits", "4", "--output", "json", "--output=full=a.txt"]
+    given = parse("study", words)
     assert given == {"paths": ["edge-fan"], "samples": "1,4", "jobs": 2, "record": True, "bits": "4", "output": ["json", "full=a.txt"]}
-    assert read(["--list-scenes"]) == {"paths": [], "list_scenes": True}
+    assert parse("study", ["--list-scenes"]) == {"paths": [], "list_scenes": True}
     for wrong in (
         ["a", "--jobs", "0"],
         ["a", "--bits", "5"],
@@ -72,31 +73,32 @@ def test_options_are_read_without_typer() -> None:
         ["a", "--size"],
         ["a", "--backend=x"],
     ):
-        assert read(wrong) is None
-    assert len({option.flag for option in STUDY}) == len(STUDY)
+        assert parse("study", wrong) is None
+    options = COMMANDS["study"].options
+    assert len({option.flag for option in options}) == len(options)
 
 
 def test_help_names_every_option(tmp_path: Path) -> None:
     done = run(tmp_path, "--help")
     assert done.returncode == 0
-    assert [option.flag for option in STUDY if option.flag not in done.stdout] == []
+    assert [option.flag for option in COMMANDS["study"].options if option.flag not in done.stdout] == []
 
 
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["edge-fun"], "no scene and no file 'edge-fun'; did you mean edge-fan?"),
-        (["qqqq\x1b"], r"no scene and no file 'qqqq\x1b'; scenes are edge-fan, "),
-        (["edge-fan", "--samples", "3"], "--samples '3': one or more of 1, 2, 4, 8, 16 are due, with commas between"),
+        (["edge-fun"], "no scene or file 'edge-fun'; did you mean edge-fan?"),
+        (["qqqq\x1b"], r"no scene or file 'qqqq\x1b'; scenes are edge-fan, "),
+        (["edge-fan", "--samples", "3"], "--samples '3': expected a comma-separated list of 1, 2, 4, 8, 16"),
         (["edge-fan", "--samples", ""], "--samples ''"),
-        (["edge-fan", "--techniques", "msaa,fxaa"], "--techniques 'msaa,fxaa': one or more of msaa, sample-shading, ssaa are due"),
+        (["edge-fan", "--techniques", "msaa,fxaa"], "--techniques 'msaa,fxaa': expected a comma-separated list of msaa, sample-shading"),
         (["edge-fan", "--techniques", "sample-shading", "--samples", "1"], "sample shading needs a count above 1"),
-        (["edge-fan", "--size", "1920"], "--size '1920': WIDTHxHEIGHT in pixels is due"),
+        (["edge-fan", "--size", "1920"], "--size '1920': expected WIDTHxHEIGHT in pixels"),
         (["edge-fan", "--size", "8x8"], "edge-fan: a scene must be at least 32x32 pixels, found 8x8"),
-        (["edge-fan", "--output", "sarif"], "no output 'sarif'; there are full, json"),
-        (["edge-fan", "--plot", "a.gif"], "--plot 'a.gif': the name of an .svg or .png file is due"),
+        (["edge-fan", "--output", "sarif"], "unknown output format 'sarif': use one of full, json"),
+        (["edge-fan", "--plot", "a.gif"], "--plot 'a.gif': expected the name of an .svg or .png file"),
         (["edge-fan", "--profile", "mali-g67"], "--profile: no profile `mali-g67`; did you mean `mali-g76`?"),
-        (["edge-fan", "--record"], "--record: the file of a description is due"),
+        (["edge-fan", "--record"], "--record needs a description in a file"),
         (["edge-fan", "--bits", "5"], "'5' is not one of '4', '8'"),
     ],
 )
@@ -151,8 +153,8 @@ def test_a_person_reads_a_table_with_its_sources(tmp_path: Path) -> None:
     assert done.returncode == 0
     lines = done.stdout.splitlines()
     assert lines[0] == "edge-fan"
-    assert "64x48, vertices snapped to 8 bits; no time is known: --device NAME measures it" in lines
-    assert any(line.startswith("bytes, power and memory: the cost model") for line in lines)
+    assert "64x48, vertices snapped to 8 bits; no times: --device NAME measures them" in lines
+    assert any(line.startswith("bytes, power, and memory: the cost model") for line in lines)
     assert any(line.startswith("- 4x leaves ") and "'s error (RMSE 0." in line for line in lines)
     assert lines[-1] == "5 points of 1 scene"
     assert not any("to 1x" in line for line in lines), "no time is known, and none is shown"
@@ -164,7 +166,7 @@ def test_outputs_go_to_files(tmp_path: Path) -> None:
     report((tmp_path / "a.json").read_text())
     assert (tmp_path / "a.txt").read_text().startswith("edge-fan\n")
     refused = run(tmp_path, "edge-fan", *SMALL, "--samples", "4", "--output", "json=no/a.json")
-    assert refused.returncode == 2 and "no/a.json cannot be written: No such file or directory" in refused.stderr
+    assert refused.returncode == 2 and "cannot write no/a.json: No such file or directory" in refused.stderr
 
 
 @pytest.mark.parametrize("ending", ["svg", "png"])
@@ -175,7 +177,7 @@ def test_plots_are_the_same_for_the_same_points(tmp_path: Path, ending: str) -> 
     assert data.startswith(b"<?xml" if ending == "svg" else b"\x89PNG\r\n")
     assert data == (tmp_path / f"b.{ending}").read_bytes()
     if ending == "svg":
-        assert b">4x</text>" in data and b">edge-fan</text>" in data and b"no time is known" in data
+        assert b">4x</text>" in data and b">edge-fan</text>" in data and b"no times measured" in data
 
 
 def test_crops_are_side_by_side(tmp_path: Path) -> None:
@@ -265,10 +267,10 @@ def test_a_point_that_fails_is_told_and_ends_with_2(
 
 
 def test_a_failure_of_the_program_is_one_line(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.setattr(command, "_found", lambda *_: 1 / 0)
+    monkeypatch.setattr(command, "_outcome", lambda *_: 1 / 0)
     given = {"paths": ["edge-fan"], "jobs": 1, "size": "64x48", "samples": "4", "techniques": MSAA}
     assert command.study(given) == 2
-    assert capsys.readouterr().err == "msaa-lint: the program failed: ZeroDivisionError: division by zero (--traceback shows where)\n"
+    assert capsys.readouterr().err == "msaa-lint: internal error: ZeroDivisionError: division by zero (--traceback shows where)\n"
     with pytest.raises(ZeroDivisionError):
         command.study({**given, "traceback": True})
 
@@ -312,7 +314,7 @@ def test_an_interrupted_sweep_loses_nothing_and_goes_on(tmp_path: Path, jobs: st
         out, error = running.communicate(timeout=60)
     assert running.returncode == 130, error
     assert out == ""
-    assert error == "msaa-lint: interrupted; what was done is kept in kept, and the same command goes on from there\n"
+    assert error == "msaa-lint: interrupted; finished points are in kept; run the same command to continue\n"
     there = {path: path.read_bytes() for path in kept.iterdir()}
     assert 2 <= len([path for path in there if not path.name.startswith("time-")]) < 2 * len(techniques())
     assert not any(path.suffix == ".tmp" for path in there)
@@ -347,6 +349,6 @@ def test_a_terminal_shows_progress(tmp_path: Path) -> None:
 
 
 def test_nothing_heavy_is_imported_to_read_the_options() -> None:
-    code = "import sys, msaa_lint.cli.study_options, msaa_lint.experiments.study.points, msaa_lint.linter.study_record; print(*sys.modules)"
+    code = "import sys, msaa_lint.cli.options, msaa_lint.experiments.study.points, msaa_lint.linter.study_record; print(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
     assert {"numpy", "joblib", "matplotlib", "rich", "typer", "pydantic", "json"}.isdisjoint(done.stdout.split())

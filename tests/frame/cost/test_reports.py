@@ -21,7 +21,7 @@ from markdown_it import MarkdownIt
 import msaa_lint.cli.report
 from msaa_lint.cli.report import Options, cost_full, cost_json, cost_markdown
 from msaa_lint.cli.report.cost_rows import figure
-from msaa_lint.cli.report.markdown import LONGEST_COMMENT
+from msaa_lint.cli.report.markdown import MAX_COMMENT
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Result
 from msaa_lint.core.text.span import Span
@@ -103,7 +103,7 @@ def test_a_table_has_an_end() -> None:
     frame = costed(SEPARATE)
     many = tuple(frame.cost.passes[0]._replace(name=f"pass {number}", lines=()) for number in range(1200))
     text = printed(cost_full.render, [frame._replace(cost=frame.cost._replace(passes=many))])
-    assert "\nand 200 more, which --output json has\ntotal " in text
+    assert "\nand 200 more rows (--output json has all)\ntotal " in text
     assert "pass 999 " in text and "pass 1000 " not in text
 
 
@@ -274,5 +274,5 @@ def test_a_comment_has_an_end() -> None:
     frame = costed(SEPARATE)
     many = tuple(frame.cost.passes[0]._replace(name=f"pass {number}") for number in range(3000))
     text = printed(cost_markdown.render, [frame._replace(cost=frame.cost._replace(passes=many))], NOTHING)
-    assert len(text) < LONGEST_COMMENT
-    assert re.search(r"\n\n\d+ more lines and tables do not fit here\.\n$", text)
+    assert len(text) < MAX_COMMENT
+    assert re.search(r"\n\n\d+ more lines and tables do not fit into this comment\.\n$", text)

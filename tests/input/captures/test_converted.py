@@ -60,7 +60,7 @@ def test_a_file_that_exists_is_not_written_over(tmp_path: Path) -> None:
     command = ["convert", "p.jsonl", "-o", "frame.yaml"]
     made = run(tmp_path, *command)
     assert made.returncode == 2
-    assert made.stderr == "msaa-lint: frame.yaml: it exists already: --force writes over it\n"
+    assert made.stderr == "msaa-lint: frame.yaml already exists; --force overwrites it\n"
     assert (tmp_path / "frame.yaml").read_text() == "mine"
     assert run(tmp_path, *command, "--force").returncode == 0
     assert "renderPasses:" in (tmp_path / "frame.yaml").read_text()
@@ -70,7 +70,7 @@ def test_what_is_no_capture_needs_no_conversion(tmp_path: Path) -> None:
     (tmp_path / "frame.yaml").write_text("images: {}\n")
     made = run(tmp_path, "convert", "frame.yaml")
     assert made.returncode == 2
-    assert "this is no capture" in made.stderr
+    assert "nothing to convert" in made.stderr
 
 
 def test_a_capture_that_ends_in_the_middle_is_written_up_to_there(tmp_path: Path) -> None:
@@ -103,7 +103,7 @@ def test_a_person_sees_the_call_and_the_structure(tmp_path: Path) -> None:
     assert lines[1].strip() == f"--> game.jsonl:{index + 1}:1"
     assert "        storeOp: STORE" in made.stdout
     assert f"= from: vkCreateRenderPass, call {index}; in 5 of 5 frames" in made.stdout
-    assert "= fix: storeOp: DONT_CARE (yours to decide)" in made.stdout
+    assert "= fix: storeOp: DONT_CARE (not applied automatically)" in made.stdout
     assert "game.jsonl is a capture, and stays as it is" in made.stderr
     assert (tmp_path / "game.jsonl").read_bytes() == program.text()
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from msaa_lint.cli.check import check
-from msaa_lint.cli.options import read
+from msaa_lint.cli.options import parse
 
 CORPUS = Path(__file__).parent / "corpus"
 PROGRAMS = sorted(path for path in CORPUS.iterdir() if path.suffix in (".c", ".cpp"))
@@ -55,7 +55,7 @@ def marks(text: str) -> list[tuple[int, str, str, str]]:
 
 def findings(path: Path) -> list[Found]:
     """The warnings and errors of `msaa-lint check`, which has no reason to fail on any program."""
-    given = read([str(path), "--isolated", "--output", "json"])
+    given = parse("check", [str(path), "--isolated", "--output", "json"])
     assert given is not None
     out, err = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):

@@ -495,7 +495,7 @@ def test_convert_writes_what_was_read(tmp_path: Path) -> None:
     done = run(tmp_path, "convert", "a.cpp", "-o", "out.msaa.yaml")
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
     text = (tmp_path / "out.msaa.yaml").read_text()
-    assert text.startswith("# Read in a.cpp: what is not stated is not known.\n")
+    assert text.startswith("# Read from a.cpp; what it does not state is left out.\n")
     assert text == (tmp_path / "out.msaa.yaml").read_text()
     done = run(tmp_path, "check", *ONLY, "out.msaa.yaml")
     assert done.returncode == 1
@@ -504,7 +504,7 @@ def test_convert_writes_what_was_read(tmp_path: Path) -> None:
     write(tmp_path, "empty.cpp", "int main() {}\n")
     done = run(tmp_path, "convert", "empty.cpp")
     assert (done.returncode, done.stdout) == (2, "")
-    assert "empty.cpp: nothing is read in it" in done.stderr
+    assert "empty.cpp: found no attachment" in done.stderr
 
 
 def test_cost_reckons_what_the_code_states(tmp_path: Path) -> None:

@@ -381,7 +381,7 @@ def test_convert_of_a_stream_has_every_document(tmp_path: Path) -> None:
     assert re.findall(r"^(?:---|images:)$", text, re.MULTILINE) == ["images:", "---", "images:"]
     again = run(tmp_path, *command)
     assert again.returncode == 2
-    assert "it exists already" in again.stderr
+    assert "already exists" in again.stderr
 
 
 def test_hostile_names_and_many_targets() -> None:

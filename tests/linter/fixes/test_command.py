@@ -34,16 +34,16 @@ def test_fix_writes_and_reports_what_is_left(folder: Path) -> None:
         "sample-count-above-four",
         "sample-count-not-portable",
     ]
-    assert done.stderr == "msaa-lint: 3 fixed, 2 left\n"
+    assert done.stderr == "msaa-lint: 3 fixed, 2 remaining\n"
     assert done.returncode == 1
     assert [each.name for each in folder.iterdir()] == ["frame.msaa.yaml"]
 
 
 def test_when_all_is_fixed_it_ends_with_0(folder: Path) -> None:
     done = run(folder, "check", ".", "--fix")
-    assert (done.returncode, done.stderr) == (0, "msaa-lint: 3 fixed, 0 left\n")
+    assert (done.returncode, done.stderr) == (0, "msaa-lint: 3 fixed, 0 remaining\n")
     again = run(folder, "check", ".", "--fix")
-    assert (again.returncode, again.stderr, text(folder)) == (0, "msaa-lint: 0 fixed, 0 left\n", MENDED)
+    assert (again.returncode, again.stderr, text(folder)) == (0, "msaa-lint: 0 fixed, 0 remaining\n", MENDED)
 
 
 DIFF = """\
@@ -65,7 +65,7 @@ DIFF = """\
 def test_diff_prints_and_writes_nothing(folder: Path) -> None:
     done = run(folder, "check", ".", "--diff")
     assert (done.stdout, done.returncode) == (DIFF, 1)
-    assert done.stderr == "msaa-lint: 3 would be fixed, 0 left\n"
+    assert done.stderr == "msaa-lint: 3 would be fixed, 0 remaining\n"
     assert text(folder) == STORED
     assert run(folder, "check", ".", "--diff", "--exit-zero").returncode == 0
     run(folder, "check", ".", "--fix")
@@ -98,10 +98,10 @@ def test_diff_leaves_files_of_other_outputs(folder: Path) -> None:
 def test_unsafe_fixes_are_asked_for(folder: Path) -> None:
     (folder / "frame.msaa.yaml").write_text(UNSAFE, encoding="utf-8")
     done = run(folder, "check", ".", "--fix")
-    assert done.stderr == "msaa-lint: 2 fixed, 1 left, 1 of them with an unsafe fix (--unsafe-fixes)\n"
+    assert done.stderr == "msaa-lint: 2 fixed, 1 remaining, 1 of them with an unsafe fix (--unsafe-fixes)\n"
     assert "storeOp: DONT_CARE}\n    subpasses" in text(folder)
     done = run(folder, "check", ".", "--fix", "--unsafe-fixes")
-    assert done.stderr == "msaa-lint: 1 fixed, 0 left\n"
+    assert done.stderr == "msaa-lint: 1 fixed, 0 remaining\n"
     assert text(folder) == MENDED
 
 
@@ -114,7 +114,7 @@ def test_standard_input_is_mended_on_standard_output(folder: Path) -> None:
     done = run(folder, "check", "-", "--fix", stdin=UNSAFE.encode())
     assert done.stdout == UNSAFE.replace("CLEAR, storeOp: STORE", "CLEAR, storeOp: DONT_CARE")
     assert "<stdin>:8:" in done.stderr
-    assert "2 fixed, 1 left" in done.stderr
+    assert "2 fixed, 1 remaining" in done.stderr
     assert done.returncode == 1
     assert run(folder, "check", "-", "--fix", stdin=MENDED.encode()).stdout == MENDED
     assert run(folder, "check", "-", "--diff", "--stdin-filename", "frame.msaa.yaml", stdin=STORED.encode()).stdout == DIFF
@@ -134,7 +134,7 @@ def test_encoding_and_line_ends_stay(folder: Path, mark: bytes, encoding: str, e
         return mark + (f"# é ☃ 𝄞\n{plain}" if last else f"# é ☃ 𝄞\n{plain}".rstrip("\n")).replace("\n", ending).encode(encoding)
 
     (folder / "frame.msaa.yaml").write_bytes(encoded(STORED))
-    assert run(folder, "check", ".", "--fix").stderr == "msaa-lint: 3 fixed, 0 left\n"
+    assert run(folder, "check", ".", "--fix").stderr == "msaa-lint: 3 fixed, 0 remaining\n"
     assert (folder / "frame.msaa.yaml").read_bytes() == encoded(MENDED)
 
 
@@ -146,7 +146,7 @@ def test_a_read_only_file_is_said_and_the_others_are_fixed(folder: Path) -> None
     assert "the fixed text cannot be written: the file is read-only" in done.stdout
     assert (text(folder), text(folder, "other.msaa.yaml")) == (STORED, MENDED)
     assert "frame.msaa.yaml:7:" in done.stdout
-    assert done.stderr.startswith("msaa-lint: 3 fixed, 3 left")
+    assert done.stderr.startswith("msaa-lint: 3 fixed, 3 remaining")
 
 
 def test_a_link_stays_a_link(folder: Path) -> None:
