@@ -78,7 +78,7 @@ def test_table_in_a_pipe(folder: Path) -> None:
     done = run(folder, "cost", "a.msaa.yaml")
     assert (done.returncode, done.stderr) == (0, "")
     lines = done.stdout.splitlines()
-    assert lines[0] == "a.msaa.yaml: 100 frames a second on no device, 100 mW for each GB/s, budget 2500 mW"
+    assert lines[0] == "a.msaa.yaml: 100 frames per second on no device, 100 mW per GB/s, budget 2500 mW"
     total = next(line for line in lines if line.startswith("total"))
     assert total.split() == ["total", "0.00", "20.00", "0.19", "2.0", "0.1", "%"]
     assert "\x1b" not in done.stdout
@@ -97,7 +97,7 @@ def test_documents_of_one_file(folder: Path) -> None:
     (folder / "two.yaml").write_text(f"{SIZED}---\n{MENDED}", encoding="utf-8")
     found = report(folder, "two.yaml")
     assert [(each["document"], traffic(each["total"])) for each in found["frames"]] == [(0, (0, 20)), (1, (0, 4))]
-    assert "two.yaml, document 2: 100 frames a second on no device" in run(folder, "cost", "two.yaml").stdout
+    assert "two.yaml, document 2: 100 frames per second on no device" in run(folder, "cost", "two.yaml").stdout
 
 
 def test_two_files_are_compared(folder: Path) -> None:
@@ -132,7 +132,7 @@ def test_standard_input_is_one_of_two(folder: Path) -> None:
 
 def test_markdown_for_a_comment(folder: Path) -> None:
     done = run(folder, "cost", "b.msaa.yaml", "a.msaa.yaml", "--output", "markdown")
-    assert done.stdout.startswith("<!-- msaa-lint cost -->\n### What this change costs\n\nb.msaa.yaml → a.msaa.yaml\n")
+    assert done.stdout.startswith("<!-- msaa-lint cost -->\n### Cost of this change\n\nb.msaa.yaml → a.msaa.yaml\n")
     assert "| main | changed | 4.00 | 20.00 | 0.00 | +16.00 | 0.00 | +1.6 | +400.0 % |\n" in done.stdout
 
 
@@ -184,9 +184,9 @@ def test_samples(folder: Path) -> None:
         (["--samples", "3"], "--samples '3': expected a comma-separated list of 1, 2, 4, 8, 16, 32, 64"),
         (["--samples", ""], "--samples"),
         (["--samples", "\x1b[2J"], "'\\x1b[2J'"),
-        (["--output", "sarif"], "no output 'sarif'; there are full, json, markdown"),
-        (["--output", "json", "--output", "markdown"], "two outputs go to standard output"),
-        (["--output", "json=no/such/folder/x.json"], "no/such/folder/x.json cannot be written"),
+        (["--output", "sarif"], "unknown output format 'sarif': use one of full, json, markdown"),
+        (["--output", "json", "--output", "markdown"], "only one output can go to standard output"),
+        (["--output", "json=no/such/folder/x.json"], "cannot write no/such/folder/x.json"),
         (["--chart", "x.pdf"], "expected the name of an .svg or .png file"),
         (["--profile", "mali-g67"], "no profile `mali-g67`"),
         (["--config", "none.toml"], "none.toml"),
@@ -205,7 +205,7 @@ def test_an_input_that_cannot_be_used_is_said_as_check_says_it_and_the_others_ar
     assert done.returncode == 2
     checked = run(folder, "check", "broken.msaa.yaml", "--output", "concise").stdout.splitlines()
     assert done.stderr.splitlines() == [line for line in checked if ": error[" in line]
-    assert "a.msaa.yaml: 100 frames a second on no device" in done.stdout
+    assert "a.msaa.yaml: 100 frames per second on no device" in done.stdout
     found = report(folder, "broken.msaa.yaml", "a.msaa.yaml", code=2)
     assert [each["file"] for each in found["errors"]] == ["broken.msaa.yaml"] * len(found["errors"])
     assert found["file"] == "a.msaa.yaml", "what is left of two is listed"
@@ -287,5 +287,5 @@ def test_help_says_what_two_files_and_exit_codes_mean(tmp_path: Path) -> None:
     shown = " ".join(run(tmp_path, "cost", "--help", COLUMNS="200").stdout.split())
     for option in ["each", "fps", "size", "profile", "milliwatts-per-gbps", "budget", "samples", "output", "chart", "color"]:
         assert f"--{option}" in shown
-    assert "exactly two files are compared" in shown
+    assert "Exactly two files are compared" in shown
     assert "Exits with 0" in shown

@@ -79,7 +79,7 @@ def remarks(finding: Finding, rules: Set[str]) -> list[tuple[str, str]]:
     if fix and fix.edits:
         how = " (safe: --fix)" if fix.safe else " (unsafe: --fix --unsafe-fixes)"
     elif fix and fix.shown:
-        how = " (not automatic: the choice is yours)"
+        how = " (not applied automatically)"
     title = shown(fix.title) if fix else ""
     if help_text and title and title != help_text:
         lines += [("help", help_text), ("fix", title + how)]

@@ -51,7 +51,7 @@ def test_ten_of_a_level_and_a_count_of_the_rest(tmp_path: Path) -> None:
     many = [finding(f"{severity} {n}", severity=severity) for n in range(12) for severity in ("note", "warning", "error")]
     lines = printed("github", result(*many)).splitlines()
     assert [line.split(" ")[0] for line in lines] == ["::error"] * 10 + ["::warning"] * 10 + ["::notice"] * 10
-    assert lines[-1] == "::notice title=msaa-lint::7 more findings, GitHub shows no more of one step"
+    assert lines[-1] == "::notice title=msaa-lint::7 more findings, GitHub shows at most ten per level and step"
     summary = tmp_path / "summary.md"
     lines = printed("github", result(*many), step_summary=str(summary)).splitlines()
     assert lines[-1] == "::notice title=msaa-lint::7 more findings, see the summary of this step"
@@ -91,13 +91,13 @@ def test_summary_stays_below_what_github_drops(tmp_path: Path) -> None:
     summary.write_bytes(b"x" * (github.MAX_SUMMARY_BYTES - 50))
     lines = printed("github", many, step_summary=str(summary)).splitlines()
     assert summary.stat().st_size == github.MAX_SUMMARY_BYTES - 50
-    assert lines[-1] == "::warning title=msaa-lint::the summary of this step could not be written: it is full"
+    assert lines[-1] == "::warning title=msaa-lint::cannot write the summary of this step: it is full"
 
 
 def test_summary_that_cannot_be_written_is_told(tmp_path: Path) -> None:
     lines = printed("github", result(finding()), step_summary=str(tmp_path)).splitlines()
     assert len(lines) == 2
-    assert lines[1].startswith("::warning title=msaa-lint::the summary of this step could not be written: ")
+    assert lines[1].startswith("::warning title=msaa-lint::cannot write the summary of this step: ")
 
 
 def test_places_are_relative_to_the_root() -> None:

@@ -81,7 +81,7 @@ def test_help_and_fix() -> None:
     assert remarks(fix=Fix("do it", True, edits)) == ["help: do it (safe: --fix)"]
     assert remarks(fix=Fix("do it", False, edits)) == ["help: do it (unsafe: --fix --unsafe-fixes)"]
     assert remarks(help="do it", fix=Fix("do it", True, edits)) == ["help: do it (safe: --fix)"]
-    assert remarks(help="why", fix=Fix("do it", False, (), True)) == ["help: why", "fix: do it (not automatic: the choice is yours)"]
+    assert remarks(help="why", fix=Fix("do it", False, (), True)) == ["help: why", "fix: do it (not applied automatically)"]
     assert remarks(help="why", fix=Fix("do it", True, edits)) == ["help: why", "fix: do it (safe: --fix)"]
 
 

@@ -34,7 +34,7 @@ def texts(svg: bytes) -> list[str]:
 def test_bars_are_as_written_fixed_and_every_count_in_both_places() -> None:
     found = bars(costed())
     assert [bar.name for bar in found] == [
-        "as written", "fixed", "1x", "2x, inline (not offered)", "2x, separate (not offered)", "4x, inline", "4x, separate", "8x, inline",
+        "as written", "fixed", "1x", "2x, inline (not supported)", "2x, separate (not supported)", "4x, inline", "4x, separate", "8x, inline",
         "8x, separate",
     ]  # fmt: skip
     assert (found[0].read, found[0].write) == pytest.approx((2247.7824, 2809.728))
@@ -68,7 +68,7 @@ def test_svg_has_names_and_units_as_text() -> None:
     found = costed()
     shown = texts(draw(bars(found), "frame.yaml", "Mali-G76", found.cost, "svg"))
     assert {"as written", "fixed", "4x, separate", "read", "write", "5058 MB/s, 506 mW (20.2 %)"} <= set(shown)
-    assert "traffic with external memory, MB/s; in brackets the share of 2500 mW" in shown
+    assert "traffic with external memory, MB/s (share of 2500 mW in parentheses)" in shown
 
 
 def test_the_same_frame_gives_the_same_svg_whatever_is_configured(tmp_path: Path) -> None:
