@@ -223,9 +223,9 @@ def _clock(arguments: Arguments) -> contextlib.AbstractContextManager[Any]:
     """The clock of the device that `--device` names; None without one."""
     if "device" not in arguments:
         return contextlib.nullcontext()
-    from msaa_lint.experiments.study.times import Clock
+    from msaa_lint.experiments.study.times import DeviceClock
 
-    return Clock(arguments["device"], repeats=arguments.get("repeats", 15))
+    return DeviceClock(arguments["device"], repeats=arguments.get("repeats", 15))
 
 
 @contextlib.contextmanager
@@ -259,7 +259,7 @@ def _write_crops(folder: str, options: StudyOptions, studied: Sequence[Subject])
 
 def _write_records(studied: Sequence[Subject], outcome: Study) -> list[str]:
     """Writes one record per file of descriptions, except for files with a failed point; returns the paths."""
-    from msaa_lint.experiments.study.record import Recorded, write
+    from msaa_lint.experiments.study.record import DocumentStudy, write
 
     files: dict[str, list[Subject]] = {}
     for subject in studied:
@@ -271,7 +271,7 @@ def _write_records(studied: Sequence[Subject], outcome: Study) -> list[str]:
         if any(failure.scene in names for failure in outcome.failed):
             continue
         studies = [
-            Recorded(subject.frame, outcome.device, outcome.size, outcome.of(subject.input.name))
+            DocumentStudy(subject.frame, outcome.device, outcome.size, outcome.of(subject.input.name))
             for subject in documents
             if subject.frame is not None
         ]
