@@ -34,7 +34,8 @@ def texts(svg: bytes) -> list[str]:
 def test_bars_are_as_written_fixed_and_every_count_in_both_places() -> None:
     found = bars(costed())
     assert [bar.name for bar in found] == [
-        "as written", "fixed", "1x", "2x, inline (not supported)", "2x, separate (not supported)", "4x, inline", "4x, separate", "8x, inline",
+        "as written", "fixed", "1x", "2x, inline (not supported)", "2x, separate (not supported)", "4x, inline", "4x, separate",
+        "8x, inline",
         "8x, separate",
     ]  # fmt: skip
     assert (found[0].read, found[0].write) == pytest.approx((2247.7824, 2809.728))
