@@ -35,7 +35,8 @@ def lint(
     mistake in an input, a page or the configuration is a finding (MSAA9xx), never an exception. The other arguments are the command's
     options.
     """
-    from .linter.run import Request, run
+    from .linter.run import run
+    from .linter.workspace import Request
 
     overrides = {
         "select": select, "extend_select": extend_select, "ignore": ignore, "rules": rules, "profile": profile, "edition": edition,

@@ -142,3 +142,24 @@ def test_the_interface_is_what_is_listed() -> None:
 
 def test_runs_are_alike() -> None:
     assert lint(text=BAD).findings == lint(text=BAD).findings
+
+
+def test_a_configuration_is_read_anew_by_every_run(tmp_path: Path) -> None:
+    frame, configuration = tmp_path / "frame.yaml", tmp_path / "msaa-lint.toml"
+    frame.write_text(BAD, encoding="utf-8")
+    configuration.write_text(f'ignore = ["{RULE}"]\n', encoding="utf-8")
+    assert lint(str(frame)).findings == []
+    configuration.write_text(f'[severity]\n{RULE} = "note"\n', encoding="utf-8")
+    assert [found.severity for found in lint(str(frame)).findings] == ["note"]
+    configuration.unlink()
+    assert [found.severity for found in lint(str(frame)).findings] == ["error"]
+    (tmp_path / "other.toml").write_text(f'ignore = ["{RULE}"]\n', encoding="utf-8")
+    assert lint(str(frame), config=str(tmp_path / "other.toml")).findings == []
+    (tmp_path / "other.toml").unlink()
+    assert [found.code for found in lint(str(frame), config=str(tmp_path / "other.toml")).findings] == ["MSAA921", "MSAA206"]
+
+
+@pytest.mark.parametrize("mark", ["msaalint", "msaa_lint", "msaa lint", "MSAALint"])
+def test_a_misspelled_suppression_is_reported_wherever_it_is(mark: str) -> None:
+    text = BAD.replace("storeOp: DONT_CARE}\n    sub", f"storeOp: DONT_CARE}} # {mark}: ignore[{RULE}]\n    sub")
+    assert [found.code for found in lint(text=text).findings] == ["MSAA206", "MSAA913"]

@@ -6,8 +6,9 @@ import os
 import sys
 from collections.abc import Sequence
 
-from msaa_lint.linter.run import Request, run
+from msaa_lint.linter.run import run
 from msaa_lint.linter.suppress import baseline as baselines
+from msaa_lint.linter.workspace import Request
 
 from .common import warn
 from .report.escape import visible

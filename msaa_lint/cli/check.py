@@ -10,8 +10,9 @@ from typing import IO, Any
 
 from msaa_lint.core.finding import is_confident, rank
 from msaa_lint.input.discovery import STDIN
-from msaa_lint.linter.run import Outcome, Request, run
+from msaa_lint.linter.run import Outcome, run
 from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
+from msaa_lint.linter.workspace import Request
 
 from .common import (
     Target,
@@ -125,7 +126,7 @@ def _over_budget(outcome: Outcome) -> list[str]:
     from msaa_lint.linter.settings.cost_limit import budget, reached
 
     limit = budget(outcome.settings.fail_on_cost)
-    return [file for file, price in outcome.charged.items() if reached(price, limit)]
+    return [file for file, price in outcome.failing_prices.items() if reached(price, limit)]
 
 
 def _print_reports(targets: Sequence[Target], outcome: Outcome, arguments: Arguments) -> None:

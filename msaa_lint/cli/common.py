@@ -177,7 +177,7 @@ def overrides(arguments: Arguments) -> dict[str, Any]:
 
 
 def input_options(arguments: Arguments) -> dict[str, Any]:
-    """The members of a `linter.run.Request` that all commands fill alike."""
+    """The members of a `linter.workspace.Request` that all commands fill alike."""
     return {
         "paths": arguments["paths"],
         "config": arguments.get("config"),

@@ -105,7 +105,7 @@ def _session(options: ConfirmOptions, device: str | None) -> Session:
 def _run(arguments: Arguments, options: ConfirmOptions, session: Session) -> int:
     from msaa_lint.experiments.confirm.inputs import Inputs, inputs
     from msaa_lint.experiments.confirm.trial import Terms, trial
-    from msaa_lint.linter.run import Request
+    from msaa_lint.linter.workspace import Request
 
     several = len(options.devices) > 1
     terms = Terms(

@@ -14,8 +14,8 @@ from msaa_lint.frame.cost.amounts import Terms
 from msaa_lint.frame.cost.input_cost import Compared, compared
 from msaa_lint.frame.cost.samples import COUNTS
 from msaa_lint.frame.cost.variants import DEFAULT_COUNTS
-from msaa_lint.linter.cost_run import CostResult, name_of, run_costs, with_fixes
-from msaa_lint.linter.run import Request
+from msaa_lint.linter.cost_run import CostResult, run_costs, with_fixes
+from msaa_lint.linter.workspace import Request
 
 from .common import (
     Target,
@@ -57,19 +57,19 @@ def _cost(arguments: Arguments) -> int:
     comparison = None if arguments.get("each") else _comparison(result, request)
     for note in result.notes:
         warn(note)
-    _print_errors(result.wrong, arguments)
+    _print_errors(result.errors, arguments)
     for target in targets:
         write_output(target.path, partial(_render, target.format, result, comparison, arguments))
     if chart is not None:
         _draw_chart(chart, result, comparison)
-    return 2 if result.wrong.findings else 0
+    return 2 if result.errors.findings else 0
 
 
 def _comparison(result: CostResult, request: Request) -> Compared | None:
     """The comparison of two files; None for other inputs, and if one of the two cannot be used: the other is then shown alone."""
     if len(request.paths) != 2 or any(os.path.isdir(path) for path in request.paths):
         return None
-    old, new = (name_of(request, path) if path == "-" else shown(path) for path in request.paths)
+    old, new = (request.input_name(path) if path == "-" else shown(path) for path in request.paths)
     old_frames, new_frames = result.of(old), result.of(new)
     return compared(old, old_frames, new, new_frames) if old_frames and new_frames else None
 
@@ -131,14 +131,14 @@ def _render(format: str, result: CostResult, comparison: Compared | None, argume
     options = report_options(arguments, out, color=format == "full", width=0)
     if format == "json":
         if comparison is not None:
-            cost_json.render_comparison(comparison, result.wrong, out.write, options)
+            cost_json.render_comparison(comparison, result.errors, out.write, options)
         else:
-            cost_json.render(result.frames, result.wrong, out.write, options)
+            cost_json.render(result.frames, result.errors, out.write, options)
     elif format == "markdown":
         if comparison is not None:
             cost_markdown.render_comparison(comparison, out.write, options)
         else:
-            cost_markdown.render(result.frames, result.wrong, out.write, options)
+            cost_markdown.render(result.frames, result.errors, out.write, options)
     elif comparison is not None:
         cost_full.render_comparison(comparison, out.write, options)
     else:

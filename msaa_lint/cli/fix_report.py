@@ -21,7 +21,7 @@ _STYLES = {"+": "32", "-": "31", "@": "36"}
 
 def print_text(outcome: Outcome, name: str) -> None:
     """Prints the fixed text of standard input to standard output, byte for byte."""
-    for text in outcome.mended:
+    for text in outcome.fixed:
         if text.file == name:
             sys.stdout.flush()
             sys.stdout.buffer.write(text.data)
@@ -30,7 +30,7 @@ def print_text(outcome: Outcome, name: str) -> None:
 
 def print_diff(outcome: Outcome, color: bool) -> bool:
     """Prints what fixes would change; returns whether that is anything."""
-    changed = [text for text in outcome.mended if text.changed]
+    changed = [text for text in outcome.fixed if text.changed]
     set_utf_8(sys.stdout)
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(newline="\n")
@@ -57,11 +57,11 @@ def unified_diff(before: str, after: str, name: str, color: bool = False) -> Ite
 
 def fix_summary(outcome: Outcome, applied: bool, unsafe: bool) -> list[str]:
     """How many findings are fixed and how many remain, then why the others are not fixed."""
-    fixed = sum(len(text.fixed_findings) for text in outcome.mended)
+    fixed = sum(len(text.fixed_findings) for text in outcome.fixed)
     remaining = sum(not finding.fatal for finding in outcome.result.findings) - (0 if applied else fixed)
     summary = f"{fixed} {'' if applied else 'would be '}fixed, {max(remaining, 0)} remaining"
     lines = [summary if unsafe else summary + _unsafe_hint(outcome.result)]
-    for text in outcome.mended:
+    for text in outcome.fixed:
         for finding, reason in text.failed_fixes:
             lines.append(f"{text.file}{_line(text, finding)}: {finding.rule} is not fixed: {reason}")
     return lines

@@ -1,6 +1,6 @@
-"""A file written anew: at every moment it is wholly what it was, or wholly what it will be.
+"""Writes files atomically: a file has either its old or its new contents, even if the process is killed.
 
-The new text goes to a file beside it, to the disk, and takes its name in one step.
+The new contents are written to a file in the same folder, which is then renamed.
 """
 
 from __future__ import annotations
@@ -14,92 +14,95 @@ _NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_CLOEXEC", 0) | geta
 
 
 class NotWritten(Exception):
-    """Why a file is as it was, in words."""
+    """Why a file was left unchanged."""
 
 
 class _Stamp(NamedTuple):
     device: int
     inode: int
     size: int
-    changed: int
-
-
-def replace(path: str, before: bytes, after: bytes) -> None:
-    """Gives a file other contents, and leaves its mode and, where that is permitted, its owner.
-
-    NotWritten where it holds anything but `before`, is read-only, or cannot be written; the file is then as it was, and nothing is left
-    beside it. Of a link what it leads to is replaced. Another name of the same file (a hard link) keeps the old contents.
-    """
-    beside = ""
-    try:
-        target = os.path.realpath(path)
-        status, stamp = _unchanged(target, before)
-        folder = os.path.dirname(target)
-        if not status.st_mode & (stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH) or not os.access(target, os.W_OK):
-            raise NotWritten("the file is read-only")
-        name = os.path.join(folder, f".msaa-lint-{os.getpid()}-{os.urandom(6).hex()}.tmp")
-        descriptor = os.open(name, _NEW, 0o600)
-        beside = name
-        try:
-            _fill(descriptor, after, status)
-        finally:
-            os.close(descriptor)
-        if _unchanged(target, before)[1] != stamp:
-            raise NotWritten("the file changed since it was read")
-        os.replace(beside, target)
-        beside = ""
-        _settle(folder)
-    except OSError as error:
-        raise NotWritten(error.strerror or str(error)) from None
-    finally:
-        if beside:
-            _remove(beside)
+    modified: int
 
 
 def write_file(path: str, data: bytes) -> None:
-    """Creates or replaces a file in one step, so that a reader sees the old contents or the new ones. A link is replaced, not followed.
-
-    OSError where the file cannot be written; an old file is then unchanged, and nothing is left next to it.
-    """
-    temporary = os.path.join(os.path.dirname(path), f".msaa-lint-{os.getpid()}-{os.urandom(6).hex()}.tmp")
-    descriptor = os.open(temporary, _NEW, 0o666)
+    """Creates a file or replaces its contents; a symbolic link is replaced itself. Raises OSError, and leaves no other file behind."""
+    temporary = _temporary(path)
     try:
-        with os.fdopen(descriptor, "wb") as file:
-            file.write(data)
+        descriptor = os.open(temporary, _NEW, 0o666)
+        try:
+            _write_all(descriptor, data)
+        finally:
+            os.close(descriptor)
         os.replace(temporary, path)
     except BaseException:
         _remove(temporary)
         raise
 
 
-def _unchanged(target: str, before: bytes) -> tuple[os.stat_result, _Stamp]:
-    """What the system says of a file that holds what it did."""
+def replace(path: str, before: bytes, after: bytes) -> None:
+    """Replaces the contents of a file, and syncs them to disk. Keeps the file's mode and, if permitted, its owner.
+
+    Raises NotWritten if the file has contents other than `before`, is read-only, or cannot be written; it is then unchanged, and no other
+    file is left behind. The target of a symbolic link is replaced. Another hard link to the file keeps the old contents.
+    """
+    temporary = ""
+    try:
+        target = os.path.realpath(path)
+        status, stamp = _check_unchanged(target, before)
+        if not status.st_mode & (stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH) or not os.access(target, os.W_OK):
+            raise NotWritten("the file is read-only")
+        temporary = _temporary(target)
+        descriptor = os.open(temporary, _NEW, 0o600)
+        try:
+            _write_all(descriptor, after)
+            _copy_status(descriptor, status)
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
+        if _check_unchanged(target, before)[1] != stamp:
+            raise NotWritten("the file changed since it was read")
+        os.replace(temporary, target)
+        _sync_folder(os.path.dirname(target))
+    except OSError as error:
+        raise NotWritten(error.strerror or str(error)) from None
+    finally:
+        if temporary:
+            _remove(temporary)
+
+
+def _temporary(path: str) -> str:
+    return os.path.join(os.path.dirname(path), f".msaa-lint-{os.getpid()}-{os.urandom(6).hex()}.tmp")
+
+
+def _check_unchanged(target: str, before: bytes) -> tuple[os.stat_result, _Stamp]:
     with open(target, "rb") as file:
         status = os.fstat(file.fileno())
         if not stat.S_ISREG(status.st_mode):
-            raise NotWritten("it is no file")
+            raise NotWritten("it is not a regular file")
         if status.st_size != len(before) or file.read(len(before) + 1) != before:
             raise NotWritten("the file changed since it was read")
     return status, _Stamp(status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns)
 
 
-def _fill(descriptor: int, data: bytes, like: os.stat_result) -> None:
-    left = memoryview(data)
-    while left:
-        left = left[os.write(descriptor, left) :]
+def _write_all(descriptor: int, data: bytes) -> None:
+    rest = memoryview(data)
+    while rest:
+        rest = rest[os.write(descriptor, rest) :]
+
+
+def _copy_status(descriptor: int, status: os.stat_result) -> None:
     if hasattr(os, "fchown"):
-        own = os.fstat(descriptor)
-        if (own.st_uid, own.st_gid) != (like.st_uid, like.st_gid):
-            # Where it is not permitted the file is whoever's runs this, as with every editor.
+        current = os.fstat(descriptor)
+        if (current.st_uid, current.st_gid) != (status.st_uid, status.st_gid):
+            # Without the permission the file belongs to the current user, as with every editor.
             with suppress(PermissionError):
-                os.fchown(descriptor, like.st_uid, like.st_gid)
+                os.fchown(descriptor, status.st_uid, status.st_gid)
     if hasattr(os, "fchmod"):
-        os.fchmod(descriptor, stat.S_IMODE(like.st_mode))
-    os.fsync(descriptor)
+        os.fchmod(descriptor, stat.S_IMODE(status.st_mode))
 
 
-def _settle(folder: str) -> None:
-    """Has the folder's entry written out as well, where the system can: the file is whole either way."""
+def _sync_folder(folder: str) -> None:
+    """Syncs the new directory entry, where the system can; the file is whole without it."""
     with suppress(OSError):
         descriptor = os.open(folder, os.O_RDONLY)
         try:

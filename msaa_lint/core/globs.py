@@ -39,16 +39,16 @@ def compiled(pattern: str) -> Compiled:
     negated = pattern.startswith("!")
     text = pattern[1:] if negated else pattern
     if len(text) > MAX_LENGTH:
-        raise ValueError(f"a glob has at most {MAX_LENGTH} characters")
+        raise ValueError(f"it is longer than {MAX_LENGTH} characters")
     if text.startswith("./"):
         text = text[1:]
     folder = text.endswith("/")
     anchored = "/" in text[:-1]
     parts = (text[:-1] if folder else text).removeprefix("/").split("/")
     if "" in parts:
-        raise ValueError("an empty name in a glob")
+        raise ValueError("it has an empty name")
     if "." in parts or ".." in parts:
-        raise ValueError("a glob cannot leave its folder")
+        raise ValueError("it leaves its folder")
     all_within = parts[-1] == "**"
     if all_within:
         parts[-1] = "*"
@@ -90,7 +90,7 @@ def _name(part: str) -> str:
             pieces[-1] += piece
         elif char == "\\":
             if at == len(part):
-                raise ValueError("a glob ends in a backslash")
+                raise ValueError("it ends in a backslash")
             pieces[-1] += re.escape(part[at])
             at += 1
         else:
@@ -110,7 +110,7 @@ def _class(part: str, at: int) -> tuple[str, int]:
     chars: list[tuple[str, bool]] = []
     while True:
         if at >= len(part):
-            raise ValueError("a `[` without its `]` in a glob")
+            raise ValueError("a `[` without its `]`")
         char = part[at]
         at += 1
         if char == "]" and chars:
@@ -126,7 +126,7 @@ def _class(part: str, at: int) -> tuple[str, int]:
         if i + 2 < len(chars) and chars[i + 1][1]:
             low, high = chars[i][0], chars[i + 2][0]
             if low > high:
-                raise ValueError(f"`{low}-{high}` in a glob runs backwards")
+                raise ValueError(f"the range `{low}-{high}` is reversed")
             out += f"{re.escape(low)}-{re.escape(high)}"
             i += 3
         else:

@@ -36,7 +36,7 @@ class Uninstalled(Unreadable):
     """Source code, where the extra that reads it is not installed."""
 
 
-def refused(error: OSError | Unreadable, name: str) -> Finding:
+def unreadable(error: OSError | Unreadable, name: str) -> Finding:
     """The finding of an input that cannot be read."""
     if isinstance(error, Unconverted):
         return diagnostic("MSAA901", f"this is {error}", name)

@@ -184,7 +184,21 @@ def test_the_owner_is_kept_where_that_is_permitted(file: Path, monkeypatch: pyte
     like = os.stat(file)
     other = SimpleNamespace(st_uid=like.st_uid + 1, st_gid=like.st_gid, st_mode=like.st_mode)
     descriptor = os.open(file.parent / "x", os.O_CREAT | os.O_WRONLY)
-    write._fill(descriptor, NEW, other)  # type: ignore[arg-type]
+    write._copy_status(descriptor, other)  # type: ignore[arg-type]
     os.close(descriptor)
     assert asked == [(like.st_uid + 1, like.st_gid)]
-    assert (file.parent / "x").read_bytes() == NEW
+
+
+def test_writing_creates_or_replaces_and_leaves_nothing_beside(tmp_path: Path) -> None:
+    path = tmp_path / "new.json"
+    write.write_file(str(path), OLD)
+    write.write_file(str(path), NEW)
+    assert path.read_bytes() == NEW
+    link = tmp_path / "link.json"
+    link.symlink_to(path)
+    write.write_file(str(link), OLD)
+    assert not link.is_symlink()
+    assert (link.read_bytes(), path.read_bytes()) == (OLD, NEW)
+    with pytest.raises(OSError):
+        write.write_file(str(tmp_path), NEW)
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["link.json", "new.json"]

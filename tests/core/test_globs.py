@@ -74,13 +74,13 @@ def test_a_file_outside_the_root_counts_from_the_folder_they_share() -> None:
         ("", "an empty name"),
         ("/", "an empty name"),
         ("a//b", "an empty name"),
-        ("../a", "cannot leave its folder"),
-        ("a/./b", "cannot leave its folder"),
+        ("../a", "leaves its folder"),
+        ("a/./b", "leaves its folder"),
         ("[a", "without its `]`"),
         ("[!]", "without its `]`"),
-        ("[z-a]", "runs backwards"),
+        ("[z-a]", "is reversed"),
         ("a\\", "ends in a backslash"),
-        ("a" * (MAX_LENGTH + 1), "at most 256"),
+        ("a" * (MAX_LENGTH + 1), "longer than 256"),
     ],
 )
 def test_a_glob_that_can_match_nothing_is_refused(pattern: str, reason: str) -> None:

@@ -1,23 +1,20 @@
 import os
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from msaa_lint.input.discovery import HEAD_BYTES, Discovered, discover
 from msaa_lint.linter.settings import config
-from msaa_lint.linter.settings.config import load
+from msaa_lint.linter.settings.config import Configurations
 
 
 @pytest.fixture(autouse=True)
-def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "p").mkdir()
     (tmp_path / "p/.git").mkdir()
     monkeypatch.chdir(tmp_path / "p")
     monkeypatch.delenv(config.VARIABLE, raising=False)
-    config.forget()
-    yield tmp_path / "p"
-    config.forget()
+    return tmp_path / "p"
 
 
 def write(*paths: str, text: str | bytes = "images: {}\n") -> None:
@@ -27,7 +24,8 @@ def write(*paths: str, text: str | bytes = "images: {}\n") -> None:
 
 
 def found(*paths: str) -> Discovered:
-    return discover(paths, lambda path: load(path).settings, lambda head: "images:" in head)
+    configurations = Configurations()
+    return discover(paths, lambda path: configurations.load(path).settings, lambda head: "images:" in head)
 
 
 def clean(*paths: str) -> list[str]:

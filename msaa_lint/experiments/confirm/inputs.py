@@ -2,28 +2,19 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding, Undecided
-from msaa_lint.core.text.source import Unreadable
-from msaa_lint.core.text.tree import Limits
-from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.facts.frame import Frame, Pass
 from msaa_lint.frame.facts.global_facts import profile
-from msaa_lint.frame.profiles import device_of
-from msaa_lint.input.discovery import STDIN, discover
-from msaa_lint.input.opening import load, refused
-from msaa_lint.input.readers import looks_like
 from msaa_lint.input.source_file import SourceFile
-from msaa_lint.linter.engine import LintOptions
 from msaa_lint.linter.fixes.file_fixes import FixedText, fix_input
-from msaa_lint.linter.results import DocumentResult, FileResult, Severity
-from msaa_lint.linter.run import Request, ResolvedSettings, Run
+from msaa_lint.linter.results import DocumentResult, FileResult
+from msaa_lint.linter.workspace import InputFile, Request, Workspace
 
 
 class Input(NamedTuple):
@@ -50,7 +41,7 @@ class Input(NamedTuple):
     @property
     def prefix(self) -> str:
         """What the paths of a document of a stream begin with."""
-        return f"documents[{self.number}]." if self.many > 1 else ""
+        return _prefix(self.number, self.many)
 
 
 class Inputs(NamedTuple):
@@ -63,89 +54,70 @@ class Inputs(NamedTuple):
 
 def inputs(request: Request) -> Inputs:
     """The documents of a request, in the order of the files."""
-    this = Run(request)
-    this.governed(os.curdir)
-    found = discover(request.paths, this.settings, looks_like)
-    this.findings.extend(found.findings)
-    made: list[Input] = []
-    for path in found.files:
-        made.extend(_of_file(this, path))
-    wrong = [finding for finding in dict.fromkeys(this.findings) if finding.fatal]
-    return Inputs(made, wrong, list(found.notes))
+    workspace = Workspace(request)
+    discovered = workspace.discover()
+    found = [document for path in discovered.files for document in _of_file(workspace, path)]
+    errors = [finding for finding in dict.fromkeys(workspace.findings) if finding.fatal]
+    return Inputs(found, errors, list(discovered.notes))
 
 
-def _of_file(this: Run, path: str) -> list[Input]:
-    request, stdin = this.request, path == STDIN
-    name = (request.stdin_filename or "<stdin>") if stdin else path
-    governed = this.governed(request.stdin_filename or os.curdir if stdin else path)
-    limits = Limits(**{**Limits()._asdict(), **governed.settings.limits})
-    try:
-        loaded = load(path, limits, name, request.format, request.data)
-    except (OSError, Unreadable) as error:
-        this.findings.append(refused(error, name))
+def _of_file(workspace: Workspace, path: str) -> list[Input]:
+    file = workspace.open(path)
+    if file is None:
         return []
-    if isinstance(loaded, SourceFile):
-        what = "source code states too little to be drawn: `msaa-lint convert` writes what is read of it, to complete"
-        this.findings.append(diagnostic("MSAA921", what, name))
+    data = file.data
+    if isinstance(data, SourceFile):
+        message = "source code does not describe a complete frame: complete the description that `msaa-lint convert` writes of it"
+        workspace.findings.append(diagnostic("MSAA921", message, file.name))
         return []
-    # Of a capture the description that it becomes is confirmed.
-    data = loaded if isinstance(loaded, bytes) else loaded.source.text.encode()
-    format = request.format if isinstance(loaded, bytes) else None
-    if not isinstance(loaded, bytes) and loaded.broken:
-        this.findings.append(diagnostic("MSAA901", f"the capture ends in the middle: {loaded.broken}", name))
-    device = device_of(governed.settings.profile)
-    severity = governed.selection.for_file(name, device.vendor if device is not None else None)
-
-    options = LintOptions(severity, limits, format, device, request.ignores)
-
-    def judge(data: bytes) -> FileResult:
-        return governed.engine.lint(data, name, options)
-
-    linted = judge(data)
-    this.findings.extend(finding for finding in linted.findings if finding.fatal)
-    if any(finding.fatal for finding in linted.findings) or linted.source is None:
+    if not isinstance(data, bytes):
+        # What is confirmed is the description that a capture is converted to.
+        if data.broken:
+            workspace.findings.append(diagnostic("MSAA901", f"the capture ends in the middle: {data.broken}", file.name))
+        data = data.source.text.encode()
+        file = file._replace(data=data, options=file.options._replace(format=None))
+    result = file.lint()
+    errors = [finding for finding in result.findings if finding.fatal]
+    workspace.findings.extend(errors)
+    if errors or result.source is None:
         return []
-    mended = fix_input(data, linted, judge, lambda _: True, False, None) if any(f.fix is not None for f in linted.findings) else None
-    found = [_input(name, linted, judged, mended, governed, device) for judged in linted.documents]
-    return [each if each.frame.document.metal is None else _as_vulkan(each, governed, severity) for each in found]
+    has_fix = any(finding.fix is not None for finding in result.findings)
+    fixed = fix_input(data, result, file.lint, lambda _: True, False, None) if has_fix else None
+    return [_input(file, result, document, fixed) for document in result.documents]
 
 
-def _as_vulkan(input: Input, governed: ResolvedSettings, severity: Severity) -> Input:
-    """The same with what Vulkan's rules say: it is Vulkan's layer that it is compared with."""
-    document, metal = input.frame.document, input.frame.document.metal
-    assert metal is not None
-    of_vulkan = document._replace(metal=metal._replace(api="VULKAN"))
-    verdicts, _ = governed.engine.lint_document(of_vulkan, input.file, LintOptions(severity, device=input.device))
+def _input(file: InputFile, result: FileResult, document: DocumentResult, fixed: FixedText | None) -> Input:
+    frame, many = Frame(document.document), len(result.documents)
+    prefix = _prefix(document.number, many)
+    settled = [finding for finding in map(file.resolved.selection.settle, result.findings) if finding is not None]
+    input = Input(
+        file.name,
+        frame,
+        _own(settled, prefix),
+        silenced=_own([each.finding for each in result.suppressed], prefix),
+        fixed=_fixed(fixed, document.number),
+        mended=_own(fixed.fixed_findings if fixed is not None else (), prefix),
+        undecided=tuple(
+            rule._replace(subject=rule.subject.removeprefix(prefix)) for rule in result.undecided if rule.subject.startswith(prefix)
+        ),
+        device=profile(document.document.description, file.resolved.device),
+        number=document.number,
+        many=many,
+    )
+    if document.document.metal is None:
+        return input
+    # The validation layer that the rules are compared with is Vulkan's.
+    vulkan = document.document._replace(metal=document.document.metal._replace(api="VULKAN"))
+    verdicts, _ = file.resolved.engine.lint_document(vulkan, file.name, file.options._replace(device=input.device))
     return input._replace(by_vulkan=(verdicts.findings, verdicts.undecided))
 
 
-def _input(
-    name: str,
-    linted: FileResult,
-    judged: DocumentResult,
-    mended: FixedText | None,
-    governed: ResolvedSettings,
-    device: DeviceProfile | None,
-) -> Input:
-    many = len(linted.documents)
-    made = Input(name, Frame(judged.document), (), number=judged.number, many=many)
-    settled = [found for found in map(governed.selection.settle, linted.findings) if found is not None]
-    return made._replace(
-        findings=_own(settled, made.prefix),
-        silenced=_own([each.finding for each in linted.suppressed], made.prefix),
-        fixed=_fixed(judged.document, mended, judged.number),
-        mended=_own(mended.fixed_findings if mended is not None else (), made.prefix),
-        undecided=tuple(
-            each._replace(subject=each.subject.removeprefix(made.prefix))
-            for each in linted.undecided
-            if each.subject.startswith(made.prefix)
-        ),
-        device=profile(judged.document.description, device),
-    )
+def _prefix(number: int, many: int) -> str:
+    return f"documents[{number}]." if many > 1 else ""
 
 
-def _fixed(before: Document, mended: FixedText | None, number: int) -> Frame | None:
-    """The frame of a document after the fixes; None where they leave that document as it is."""
+def _fixed(mended: FixedText | None, number: int) -> Frame | None:
+    """The frame of a document after the fixes; None if they leave the document unchanged."""
     if mended is None or not mended.changed or number >= len(mended.result.documents):
         return None
     if not any(found.subject.startswith(f"documents[{number}].") for found in mended.fixed_findings) and len(mended.result.documents) > 1:

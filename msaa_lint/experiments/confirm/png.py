@@ -9,6 +9,8 @@ import struct
 import zlib
 from typing import NamedTuple
 
+from msaa_lint.core.atomic_write import write_file
+
 from .results import NotWritten
 from .texels import Plane, Texels
 
@@ -188,22 +190,10 @@ class Album:
         self.written.append(name.lower())
         path = os.path.join(self.folder, name)
         try:
-            _replace(path, png(picture))
+            write_file(path, png(picture))
         except OSError as error:
             raise NotWritten(f"{path} cannot be written: {error.strerror}") from None
         return path
-
-
-def _replace(path: str, data: bytes) -> None:
-    beside = f"{path}.{os.getpid()}.tmp"
-    descriptor = os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o644)
-    try:
-        with os.fdopen(descriptor, "wb") as file:
-            file.write(data)
-        os.replace(beside, path)
-    except BaseException:
-        os.unlink(beside)
-        raise
 
 
 def show(album: Album, stem: tuple[str, ...], before: Texels, after: Texels | None, first: tuple[int, int] | None) -> list[str]:

@@ -1,11 +1,11 @@
-"""Finds and reads the configuration of a file: the nearest one upwards, and what it extends.
+"""Finds and reads the configuration that applies to a file, and the files that it extends.
 
-The nearest folder that has a `msaa-lint.toml`, or a `pyproject.toml` with `[tool.msaa-lint]`, governs; where it has both, the former.
-Nothing is merged on the way up. `extends` names another file of the same project: what it says comes first, the keys of the file that
-extends it win, and tables (`severity`, `limits`, `per-file-ignores`) are joined key by key.
+The nearest folder upward with a `msaa-lint.toml`, or a `pyproject.toml` with `[tool.msaa-lint]`, applies; in a folder with both, the
+former. Configurations of outer folders are not merged in. `extends` names another file of the same project: its keys are the defaults of
+the file that extends it, and the tables `severity`, `limits` and `per-file-ignores` are merged key by key.
 
-A configuration may come from a stranger's branch. So what it names (`extends`, `rules`, `baseline`) must lie in the project with all
-symbolic links followed (`project.project_root`), and so must the file itself where it was found and not named.
+A configuration may come from an untrusted branch. The files that it names (`extends`, `rules`, `baseline`) must be in the project
+(`project.project_root`) with all symbolic links resolved, and so must the file itself unless the user named it.
 """
 
 from __future__ import annotations
@@ -21,15 +21,12 @@ from msaa_lint.core.project import NAMES, inside, project_root, shown
 from msaa_lint.core.quote import quoted
 from msaa_lint.core.text.span import Span
 
-from .selectors import unknown_selectors
-from .settings import Origin, Settings, override
+from .settings import Origin, Settings
 
 if TYPE_CHECKING:
     from msaa_lint.core.text.source import Source
 
-    from .config_keys import Reading
-
-__all__ = ["Loaded", "Settings", "forget", "load", "override", "unknown_selectors"]
+    from .config_keys import TableReader
 
 VARIABLE = "MSAA_LINT_CONFIG"
 MAX_BYTES = 1 << 20
@@ -39,8 +36,10 @@ _TABLE = r"""(?m)^[ \t]*\[?[ \t]*["']?tool["']?[ \t]*(?:\.[ \t]*["']?msaa-lint|\
 
 
 class Loaded(NamedTuple):
-    """The settings that govern a file, the configuration file they are of (absolute; None: there is none), what is wrong with it, and
-    the texts that these findings point into, by name. What is wrong is left out of the settings."""
+    """The settings of a configuration file without its invalid values.
+
+    `path` is absolute, None without a file. `findings` are the problems of the file, `sources` the texts they point into, by name.
+    """
 
     settings: Settings
     path: str | None = None
@@ -48,73 +47,61 @@ class Loaded(NamedTuple):
     sources: Mapping[str, Source] = {}
 
 
-_by_folder: dict[str, Loaded | None] = {}
-_by_file: dict[str, Loaded] = {}
+class Configurations:
+    """The configuration files of one run. Each folder is searched once and each file is read once.
 
-
-def forget() -> None:
-    """Reads every configuration anew from here on."""
-    _by_folder.clear()
-    _by_file.clear()
-
-
-def load(for_path: str, explicit: str | None = None, isolated: bool = False) -> Loaded:
-    """What governs a file or folder.
-
-    `explicit` (else MSAA_LINT_CONFIG) is the path of the one configuration file, whatever lies around the linted file; `isolated`
-    takes none at all. Each folder is looked into once until `forget`.
+    `explicit`, or else MSAA_LINT_CONFIG, is the path of the only configuration file to use; `isolated` uses none.
     """
-    if isolated:
-        return _nothing()
-    explicit = explicit or os.environ.get(VARIABLE) or None
-    if explicit is not None:
-        return _named(explicit)
-    start = os.path.abspath(for_path)
-    folder = start if os.path.isdir(start) else os.path.dirname(start)
-    passed = []
-    found = None
-    while True:
-        if folder in _by_folder:
-            found = _by_folder[folder]
-            break
-        passed.append(folder)
-        found = _in_folder(folder)
-        above = os.path.dirname(folder)
-        if found is not None or above == folder:
-            break
-        folder = above
-    for each in passed:
-        _by_folder[each] = found
-    return found or _nothing()
+
+    def __init__(self, explicit: str | None = None, isolated: bool = False) -> None:
+        self._only: Loaded | None = None
+        self._by_folder: dict[str, Loaded | None] = {}
+        self._default = Loaded(Settings(root=os.getcwd()))
+        path = explicit or os.environ.get(VARIABLE)
+        if isolated:
+            self._only = self._default
+        elif path:
+            self._only = _read_named(os.path.abspath(path))
+
+    def load(self, path: str) -> Loaded:
+        """The configuration that applies to a file or folder."""
+        if self._only is not None:
+            return self._only
+        start = os.path.abspath(path)
+        folder = start if os.path.isdir(start) else os.path.dirname(start)
+        searched = []
+        while folder not in self._by_folder:
+            searched.append(folder)
+            found = _read_folder(folder)
+            above = os.path.dirname(folder)
+            if found is not None or above == folder:
+                self._by_folder[folder] = found
+                break
+            folder = above
+        loaded = self._by_folder[folder]
+        self._by_folder.update(dict.fromkeys(searched, loaded))
+        return loaded or self._default
 
 
-def _nothing() -> Loaded:
-    return Loaded(Settings(root=os.getcwd()))
+def _read_named(path: str) -> Loaded:
+    text = _text(path)
+    if isinstance(text, Finding):
+        return Loaded(Settings(root=os.path.dirname(path)), path, (text,))
+    from .toml_text import parsed
+
+    return _read(path, text, parsed(text, shown(path)))
 
 
-def _named(path: str) -> Loaded:
-    full = os.path.abspath(path)
-    if full not in _by_file:
-        text = _text(full)
-        if isinstance(text, str):
-            from .toml_text import parsed
-
-            _by_file[full] = _read(full, text, parsed(text, shown(full)))
-        else:
-            _by_file[full] = Loaded(Settings(root=os.path.dirname(full)), full, (text,))
-    return _by_file[full]
-
-
-def _in_folder(folder: str) -> Loaded | None:
+def _read_folder(folder: str) -> Loaded | None:
     for name in NAMES:
         path = os.path.join(folder, name)
         if not os.path.isfile(path):
             continue
         if os.path.islink(path) and not inside(path, project_root(folder)):
-            message, help = "the configuration is a link that leaves the project", "name it with --config to use it"
-            return Loaded(Settings(root=folder), path, (diagnostic("MSAA921", message, shown(path), help=help),))
+            message = "the configuration is a link that leaves the project: pass it with --config to use it"
+            return Loaded(Settings(root=folder), path, (diagnostic("MSAA921", message, shown(path)),))
         text = _text(path)
-        if not isinstance(text, str):
+        if isinstance(text, Finding):
             if name == NAMES[0]:
                 return Loaded(Settings(root=folder), path, (text,))
             continue
@@ -123,33 +110,33 @@ def _in_folder(folder: str) -> Loaded | None:
         from .toml_text import parsed
 
         table = parsed(text, shown(path))
-        if name == NAMES[0] or _is_ours(text, table):
+        if name == NAMES[0] or _has_table(text, table):
             return _read(path, text, table)
     return None
 
 
-def _is_ours(text: str, table: Mapping[str, Any] | Finding) -> bool:
-    """Whether a pyproject.toml has our table, or would if it could be read."""
+def _has_table(text: str, table: Mapping[str, Any] | Finding) -> bool:
+    """Whether a pyproject.toml has the table `[tool.msaa-lint]`, even if its TOML is invalid."""
     if isinstance(table, Finding):
         return "tool.msaa-lint" in text.replace(" ", "").replace('"', "")
     return "msaa-lint" in _tool(table)
 
 
 def _text(path: str) -> str | Finding:
-    """A configuration file's text, or why it cannot be had."""
+    """The text of a configuration file, or a finding that says why it cannot be read."""
     from msaa_lint.core.text.source import Unreadable, decode
 
     try:
         with open(path, "rb") as file:
             data = file.read(MAX_BYTES + 1)
         if len(data) > MAX_BYTES:
-            raise Unreadable(f"a configuration file has at most {MAX_BYTES} bytes")
+            raise Unreadable(f"it is larger than the limit of {MAX_BYTES} bytes")
         return decode(data)
     except FileNotFoundError:
         reason = "no such file"
     except (OSError, ValueError) as error:
         reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
-    return diagnostic("MSAA921", f"the configuration cannot be read: {reason}", shown(path))
+    return diagnostic("MSAA921", f"cannot read the configuration: {reason}", shown(path))
 
 
 def _tool(table: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -158,17 +145,17 @@ def _tool(table: Mapping[str, Any]) -> Mapping[str, Any]:
 
 
 class _Layer(NamedTuple):
-    """One file of a chain of `extends`, as it was read."""
+    """The values of one file of a chain of `extends`."""
 
     values: dict[str, Any]
     origin: Origin
 
 
 def _read(path: str, text: str, table: dict[str, Any] | Finding) -> Loaded:
-    """A configuration file, as it was parsed, and what it extends."""
+    """The settings of a parsed configuration file and of the files that it extends."""
     from msaa_lint.core.text.source import Source
 
-    from .config_keys import Reading
+    from .config_keys import TableReader
     from .toml_text import parsed
 
     folder = os.path.dirname(path)
@@ -188,53 +175,52 @@ def _read(path: str, text: str, table: dict[str, Any] | Finding) -> Loaded:
         origin = Origin(source, ("tool", "msaa-lint") if os.path.basename(current) == NAMES[1] else ())
         keys = _tool(table).get("msaa-lint") if origin.table else table
         if not isinstance(keys, dict):
-            what = "the configuration has no [tool.msaa-lint]" if keys is None else "[tool.msaa-lint] is no table"
-            findings.append(origin.wrong((), what))
+            message = "the configuration has no table [tool.msaa-lint]" if keys is None else "[tool.msaa-lint] is not a table"
+            findings.append(origin.finding((), message))
             break
-        reading = Reading(origin, os.path.dirname(current), lambda target: inside(target, root))
-        reading.read(keys)
-        current = _extended(reading, keys, chain)
-        findings.extend(sorted(reading.problems, key=lambda each: each.span or Span(0, 0)))
-        layers.append(_Layer(reading.values, origin))
+        reader = TableReader(origin, os.path.dirname(current), lambda target: inside(target, root))
+        reader.read(keys)
+        current = _extended(reader, keys, chain)
+        findings.extend(sorted(reader.findings, key=lambda finding: finding.span or Span(0, 0)))
+        layers.append(_Layer(reader.values, origin))
         if current is not None:
-            read = _text(current)
-            if isinstance(read, Finding):
-                findings.append(origin.wrong(("extends",), f"{read.message}: {shown(current)}"))
+            extended = _text(current)
+            if isinstance(extended, Finding):
+                findings.append(origin.finding(("extends",), f"{extended.message}: {shown(current)}"))
                 break
-            text = read
+            text = extended
             table = parsed(text, shown(current))
-    return Loaded(_settled(layers, folder), path, tuple(findings), sources)
+    return Loaded(_merged(layers, folder), path, tuple(findings), sources)
 
 
-def _extended(reading: Reading, table: Mapping[str, Any], chain: list[str]) -> str | None:
-    """The file that a file extends; None where it extends none, or none that can be."""
+def _extended(reader: TableReader, table: Mapping[str, Any], chain: list[str]) -> str | None:
+    """The path of the file that a file extends; None if it extends none or names an invalid one."""
     if "extends" not in table:
         return None
-    text = reading.text(("extends",), table["extends"], "the path of a .toml file")
+    text = reader.string(("extends",), table["extends"], "the path of a .toml file")
     if text is None:
         return None
     if not text.endswith(".toml"):
-        reading.wrong(("extends",), f"{quoted(text)} is no .toml file")
+        reader.problem(("extends",), f"{quoted(text)} is not a .toml file")
         return None
-    path = reading.inner_path(("extends",), text)
+    path = reader.project_path(("extends",), text)
     if path is None:
         return None
     real = os.path.realpath(path)
     if real in chain:
-        circle = " > ".join(shown(each) for each in [*chain[chain.index(real) :], real])
-        reading.wrong(("extends",), f"a circle ({circle})")
-        return None
-    if len(chain) >= MAX_CHAIN:
-        reading.wrong(("extends",), f"more than {MAX_CHAIN} files extend each other")
-        return None
-    if not os.path.isfile(path):
-        reading.wrong(("extends",), f"no such file {quoted(text)}")
-        return None
-    return path
+        cycle = " > ".join(shown(each) for each in [*chain[chain.index(real) :], real])
+        reader.problem(("extends",), f"cycle {cycle}")
+    elif len(chain) >= MAX_CHAIN:
+        reader.problem(("extends",), f"chain of more than {MAX_CHAIN} files")
+    elif not os.path.isfile(path):
+        reader.problem(("extends",), f"no such file {quoted(text)}")
+    else:
+        return path
+    return None
 
 
-def _settled(layers: list[_Layer], folder: str) -> Settings:
-    """The settings of a chain of files, the one that extends the others first."""
+def _merged(layers: list[_Layer], folder: str) -> Settings:
+    """The settings of a chain of files; a file comes before the one that it extends."""
     values: dict[str, Any] = {}
     origins: dict[tuple[str, ...], Origin] = {}
     for layer in reversed(layers):

@@ -1,4 +1,4 @@
-"""What each key of a configuration file takes."""
+"""Reads and checks the keys of a configuration file."""
 
 from __future__ import annotations
 
@@ -10,132 +10,130 @@ from typing import Any
 from msaa_lint.core.finding import CONFIDENCES, SEVERITIES, Finding
 from msaa_lint.core.globs import Glob
 from msaa_lint.core.quote import quoted
+from msaa_lint.core.text.tree import Limits
 
 from .settings import OUTPUT_FORMATS, Origin
 
-LEVELS = (*reversed(SEVERITIES), "off")
-LIMITS = {"depth": 100, "nodes": 1_000_000, "bytes": 64 << 20}
-"""The limits that a file can lower: nesting, nodes after aliases, bytes of a description."""
+LEVELS = tuple(reversed(SEVERITIES))
+MAX_LIMITS = Limits()._asdict()
+"""A configuration file can only lower the limits."""
 
 MAX_ITEMS = 1000
-"""Elements of a list or table: more is a mistake, or an attack."""
+"""Of a list or table: a configuration may come from an untrusted branch."""
 
 MAX_GLOBS = 200
+MAX_FINDINGS = 50
+"""Of one file."""
 
 SELECTOR = re.compile(r"[A-Za-z][A-Za-z0-9-]{0,99}\Z")
-MAX_PROBLEMS = 50
-"""Findings of one file."""
+_TYPE_NAMES = {str: "a string", bool: "a boolean", int: "a number", float: "a number", list: "a list", dict: "a table"}
 
 Path = tuple[str | int, ...]
 
 
-class Reading:
-    """One table of a configuration file while its keys are checked: what is right goes to `values`, what is wrong to `problems`.
+class TableReader:
+    """Reads the table of one configuration file: valid values go to `values` by key, and problems to `findings`.
 
-    `within` tells whether a path stays in the project.
+    `root` is the folder that paths are relative to. `in_project` says whether a path stays in the project.
     """
 
-    def __init__(self, origin: Origin, root: str, within: Callable[[str], bool]) -> None:
+    def __init__(self, origin: Origin, root: str, in_project: Callable[[str], bool]) -> None:
         self.origin = origin
         self.root = root
-        self.within = within
+        self.in_project = in_project
         self.values: dict[str, Any] = {}
-        self.problems: list[Finding] = []
+        self.findings: list[Finding] = []
 
     def read(self, table: Mapping[str, Any]) -> None:
-        """Checks every key; `extends` is read elsewhere."""
+        """Reads every key but `extends`, whose chain the caller follows."""
+        name = self.origin.source.name
+        where = f"[{'.'.join(self.origin.table)}] of {name}" if self.origin.table else name
         for key, value in table.items():
-            if key == "extends" or len(self.problems) >= MAX_PROBLEMS:
+            if key == "extends":
                 continue
-            check = KEYS.get(key)
-            if check is None:
-                self.unknown((key,), [*KEYS, "extends"], self._table())
+            read = KEYS.get(key)
+            if read is None:
+                self.unknown_key((key,), [*KEYS, "extends"], where)
                 continue
-            read = check(self, key, value)
-            if read is not None:
-                self.values[key] = read
+            result = read(self, (key,), value)
+            if result is not None:
+                self.values[key] = result
 
-    def _table(self) -> str:
-        return f"[{'.'.join(self.origin.table)}] of {self.origin.source.name}" if self.origin.table else self.origin.source.name
+    def problem(self, path: Path, message: str, hint: str = "", at_key: bool = False) -> None:
+        """Adds a finding about the value at a path."""
+        if len(self.findings) < MAX_FINDINGS:
+            self.findings.append(self.origin.problem(path, message, hint, at_key))
 
-    def wrong(self, path: Path, what: str, help: str = "", at_key: bool = False) -> None:
-        if len(self.problems) < MAX_PROBLEMS:
-            self.problems.append(self.origin.wrong(path, f"{what} in `{path[0]}` of {self.origin.source.name}", help, at_key))
-
-    def unknown(self, path: tuple[str, ...], known: Sequence[str], where: str) -> None:
-        from msaa_lint.core.suggestions import nearest
-
-        if len(self.problems) >= MAX_PROBLEMS:
+    def unknown_key(self, path: tuple[str, ...], known: Sequence[str], where: str) -> None:
+        """Adds a finding about a key that the table at `where` does not have."""
+        if len(self.findings) >= MAX_FINDINGS:
             return
+        hint = _suggestion(path[-1], known)
         if path == ("tool",) and not self.origin.table:
-            help = "the keys of this file stand at its top, without [tool.msaa-lint]"
-        else:
-            close = nearest(path[-1], known)
-            help = f"did you mean `{close}`?" if close else f"there are {', '.join(known)}"
-        self.problems.append(self.origin.wrong(path, f"unknown key {quoted(path[-1])} in {where}", help, at_key=True))
+            hint = "in this file the keys are at the top level, without [tool.msaa-lint]"
+        self.findings.append(self.origin.finding(path, f"unknown key {quoted(path[-1])} in {where}: {hint}", at_key=True))
 
-    def typed(self, path: Path, value: object, kind: type, due: str) -> bool:
-        """Whether a value is of a type: a boolean is no number."""
-        if isinstance(value, kind) and not (kind is int and isinstance(value, bool)):
+    def has_type(self, path: Path, value: object, type_: type, expected: str) -> bool:
+        """Whether a value has a type; a boolean is not a number."""
+        if isinstance(value, type_) and not (type_ is int and isinstance(value, bool)):
             return True
-        self.wrong(path, f"{_kind(value)} where {due} is due")
+        self.problem(path, f"expected {expected}, found {_TYPE_NAMES.get(type(value), 'a date or time')}")
         return False
 
-    def text(self, path: Path, value: object, due: str) -> str | None:
-        if not self.typed(path, value, str, due):
+    def string(self, path: Path, value: Any, expected: str) -> str | None:
+        """A string that is not blank."""
+        if not self.has_type(path, value, str, expected):
             return None
-        assert isinstance(value, str)
-        if not value.strip() or "\0" in value:
-            self.wrong(path, f"an empty value where {due} is due" if not value.strip() else "a NUL")
-            return None
-        return value
-
-    def texts(self, path: Path, value: object, due: str) -> list[tuple[Path, str]] | None:
-        """The elements of a list of strings, each with its path; None where it is no list."""
-        if not self.typed(path, value, list, f"a list of {due}s"):
-            return None
-        assert isinstance(value, list)
-        if not self.few(path, len(value)):
-            return None
-        article = "an" if due[0] in "aeiou" else "a"
-        read = [((*path, i), self.text((*path, i), item, f"{article} {due}")) for i, item in enumerate(value)]
-        return [(at, item) for at, item in read if item is not None]
-
-    def table(self, path: Path, value: object, due: str) -> dict[str, Any]:
-        if not self.typed(path, value, dict, due):
-            return {}
-        assert isinstance(value, dict)
-        return value if self.few(path, len(value)) else {}
-
-    def few(self, path: Path, count: int, most: int = MAX_ITEMS) -> bool:
-        if count > most:
-            self.wrong(path, f"{count} elements where at most {most} are allowed")
-        return count <= most
-
-    def one_of(self, path: Path, value: object, words: Sequence[str]) -> str | None:
-        if not self.typed(path, value, str, f"one of {', '.join(words)}"):
-            return None
-        assert isinstance(value, str)
-        if value in words:
-            return value
-        from msaa_lint.core.suggestions import nearest
-
-        close = nearest(value, words)
-        help = f"did you mean `{close}`? There are {', '.join(words)}" if close else f"there are {', '.join(words)}"
-        self.wrong(path, f"unknown value {quoted(value)}", help)
+        if not value.strip():
+            self.problem(path, f"expected {expected}, found an empty string")
+        elif "\0" in value:
+            self.problem(path, f"expected {expected}, found a NUL character")
+        else:
+            return str(value)
         return None
 
-    def selectors(self, path: Path, value: object) -> tuple[str, ...] | None:
-        items = self.texts(path, value, "rule")
-        if items is None:
+    def strings(self, path: Path, value: Any, expected: str) -> list[tuple[Path, str]] | None:
+        """The strings of a list, each with its path."""
+        if not self.has_type(path, value, list, f"a list of {expected}s") or not self.at_most(path, len(value), MAX_ITEMS):
             return None
-        return tuple(item for at, item in items if self.selector(at, item))
+        article = "an" if expected[0] in "aeiou" else "a"
+        items = [((*path, i), self.string((*path, i), item, f"{article} {expected}")) for i, item in enumerate(value)]
+        return [(at, item) for at, item in items if item is not None]
 
-    def selector(self, path: Path, item: str, at_key: bool = False) -> bool:
+    def table(self, path: Path, value: Any, expected: str, limit: int = MAX_ITEMS) -> dict[str, Any]:
+        if not self.has_type(path, value, dict, expected) or not self.at_most(path, len(value), limit):
+            return {}
+        return dict(value)
+
+    def at_most(self, path: Path, count: int, limit: int) -> bool:
+        if count > limit:
+            self.problem(path, f"expected at most {limit} elements, found {count}")
+        return count <= limit
+
+    def word(self, path: Path, value: Any, words: Sequence[str]) -> str | None:
+        """One of some words."""
+        if not self.has_type(path, value, str, f"one of {', '.join(words)}"):
+            return None
+        if value in words:
+            return str(value)
+        self.problem(path, f"unknown value {quoted(value)}", _suggestion(value, words))
+        return None
+
+    def severity_level(self, path: Path, value: Any) -> str | None:
+        return self.word(path, value, LEVELS)
+
+    def confidence(self, path: Path, value: Any) -> str | None:
+        return self.word(path, value, CONFIDENCES)
+
+    def selectors(self, path: Path, value: Any) -> tuple[str, ...] | None:
+        items = self.strings(path, value, "rule")
+        return None if items is None else tuple(item for at, item in items if self.is_selector(at, item))
+
+    def is_selector(self, path: Path, item: str, at_key: bool = False) -> bool:
         if SELECTOR.match(item):
             return True
-        help = "a rule's name, its code, the beginning of a code (MSAA2), or ALL is due"
-        self.wrong(path, f"{quoted(item)} cannot be a rule", help, at_key)
+        hint = "expected a rule name, a code, a code prefix such as MSAA2, or ALL"
+        self.problem(path, f"{quoted(item)} is not a rule selector", hint, at_key)
         return False
 
     def glob(self, path: Path, item: str, at_key: bool = False) -> Glob | None:
@@ -144,164 +142,143 @@ class Reading:
         try:
             compiled(item)
         except ValueError as error:
-            self.wrong(path, f"{quoted(item)}: {error}", at_key=at_key)
+            self.problem(path, f"invalid glob {quoted(item)}", str(error), at_key)
             return None
         return Glob(item, self.root)
 
-    def inner_path(self, path: Path, item: str) -> str | None:
-        """A path from the folder of the file, absolute; it must stay in the project."""
-        full = os.path.normpath(os.path.join(self.root, item))
-        if not self.within(full):
-            self.wrong(path, f"{quoted(item)} leaves the project", "only the command line can name what lies outside")
+    def globs(self, path: Path, value: Any) -> tuple[Glob, ...] | None:
+        items = self.strings(path, value, "glob")
+        if items is None or not self.at_most(path, len(items), MAX_GLOBS):
             return None
-        return full
+        globs = [self.glob(at, item) for at, item in items]
+        return tuple(glob for glob in globs if glob is not None)
 
-
-def _edition(reading: Reading, key: str, value: object) -> str | None:
-    from msaa_lint.linter.rules.registry import EDITIONS
-
-    if isinstance(value, float):
-        reading.wrong((key,), "a number where a string is due", f'write edition = "{value}"')
-        return None
-    return reading.one_of((key,), value, EDITIONS)
-
-
-def _selectors(reading: Reading, key: str, value: object) -> tuple[str, ...] | None:
-    return reading.selectors((key,), value)
-
-
-def _level(reading: Reading, key: str, value: object) -> str | None:
-    return reading.one_of((key,), value, LEVELS[:-1])
-
-
-def _confidence(reading: Reading, key: str, value: object) -> str | None:
-    return reading.one_of((key,), value, CONFIDENCES)
-
-
-def _severity(reading: Reading, key: str, value: object) -> dict[str, str]:
-    table = reading.table((key,), value, 'a table such as {MSAA2 = "note"}')
-    read = {name: reading.one_of((key, name), level, LEVELS) for name, level in table.items() if reading.selector((key, name), name, True)}
-    return {name: level for name, level in read.items() if level is not None}
-
-
-def _per_file(reading: Reading, key: str, value: object) -> dict[str, tuple[Glob, tuple[str, ...]]]:
-    read: dict[str, tuple[Glob, tuple[str, ...]]] = {}
-    table = reading.table((key,), value, 'a table such as {"tests/**" = ["MSAA2"]}')
-    if not reading.few((key,), len(table), MAX_GLOBS):
-        return read
-    for name, rules in table.items():
-        glob, selectors = reading.glob((key, name), name, True), reading.selectors((key, name), rules)
-        if glob is not None and selectors is not None:
-            read[name] = (glob, selectors)
-    return read
-
-
-def _globs(reading: Reading, key: str, value: object) -> tuple[Glob, ...] | None:
-    items = reading.texts((key,), value, "glob")
-    if items is None or not reading.few((key,), len(items), MAX_GLOBS):
-        return None
-    return tuple(glob for glob in (reading.glob(at, item) for at, item in items) if glob is not None)
-
-
-def _fail_on_cost(reading: Reading, key: str, value: object) -> str | None:
-    from .cost_limit import budget
-
-    text = reading.text((key,), value, "a price such as 50MB/s")
-    try:
-        return text if text is None else budget(text).text
-    except ValueError as error:
-        reading.wrong((key,), f"{quoted(text or '')} is no price", str(error))
+    def project_path(self, path: Path, item: str) -> str | None:
+        """The absolute path of a file that must be in the project."""
+        full = os.path.normpath(os.path.join(self.root, item))
+        if self.in_project(full):
+            return full
+        self.problem(path, f"{quoted(item)} leaves the project", "only the command line can name files outside of it")
         return None
 
+    def severities(self, path: Path, value: Any) -> dict[str, str]:
+        table = self.table(path, value, 'a table such as {MSAA2 = "note"}')
+        words = (*LEVELS, "off")
+        levels = {
+            name: self.word((*path, name), level, words) for name, level in table.items() if self.is_selector((*path, name), name, True)
+        }
+        return {name: level for name, level in levels.items() if level is not None}
 
-def _profile(reading: Reading, key: str, value: object) -> str | None:
-    from msaa_lint.frame.devices.paths import is_path, split
+    def per_file_ignores(self, path: Path, value: Any) -> dict[str, tuple[Glob, tuple[str, ...]]]:
+        ignores: dict[str, tuple[Glob, tuple[str, ...]]] = {}
+        for name, rules in self.table(path, value, 'a table such as {"tests/**" = ["MSAA2"]}', MAX_GLOBS).items():
+            glob, selectors = self.glob((*path, name), name, True), self.selectors((*path, name), rules)
+            if glob is not None and selectors is not None:
+                ignores[name] = (glob, selectors)
+        return ignores
 
-    text = reading.text((key,), value, "a class of device, a device's name, or the path of a report")
-    if text is None or not is_path(text):
-        return text
-    path, which = split(text)
-    full = reading.inner_path((key,), path)
-    return full and (f"{full}#{which}" if which else full)
+    def edition(self, path: Path, value: Any) -> str | None:
+        from msaa_lint.linter.rules.registry import EDITIONS
+
+        if isinstance(value, float):
+            self.problem(path, "expected a string, found a number", f'write edition = "{value}"')
+            return None
+        return self.word(path, value, EDITIONS)
+
+    def fail_on_cost(self, path: Path, value: Any) -> str | None:
+        from .cost_limit import budget
+
+        text = self.string(path, value, "a cost such as 50MB/s")
+        try:
+            return None if text is None else budget(text).text
+        except ValueError as error:
+            self.problem(path, f"invalid cost {quoted(text or '')}", str(error))
+            return None
+
+    def profile(self, path: Path, value: Any) -> str | None:
+        from msaa_lint.frame.devices.paths import is_path, split
+
+        text = self.string(path, value, "a device class, a device name, or the path of a device report")
+        if text is None or not is_path(text):
+            return text
+        report, device = split(text)
+        full = self.project_path(path, report)
+        return full and (f"{full}#{device}" if device else full)
+
+    def rules(self, path: Path, value: Any) -> tuple[str, ...] | None:
+        items = self.strings(path, value, "path")
+        if items is None:
+            return None
+        paths = []
+        for at, item in items:
+            full = self.project_path(at, item)
+            if full is not None and os.path.exists(full):
+                paths.append(full)
+            elif full is not None:
+                self.problem(at, f"no such file or folder {quoted(item)}")
+        return tuple(paths)
+
+    def baseline(self, path: Path, value: Any) -> str | None:
+        text = self.string(path, value, "a path")
+        if text is None:
+            return None
+        if not text.endswith(".json"):
+            self.problem(path, f"{quoted(text)} is not a .json file")
+            return None
+        return self.project_path(path, text)
+
+    def limits(self, path: Path, value: Any) -> dict[str, int]:
+        limits = {}
+        for name, number in self.table(path, value, "a table such as {depth = 50}").items():
+            if name not in MAX_LIMITS:
+                self.unknown_key(("limits", name), list(MAX_LIMITS), f"`limits` of {self.origin.source.name}")
+            elif self.has_type((*path, name), number, int, "an integer"):
+                if 1 <= number <= MAX_LIMITS[name]:
+                    limits[name] = number
+                else:
+                    # Python converts no integer of more than 4300 digits to decimal.
+                    shown = f"`{number}`" if abs(number) < 1 << 64 else "a longer number"
+                    message = f"`{name}` must be an integer from 1 to {MAX_LIMITS[name]}, found {shown}"
+                    self.problem((*path, name), message, "a configuration file can only lower limits")
+        return limits
+
+    def outputs(self, path: Path, value: Any) -> tuple[str, ...] | None:
+        items = self.strings(path, value, "output")
+        if items is None:
+            return None
+        outputs = []
+        for at, item in items:
+            if "=" in item:
+                self.problem(at, f"{quoted(item)} names a file", "only the command line can name output files")
+            elif self.word(at, item, OUTPUT_FORMATS):
+                outputs.append(item)
+        return tuple(outputs)
 
 
-def _rules(reading: Reading, key: str, value: object) -> tuple[str, ...] | None:
-    items = reading.texts((key,), value, "path")
-    if items is None:
-        return None
-    found = []
-    for at, item in items:
-        path = reading.inner_path(at, item)
-        if path is not None and os.path.exists(path):
-            found.append(path)
-        elif path is not None:
-            reading.wrong(at, f"no such file or folder {quoted(item)}")
-    return tuple(found)
-
-
-def _baseline(reading: Reading, key: str, value: object) -> str | None:
-    text = reading.text((key,), value, "a path")
-    if text is None:
-        return None
-    if not text.endswith(".json"):
-        reading.wrong((key,), f"{quoted(text)} is no .json file")
-        return None
-    return reading.inner_path((key,), text)
-
-
-def _limits(reading: Reading, key: str, value: object) -> dict[str, int]:
-    read = {}
-    for name, number in reading.table((key,), value, "a table such as {depth = 50}").items():
-        if name not in LIMITS:
-            reading.unknown((key, name), list(LIMITS), f"`limits` of {reading.origin.source.name}")
-        elif reading.typed((key, name), number, int, "a whole number"):
-            if 1 <= number <= LIMITS[name]:
-                read[name] = number
-            else:
-                reading.wrong((key, name), f"{_number(number)} is not in 1 to {LIMITS[name]}", "a file can lower a limit, not raise it")
-    return read
-
-
-def _output(reading: Reading, key: str, value: object) -> tuple[str, ...] | None:
-    items = reading.texts((key,), value, "output")
-    if items is None:
-        return None
-    read = []
-    for at, item in items:
-        if "=" in item:
-            reading.wrong(at, f"{quoted(item)} names a file", "only the command line can say what file to write")
-        elif reading.one_of(at, item, OUTPUT_FORMATS):
-            read.append(item)
-    return tuple(read)
-
-
-KEYS: dict[str, Callable[[Reading, str, Any], Any]] = {
-    "edition": _edition,
-    "select": _selectors,
-    "extend-select": _selectors,
-    "ignore": _selectors,
-    "per-file-ignores": _per_file,
-    "severity": _severity,
-    "fail-on": _level,
-    "fail-on-cost": _fail_on_cost,
-    "fail-confidence": _confidence,
-    "min-severity": _level,
-    "profile": _profile,
-    "rules": _rules,
-    "exclude": _globs,
-    "include": _globs,
-    "baseline": _baseline,
-    "limits": _limits,
-    "output": _output,
+KEYS: dict[str, Callable[[TableReader, Path, Any], Any]] = {
+    "edition": TableReader.edition,
+    "select": TableReader.selectors,
+    "extend-select": TableReader.selectors,
+    "ignore": TableReader.selectors,
+    "per-file-ignores": TableReader.per_file_ignores,
+    "severity": TableReader.severities,
+    "fail-on": TableReader.severity_level,
+    "fail-on-cost": TableReader.fail_on_cost,
+    "fail-confidence": TableReader.confidence,
+    "min-severity": TableReader.severity_level,
+    "profile": TableReader.profile,
+    "rules": TableReader.rules,
+    "exclude": TableReader.globs,
+    "include": TableReader.globs,
+    "baseline": TableReader.baseline,
+    "limits": TableReader.limits,
+    "output": TableReader.outputs,
 }
-"""What a key takes; `extends` is the one besides."""
+"""The method that reads each key; None from it leaves the key unset."""
 
 
-def _number(value: int) -> str:
-    # An int of more than 4300 digits has no decimal text in Python.
-    return str(value) if abs(value) < 1 << 64 else "the number"
+def _suggestion(word: str, words: Sequence[str]) -> str:
+    from msaa_lint.core.suggestions import nearest
 
-
-def _kind(value: object) -> str:
-    names = {str: "a string", bool: "a boolean", int: "a number", float: "a number", list: "a list", dict: "a table"}
-    return names.get(type(value), "a date or time")
+    close = nearest(word, words)
+    return f"did you mean `{close}`?" if close else f"expected one of {', '.join(words)}"

@@ -1,8 +1,8 @@
-"""Which rules are on for a file, and what their findings weigh.
+"""Which rules are enabled for a file, and the severity of their findings.
 
-Of two selectors that name the same rule the closer one wins: a name or code over the beginning of a code, a longer beginning over a
-shorter, any of them over ALL; `ignore` wins where they are equal. What the command line says of a rule wins over the file, and its
-`--select` starts anew. `per-file-ignores` wins over all.
+If two selectors name the same rule, the more specific one wins: a name or code, then a longer code prefix, then a shorter one, then ALL;
+between equals, `ignore` wins. The command line takes precedence over a file, and its `--select` replaces everything a file selects.
+`per-file-ignores` takes precedence over both.
 """
 
 from __future__ import annotations
@@ -14,97 +14,99 @@ from msaa_lint.core.diagnostics import DIAGNOSTICS
 from msaa_lint.core.finding import SEVERITIES, Finding
 from msaa_lint.core.globs import matches
 
-from .selectors import EXACT, Named, Weighed, closest, specificity
+from .selectors import EXACT, Named, Weighed, max_specificity, specificity
 from .settings import Settings
 
 ABOUT_COMMENTS = ("MSAA911", "MSAA912", "MSAA913")
-"""Not of the frame but of what the file says to this program: `select` leaves them on, the rest can turn them off."""
+"""Diagnostics of suppression comments: `select` leaves them enabled, everything else can disable them."""
+
+Severity = Callable[[Weighed, str, str | None], str | None]
+"""`severity(rule, suggested, vendor)`: the severity of a rule's finding in one file; None where the rule is off."""
 
 
-class _Weight(NamedTuple):
-    """A rule that is on: the severity it is given, None where it keeps its own."""
+class _Enabled(NamedTuple):
+    """An enabled rule; `severity` is the configured one, None for the rule's own."""
 
-    stated: str | None
+    severity: str | None
 
 
 class Selection:
-    """The rules that one configuration turns on.
+    """The rules that one configuration enables.
 
-    A rule of a later edition than the pinned one is on only where it is selected by its name or code; a user's own rules (no edition)
-    are among the defaults of every edition. 9xx errors are always on.
+    A rule of an edition later than the pinned one is enabled only by its name or code. A user's own rules have no edition and are among
+    the defaults of every edition. 9xx errors are always enabled.
     """
 
     def __init__(self, settings: Settings, rules: Iterable[Weighed]) -> None:
         self._settings = settings
         self._rules: list[Named] = []
-        self._on: dict[str, _Weight] = {}
+        self._enabled: dict[str, _Enabled] = {}
         self._ignored: dict[str, frozenset[str]] = {}
-        self._for_all: dict[str | None, Callable[[Weighed, str, str | None], str | None]] = {}
+        self._for_all: dict[str | None, Severity] = {}
         pinned = None if settings.edition is None else _edition(settings.edition)
         for rule in rules:
-            later = pinned is not None and bool(rule.edition) and _edition(rule.edition) > pinned
-            self._add(rule, later, False)
+            self._add(rule, later=pinned is not None and bool(rule.edition) and _edition(rule.edition) > pinned)
         for code in ABOUT_COMMENTS:
-            self._add(DIAGNOSTICS[code], False, True)
+            self._add(DIAGNOSTICS[code], always=True)
 
-    def _add(self, rule: Named, later: bool, always: bool) -> None:
+    def _add(self, rule: Named, later: bool = False, always: bool = False) -> None:
         self._rules.append(rule)
-        weight = _weight(self._settings, rule, later, always)
-        if weight is not None:
-            self._on[rule.code] = weight
+        enabled = _enabled(self._settings, rule, later, always)
+        if enabled is not None:
+            self._enabled[rule.code] = enabled
 
     def enabled(self, rule: Named, file: str | None = None) -> bool:
-        """Whether a rule is on for a file (None: for some file)."""
-        if rule.code in self._on:
-            return file is None or rule.code not in self._off_in(file)
+        """Whether a rule is enabled for a file (None: for any file)."""
+        if rule.code in self._enabled:
+            return file is None or rule.code not in self._ignored_in(file)
         return rule.code in DIAGNOSTICS and DIAGNOSTICS[rule.code].severity == "error"
 
     def severity(self, rule: Weighed, file: str | None = None, suggested: str | None = None) -> str | None:
-        """What a finding of a rule weighs in a file, None where it is off. `suggested` is what the rule says of this case."""
+        """The severity of a rule's finding in a file; None if the rule is off. `suggested` is the rule's own severity in this case."""
         if not self.enabled(rule, file):
             return None
-        weight = self._on.get(rule.code)
-        return (weight.stated if weight is not None else None) or suggested or rule.severity
+        enabled = self._enabled.get(rule.code)
+        return (enabled.severity if enabled is not None else None) or suggested or rule.severity
 
     def names(self, file: str | None = None) -> frozenset[str]:
-        """The names of the rules that are on for a file."""
+        """The names of the rules that are enabled for a file (None: for any file)."""
         return frozenset(rule.name for rule in self._rules if self.enabled(rule, file))
 
-    def for_file(self, file: str, vendor: str | None = None) -> Callable[[Weighed, str, str | None], str | None]:
-        """`severity(rule, suggested, vendor)` for one file, as the engine asks it.
+    def for_file(self, file: str, vendor: str | None = None) -> Severity:
+        """The severities of one file, for the engine. `vendor` is that of the profile.
 
-        A vendor's rule weighs a note where the device is not known to be that vendor's, by what the engine says or by `vendor` (the
-        profile's), unless the configuration gives it a severity.
+        A rule about one vendor's devices gives a note if the device is not known to be that vendor's, unless a severity is configured.
         """
-        alike = not self._settings.per_file_ignores
-        if alike and vendor in self._for_all:
+        shared = not self._settings.per_file_ignores
+        if shared and vendor in self._for_all:
             return self._for_all[vendor]
 
-        def severity(rule: Weighed, suggested: str, of_device: str | None) -> str | None:
+        def severity(rule: Weighed, suggested: str, device_vendor: str | None) -> str | None:
             vendors = getattr(rule, "vendors", ())
-            if vendors and (of_device or vendor) not in vendors:
+            if vendors and (device_vendor or vendor) not in vendors:
                 suggested = SEVERITIES[0]
             return self.severity(rule, file, suggested)
 
-        if alike:
-            # One for all files: who asks may remember what it said.
+        if shared:
+            # The rule runner caches by this function.
             self._for_all[vendor] = severity
         return severity
 
-    def settle(self, found: Finding) -> Finding | None:
-        """A 9xx finding with the severity that the configuration gives it; None where it is off for its file."""
-        if found.code not in ABOUT_COMMENTS:
-            return found
-        if not self.enabled(DIAGNOSTICS[found.code], found.file):
+    def settle(self, finding: Finding) -> Finding | None:
+        """A finding with the severity that is configured for it if it is about a comment; None if that is off for its file."""
+        if finding.code not in ABOUT_COMMENTS:
+            return finding
+        if not self.enabled(DIAGNOSTICS[finding.code], finding.file):
             return None
-        return found._replace(severity=self._on[found.code].stated or found.severity)
+        return finding._replace(severity=self._enabled[finding.code].severity or finding.severity)
 
-    def _off_in(self, file: str) -> frozenset[str]:
+    def _ignored_in(self, file: str) -> frozenset[str]:
+        """The codes of the rules that `per-file-ignores` disables for a file."""
         if not self._settings.per_file_ignores:
             return frozenset()
         if file not in self._ignored:
-            selectors = [each for glob, given in self._settings.per_file_ignores if matches(file, glob) for each in given]
-            self._ignored[file] = frozenset(rule.code for rule in self._rules if closest(selectors, rule))
+            selectors = [each for glob, ignored in self._settings.per_file_ignores if matches(file, glob) for each in ignored]
+            self._ignored[file] = frozenset(rule.code for rule in self._rules if max_specificity(selectors, rule))
         return self._ignored[file]
 
 
@@ -112,41 +114,45 @@ def _edition(text: str) -> tuple[int, ...]:
     return tuple(int(part) if part.isdecimal() else 0 for part in text.split("."))
 
 
-def _weight(settings: Settings, rule: Named, later: bool, always: bool) -> _Weight | None:
-    """What a configuration makes of a rule, files apart; None where it is off."""
+def _enabled(settings: Settings, rule: Named, later: bool, always: bool) -> _Enabled | None:
+    """How a configuration enables a rule, `per-file-ignores` aside; None if it disables it."""
     choice = settings.command_line
-    off, stated = _stated(settings.severity, rule)
-    on = _outweighs(settings.select, settings.extend_select, max(closest(settings.ignore, rule), off), rule, later, always)
-    off, asked = _stated(choice.severity, rule)
-    no = max(closest(choice.ignore, rule), off)
+    off, severity = _severity(settings.severity, rule)
+    ignored = max(max_specificity(settings.ignore, rule), off)
+    is_on = _is_selected(settings.select, settings.extend_select, ignored, rule, later, always)
+    off, chosen_severity = _severity(choice.severity, rule)
+    ignored = max(max_specificity(choice.ignore, rule), off)
     if choice.select is not None:
-        on = _outweighs(choice.select, choice.extend_select, no, rule, later, always)
+        is_on = _is_selected(choice.select, choice.extend_select, ignored, rule, later, always)
     else:
-        yes = _selected(choice.extend_select, rule, later)
-        if yes or no:
-            on = yes > no
-    return _Weight(asked or stated) if on else None
+        selected = _specificity(choice.extend_select, rule, later)
+        if selected or ignored:
+            is_on = selected > ignored
+    return _Enabled(chosen_severity or severity) if is_on else None
 
 
-def _outweighs(select: Iterable[str] | None, extend: Iterable[str], no: int, rule: Named, later: bool, always: bool) -> bool:
-    """Whether a rule is selected more closely than it is ignored (0: not at all)."""
-    yes = max(_selected(select or (), rule, later), _selected(extend, rule, later))
+def _is_selected(select: Iterable[str] | None, extend: Iterable[str], ignored: int, rule: Named, later: bool, always: bool) -> bool:
+    """Whether a rule is selected more specifically than it is ignored (0: not at all)."""
+    selected = max(_specificity(select or (), rule, later), _specificity(extend, rule, later))
     by_default = not later if select is None else always
-    return yes > no or (by_default and not no)
+    return selected > ignored or (by_default and not ignored)
 
 
-def _selected(selectors: Iterable[str], rule: Named, later: bool) -> int:
-    close = closest(selectors, rule)
-    return close if close == EXACT or not later else 0
+def _specificity(selectors: Iterable[str], rule: Named, later: bool) -> int:
+    """How specifically selectors name a rule; a rule of a `later` edition must be named exactly."""
+    found = max_specificity(selectors, rule)
+    return found if found == EXACT or not later else 0
 
 
-def _stated(severities: Mapping[str, str], rule: Named) -> tuple[int, str | None]:
-    """How closely a rule is turned off (0: it is not), and the severity that it is given otherwise: by the closest selector, the graver
-    where a name and a code disagree."""
-    given = [(specificity(selector, rule), level) for selector, level in severities.items()]
-    levels = [(close, SEVERITIES.index(level)) for close, level in given if close and level != "off"]
-    off = max((close for close, level in given if level == "off"), default=0)
-    closest_level = max(levels, default=None)
-    if closest_level is None:
+def _severity(severities: Mapping[str, str], rule: Named) -> tuple[int, str | None]:
+    """How specifically a rule is turned off (0: it is not), and the severity it is given otherwise.
+
+    That is the severity of the most specific selector; if a name and a code disagree, the higher one.
+    """
+    selected = [(specificity(selector, rule), level) for selector, level in severities.items()]
+    levels = [(found, SEVERITIES.index(level)) for found, level in selected if found and level != "off"]
+    off = max((found for found, level in selected if level == "off"), default=0)
+    most_specific = max(levels, default=None)
+    if most_specific is None:
         return off, None
-    return (off if off > closest_level[0] else 0), SEVERITIES[closest_level[1]]
+    return (off if off > most_specific[0] else 0), SEVERITIES[most_specific[1]]

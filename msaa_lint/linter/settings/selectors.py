@@ -1,4 +1,4 @@
-"""How a configuration names rules: by name, by code, by the beginning of a code, or all of them."""
+"""Rule selectors: a rule's name, its code, a code prefix, or ALL."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ ALL = "ALL"
 EXACT = 1000
 """The specificity of a name or a whole code."""
 
-MAX_PROBLEMS = 50
+MAX_FINDINGS = 50
 _PREFIX = re.compile(r"([A-Z]+)[0-9]*\Z")
 
 
 class Named(Protocol):
-    """What suppressions and selectors ask of a rule."""
+    """What suppressions and selectors need of a rule."""
 
     @property
     def code(self) -> str: ...
@@ -31,7 +31,7 @@ class Named(Protocol):
 
 
 class Weighed(Named, Protocol):
-    """What a selection asks of a rule. A user's own rule has no edition (empty)."""
+    """What a selection needs of a rule. The edition of a user's own rule is empty."""
 
     @property
     def severity(self) -> str: ...
@@ -40,8 +40,8 @@ class Weighed(Named, Protocol):
 
 
 def specificity(selector: str, rule: Named) -> int:
-    """How closely a selector names a rule: EXACT for its name or code, the length for the beginning of its code, 1 for ALL; 0 where it
-    does not. The beginning of a code has all its letters: MSAA, MSAA2, but not MS."""
+    """How specifically a selector names a rule: EXACT for its name or code, the prefix length plus 1 for a code prefix, 1 for ALL, and
+    0 if it does not. A code prefix has all letters of the code: MSAA, MSAA2, but not MS."""
     if selector in (rule.code, rule.name):
         return EXACT
     if selector == ALL:
@@ -52,21 +52,22 @@ def specificity(selector: str, rule: Named) -> int:
     return 0
 
 
-def closest(selectors: Iterable[str], rule: Named) -> int:
-    """The specificity of the one that names a rule most closely."""
+def max_specificity(selectors: Iterable[str], rule: Named) -> int:
+    """The specificity of the selector that names a rule most specifically; 0 if none does."""
     return max((specificity(selector, rule) for selector in selectors), default=0)
 
 
-class Words:
-    """The names and codes there are, to tell which selectors are unknown and what they were meant to be."""
+class RuleNames:
+    """The names and codes of rules, to find unknown selectors and suggest the intended ones."""
 
     def __init__(self, rules: Iterable[Named]) -> None:
         self.rules: list[Named] = [*rules, *DIAGNOSTICS.values()]
-        self.exact = {word: rule for rule in self.rules for word in (rule.name, rule.code)}
-        self._suggestions = Suggestions(self.exact)
+        self.by_word = {word: rule for rule in self.rules for word in (rule.name, rule.code)}
+        self._suggestions = Suggestions(self.by_word)
 
-    def knows(self, selector: str) -> bool:
-        return selector in self.exact or any(specificity(selector, rule) for rule in self.rules)
+    def selects_any(self, selector: str) -> bool:
+        """Whether a selector names at least one rule."""
+        return selector in self.by_word or any(specificity(selector, rule) for rule in self.rules)
 
     def nearest(self, word: str) -> str | None:
         """The name or code that was most likely meant by an unknown word; see `Suggestions` for its limits."""
@@ -74,7 +75,7 @@ class Words:
 
 
 class _Use(NamedTuple):
-    """A selector where it is used: the key, its path below it, and the file (None: the command line)."""
+    """A selector and where it is used. `path` is that of the selector in the file; `origin` is None on the command line."""
 
     selector: str
     key: str
@@ -82,24 +83,23 @@ class _Use(NamedTuple):
     origin: Origin | None
 
 
-def unknown_selectors(settings: Settings, known: Iterable[Named]) -> list[Finding]:
-    """A finding for each selector that names no rule, at its place in the configuration, or as the command line gave it."""
-    words = Words(known)
-    found: list[Finding] = []
+def unknown_selectors(settings: Settings, rules: Iterable[Named]) -> list[Finding]:
+    """A finding for each selector that names no rule, at its place in the configuration file if it has one."""
+    names = RuleNames(rules)
+    findings: list[Finding] = []
     for use in _uses(settings):
-        if words.knows(use.selector):
+        if names.selects_any(use.selector):
             continue
-        close = words.nearest(use.selector)
-        help = f"did you mean `{close}`?" if close else "`msaa-lint rule --all` lists the rules there are"
-        message = f"unknown rule {quoted(use.selector)} in `{use.key}`"
+        close = names.nearest(use.selector)
+        hint = f"did you mean `{close}`?" if close else "`msaa-lint rule --all` lists the rules"
+        message = f"unknown rule {quoted(use.selector)}"
         if use.origin is None:
-            found.append(diagnostic("MSAA921", message, COMMAND_LINE, help=help))
+            findings.append(diagnostic("MSAA921", f"{message} in `{use.key}`: {hint}", COMMAND_LINE))
         else:
-            in_file = f"{message} of {use.origin.source.name}"
-            found.append(use.origin.wrong(use.path, in_file, help, at_key=use.key == "severity"))
-        if len(found) >= MAX_PROBLEMS:
+            findings.append(use.origin.problem(use.path, message, hint, at_key=use.key == "severity"))
+        if len(findings) >= MAX_FINDINGS:
             break
-    return found
+    return findings
 
 
 def _uses(settings: Settings) -> Iterator[_Use]:
@@ -115,7 +115,7 @@ def _uses(settings: Settings) -> Iterator[_Use]:
     for selector in settings.severity:
         yield _Use(selector, "severity", ("severity", selector), settings.origin.get(("severity", selector)))
     choice = settings.command_line
-    stated = {"select": choice.select or (), "extend-select": choice.extend_select, "ignore": choice.ignore, "severity": choice.severity}
-    for key, given in stated.items():
-        for selector in given:
+    by_option = {"select": choice.select or (), "extend-select": choice.extend_select, "ignore": choice.ignore, "severity": choice.severity}
+    for key, selected in by_option.items():
+        for selector in selected:
             yield _Use(selector, f"--{key}", (), None)

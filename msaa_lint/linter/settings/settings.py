@@ -1,6 +1,5 @@
-"""What can be configured, and how the command line overrides it."""
+"""The settings of a run, and how the command line overrides those of a configuration file."""
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 import os
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -19,24 +18,28 @@ OUTPUT_FORMATS = ("full", "concise", "json", "sarif", "github", "gitlab", "junit
 
 
 class Origin(NamedTuple):
-    """Where a key was read: the text of the file, and the table that it stands in (`tool`, `msaa-lint`, or none)."""
+    """The configuration file that a key was read from, and the path of its table: `tool`, `msaa-lint`, or empty."""
 
     source: "Source"
     table: tuple[str, ...]
 
-    def wrong(self, path: tuple[str | int, ...], message: str, help: str = "", at_key: bool = False) -> Finding:
-        """A finding at the value (or key) of a path below the table; where it cannot be found, at the nearest key around it."""
+    def finding(self, path: tuple[str | int, ...], message: str, at_key: bool = False) -> Finding:
+        """A finding at the value, or the key, of a path below the table, or at the nearest enclosing key that has a location."""
         from .toml_text import places
 
-        known = places(self.source.text)
+        locations = places(self.source.text)
         whole = (*self.table, *path)
-        place = next((known[whole[:n]] for n in range(len(whole), 0, -1) if whole[:n] in known), None)
-        span = None if place is None else place.key if at_key else place.value
-        return diagnostic("MSAA921", message, self.source.name, span, help=help)
+        location = next((locations[whole[:n]] for n in range(len(whole), 0, -1) if whole[:n] in locations), None)
+        span = None if location is None else location.key if at_key else location.value
+        return diagnostic("MSAA921", message, self.source.name, span)
+
+    def problem(self, path: tuple[str | int, ...], message: str, hint: str = "", at_key: bool = False) -> Finding:
+        """A finding about the value of a key, which the message names."""
+        return self.finding(path, _located(message, f"`{path[0]}` of {self.source.name}", hint), at_key)
 
 
 class Choice(NamedTuple):
-    """What the command line says of rules. It has the last word over all that a file says; `select` starts anew."""
+    """The rules that the command line selects. They take precedence over those of a file; `select` replaces them."""
 
     select: tuple[str, ...] | None = None
     extend_select: tuple[str, ...] = ()
@@ -45,21 +48,21 @@ class Choice(NamedTuple):
 
 
 class Settings(NamedTuple):
-    """What a run is told, for the files that a configuration file governs. Paths are absolute.
+    """The settings that apply to the files below one configuration file. Paths are absolute.
 
-    Of rules: `edition` pins the default rules (None: the newest edition's); `select` replaces them (None: they stay), `extend_select`
-    adds, `ignore` takes away; `per_file_ignores` takes away in the files of a glob; `severity` gives a rule error, warning, note or off.
-    All of them hold rule selectors: a name, a code, the beginning of a code (MSAA2, MSAA), or ALL. `command_line` is what the command
-    line says of the same. `rules` are pages of a user's own rules, or folders of them.
+    Rules: `edition` pins the default rules (None: the newest edition); `select` replaces them (None: keep them), `extend_select` adds to
+    them, `ignore` removes from them; `per_file_ignores` removes rules for the files that match a glob; `severity` sets a rule to error,
+    warning, note or off. Each of them holds rule selectors: a name, a code, a code prefix (MSAA2, MSAA), or ALL. `command_line` holds
+    the selectors of the command line. `rules` are the user's own rule pages, and folders of rule pages.
 
-    Of outcomes: `fail_on` is the lowest severity that ends the run with 1, `fail_on_cost` the price that does (as in 50MB/s), both of
-    findings whose confidence is at least `fail_confidence`; `min_severity` is the lowest severity that is shown, `output` the outputs
-    (none: the program's choice), `baseline` the baseline's path.
+    Results: `fail_on` is the lowest severity that makes the exit code 1, and `fail_on_cost` the cost that does (50MB/s); both count only
+    findings with a confidence of at least `fail_confidence`. `min_severity` is the lowest severity to report, `output` the output formats
+    (empty: the command's default), `baseline` the path of the baseline.
 
-    Of inputs: `exclude` is never linted, `include` is what is linted of a folder (none: the usual names, and what looks like an input),
-    `profile` a class of device or a built-in device's name, `limits` the stated ones of depth, nodes and bytes.
+    Inputs: files that match `exclude` are not linted. In folders, only files that match `include` are (empty: files with the usual
+    endings and files that look like an input). `profile` names a device, a device class or a vendor. `limits` overrides `Limits`.
 
-    `root` is the folder of the configuration file, or the current one. `origin` says where each key was read, by its path.
+    `root` is the folder of the configuration file, or the current folder. `origin` maps the path of each key to its configuration file.
     """
 
     edition: str | None = None
@@ -83,12 +86,16 @@ class Settings(NamedTuple):
     command_line: Choice = Choice()
     origin: Mapping[tuple[str, ...], Origin] = {}
 
-    def wrong(self, key: str, message: str, help: str = "") -> Finding:
-        """A finding at the value of `key` (as a file writes it: `fail-on`), for whoever finds out later that it is of no use."""
+    def problem(self, key: str, message: str, hint: str = "") -> Finding:
+        """A finding about the value of `key`, spelled as in a file (`fail-on`), wherever it was set."""
         origin = self.origin.get((key,))
         if origin is None:
-            return diagnostic("MSAA921", f"{message} (in `--{key}`)", COMMAND_LINE, help=help)
-        return origin.wrong((key,), f"{message} (in `{key}` of {origin.source.name})", help)
+            return diagnostic("MSAA921", _located(message, f"`--{key}`", hint), COMMAND_LINE)
+        return origin.problem((key,), message, hint)
+
+
+def _located(message: str, where: str, hint: str) -> str:
+    return f"{message} in {where}: {hint}" if hint else f"{message} in {where}"
 
 
 def override(
@@ -111,10 +118,10 @@ def override(
     limits: Mapping[str, int] | None = None,
     output: Iterable[str] = (),
 ) -> Settings:
-    """The settings with what the command line states; None and nothing leave what a file says.
+    """The settings with those of the command line; None and empty values keep a file's.
 
-    `rules` and `exclude` add to a file's, the others replace it. Paths and globs count from the current folder. What a word may be is
-    checked by the command line, what a rule may be by `unknown_selectors`; a glob that can match nothing is a ValueError.
+    `rules` and `exclude` add to a file's, the others replace them. Paths and globs are relative to the current folder. Raises ValueError
+    for a glob that cannot match anything; the other values are not checked here.
     """
     from msaa_lint.core.globs import compiled
 

@@ -1,4 +1,4 @@
-"""Reads a baseline's text, which may come from a stranger's branch."""
+"""Reads the text of a baseline, which may come from an untrusted branch."""
 
 from __future__ import annotations
 
@@ -13,69 +13,71 @@ if TYPE_CHECKING:
     from msaa_lint.core.text.source import Source
 
 MAX_COUNT = 1 << 31
-MAX_PROBLEMS = 50
+MAX_FINDINGS = 50
 
 
-def entries(source: Source, schema: str) -> tuple[dict[str, dict[str, int]], list[Finding]]:
-    """The counts by file and rule of a baseline's text, and what is wrong with it (MSAA921, at its place)."""
-    read = _parsed(source)
-    if isinstance(read, Finding):
-        return {}, [read]
-    problems: list[Finding] = []
+def read_entries(source: Source, schema: str) -> tuple[dict[str, dict[str, int]], list[Finding]]:
+    """The counts by file and rule, and the problems of the text (MSAA921, each at its place)."""
+    value = _parse(source)
+    if isinstance(value, Finding):
+        return {}, [value]
+    findings: list[Finding] = []
 
-    def wrong(path: tuple[str, ...], message: str) -> None:
-        if len(problems) < MAX_PROBLEMS:
-            problems.append(diagnostic("MSAA921", f"baseline: {message}", source.name, _place(source, path)))
+    def problem(path: tuple[str, ...], message: str) -> None:
+        if len(findings) < MAX_FINDINGS:
+            findings.append(diagnostic("MSAA921", f"invalid baseline: {message}", source.name, _location(source, path)))
 
-    if not isinstance(read, dict):
-        wrong((), "an object is due")
-        return {}, problems
-    if read.get("schema") != schema:
-        wrong(("schema",), f'the schema is not "{schema}"')
-        return {}, problems
-    for key in read:
+    files = value.get("entries") if isinstance(value, dict) else None
+    if not isinstance(value, dict):
+        problem((), "expected an object")
+    elif value.get("schema") != schema:
+        problem(("schema",), f'expected the schema "{schema}"')
+    elif not isinstance(files, dict):
+        problem(("entries",), "`entries` must be an object with an object for each file")
+    if findings:
+        return {}, findings
+    assert isinstance(value, dict) and isinstance(files, dict)
+    for key in value:
         if key not in ("schema", "entries"):
-            wrong((key,), f"unknown key {quoted(key)}")
-    files = read.get("entries")
-    if not isinstance(files, dict):
-        wrong(("entries",), "`entries` is an object of files")
-        return {}, problems
-    for file, own in files.items():
-        if not isinstance(own, dict):
-            wrong(("entries", file), f"{quoted(file)} has no object of rules and counts")
+            problem((key,), f"unknown key {quoted(key)}: expected `schema` and `entries`")
+    for file, rules in files.items():
+        if not isinstance(rules, dict):
+            problem(("entries", file), f"{quoted(file)} must be an object with a count for each rule")
             continue
-        for rule, count in own.items():
+        for rule, count in rules.items():
             if not isinstance(count, int) or isinstance(count, bool) or not 1 <= count < MAX_COUNT:
-                wrong(("entries", file, rule), f"the count of {quoted(rule)} in {quoted(file)} is no whole number of at least 1")
-    return files, problems
+                message = f"the count of {quoted(rule)} in {quoted(file)} must be an integer from 1 to {MAX_COUNT - 1}"
+                problem(("entries", file, rule), message)
+    return files, findings
 
 
-def _parsed(source: Source) -> Any:
-    """The JSON value of a text, or the finding that it is none."""
+def _parse(source: Source) -> Any:
+    """The JSON value of a text, or a finding that says why it has none."""
     import json
     from itertools import pairwise
 
-    def pairs(items: list[tuple[str, Any]]) -> dict[str, Any]:
-        made = dict(items)
-        if len(made) < len(items):
+    def unique_keys(items: list[tuple[str, Any]]) -> dict[str, Any]:
+        mapping = dict(items)
+        if len(mapping) < len(items):
             names = sorted(key for key, _ in items)
-            again = next(key for key, after in pairwise(names) if key == after)
-            raise ValueError(f"the key {quoted(again)} stands twice")
-        return made
+            repeated = next(key for key, following in pairwise(names) if key == following)
+            raise ValueError(f"duplicate key {quoted(repeated)}")
+        return mapping
 
     try:
-        return json.loads(source.text, object_pairs_hook=pairs)
+        return json.loads(source.text, object_pairs_hook=unique_keys)
     except json.JSONDecodeError as error:
-        at = min(error.pos, len(source.text))
-        return diagnostic("MSAA921", f"the baseline is no JSON: {error.msg}", source.name, Span(at, min(at + 1, len(source.text))))
+        start = min(error.pos, len(source.text))
+        span = Span(start, min(start + 1, len(source.text)))
+        return diagnostic("MSAA921", f"invalid baseline: not valid JSON: {error.msg}", source.name, span)
     except RecursionError:
-        return diagnostic("MSAA921", "the baseline is nested too deeply", source.name)
+        return diagnostic("MSAA921", "invalid baseline: nested too deeply", source.name)
     except ValueError as error:
-        return diagnostic("MSAA921", f"the baseline cannot be used: {str(error)[:200]}", source.name)
+        return diagnostic("MSAA921", f"invalid baseline: {str(error)[:200]}", source.name)
 
 
-def _place(source: Source, path: tuple[str, ...]) -> Span | None:
-    """Where a value stands: the parser of descriptions knows, and reads JSON too."""
+def _location(source: Source, path: tuple[str, ...]) -> Span | None:
+    """The span of a value or of the nearest value around it, from the parser of descriptions, which reads JSON too."""
     from msaa_lint.core.text.tree import Limits, parse
 
     parsed = parse(source, Limits())
@@ -84,4 +86,4 @@ def _place(source: Source, path: tuple[str, ...]) -> Span | None:
         if node is None or node.kind != "mapping" or key not in node.value:
             break
         node = node.value[key]
-    return None if node is None else Span(node.start, node.end)
+    return None if node is None else node.span

@@ -15,7 +15,7 @@ from msaa_lint.core.diagnostics import DIAGNOSTICS, diagnostic
 from msaa_lint.core.finding import Finding, Fix, Suppressed
 from msaa_lint.core.quote import quoted
 from msaa_lint.core.text.span import Edit, Span
-from msaa_lint.linter.settings.selectors import Named, Words
+from msaa_lint.linter.settings.selectors import Named, RuleNames
 
 from .comments import Directive, Entry, read, without
 
@@ -46,7 +46,7 @@ def apply(
     findings = list(findings)
     complaints = _Complaints(source)
     directives = read(comments, source, complaints.add, alone)
-    words = Words(known_rules)
+    words = RuleNames(known_rules)
     table = _Table()
     for directive in directives:
         for entry in directive.entries:
@@ -158,9 +158,9 @@ class _Table:
             yield of, waiting
 
 
-def _enter(table: _Table, complaints: _Complaints, words: Words, directive: Directive, entry: Entry) -> None:
+def _enter(table: _Table, complaints: _Complaints, words: RuleNames, directive: Directive, entry: Entry) -> None:
     """A name in the brackets: to the table where it is a rule's, else what is wrong with it."""
-    rule = words.exact.get(entry.name)
+    rule = words.by_word.get(entry.name)
     if rule is not None:
         info = DIAGNOSTICS.get(rule.code)
         if info is None or info.severity != "error":
@@ -170,7 +170,7 @@ def _enter(table: _Table, complaints: _Complaints, words: Words, directive: Dire
         complaints.add("MSAA911", message, entry.span)
     elif complaints.full("MSAA912"):
         return
-    elif words.knows(entry.name):
+    elif words.selects_any(entry.name):
         message = f"{quoted(entry.name)} names a group of rules: it silences nothing"
         complaints.add("MSAA913", message, entry.span, "name each rule that is meant")
     else:

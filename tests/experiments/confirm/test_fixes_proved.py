@@ -11,7 +11,7 @@ from msaa_lint.experiments.confirm.outcome import DeviceRun
 from msaa_lint.experiments.confirm.session import Session, environment
 from msaa_lint.experiments.confirm.trial import Terms, trial
 from msaa_lint.experiments.confirm.verdict import CONFIRMED, DISAGREES, REFUSED
-from msaa_lint.linter.run import Request
+from msaa_lint.linter.workspace import Request
 from tests.pages import all_examples
 from tests.paths import ROOT
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from msaa_lint.core.diagnostics import DIAGNOSTICS, diagnostic
 from msaa_lint.core.globs import Glob
 from msaa_lint.linter.settings.selection import Selection
-from msaa_lint.linter.settings.selectors import EXACT, closest, specificity
+from msaa_lint.linter.settings.selectors import EXACT, max_specificity, specificity
 from msaa_lint.linter.settings.settings import Settings, override
 
 
@@ -59,7 +59,7 @@ def codes(settings: Settings) -> str:
 )
 def test_specificity(selector: str, rule: Rule, closeness: int) -> None:
     assert specificity(selector, rule) == closeness
-    assert closest(["ALL", selector], rule) == max(closeness, 1)
+    assert max_specificity(["ALL", selector], rule) == max(closeness, 1)
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding, Suppressed
 from msaa_lint.core.text.span import Span
-from msaa_lint.linter.suppress.baseline import MAX_BYTES, Baseline, Refused, Stale, apply, build, dump, load, prune, save
+from msaa_lint.linter.suppress.baseline import MAX_BYTES, Baseline, Refused, Stale, apply, build, dump, load, prune, save, stale
 
 
 @pytest.fixture(autouse=True)
@@ -35,30 +35,29 @@ def test_up_to_the_count_is_silenced_and_beyond_it_all_is_shown() -> None:
     three = [finding(start=i) for i in range(3)]
     other = finding(rule="loaded")
     held = baseline(a_yaml={"stored": 3})
-    assert apply([*three, other], held) == ([other], [Suppressed(each, "baseline") for each in three], [])
+    assert apply([*three, other], held) == ([other], [Suppressed(each, "baseline") for each in three])
     four = [*three, finding(start=9)]
-    assert apply(four, held) == (four, [], [])
+    assert apply(four, held) == (four, [])
 
 
 def test_an_entry_with_fewer_findings_than_counted_is_stale() -> None:
     held = baseline(a_yaml={"stored": 3, "loaded": 1}, b_yaml={"stored": 1})
-    kept, suppressed, stale = apply([finding()], held)
-    assert (kept, len(suppressed)) == ([], 1)
-    assert stale == [Stale("a.yaml", "loaded", 1, 0), Stale("a.yaml", "stored", 3, 1), Stale("b.yaml", "stored", 1, 0)]
-    assert [str(each) for each in stale][:2] == [
-        "the baseline counts 1 of loaded in a.yaml, there are 0",
-        "the baseline counts 3 of stored in a.yaml, there is 1",
+    entries = stale(held, [finding()])
+    assert entries == [Stale("a.yaml", "loaded", 1, 0), Stale("a.yaml", "stored", 3, 1), Stale("b.yaml", "stored", 1, 0)]
+    assert [str(each) for each in entries][:2] == [
+        "the baseline counts 1 of loaded in a.yaml, but there are 0",
+        "the baseline counts 3 of stored in a.yaml, but there is 1",
     ]
 
 
 def test_what_was_not_judged_is_not_stale() -> None:
     Path("b.yaml").write_text("")
     held = baseline(a_yaml={"stored": 1, "loaded": 1}, b_yaml={"stored": 1}, gone_yaml={"stored": 1})
-    assert apply([], held, files=["a.yaml"], rules=["stored"]).stale == [
+    assert stale(held, [], files=["a.yaml"], rules=["stored"]) == [
         Stale("a.yaml", "stored", 1, 0),
         Stale("gone.yaml", "stored", 1, 0),
     ]
-    assert [each.file for each in apply([BROKEN], held).stale] == ["b.yaml", "gone.yaml"]
+    assert [each.file for each in stale(held, [BROKEN])] == ["b.yaml", "gone.yaml"]
     assert prune(held, [BROKEN], files=["a.yaml", "./c/../b.yaml"]).entries == {"a.yaml": {"stored": 1, "loaded": 1}}
 
 
@@ -66,7 +65,7 @@ def test_errors_of_the_description_never_enter() -> None:
     warning = diagnostic("MSAA911", "unused", "a.yaml", Span(0, 1))
     assert build([BROKEN, warning, finding()]).entries == {"a.yaml": {"unused-suppression": 1, "stored": 1}}
     held = baseline(a_yaml={"syntax": 5})
-    assert apply([BROKEN], held) == ([BROKEN], [], [])
+    assert apply([BROKEN], held) == ([BROKEN], [])
 
 
 def test_files_are_named_from_the_baselines_folder(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -79,7 +78,7 @@ def test_files_are_named_from_the_baselines_folder(folder: Path, monkeypatch: py
     read = load("../ci/baseline.json")
     assert read == made
     assert isinstance(read, Baseline)
-    assert apply([finding("a.yaml")], read).kept == []
+    assert apply([finding("a.yaml")], read)[0] == []
 
 
 def test_prune_lowers_and_never_adds() -> None:
@@ -121,32 +120,45 @@ def test_a_name_that_is_no_utf_8_is_written_and_read() -> None:
     save(build([finding(name)]), "b.json")
     read = load("b.json")
     assert isinstance(read, Baseline)
-    assert apply([finding(name)], read).kept == []
+    assert apply([finding(name)], read)[0] == []
 
 
 # --- a stranger's file ----------------------------------------------------------------------------------------------------------
 
+FILES = "`entries` must be an object with an object for each file"
 HEAD = '{"schema": "msaa-lint/baseline-v1", "entries": '
 
 
 @pytest.mark.parametrize(
     ("text", "at", "message"),
     [
-        ("{,}", (1, ","), "the baseline is no JSON: Expecting property name enclosed in double quotes"),
-        ("", (0, ""), "the baseline is no JSON: Expecting value"),
-        (HEAD + "{", (48, ""), "the baseline is no JSON: Expecting property name enclosed in double quotes"),
-        ("[]", (0, "[]"), "baseline: an object is due"),
-        ("{}", (0, "{}"), 'baseline: the schema is not "msaa-lint/baseline-v1"'),
-        ('{"schema": "msaa-lint/baseline-v2"}', (11, '"msaa-lint/baseline-v2"'), 'baseline: the schema is not "msaa-lint/baseline-v1"'),
-        ('{"schema": "msaa-lint/baseline-v1"}', (0, '{"schema": "msaa-lint/baseline-v1"}'), "baseline: `entries` is an object of files"),
-        (HEAD + "[]}", (47, "[]"), "baseline: `entries` is an object of files"),
-        (HEAD + '{}, "more": 1}', (59, "1"), "baseline: unknown key `more`"),
-        (HEAD + '{"a": 3}}', (53, "3"), "baseline: `a` has no object of rules and counts"),
-        (HEAD + '{"a": {"x": 1, "y": -2}}}', (67, "-2"), "baseline: the count of `y` in `a` is no whole number of at least 1"),
-        (HEAD + '{"a": {"x": 0}}}', (59, "0"), "baseline: the count of `x` in `a` is no whole number of at least 1"),
-        (HEAD + '{"a": {"x": true}}}', (59, "true"), "baseline: the count of `x` in `a` is no whole number of at least 1"),
-        (HEAD + '{"a": {"x": 1.0}}}', (59, "1.0"), "baseline: the count of `x` in `a` is no whole number of at least 1"),
-        (HEAD + '{"a": {"x": 1e99}}}', (59, "1e99"), "baseline: the count of `x` in `a` is no whole number of at least 1"),
+        ("{,}", (1, ","), "not valid JSON: Expecting property name enclosed in double quotes"),
+        ("", (0, ""), "not valid JSON: Expecting value"),
+        (HEAD + "{", (48, ""), "not valid JSON: Expecting property name enclosed in double quotes"),
+        ("[]", (0, "[]"), "expected an object"),
+        ("{}", (0, "{}"), 'expected the schema "msaa-lint/baseline-v1"'),
+        (
+            '{"schema": "msaa-lint/baseline-v2"}',
+            (11, '"msaa-lint/baseline-v2"'),
+            'expected the schema "msaa-lint/baseline-v1"',
+        ),
+        (
+            '{"schema": "msaa-lint/baseline-v1"}',
+            (0, '{"schema": "msaa-lint/baseline-v1"}'),
+            FILES,
+        ),
+        (HEAD + "[]}", (47, "[]"), FILES),
+        (HEAD + '{}, "more": 1}', (59, "1"), "unknown key `more`: expected `schema` and `entries`"),
+        (HEAD + '{"a": 3}}', (53, "3"), "`a` must be an object with a count for each rule"),
+        (
+            HEAD + '{"a": {"x": 1, "y": -2}}}',
+            (67, "-2"),
+            "the count of `y` in `a` must be an integer from 1 to 2147483647",
+        ),
+        (HEAD + '{"a": {"x": 0}}}', (59, "0"), "the count of `x` in `a` must be an integer from 1 to 2147483647"),
+        (HEAD + '{"a": {"x": true}}}', (59, "true"), "the count of `x` in `a` must be an integer from 1 to 2147483647"),
+        (HEAD + '{"a": {"x": 1.0}}}', (59, "1.0"), "the count of `x` in `a` must be an integer from 1 to 2147483647"),
+        (HEAD + '{"a": {"x": 1e99}}}', (59, "1e99"), "the count of `x` in `a` must be an integer from 1 to 2147483647"),
     ],
 )
 def test_a_mistake_is_at_its_place(text: str, at: tuple[int, str], message: str) -> None:
@@ -156,19 +168,19 @@ def test_a_mistake_is_at_its_place(text: str, at: tuple[int, str], message: str)
     (found,) = read.findings
     assert found.span is not None
     assert (found.span.start, read.sources["b.json"].text[found.span.start : found.span.end]) == at
-    assert (found.message, found.code, found.file, found.fatal) == (message, "MSAA921", "b.json", True)
+    assert (found.message, found.code, found.file, found.fatal) == (f"invalid baseline: {message}", "MSAA921", "b.json", True)
 
 
 @pytest.mark.parametrize(
     ("data", "message"),
     [
         (None, "no such baseline `b.json`"),
-        (b"\xff", "the baseline cannot be read: the input is no UTF-8: byte 0"),
-        (b" " * (MAX_BYTES + 1), "the baseline cannot be read: a baseline has at most 16777216 bytes"),
-        (b"[" * 200_000, "the baseline is nested too deeply"),
-        (HEAD.encode() + b'{"a": {"x": ' + b"9" * 5000 + b"}}}", "the baseline cannot be used: Exceeds the limit"),
-        (HEAD.encode() + b'{"a": {"x": 1, "x": 2}}}', "the baseline cannot be used: the key `x` stands twice"),
-        (HEAD.encode() + b"NaN}", "baseline: `entries` is an object of files"),
+        (b"\xff", "cannot read the baseline: the input is no UTF-8: byte 0"),
+        (b" " * (MAX_BYTES + 1), "cannot read the baseline: it is larger than the limit of 16777216 bytes"),
+        (b"[" * 200_000, "invalid baseline: nested too deeply"),
+        (HEAD.encode() + b'{"a": {"x": ' + b"9" * 5000 + b"}}}", "invalid baseline: Exceeds the limit"),
+        (HEAD.encode() + b'{"a": {"x": 1, "x": 2}}}', "invalid baseline: duplicate key `x`"),
+        (HEAD.encode() + b"NaN}", "invalid baseline: `entries` must be an object with an object for each file"),
     ],
 )
 def test_what_cannot_be_read_is_one_error(data: bytes | None, message: str) -> None:
@@ -205,10 +217,10 @@ quick = hypothesis_settings(deadline=None, suppress_health_check=[HealthCheck.to
 @given(findings)
 def test_a_baseline_silences_what_it_was_built_from_and_nothing_is_stale(found: list[Finding]) -> None:
     made = build(found)
-    result = apply(found, made)
-    assert result.kept == [each for each in found if each.fatal]
-    assert [each.finding for each in result.suppressed] == [each for each in found if not each.fatal]
-    assert result.stale == []
+    kept, suppressed = apply(found, made)
+    assert kept == [each for each in found if each.fatal]
+    assert [each.finding for each in suppressed] == [each for each in found if not each.fatal]
+    assert stale(made, found) == []
     assert prune(made, found) == made
     assert build(reversed(found)).entries == made.entries
     assert dump(build(reversed(found))) == dump(made)
@@ -219,8 +231,8 @@ def test_a_baseline_silences_what_it_was_built_from_and_nothing_is_stale(found: 
 def test_pruning_twice_is_pruning_once_and_leaves_nothing_stale(base: Baseline, found: list[Finding]) -> None:
     pruned = prune(base, found)
     assert prune(pruned, found) == pruned
-    assert apply(found, pruned).stale == []
-    assert apply(found, pruned).kept == apply(found, base).kept
+    assert stale(pruned, found) == []
+    assert apply(found, pruned) == apply(found, base)
     for file, own in pruned.entries.items():
         assert all(0 < count <= base.entries[file][rule] for rule, count in own.items())
 
@@ -228,9 +240,9 @@ def test_pruning_twice_is_pruning_once_and_leaves_nothing_stale(base: Baseline, 
 @quick
 @given(held, findings)
 def test_every_finding_is_kept_or_silenced_in_order(base: Baseline, found: list[Finding]) -> None:
-    result = apply(found, base)
-    silenced = [each.finding for each in result.suppressed]
-    assert sorted([*result.kept, *silenced], key=repr) == sorted(found, key=repr)
+    kept, suppressed = apply(found, base)
+    silenced = [each.finding for each in suppressed]
+    assert sorted([*kept, *silenced], key=repr) == sorted(found, key=repr)
     assert not any(each.fatal for each in silenced)
 
 

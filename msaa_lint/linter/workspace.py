@@ -1,0 +1,177 @@
+"""The settings, rules and inputs of one run: settings are resolved for a file before it is opened."""
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from msaa_lint.core.finding import Finding
+from msaa_lint.core.quote import quoted
+from msaa_lint.core.text.source import Source, Unreadable
+from msaa_lint.core.text.tree import Limits
+from msaa_lint.frame.devices import DeviceProfile
+from msaa_lint.frame.profiles import Problem, profile_of
+from msaa_lint.input import opening
+from msaa_lint.input.discovery import STDIN, Discovered, discover
+from msaa_lint.input.readers import looks_like
+
+from .engine import Engine, LintOptions, load_rules
+from .results import FileResult
+from .rules.registry import EDITIONS
+from .settings.config import Configurations, Loaded
+from .settings.selection import Selection
+from .settings.selectors import unknown_selectors
+from .settings.settings import Settings, override
+
+if TYPE_CHECKING:
+    from msaa_lint.input.capture_input import CaptureInput
+    from msaa_lint.input.source_file import SourceFile
+
+
+class Request(NamedTuple):
+    """What a run is asked to do.
+
+    `overrides` are keyword arguments of `settings.override`. `data` replaces standard input, which findings call `stdin_filename`.
+    `format` forces a reader. `formats` are the outputs to print instead of those in the settings, and `fallback` is the output if neither
+    names one: findings get prices only if an output shows them. `by_price` sorts findings by price, highest first. `fix` is `write` to
+    fix files in place, or `show` to compute the fixes only; `unsafe_fixes` includes fixes that may change the picture. Standard input is
+    never written.
+    """
+
+    paths: Sequence[str]
+    overrides: Mapping[str, Any] = {}
+    config: str | None = None
+    isolated: bool = False
+    ignores: bool = True
+    format: str | None = None
+    stdin_filename: str | None = None
+    data: bytes | None = None
+    full_rules: bool = False
+    without_baseline: bool = False
+    formats: Sequence[str] = ()
+    fallback: str = "json"
+    by_price: bool = False
+    fix: str | None = None
+    unsafe_fixes: bool = False
+
+    def input_name(self, path: str) -> str:
+        """The name of an input in findings."""
+        return (self.stdin_filename or "<stdin>") if path == STDIN else path
+
+
+class ResolvedSettings(NamedTuple):
+    """The settings that apply to a file, with the rules, the device and the limits that they name."""
+
+    settings: Settings
+    selection: Selection
+    engine: Engine
+    device: DeviceProfile | None
+    limits: Limits
+
+
+class InputFile(NamedTuple):
+    """An input that has been read, and how to lint it. `path` is `-` for standard input."""
+
+    path: str
+    name: str
+    data: "bytes | CaptureInput | SourceFile"
+    resolved: ResolvedSettings
+    options: LintOptions
+
+    def lint(self, data: bytes | None = None, prices: bool = False) -> FileResult:
+        """The findings of the input, or of other `data` in its place."""
+        return self.resolved.engine.lint(self.data if data is None else data, self.name, self.options._replace(prices=prices))
+
+
+class Workspace:
+    """The settings, rules and inputs of one run, each loaded once.
+
+    `findings` are the problems met so far with configuration files, rule pages and inputs, and `sources` the texts that they point into.
+    `current` are the settings that apply to the current folder.
+    """
+
+    def __init__(self, request: Request) -> None:
+        self.request = request
+        self.findings: list[Finding] = []
+        self.sources: dict[str, Source] = {}
+        self._configurations = Configurations(request.config, request.isolated)
+        self._settings: dict[str | None, Settings] = {}
+        self._resolved: dict[str | None, ResolvedSettings] = {}
+        self._engines: dict[tuple[str, ...], Engine] = {}
+        self.current = self.resolve(os.curdir)
+
+    def settings(self, path: str) -> Settings:
+        """The settings that apply to a file or folder."""
+        return self._override(self._configurations.load(path))
+
+    def _override(self, loaded: Loaded) -> Settings:
+        if loaded.path not in self._settings:
+            self.findings.extend(loaded.findings)
+            self.sources.update(loaded.sources)
+            settings = override(loaded.settings, **self.request.overrides)
+            self.findings.extend(_invalid_values(settings))
+            self._settings[loaded.path] = settings
+        return self._settings[loaded.path]
+
+    def resolve(self, path: str) -> ResolvedSettings:
+        """The resolved settings for a file or folder."""
+        loaded = self._configurations.load(path)
+        if loaded.path not in self._resolved:
+            settings = self._override(loaded)
+            engine = self._engine(settings.rules)
+            self.findings.extend(unknown_selectors(settings, engine.registry.rules))
+            device = profile_of(settings.profile) if settings.profile is not None else None
+            self._resolved[loaded.path] = ResolvedSettings(
+                settings,
+                Selection(settings, engine.registry.rules),
+                engine,
+                None if isinstance(device, Problem) else device,
+                Limits()._replace(**settings.limits),
+            )
+        return self._resolved[loaded.path]
+
+    def _engine(self, paths: tuple[str, ...]) -> Engine:
+        if paths not in self._engines:
+            registry = load_rules([path for path in paths if os.path.exists(path)])
+            self.findings.extend(registry.problems)
+            self.sources.update(registry.sources)
+            self._engines[paths] = Engine(registry)
+        return self._engines[paths]
+
+    def discover(self, sources: bool = False) -> Discovered:
+        """The inputs that the request names; `sources` includes the source code in folders."""
+        found = discover(self.request.paths, self.settings, looks_like, sources)
+        self.findings.extend(found.findings)
+        return found
+
+    def open(self, path: str) -> InputFile | None:
+        """Reads an input; None, after adding a finding, if it cannot be read."""
+        request, name = self.request, self.request.input_name(path)
+        resolved = self.resolve(request.stdin_filename or os.curdir if path == STDIN else path)
+        try:
+            data = opening.load(path, resolved.limits, name, request.format, request.data)
+        except (OSError, Unreadable) as error:
+            self.findings.append(opening.unreadable(error, name))
+            return None
+        device = resolved.device
+        severity = resolved.selection.for_file(name, device.vendor if device is not None else None)
+        return InputFile(path, name, data, resolved, LintOptions(severity, resolved.limits, request.format, device, request.ignores))
+
+
+def _invalid_values(settings: Settings) -> list[Finding]:
+    """A finding for each setting with the right form that names nothing: an unknown edition or profile, a missing rule page."""
+    findings = []
+    if settings.fail_on_cost is not None:
+        from .settings.cost_limit import budget
+
+        try:
+            budget(settings.fail_on_cost)
+        except ValueError as error:
+            findings.append(settings.problem("fail-on-cost", f"invalid cost {quoted(settings.fail_on_cost)}: {error}"))
+    if settings.edition is not None and settings.edition not in EDITIONS:
+        message = f"unknown edition {quoted(settings.edition)}: expected one of {', '.join(EDITIONS)}"
+        findings.append(settings.problem("edition", message))
+    profile = profile_of(settings.profile) if settings.profile is not None else None
+    if isinstance(profile, Problem):
+        findings.append(settings.problem("profile", profile.message, profile.help))
+    missing = [path for path in settings.rules if not os.path.exists(path)]
+    return findings + [settings.problem("rules", f"no rule page or folder {quoted(os.path.relpath(path), 200)}") for path in missing]
