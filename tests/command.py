@@ -14,7 +14,6 @@ from pathlib import Path
 from unittest import mock
 
 from msaa_lint.__main__ import main
-from msaa_lint.linter.settings import config
 from tests.paths import ROOT
 
 Done = subprocess.CompletedProcess[str]
@@ -38,7 +37,6 @@ def run(folder: Path, *arguments: str, stdin: bytes = b"", **environment: str) -
         mock.patch.dict(os.environ, environment_of(environment), clear=True),
     ):
         os.chdir(folder)
-        config.forget()
         try:
             main()
         except SystemExit as ended:
