@@ -104,6 +104,34 @@ def test_what_hangs_on_another_condition_is_not_known() -> None:
     assert "usage" not in images["image"]
 
 
+@pytest.mark.parametrize("count", [1, 10, 11, 12, 13, 30])
+def test_conditional_writes_leave_the_value_before_them_possible(count: int) -> None:
+    """However many there are: with too many alternatives to keep, the value is unknown."""
+    conditional = "".join(f"if (device_{n}) info.tiling = VK_IMAGE_TILING_LINEAR;\n" for n in range(count))
+    body = f"info.samples = VK_SAMPLE_COUNT_4_BIT; info.tiling = VK_IMAGE_TILING_OPTIMAL; {conditional}"
+    images = read(image(body).replace("info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO}", "info"))["images"]
+    assert "tiling" not in images["image"]
+    images = read(image(f"{body} info.tiling = VK_IMAGE_TILING_OPTIMAL;"))["images"]
+    assert images["image"]["tiling"] == "OPTIMAL", "an unconditional write replaces all before it"
+
+
+@pytest.mark.parametrize("count", [1, 10])
+def test_an_unconditional_write_is_kept_below_conditional_ones(count: int) -> None:
+    conditional = "".join(f"if (device_{n}) info.tiling = VK_IMAGE_TILING_OPTIMAL;\n" for n in range(count))
+    images = read(image(f"info.samples = VK_SAMPLE_COUNT_4_BIT; info.tiling = VK_IMAGE_TILING_OPTIMAL; {conditional}"))["images"]
+    assert images["image"]["tiling"] == "OPTIMAL"
+
+
+@pytest.mark.parametrize("count", [12, 13, 30])
+def test_a_member_with_too_many_writers_is_unknown(count: int) -> None:
+    """The thirteenth function may write what the first twelve do not."""
+    last = "void last() { tiling = VK_IMAGE_TILING_LINEAR; }"
+    before = "".join(f"void set{n}() {{ tiling = VK_IMAGE_TILING_OPTIMAL; }}\n" for n in range(count))
+    text = image("info.samples = VK_SAMPLE_COUNT_4_BIT; info.tiling = tiling;", f"VkImageTiling tiling;\n{before}{last}")
+    images = read(text)["images"]
+    assert "tiling" not in images["image"]
+
+
 def test_a_flag_of_a_helpers_call_stands_at_the_call() -> None:
     text = f"""{HEAD}
 void create(VkDevice device, VkImageUsageFlags usage, VkImage* image) {{

@@ -49,6 +49,19 @@ def test_a_long_program(tmp_path: Path) -> None:
     assert [(found.line, found.code) for found in findings(path)] == [(line, "MSAA201") for line in places]
 
 
+@pytest.mark.parametrize("count", [1, 11, 12, 13, 40])
+def test_conditional_stores_leave_it_unknown_whether_samples_are_stored(tmp_path: Path, count: int) -> None:
+    """With more alternatives than are kept, none of them may be taken for the value."""
+    stored = "att[1].storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;"
+    text = (CORPUS / "zeroed_fields.c").read_text(encoding="utf-8")
+    assert stored in text
+    conditional = " ".join(f"if (option_{n}) att[1].storeOp = VK_ATTACHMENT_STORE_OP_STORE;" for n in range(count))
+    program = tmp_path / "options.c"
+    text = text.replace(stored, f"{stored} {conditional}").replace("memset(att, 0, sizeof(att));", "")
+    program.write_text(text, encoding="utf-8")
+    assert outcome(program).false == ()
+
+
 def test_the_corpus_has_programs_of_both_kinds() -> None:
     kinds = [any(kind != "may" for _, kind, _, _ in marks(program.read_text(encoding="utf-8"))) for program in PROGRAMS]
     assert sum(kinds) >= 25

@@ -50,7 +50,7 @@ class Run(Values):
                             found.setdefault(key, {}).setdefault(_mark(write), write)
                 if self.fragments:
                     self.program.pieces(self.overlay)
-                last, self.summary = self.summary, {key: _joined(list(writes.values())) for key, writes in found.items()}
+                last, self.summary = self.summary, {key: _joined(key, list(writes.values())) for key, writes in found.items()}
                 if _marks(last) == _marks(self.summary):
                     break
         except (Stop, RecursionError):
@@ -232,10 +232,11 @@ def _mark(write: Alternative) -> tuple[Any, ...]:
     return (id(value) if isinstance(value, (Struct, Array, Closure)) else repr(value), write.at, write.guards)
 
 
-def _joined(writes: list[Alternative]) -> Value:
+def _joined(key: str, writes: list[Alternative]) -> Value:
     """What all functions write to a member: that it is null until then, and again in the end, is no news."""
     made = [write for write in writes if isinstance(write.value, (VulkanObject, Struct, Array))]
-    return tuple(made or writes)[:MOST]
+    joined = tuple(made or writes)
+    return joined if len(joined) <= MOST else (Alternative(Symbol(key, key.rpartition("::")[2]), joined[0].at),)
 
 
 def _marks(summary: dict[str, Value]) -> dict[str, list[tuple[Any, ...]]]:

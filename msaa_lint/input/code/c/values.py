@@ -62,7 +62,9 @@ class Cell:
         """A write under conditions, which ends what was there wherever they hold."""
         fresh = tuple(Alternative(a.value, a.at, a.guards | guards) for a in value) or (Alternative(UNKNOWN, at, guards),)
         before = tuple(w for w in self.writes if not guards <= w.guards) if guards else ()
-        self.writes = (*before, *fresh)[-MOST:]
+        writes = (*before, *fresh)
+        # Without its earliest alternatives, a value would be known where it is not.
+        self.writes = writes if len(writes) <= MOST else (Alternative(UNKNOWN, at),)
 
     def read(self, guards: Guards) -> Value:
         """What may be in it where some conditions hold."""
