@@ -1,6 +1,8 @@
-"""What calls give and do: Metal's own, and those of functions that the file has."""
+"""Calls in Swift: Metal's functions, and the functions that the file defines."""
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
 
@@ -11,46 +13,87 @@ from .metal import change_options, copied, described, encode, make_pipeline, mak
 from .terms import MEMBER, NAME, Function, Term
 from .values import MOST_ITEMS, NIL, UNKNOWN, Aggregate, Code, Instance, Known, Object, Symbol, Texture, Value
 
-MOST_OVERLOADS = 20
-"""Functions of one name that are told apart."""
+MAX_OVERLOADS = 20
+"""Functions of one name that are compared with a call."""
 
 _NUMBERS = frozenset({"Int", "UInt", "NSUInteger", "Int32", "UInt32", "Int64", "NSInteger"})
 _READS = {"setFragmentTexture": "fragment", "setVertexTexture": "vertex", "setTileTexture": "tile"}
-_DESCRIBED = frozenset({"texture2DDescriptor", "textureCubeDescriptor", "textureBufferDescriptor"})
+_DESCRIPTORS = frozenset({"texture2DDescriptor", "textureCubeDescriptor", "textureBufferDescriptor"})
 _OPTIONS = frozenset({"insert", "formUnion", "remove"})
 _HARMLESS = frozenset({"print", "assert", "precondition", "NSLog", "debugPrint", "withExtendedLifetime"})
 _ENCODERS = frozenset({"makeRenderCommandEncoder", "makeParallelRenderCommandEncoder"})
+_PLAIN_OBJECTS = {
+    "makeBlitCommandEncoder": "blit",
+    "makeComputeCommandEncoder": "compute",
+    "makeCommandBuffer": "commands",
+    "makeCommandBufferWithUnretainedReferences": "commands",
+}
+"""Methods that create an object without a descriptor, and its kind."""
+
+
+class Call(NamedTuple):
+    """A call: its arguments by label, evaluated and as terms, the closure that follows them, and its location."""
+
+    arguments: list[tuple[str, Value]]
+    terms: tuple[tuple[str, Term], ...]
+    closure: Term | None
+    at: Span
+
+    @property
+    def labels(self) -> list[str]:
+        return [label for label, _ in self.arguments]
+
+    @property
+    def values(self) -> tuple[Value, ...]:
+        return tuple(value for _, value in self.arguments)
+
+    def matches(self, function: Function) -> bool:
+        """Whether the labels are those of a function's parameters, in order; only those with a default or of closures may be missing."""
+        labels, index = self.labels, 0
+        for parameter in function.parameters:
+            if index < len(labels) and labels[index] == parameter.label:
+                index += 1
+            elif parameter.default is None and "->" not in parameter.type:
+                return False
+        return index == len(labels)
+
+    def bind(self, function: Function) -> dict[str, Value]:
+        """The values of a function's parameters by name."""
+        parameters: dict[str, Value] = {}
+        index = 0
+        for parameter in function.parameters:
+            if index < len(self.arguments) and self.arguments[index][0] == parameter.label:
+                parameters[parameter.name] = self.arguments[index][1]
+                index += 1
+            elif self.closure is not None and "->" in parameter.type:
+                parameters[parameter.name] = Code(self.closure)
+        return parameters
 
 
 def called(machine: Machine, term: Term, frame: Frame) -> Value:
-    """The value of a call, and what it does."""
-    function, given, closure, at = term[1:]
-    arguments = [(label, machine.evaluate(machine, value, frame)) for label, value in given]
+    """The value of a call, after its effects."""
+    function, terms, closure, at = term[1:]
+    call = Call([(label, machine.evaluate(machine, value, frame)) for label, value in terms], terms, closure, at)
+    value: Value | None = None
     if function[0] == NAME:
-        value = _by_name(machine, function[1], arguments, given, closure, at, frame)
-        if value is not None:
-            return value
+        value = _by_name(machine, function[1], call, frame)
     elif function[0] == MEMBER:
-        value = _by_member(machine, function, arguments, given, closure, at, frame)
-        if value is not None:
-            return value
+        value = _by_member(machine, function, call, frame)
     else:
         held = machine.evaluate(machine, function, frame)
         if isinstance(held, Code):
-            return machine.call_closure(machine, held, tuple(value for _, value in arguments), frame, at)
-    _escape(machine, arguments)
+            return machine.call_closure(machine, held, call.values, frame, at)
+    if value is not None:
+        return value
+    _escape(machine, call)
     if closure is not None:
         machine.call_closure(machine, Code(closure), (), frame, at)
-    return Symbol(_text(machine, function), frame.whose)
+    return Symbol("".join(machine.text[function[-1].start : function[-1].end].split())[:60], frame.whose)
 
 
-def _text(machine: Machine, term: Term) -> str:
-    return "".join(machine.text[term[-1].start : term[-1].end].split())[:60]
-
-
-def _escape(machine: Machine, arguments: list[tuple[str, Value]]) -> None:
-    """What is handed to code that is not read: it may change descriptors and read textures."""
-    for _, value in arguments:
+def _escape(machine: Machine, call: Call) -> None:
+    """Marks arguments of an unknown function, which may change descriptors and read textures."""
+    for value in call.values:
         if isinstance(value, Object):
             machine.loosen(value)
             if value.kind == "commands":
@@ -61,230 +104,162 @@ def _escape(machine: Machine, arguments: list[tuple[str, Value]]) -> None:
             machine.escaped.update(id(item) for item in value.items.values() if isinstance(item, Texture))
 
 
-def _by_name(
-    machine: Machine,
-    name: str,
-    arguments: list[tuple[str, Value]],
-    given: tuple[tuple[str, Term], ...],
-    closure: Term | None,
-    at: Span,
-    frame: Frame,
-) -> Value | None:
-    found = frame.find(name)
-    if found is not None and isinstance(found[1], Code):
-        function = found[1].function
-        values = tuple(value for _, value in arguments) if function is None else _bound(function, arguments, closure)
-        return machine.call_closure(machine, found[1], values, frame, at)
-    if name in _NUMBERS and len(arguments) == 1:
-        return arguments[0][1]
-    if name in ("max", "min") and arguments:
-        numbers = [value.value for _, value in arguments if isinstance(value, Known) and isinstance(value.value, (int, float))]
-        return Known(max(numbers) if name == "max" else min(numbers)) if len(numbers) == len(arguments) else UNKNOWN
+def _by_name(machine: Machine, name: str, call: Call, frame: Frame) -> Value | None:
+    """The value of `name(...)`; None where nothing is known of the function."""
+    variable = frame.find(name)
+    if variable is not None and isinstance(variable[1], Code):
+        function = variable[1].function
+        return machine.call_closure(machine, variable[1], call.values if function is None else call.bind(function), frame, call.at)
+    if (name in _NUMBERS and len(call.arguments) == 1) or (name == "MTLTextureUsage" and call.arguments):
+        return call.values[0]
+    if name in ("max", "min") and call.arguments:
+        numbers = [value.value for value in call.values if isinstance(value, Known) and isinstance(value.value, (int, float))]
+        return Known(max(numbers) if name == "max" else min(numbers)) if len(numbers) == len(call.arguments) else UNKNOWN
     if name in OBJECTS:
-        return _constructed(machine, name, arguments, closure, at, frame)
-    if name == "MTLTextureUsage" and arguments:
-        return arguments[0][1]
+        return _construct(machine, name, call, frame)
     if name in _HARMLESS:
         return UNKNOWN
-    own = machine.type_of(name) if name else None
-    if own is not None:
-        return _instance(machine, name, arguments, at, frame)
+    if name and machine.type_of(name) is not None:
+        return _instance(machine, name, call)
     for within in dict.fromkeys((frame.within, "")):
-        function = _function(machine, within, name, arguments)
-        if function is not None:
-            return machine.call(machine, function, _bound(function, arguments, closure), frame, at, frame.me if within else None)
-    if name[:1].isupper() and 0 < len(arguments) <= MOST_ITEMS and all(label for label, _ in arguments):
-        return Aggregate(dict(arguments))
+        method = _function(machine, within, name, call)
+        if method is not None:
+            return machine.call(machine, method, call.bind(method), frame, call.at, frame.me if within else None)
+    if name[:1].isupper() and 0 < len(call.arguments) <= MOST_ITEMS and all(call.labels):
+        return Aggregate(dict(call.arguments))
     return None
 
 
-def _constructed(machine: Machine, name: str, arguments: list[tuple[str, Value]], closure: Term | None, at: Span, frame: Frame) -> Value:
+def _construct(machine: Machine, name: str, call: Call, frame: Frame) -> Value:
+    """An object of one of Metal's types, by its initializer or one that an extension in the file adds."""
     kind = OBJECTS[name]
-    own = machine.type_of(name)
-    made = machine.made(kind, "", at, frame.way, not arguments)
+    created = machine.made(kind, "", call.at, frame.way, not call.arguments)
     if kind == "view":
-        machine.views.add(at.start)
+        machine.views.add(call.at.start)
     if kind not in SHARED:
-        machine.renew(made)
-    if own is not None and arguments:
-        function = _function(machine, name, "init", arguments)
-        if function is not None:
-            made.complete = True
-            machine.call(machine, function, _bound(function, arguments, closure), frame, at, made)
-    return made
+        machine.renew(created)
+    initializer = _function(machine, name, "init", call) if call.arguments else None
+    if initializer is not None:
+        created.complete = True
+        machine.call(machine, initializer, call.bind(initializer), frame, call.at, created)
+    return created
 
 
-def _instance(machine: Machine, name: str, arguments: list[tuple[str, Value]], at: Span, frame: Frame) -> Value:
-    """An object of a type of the file: its items, where it has no initialiser of its own."""
-    own = machine.unit.types[name]
-    function = _function(machine, name, "init", arguments)
-    if function is not None:
-        machine.arguments.setdefault(function.at.start, []).append(_bound(function, arguments, None))
+def _instance(machine: Machine, name: str, call: Call) -> Value:
+    """An object of a type of the file: its members, where the type defines no initializer."""
+    initializer = _function(machine, name, "init", call)
+    if initializer is not None:
+        arguments = call._replace(closure=None).bind(initializer)
+        machine.arguments.setdefault(initializer.at.start, []).append(arguments)
         return Instance(name)
-    if 0 < len(arguments) <= MOST_ITEMS and all(label in own.members for label, _ in arguments):
-        for label, value in arguments:
-            machine.hold_property(name, label, value, at)
-        return Aggregate(dict(arguments))
+    members = machine.unit.types[name].members
+    if 0 < len(call.arguments) <= MOST_ITEMS and all(label in members for label in call.labels):
+        for label, value in call.arguments:
+            machine.hold_property(name, label, value, call.at)
+        return Aggregate(dict(call.arguments))
     return Instance(name)
 
 
-def _function(machine: Machine, within: str, name: str, arguments: list[tuple[str, Value]]) -> Function | None:
-    """The function of a type that a call means, by its labels; None where it is none, or one of several."""
-    own = machine.type_of(within)
-    if own is None:
-        return None
-    labels = [label for label, _ in arguments]
-    found = [each for each in own.named(name)[:MOST_OVERLOADS] if _fits(each, labels)]
-    return found[0] if len(found) == 1 else None
+def _function(machine: Machine, within: str, name: str, call: Call) -> Function | None:
+    """The one function of a type that a call matches; None where there is none, or several."""
+    declaring = machine.type_of(within)
+    overloads = declaring.named(name)[:MAX_OVERLOADS] if declaring is not None else ()
+    matches = [function for function in overloads if call.matches(function)]
+    return matches[0] if len(matches) == 1 else None
 
 
-def _fits(function: Function, labels: list[str]) -> bool:
-    """Whether a call with these labels is one of a function: in order, only those with a default or a closure left out."""
-    index = 0
-    for parameter in function.parameters:
-        if index < len(labels) and labels[index] == parameter.label:
-            index += 1
-        elif parameter.default is None and "->" not in parameter.type:
-            return False
-    return index == len(labels)
-
-
-def _bound(function: Function, arguments: list[tuple[str, Value]], closure: Term | None) -> dict[str, Value]:
-    bound: dict[str, Value] = {}
-    index = 0
-    for parameter in function.parameters:
-        if index < len(arguments) and arguments[index][0] == parameter.label:
-            bound[parameter.name] = arguments[index][1]
-            index += 1
-        elif closure is not None and "->" in parameter.type:
-            bound[parameter.name] = Code(closure)
-    return bound
-
-
-def _by_member(
-    machine: Machine,
-    function: Term,
-    arguments: list[tuple[str, Value]],
-    given: tuple[tuple[str, Term], ...],
-    closure: Term | None,
-    at: Span,
-    frame: Frame,
-) -> Value | None:
+def _by_member(machine: Machine, function: Term, call: Call, frame: Frame) -> Value | None:
+    """The value of `target.name(...)`; None where nothing is known of the method."""
     target, name = function[1], function[2]
-    labelled = dict(arguments)
-    if name in _DESCRIBED:
-        return described(machine, arguments, given, at, frame, name)
-    if name == "makeTexture" and isinstance(labelled.get("descriptor"), Object):
-        return make_texture(machine, labelled["descriptor"], at, frame)
-    if name in _ENCODERS and "descriptor" in labelled:
+    descriptor = dict(call.arguments).get("descriptor")
+    if name in _DESCRIPTORS:
+        return described(machine, call.arguments, call.terms, call.at, frame, name)
+    if name == "makeTexture" and isinstance(descriptor, Object):
+        return make_texture(machine, descriptor, call.at, frame)
+    if name in _ENCODERS and descriptor is not None:
         buffer = machine.evaluate(machine, target, frame) if target is not None else UNKNOWN
-        return encode(machine, buffer, labelled["descriptor"], at, frame)
-    if name.startswith("makeRenderPipelineState") and isinstance(labelled.get("descriptor"), Object):
-        return make_pipeline(machine, labelled["descriptor"], at, frame)
-    if name in ("makeBlitCommandEncoder", "makeComputeCommandEncoder"):
-        return machine.made("blit" if name == "makeBlitCommandEncoder" else "compute", "", at, frame.way, True)
-    if name in ("makeCommandBuffer", "makeCommandBufferWithUnretainedReferences"):
-        return machine.made("commands", "", at, frame.way, True)
+        return encode(machine, buffer, descriptor, call.at, frame)
+    if name.startswith("makeRenderPipelineState") and isinstance(descriptor, Object):
+        return make_pipeline(machine, descriptor, call.at, frame)
+    if name in _PLAIN_OBJECTS:
+        return machine.made(_PLAIN_OBJECTS[name], "", call.at, frame.way, True)
     if name == "nextDrawable":
-        return machine.made("drawable", "drawable", at, 0, False)
+        return machine.made("drawable", "drawable", call.at, 0, False)
     if name == "init" and target is not None and target[0] == NAME and target[1] in OBJECTS:
-        return _constructed(machine, target[1], arguments, closure, at, frame)
+        return _construct(machine, target[1], call, frame)
     if name in _OPTIONS and target is not None and target[0] == MEMBER and target[1] is not None:
-        change_options(machine, machine.evaluate(machine, target[1], frame), target, name, arguments, at, frame)
+        change_options(machine, machine.evaluate(machine, target[1], frame), target, name, call.arguments, call.at, frame)
         return NIL
     if target is None:
-        return _implicit(machine, name, arguments, closure, at, frame)
+        return _implicit(machine, name, call, frame)
     held = machine.evaluate(machine, target, frame)
-    done = _on(machine, held, name, arguments, given, at, frame)
-    if done is not None:
-        return done
-    return _own(machine, held, target, name, arguments, closure, at, frame)
+    value = _metal_method(machine, held, name, call, frame)
+    return value if value is not None else _file_method(machine, held, target, name, call, frame)
 
 
-def _implicit(
-    machine: Machine, name: str, arguments: list[tuple[str, Value]], closure: Term | None, at: Span, frame: Frame
-) -> Value | None:
-    """A call of `.name()`: of one of Metal's types where only one has such a function in the file."""
+def _implicit(machine: Machine, name: str, call: Call, frame: Frame) -> Value | None:
+    """The value of `.name()`: of the only extension of a Metal type in the file that has such a function."""
     if name == "init":
-        made = machine.made("attachment", "", at, frame.way, not arguments)
-        machine.renew(made)
-        return made
-    found = [function for each in OBJECTS if (function := _function(machine, each, name, arguments)) is not None]
-    return machine.call(machine, found[0], _bound(found[0], arguments, closure), frame, at, None) if len(found) == 1 else None
+        created = machine.made("attachment", "", call.at, frame.way, not call.arguments)
+        machine.renew(created)
+        return created
+    functions = [function for kind in OBJECTS if (function := _function(machine, kind, name, call)) is not None]
+    return machine.call(machine, functions[0], call.bind(functions[0]), frame, call.at, None) if len(functions) == 1 else None
 
 
-def _own(
-    machine: Machine,
-    held: Value,
-    target: Term,
-    name: str,
-    arguments: list[tuple[str, Value]],
-    closure: Term | None,
-    at: Span,
-    frame: Frame,
-) -> Value | None:
-    """A call of a method that the file has."""
+def _file_method(machine: Machine, held: Value, target: Term, name: str, call: Call, frame: Frame) -> Value | None:
+    """The value of a method that the file defines."""
     within = held.type if isinstance(held, Instance) else target[1] if target[0] == NAME and target[1] in machine.unit.types else ""
     if isinstance(held, Object):
-        within = next((each for each, kind in OBJECTS.items() if kind == held.kind and machine.type_of(each) is not None), "")
-    function = _function(machine, within, name, arguments) if within else None
+        within = next((name for name, kind in OBJECTS.items() if kind == held.kind and machine.type_of(name) is not None), "")
+    function = _function(machine, within, name, call) if within else None
     if function is not None:
         me = held if isinstance(held, Object) else frame.me
-        return machine.call(machine, function, _bound(function, arguments, closure), frame, at, me)
+        return machine.call(machine, function, call.bind(function), frame, call.at, me)
     if isinstance(held, Object):
-        if closure is not None:
-            machine.call_closure(machine, Code(closure), (held,), frame, at)
+        if call.closure is not None:
+            machine.call_closure(machine, Code(call.closure), (held,), frame, call.at)
             return held
         if held.kind in ("texture", "pass", "pipeline", "attachment"):
             machine.loosen(held)
         return None
     others = machine.functions.get(name, ()) if isinstance(held, Symbol) else ()
-    if len(others) == 1 and _fits(others[0], [label for label, _ in arguments]):
-        machine.arguments.setdefault(others[0].at.start, []).append(_bound(others[0], arguments, closure))
+    if len(others) == 1 and call.matches(others[0]):
+        machine.arguments.setdefault(others[0].at.start, []).append(call.bind(others[0]))
     return None
 
 
-def _on(
-    machine: Machine,
-    held: Value,
-    name: str,
-    arguments: list[tuple[str, Value]],
-    given: tuple[tuple[str, Term], ...],
-    at: Span,
-    frame: Frame,
-) -> Value | None:
-    """What a method of one of Metal's objects does."""
-    first = arguments[0][1] if arguments else UNKNOWN
+def _metal_method(machine: Machine, held: Value, name: str, call: Call, frame: Frame) -> Value | None:
+    """The value of a method of one of Metal's objects; None where it is another."""
+    first = call.values[0] if call.arguments else UNKNOWN
+    kind = held.kind if isinstance(held, Object) else ""
     if name == "present":
-        shown = held if isinstance(held, Object) and held.kind == "drawable" else first
+        shown = held if kind == "drawable" else first
         if isinstance(shown, Object) and shown.kind == "drawable":
-            note(machine, "present", (drawable(machine, at),), at)
+            note(machine, "present", (drawable(machine, call.at),), call.at)
             return NIL
         machine.incomplete.add(machine.root)
         return None
-    if name == "reset" and isinstance(held, Object) and held.kind == "pipeline":
+    if isinstance(held, Object) and name == "reset" and kind == "pipeline":
         machine.renew(held)
         return NIL
-    if name == "copy" and isinstance(held, Object) and not arguments:
-        return copied(machine, held, at, frame)
-    if name == "copy" and len(arguments) > 1 and arguments[0][0] == "from":
-        source, destination = first, dict(arguments).get("to", UNKNOWN)
-        source, destination = as_texture(machine, source, at), as_texture(machine, destination, at)
-        if isinstance(source, Texture) and isinstance(destination, Texture):
-            note(machine, "copy", (source, destination), at)
-            return NIL
-        return None
-    if name in _READS and given:
-        texture = as_texture(machine, first, given[0][1][-1])
+    if isinstance(held, Object) and name == "copy" and not call.arguments:
+        return copied(machine, held, call.at, frame)
+    if name == "copy" and len(call.arguments) > 1 and call.labels[0] == "from":
+        ends = [as_texture(machine, value, call.at) for value in (first, dict(call.arguments).get("to", UNKNOWN))]
+        if not all(isinstance(end, Texture) for end in ends):
+            return None
+        note(machine, "copy", tuple(ends), call.at)
+        return NIL
+    if name in _READS and call.terms:
+        at = call.terms[0][1][-1]
+        texture = as_texture(machine, first, at)
         if isinstance(texture, Texture):
-            maker = held.of if isinstance(held, Object) else None
-            note(machine, "read", (texture, _READS[name], maker), given[0][1][-1])
+            note(machine, "read", (texture, _READS[name], held.of if isinstance(held, Object) else None), at)
             return NIL
     if name == "setRenderPipelineState" and isinstance(held, Object) and isinstance(held.of, Pass):
-        made = first.of if isinstance(first, Object) else None
-        if isinstance(made, Pipeline) and held.of not in made.passes[:4]:
-            made.passes.append(held.of)
+        pipeline = first.of if isinstance(first, Object) else None
+        if isinstance(pipeline, Pipeline) and held.of not in pipeline.passes[:4]:
+            pipeline.passes.append(held.of)
         return NIL
-    if isinstance(held, Object) and held.kind in ("encoder", "commands") and name in ("setFragmentBuffer", "setVertexBuffer", "commit"):
-        return NIL
-    return None
+    return NIL if kind in ("encoder", "commands") and name in ("setFragmentBuffer", "setVertexBuffer", "commit") else None
