@@ -12,7 +12,13 @@ from msaa_lint.core.text.source import Unreadable
 from msaa_lint.core.text.span import Span
 
 if TYPE_CHECKING:
+    import tree_sitter
     from tree_sitter import Tree
+
+    SyntaxNode = tree_sitter.Node
+else:
+    # The grammars need not be installed.
+    SyntaxNode = object
 
 _NOT_ASCII = re.compile(r"[^\x00-\x7f]")
 
@@ -48,6 +54,11 @@ class Read(NamedTuple):
     tree: Node
     assumed: tuple[tuple[str, Span, str], ...] = ()
     modules: Mapping[str, bytes] = {}
+
+
+def span(node: SyntaxNode) -> Span:
+    """The location of a node; a byte of the parser's input is a character of the file."""
+    return Span(node.start_byte, node.end_byte)
 
 
 def ascii_only(text: str) -> str:

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
-from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.parsing import SyntaxNode, span
 
 from .expressions import Expressions
 from .kinds import BLANKS, DEEPEST, NAMES, NUMBER, number, without_comments
 from .terms import BRACES, CALL, DECLARE, LITERAL, NAME, Parameter, Term
 
-if TYPE_CHECKING:
-    from tree_sitter import Node
-
 
 class Declarations(Expressions):
     """Declarations of one text."""
 
-    def parameters(self, listed: Node | None) -> tuple[Parameter, ...]:
+    def parameters(self, listed: SyntaxNode | None) -> tuple[Parameter, ...]:
         found = []
         for node in listed.named_children if listed is not None else ():
             if node.type not in ("parameter_declaration", "optional_parameter_declaration", "variadic_parameter_declaration"):
@@ -33,9 +29,9 @@ class Declarations(Expressions):
             found.clear()
         return tuple(found)
 
-    def declarator(self, node: Node | None) -> tuple[str, Node | None, bool]:
+    def declarator(self, node: SyntaxNode | None) -> tuple[str, SyntaxNode | None, bool]:
         """The name that a declarator gives, the array's size, and whether it is a reference or a pointer."""
-        size: Node | None = None
+        size: SyntaxNode | None = None
         indirect = False
         for _ in range(DEEPEST):
             if node is None:
@@ -50,7 +46,7 @@ class Declarations(Expressions):
             node = inner if inner is not None else next((c for c in node.named_children if c.type != "type_qualifier"), None)
         return "", size, indirect
 
-    def declared(self, node: Node, depth: int = 0) -> list[Term]:
+    def declared(self, node: SyntaxNode, depth: int = 0) -> list[Term]:
         """The variables that a declaration declares."""
         kind = node.child_by_field_name("type")
         text = self.type_text(kind) if kind is not None else ""
@@ -64,8 +60,8 @@ class Declarations(Expressions):
             if field != "declarator":
                 continue
             value: Term | None = None
-            target: Node | None = child
-            given: Node | None = None
+            target: SyntaxNode | None = child
+            given: SyntaxNode | None = None
             if child.type == "init_declarator":
                 target = child.child_by_field_name("declarator")
                 given = child.child_by_field_name("value")
@@ -74,7 +70,7 @@ class Declarations(Expressions):
                     continue
                 target = child.child_by_field_name("declarator")
                 listed = child.child_by_field_name("parameters")
-                at = Span(child.start_byte, child.end_byte)
+                at = span(child)
                 names = [self.expression(c.named_children[0], depth) for c in (listed.named_children if listed is not None else ())]
                 value = (CALL, (NAME, text, at), tuple(names), at)
             if target is not None and target.type in ("structured_binding_declarator",):
@@ -83,14 +79,14 @@ class Declarations(Expressions):
             if not name:
                 continue
             shown = target if target is not None else child
-            at = Span(shown.start_byte, shown.end_byte)
+            at = span(shown)
             said = BLANKS.sub("", self.of(size)) if size is not None and size.type in ("number_literal", "identifier") else ""
             whole = f"{text}[{said}]" if size is not None else text
             value = self.value(given, whole, depth) if given is not None else value
             made.append((DECLARE, whole, name, value, indirect, fixed, at))
         return made
 
-    def constructs(self, node: Node) -> bool:
+    def constructs(self, node: SyntaxNode) -> bool:
         """Whether what looks like the declaration of a function is an object made with arguments: `Image image(device, info);`"""
         listed = node.child_by_field_name("parameters")
         children = listed.named_children if listed is not None else []
@@ -101,7 +97,7 @@ class Declarations(Expressions):
             for c in children
         )
 
-    def defined(self, node: Node) -> list[Term]:
+    def defined(self, node: SyntaxNode) -> list[Term]:
         """A macro that stands for a value, as a constant."""
         name, value = node.child_by_field_name("name"), node.child_by_field_name("value")
         if name is None or value is None:
@@ -109,7 +105,7 @@ class Declarations(Expressions):
         text = self.of(value).partition("//")[0].strip()
         while text[:1] == "(" and text[-1:] == ")":
             text = text[1:-1].strip()
-        at = Span(value.start_byte, value.end_byte)
+        at = span(value)
         if re.fullmatch(r"[A-Za-z_][\w:]*", text):
             term: Term = (NAME, text, at)
         elif NUMBER.fullmatch(text):
@@ -118,7 +114,7 @@ class Declarations(Expressions):
             return []
         return [(DECLARE, "auto", self.of(name), term, False, True, at)]
 
-    def enumerated(self, node: Node) -> list[Term]:
+    def enumerated(self, node: SyntaxNode) -> list[Term]:
         """The enumerators of an enum, as constants by their own name and by the enum's."""
         listed, owner = node.child_by_field_name("body"), node.child_by_field_name("name")
         made: list[Term] = []
@@ -127,7 +123,7 @@ class Declarations(Expressions):
             name, given = each.child_by_field_name("name"), each.child_by_field_name("value")
             if each.type != "enumerator" or name is None:
                 continue
-            at = Span(name.start_byte, name.end_byte)
+            at = span(name)
             term: Term = (LITERAL, following, at)
             if given is not None:
                 term = self.expression(given, 0)
@@ -136,9 +132,9 @@ class Declarations(Expressions):
             made += [(DECLARE, "int", prefix + self.of(name), term, False, True, at) for prefix in prefixes]
         return made
 
-    def value(self, node: Node, kind: str, depth: int) -> Term:
+    def value(self, node: SyntaxNode, kind: str, depth: int) -> Term:
         """What a declaration is given: braces and parentheses make an object of its type."""
-        at = Span(node.start_byte, node.end_byte)
+        at = span(node)
         if node.type == "argument_list":
             return (CALL, (NAME, kind, at), tuple(self.expression(c, depth + 1) for c in without_comments(node)), at)
         term = self.expression(node, depth)

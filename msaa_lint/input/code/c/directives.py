@@ -6,10 +6,9 @@ from __future__ import annotations
 import re
 from bisect import bisect_left
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-if TYPE_CHECKING:
-    from tree_sitter import Node
+from msaa_lint.input.code.parsing import SyntaxNode
 
 _DIRECTIVE = re.compile(r"^[ \t]*#[ \t]*(ifdef|ifndef|if|elifdef|elifndef|elif|else|endif)\b((?:\\\n|[^\n])*)", re.MULTILINE)
 _COMMENT = re.compile(r"//.*|/\*.*?(?:\*/|$)", re.DOTALL)
@@ -39,7 +38,7 @@ def tested(text: str, way: bool = True) -> tuple[str, bool]:
     return (f"#{match[2] or match[3]}", way is not bool(match[1])) if match is not None else (f"#{text.strip()}", way)
 
 
-def lists_cleared(text: str, root: Node) -> tuple[str, tuple[Section, ...]]:
+def lists_cleared(text: str, root: SyntaxNode) -> tuple[str, tuple[Section, ...]]:
     """The text without the directives that stand within lists and that the parser stumbled over, and what hangs on each of them."""
     if not root.has_error or "#if" not in text.replace(" ", ""):
         return text, ()
@@ -68,7 +67,7 @@ def lists_cleared(text: str, root: Node) -> tuple[str, tuple[Section, ...]]:
     return "".join((*parts, text[last:])), tuple(sorted(found))
 
 
-def _mistakes(root: Node) -> Iterator[tuple[int, int]]:
+def _mistakes(root: SyntaxNode) -> Iterator[tuple[int, int]]:
     """Where the parser found what it does not know."""
     waiting = [root]
     while waiting:

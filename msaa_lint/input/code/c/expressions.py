@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.parsing import SyntaxNode, span
 
 from .directives import Section
 from .kinds import BLANKS, CLASSES, DEEPEST, NAMES, WORD, number, without_comments
@@ -31,10 +31,6 @@ from .terms import (
     Term,
 )
 
-if TYPE_CHECKING:
-    from tree_sitter import Node
-
-
 WRAPPERS = frozenset({"parenthesized_expression", "cast_expression", "condition_clause", "co_await_expression"})
 
 CASTS = frozenset({"static_cast", "reinterpret_cast", "const_cast", "bit_cast"})
@@ -51,17 +47,17 @@ class Expressions(ABC):
     sections: tuple[Section, ...]
 
     @abstractmethod
-    def parameters(self, listed: Node | None) -> tuple[Parameter, ...]:
+    def parameters(self, listed: SyntaxNode | None) -> tuple[Parameter, ...]:
         """The parameters of a function."""
 
     @abstractmethod
-    def block(self, node: Node, depth: int) -> list[Term]:
+    def block(self, node: SyntaxNode, depth: int) -> list[Term]:
         """The statements of a block."""
 
-    def of(self, node: Node) -> str:
+    def of(self, node: SyntaxNode) -> str:
         return self.text[node.start_byte : node.end_byte]
 
-    def type_text(self, node: Node) -> str:
+    def type_text(self, node: SyntaxNode) -> str:
         """A type as it is written, without blanks, `const`, `struct`."""
         if node.type in CLASSES or node.type == "enum_specifier":
             name = node.child_by_field_name("name")
@@ -74,12 +70,12 @@ class Expressions(ABC):
             return name
         return WORD.sub(lambda match: self.aliases.get(match[0], match[0]), name)
 
-    def expression(self, node: Node | None, depth: int) -> Term:
+    def expression(self, node: SyntaxNode | None, depth: int) -> Term:
         """An expression's term."""
         if node is None or depth > DEEPEST:
-            return (UNPARSED, "", Span(node.start_byte, node.end_byte) if node is not None else Span(0, 0))
+            return (UNPARSED, "", span(node) if node is not None else Span(0, 0))
         kind = node.type
-        at = Span(node.start_byte, node.end_byte)
+        at = span(node)
         deeper = depth + 1
         if kind in NAMES:
             name = self.of(node)
@@ -92,7 +88,7 @@ class Expressions(ABC):
                 FIELD,
                 self.expression(of, deeper),
                 self.of(member).partition("<")[0].rpartition("::")[2],
-                Span(member.start_byte, member.end_byte),
+                span(member),
             )
         if kind == "call_expression":
             return self.call(node, deeper, at)
@@ -159,7 +155,7 @@ class Expressions(ABC):
                 return (CALL, (NAME, self.type_text(typed), at), items, at)
         return (UNPARSED, self.of(node) if node.end_byte - node.start_byte < 200 else "", at)
 
-    def call(self, node: Node, depth: int, at: Span) -> Term:
+    def call(self, node: SyntaxNode, depth: int, at: Span) -> Term:
         function, listed = node.child_by_field_name("function"), node.child_by_field_name("arguments")
         said = without_comments(listed) if listed is not None else []
         if function is not None and function.type == "template_function":
@@ -181,12 +177,12 @@ class Expressions(ABC):
             self.called_names.add(short)
         return (CALL, called, arguments, at)
 
-    def items(self, node: Node, depth: int) -> Iterator[tuple[tuple[str | int, ...] | None, Term]]:
+    def items(self, node: SyntaxNode, depth: int) -> Iterator[tuple[tuple[str | int, ...] | None, Term]]:
         """The items of braces: the members that a designator names, or None, and what stands there."""
         nodes = node.named_children
         if self.torn(nodes):
             # What the preprocessor makes of them is not known.
-            at = Span(node.start_byte, node.end_byte)
+            at = span(node)
             yield None, (SOME, "#", True, (UNPARSED, "", at), at)
             return
         for child in nodes:
@@ -208,11 +204,11 @@ class Expressions(ABC):
                     path.append(self.of(inner))
             yield tuple(path), self.in_sections(child, self.expression(given, depth))
 
-    def torn(self, nodes: list[Node]) -> bool:
+    def torn(self, nodes: list[SyntaxNode]) -> bool:
         """Whether a directive of the preprocessor is left between the items of a list."""
         return any(child.is_error and self.text.startswith("#", child.start_byte) for child in nodes)
 
-    def in_sections(self, node: Node, term: Term) -> Term:
+    def in_sections(self, node: SyntaxNode, term: Term) -> Term:
         """An item of a list with the conditions that it is there under; of one that is half of it under some, nothing is known."""
         for section in self.sections:
             if node.start_byte < section.start < node.end_byte and term[0] not in (BRACES, CALL, LAMBDA):
@@ -221,7 +217,7 @@ class Expressions(ABC):
                 term = (SOME, section.text, section.way, term, term[-1])
         return term
 
-    def in_order(self, nodes: list[Node], terms: Iterator[Term]) -> Iterator[Term]:
+    def in_order(self, nodes: list[SyntaxNode], terms: Iterator[Term]) -> Iterator[Term]:
         """Arguments; none is known from the first on that is there only under a condition."""
         shifted = self.torn(nodes)
         for node, term in zip(nodes, terms, strict=True):

@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from tree_sitter import Node
-
+from msaa_lint.input.code.parsing import SyntaxNode
 
 DEEPEST = 120
 """Levels of an expression, or of blocks, that are read: what nests deeper was not written by people."""
@@ -48,7 +45,7 @@ CLASSES = frozenset({"class_specifier", "struct_specifier", "union_specifier"})
 CHAIN_TESTS = frozenset({"preproc_if", "preproc_ifdef", "preproc_elif", "preproc_elifdef"})
 
 
-def function_declarator(node: Node | None) -> Node | None:
+def function_declarator(node: SyntaxNode | None) -> SyntaxNode | None:
     for _ in range(DEEPEST):
         if node is None or node.type == "function_declarator":
             return node
@@ -57,7 +54,7 @@ def function_declarator(node: Node | None) -> Node | None:
     return None
 
 
-def without_comments(node: Node) -> list[Node]:
+def without_comments(node: SyntaxNode) -> list[SyntaxNode]:
     """The children that are no comments."""
     return [child for child in node.named_children if child.type != "comment"]
 

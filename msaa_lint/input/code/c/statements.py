@@ -2,31 +2,27 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.parsing import SyntaxNode, span
 
 from .declarations import Declarations
 from .kinds import CHAIN_TESTS, DEEPEST, without_comments
 from .terms import BINARY, BLOCK, DECLARE, DO, IF, LEAVE, LOOP, RETURN, SOME, UNPARSED, Term
 
-if TYPE_CHECKING:
-    from tree_sitter import Node
-
 
 class Statements(Declarations):
     """Statements of one text."""
 
-    def block(self, node: Node, depth: int) -> list[Term]:
+    def block(self, node: SyntaxNode, depth: int) -> list[Term]:
         made: list[Term] = []
         if depth < DEEPEST:
             for child in node.named_children:
                 made += self.statement(child, depth + 1)
         return made
 
-    def statement(self, node: Node, depth: int) -> list[Term]:
+    def statement(self, node: SyntaxNode, depth: int) -> list[Term]:
         kind = node.type
-        at = Span(node.start_byte, node.end_byte)
+        at = span(node)
         if kind == "expression_statement":
             child = node.named_children[0] if node.named_child_count else None
             return [(DO, self.expression(child, depth), at)] if child is not None else []
@@ -82,17 +78,17 @@ class Statements(Declarations):
             return [(BLOCK, tuple(self.block(node, depth)), at)]
         return []
 
-    def inside(self, node: Node | None, depth: int) -> list[Term]:
+    def inside(self, node: SyntaxNode | None, depth: int) -> list[Term]:
         return self.statement(node, depth + 1) if node is not None and depth < DEEPEST else []
 
-    def chain(self, node: Node, depth: int) -> list[Term]:
+    def chain(self, node: SyntaxNode, depth: int) -> list[Term]:
         """An if with all its else ifs, which nest in the tree and not in the text."""
         links: list[tuple[Term, tuple[Term, ...], list[Term], Span]] = []
         otherwise: list[Term] = []
-        current: Node | None = node
+        current: SyntaxNode | None = node
         while current is not None:
             test, then, other = (current.child_by_field_name(name) for name in ("condition", "consequence", "alternative"))
-            at = Span(current.start_byte, current.end_byte)
+            at = span(current)
             first: list[Term] = []
             if test is not None and test.type == "condition_clause":
                 start = test.child_by_field_name("initializer")
@@ -111,7 +107,7 @@ class Statements(Declarations):
             otherwise = [*first, (IF, condition, inside, tuple(otherwise), at)]
         return otherwise
 
-    def conditional(self, node: Node, depth: int) -> list[Term]:
+    def conditional(self, node: SyntaxNode, depth: int) -> list[Term]:
         """A block of the preprocessor within a function."""
         test = node.child_by_field_name("condition") or node.child_by_field_name("name")
         other = node.child_by_field_name("alternative")
@@ -121,13 +117,13 @@ class Statements(Declarations):
             if depth < DEEPEST and child not in (test, other):
                 then += self.statement(child, depth + 1)
         otherwise = self.inside(other, depth) if other is not None else []
-        at = Span(node.start_byte, node.end_byte)
+        at = span(node)
         text = "#" + (self.of(test).strip() if test is not None else "")
         if negated:
             then, otherwise = otherwise, then
         return [(SOME, text, tuple(then), tuple(otherwise), at)]
 
-    def cases(self, node: Node, depth: int) -> list[Term]:
+    def cases(self, node: SyntaxNode, depth: int) -> list[Term]:
         """A switch, as blocks each under the condition that the value is the case's."""
         test, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
         value = self.expression(test, depth) if test is not None else (UNPARSED, "", Span(0, 0))
@@ -135,7 +131,7 @@ class Statements(Declarations):
         for child in body.named_children if body is not None and depth < DEEPEST else ():
             if child.type != "case_statement":
                 continue
-            at = Span(child.start_byte, child.end_byte)
+            at = span(child)
             given = child.child_by_field_name("value")
             condition: Term = (BINARY, "==", value, self.expression(given, depth), at) if given is not None else (UNPARSED, "default", at)
             inside: list[Term] = []

@@ -8,19 +8,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
-from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.parsing import Code
+from msaa_lint.input.code.parsing import Code, SyntaxNode, span
 
 from .directives import Section
 from .kinds import CLASSES, DEEPEST, function_declarator, without_comments
 from .statements import Statements
 from .terms import ASSIGN, CALL, DO, NAME, Function, Parameter, Term, Unit
-
-if TYPE_CHECKING:
-    from tree_sitter import Node
-
 
 RELEVANT = re.compile(
     r"[sS]ample|SAMPLE|[aA]ttachment|ATTACHMENT|[mM]saa|MSAA|[rR]esolve|RESOLVE|[fF]ramebuffer|[rR]enderPass|CreateImage|createImage|ImageCreateInfo|TRANSIENT|ImageView"
@@ -47,7 +41,7 @@ CONTAINERS = frozenset(
 )
 
 
-def unit(code: Code, root: Node, sections: tuple[Section, ...] = ()) -> Unit:
+def unit(code: Code, root: SyntaxNode, sections: tuple[Section, ...] = ()) -> Unit:
     """The functions of a file, what its classes declare, and what stands outside. `sections` are parts of lists that are there only
     under conditions."""
     return _Reading(code.text, code.fragments, sections).unit(root)
@@ -60,7 +54,7 @@ class _Reading(Statements):
         self.text = text
         self.sections = sections
         self.fragments = fragments
-        self.found: list[tuple[str, str, Node]] = []
+        self.found: list[tuple[str, str, SyntaxNode]] = []
         """Functions: the namespace and the class that they are in, and where."""
         self.members: dict[str, list[Term]] = {}
         self.prototypes: dict[str, tuple[Parameter, ...]] = {}
@@ -75,7 +69,7 @@ class _Reading(Statements):
         self.called_names: set[str] = set()
         """The names of functions that another function calls."""
 
-    def unit(self, root: Node) -> Unit:
+    def unit(self, root: SyntaxNode) -> Unit:
         self.outer(root)
         functions = [self.function(node, space, within) for space, within, node in self.relevant()]
         members = {name: tuple(terms) for name, terms in self.members.items()}
@@ -83,9 +77,9 @@ class _Reading(Statements):
             tuple(f for f in functions if f is not None), members, tuple(self.outside), self.prototypes, frozenset(self.called_names)
         )
 
-    def outer(self, root: Node) -> None:
+    def outer(self, root: SyntaxNode) -> None:
         """Goes through what holds functions: namespaces, classes, blocks of the preprocessor."""
-        waiting: list[tuple[str, str, Node, int]] = [("", "", root, 0)]
+        waiting: list[tuple[str, str, SyntaxNode, int]] = [("", "", root, 0)]
         while waiting:
             space, within, node, depth = waiting.pop()
             kind = node.type
@@ -138,12 +132,12 @@ class _Reading(Statements):
                 self.outside += self.statement(node, 0)
 
     @staticmethod
-    def class_in(node: Node, waiting: list[tuple[str, str, Node, int]], space: str, within: str, depth: int) -> None:
+    def class_in(node: SyntaxNode, waiting: list[tuple[str, str, SyntaxNode, int]], space: str, within: str, depth: int) -> None:
         kind = node.child_by_field_name("type")
         if kind is not None and (kind.type in CLASSES or kind.type == "enum_specifier"):
             waiting.append((space, within, kind, depth + 1))
 
-    def relevant(self) -> list[tuple[str, str, Node]]:
+    def relevant(self) -> list[tuple[str, str, SyntaxNode]]:
         """The functions that matter: those that say something of multisampling, and those that call them, over and over."""
         texts = [self.of(node) for _, _, node in self.found]
         taken = [RELEVANT.search(text) is not None for text in texts]
@@ -157,7 +151,7 @@ class _Reading(Statements):
             taken = [old or new for old, new in zip(taken, fresh, strict=True)]
         return [each for each, matters in zip(self.found, taken, strict=True) if matters]
 
-    def accesses(self, node: Node) -> None:
+    def accesses(self, node: SyntaxNode) -> None:
         """Notes which members of a class are public."""
         parent = node.parent
         public = parent is not None and parent.type != "class_specifier"
@@ -167,14 +161,14 @@ class _Reading(Statements):
             elif public:
                 self.public.add(child.start_byte)
 
-    def virtuals(self, node: Node) -> None:
+    def virtuals(self, node: SyntaxNode) -> None:
         if VIRTUAL.search(self.of(node)):
             declarator = function_declarator(node.child_by_field_name("declarator"))
             name = declarator.child_by_field_name("declarator") if declarator is not None else None
             if name is not None:
                 self.virtual.add(self.of(name))
 
-    def alias(self, node: Node) -> None:
+    def alias(self, node: SyntaxNode) -> None:
         name = node.child_by_field_name("name")
         stands = node.child_by_field_name("type") or (node.named_children[-1] if node.named_child_count > 1 else None)
         if name is not None and stands is not None and stands.end_byte - stands.start_byte < 100 and len(self.aliases) < 200:
@@ -182,26 +176,26 @@ class _Reading(Statements):
             if text.startswith(("vk", "Vk", "VULKAN")):
                 self.aliases[self.of(name)] = text
 
-    def typedef(self, node: Node) -> None:
+    def typedef(self, node: SyntaxNode) -> None:
         stands, name = node.child_by_field_name("type"), node.child_by_field_name("declarator")
         if stands is not None and name is not None and name.type == "type_identifier" and stands.type == "type_identifier":
             text = self.of(stands)
             if text.startswith(("vk", "Vk")) and len(self.aliases) < 200:
                 self.aliases[self.of(name)] = text
 
-    def prototype(self, node: Node) -> None:
+    def prototype(self, node: SyntaxNode) -> None:
         declarator = function_declarator(node.child_by_field_name("declarator"))
         name = declarator.child_by_field_name("declarator") if declarator is not None else None
         if declarator is not None and name is not None:
             parameters = self.parameters(declarator.child_by_field_name("parameters"))
             self.prototypes.setdefault(self.of(name).rpartition("::")[2], parameters)
 
-    def called(self, node: Node) -> str:
+    def called(self, node: SyntaxNode) -> str:
         declarator = function_declarator(node.child_by_field_name("declarator"))
         name = declarator.child_by_field_name("declarator") if declarator is not None else None
         return self.of(name).rpartition("::")[2].strip() if name is not None else ""
 
-    def function(self, node: Node, space: str, within: str) -> Function | None:
+    def function(self, node: SyntaxNode, space: str, within: str) -> Function | None:
         declarator = function_declarator(node.child_by_field_name("declarator"))
         name = declarator.child_by_field_name("declarator") if declarator is not None else None
         body = node.child_by_field_name("body")
@@ -217,7 +211,7 @@ class _Reading(Statements):
         owner = within or (space + scope if scope else "")
         self.current = short
         statements = tuple(self.initialised(node)) + tuple(self.block(body, 0))
-        at = Span(name.start_byte, name.end_byte)
+        at = span(name)
         parameters = self.parameters(listed)
         stated = self.prototypes.get(short, ())
         if len(stated) == len(parameters):
@@ -226,13 +220,13 @@ class _Reading(Statements):
         overridden = VIRTUAL.search(head) is not None or short in self.virtual
         return Function(short, owner, kind, parameters, statements, at, space, overridden)
 
-    def initialised(self, node: Node) -> Iterator[Term]:
+    def initialised(self, node: SyntaxNode) -> Iterator[Term]:
         """What a constructor gives its members before its body."""
         given = next((c for c in node.named_children if c.type == "field_initializer_list"), None)
         for each in given.named_children if given is not None else ():
             if each.type == "field_initializer" and each.named_child_count == 2:
                 name, value = each.named_children
                 items = [self.expression(c, 0) for c in without_comments(value)]
-                at = Span(name.start_byte, name.end_byte)
+                at = span(name)
                 term = items[0] if len(items) == 1 else (CALL, (NAME, "", at), tuple(items), at)
                 yield (DO, (ASSIGN, "=", (NAME, self.of(name), at), term, at), at)

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from msaa_lint.frame.spirv import numbers as op
+from msaa_lint.input.code.parsing import SyntaxNode
 
 from .expressions import FETCHES, Expressions
 from .text import NotRead
 from .types import EXTREMES, FLOAT, FUSED, INT, VOID, Type, is_image, multisampled, result, scalar_of, size_of, texel, vector
 from .values import Function, Place, Value
-
-if TYPE_CHECKING:
-    from tree_sitter import Node
 
 _QUERIES = ("textureSamples", "imageSamples")
 _WRITES = ("atomic", "imageAtomic", "imageStore")
@@ -20,7 +16,7 @@ _OUT = {"modf": 1, "frexp": 1}
 """Functions that write to an argument: its index."""
 
 
-def called(to: Expressions, node: Node, depth: int) -> Value:
+def called(to: Expressions, node: SyntaxNode, depth: int) -> Value:
     """What a call gives."""
     function, listed = to.parts(node, "function", "arguments")
     given = [child for child in listed.named_children if child.type != "comment"]
@@ -41,7 +37,7 @@ def called(to: Expressions, node: Node, depth: int) -> Value:
     return _built_in(to, node, name, given, depth)
 
 
-def _constructed(to: Expressions, kind: Type, given: list[Node], depth: int) -> Value:
+def _constructed(to: Expressions, kind: Type, given: list[SyntaxNode], depth: int) -> Value:
     if kind[0] == "opaque":
         # A texture and a sampler of Vulkan's put together: the texture is the image.
         return to.value(given[0], depth) if given else to.opaque("sampler", kind, ())
@@ -58,7 +54,7 @@ def _constructed(to: Expressions, kind: Type, given: list[Node], depth: int) -> 
     return to.opaque("construct", kind, values)
 
 
-def _array(to: Expressions, function: Node, given: list[Node], depth: int) -> Value:
+def _array(to: Expressions, function: SyntaxNode, given: list[SyntaxNode], depth: int) -> Value:
     """`float[4](...)`."""
     named = function.child_by_field_name("argument")
     inner = to.kind(to.of(named)) if named is not None else None
@@ -70,7 +66,7 @@ def _array(to: Expressions, function: Node, given: list[Node], depth: int) -> Va
     return to.result(op.COMPOSITE_CONSTRUCT, kind, *(each.id for each in made))
 
 
-def _length(to: Expressions, function: Node, depth: int) -> Value:
+def _length(to: Expressions, function: SyntaxNode, depth: int) -> Value:
     """`array.length()`."""
     argument, field = function.child_by_field_name("argument"), function.child_by_field_name("field")
     if argument is None or field is None or to.of(field) != "length":
@@ -83,7 +79,7 @@ def _length(to: Expressions, function: Node, depth: int) -> Value:
     return to.constant_value(INT, size)
 
 
-def _image(to: Expressions, given: list[Node], depth: int) -> Place | Value | None:
+def _image(to: Expressions, given: list[SyntaxNode], depth: int) -> Place | Value | None:
     """The image that a function takes first."""
     if not given:
         return None
@@ -91,7 +87,7 @@ def _image(to: Expressions, given: list[Node], depth: int) -> Place | Value | No
     return place if place is not None else to.value(given[0], depth)
 
 
-def _of_samples(to: Expressions, node: Node, name: str, given: list[Node], image: Place | Value, depth: int) -> Value:
+def _of_samples(to: Expressions, node: SyntaxNode, name: str, given: list[SyntaxNode], image: Place | Value, depth: int) -> Value:
     """A fetch of a sample, or a query for how many there are."""
     loaded = to.loaded(image) if isinstance(image, Place) else image
     if name in _QUERIES:
@@ -110,7 +106,7 @@ def _of_samples(to: Expressions, node: Node, name: str, given: list[Node], image
     return to.result(number, kind, loaded.id, at.id, op.SAMPLE_OPERAND, to.as_type(sample, INT).id)
 
 
-def _built_in(to: Expressions, node: Node, name: str, given: list[Node], depth: int) -> Value:
+def _built_in(to: Expressions, node: SyntaxNode, name: str, given: list[SyntaxNode], depth: int) -> Value:
     values = [to.value(each, depth) for each in given]
     kind = result(name, [each.type for each in values])
     if name in EXTREMES and len(values) == 2:
@@ -139,7 +135,7 @@ def _built_in(to: Expressions, node: Node, name: str, given: list[Node], depth: 
     return to.opaque(name, kind, values)
 
 
-def _own(to: Expressions, node: Node, name: str, given: list[Node], depth: int) -> Value:
+def _own(to: Expressions, node: SyntaxNode, name: str, given: list[SyntaxNode], depth: int) -> Value:
     """A call of a function of the shader's own."""
     kinds: list[tuple[Place | None, Value | None]] = []
     for each in given:

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 from functools import partial
-from typing import TYPE_CHECKING
 
 from msaa_lint.frame.spirv import numbers as op
-from msaa_lint.input.code.parsing import Code, tree
+from msaa_lint.input.code.parsing import Code, SyntaxNode, tree
 from msaa_lint.input.code.sample_counts.arithmetic import whole
 
 from .calls import called
@@ -15,9 +14,6 @@ from .expressions import Expressions
 from .text import Text
 from .types import BOOL, FLOAT, INPUTS, INT, OUTPUTS, UINT, VOID, Type, multisampled, vector
 from .values import Function, Place, Value
-
-if TYPE_CHECKING:
-    from tree_sitter import Node
 
 MOST_PARTS = 1000
 """Types that a structure is made of, those of its members included."""
@@ -39,7 +35,7 @@ class Declarations(Expressions):
         self.built_in = self.of_language
         self.call = partial(called, self)
         self.root = tree(Code(source.text, "glsl")).root_node
-        self.starts: list[tuple[Place, Node]] = []
+        self.starts: list[tuple[Place, SyntaxNode]] = []
         """Variables outside of functions with what they begin with."""
         self.images: dict[str, tuple[int, int]] = {}
         self.bindings: dict[str, tuple[int, int | None]] = {}
@@ -51,7 +47,7 @@ class Declarations(Expressions):
         """The whole numbers that constants are, by their ids."""
         self.specialised = False
 
-    def outer(self, node: Node, depth: int = 0) -> None:
+    def outer(self, node: SyntaxNode, depth: int = 0) -> None:
         """What stands outside of functions."""
         kind = node.type
         if kind == "function_definition":
@@ -63,7 +59,7 @@ class Declarations(Expressions):
         elif kind == "ERROR" or kind.endswith("statement"):
             raise self.no(node, "is not understood")
 
-    def structure(self, node: Node) -> Type | None:
+    def structure(self, node: SyntaxNode) -> Type | None:
         name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
         if name is None or body is None:
             return None
@@ -81,7 +77,7 @@ class Declarations(Expressions):
             kind = kind[1]
         return self.weights.get(str(kind[1]), 1) if kind[0] == "struct" else 1
 
-    def members(self, body: Node) -> list[tuple[str, Type, set[str]]]:
+    def members(self, body: SyntaxNode) -> list[tuple[str, Type, set[str]]]:
         """The members of a structure or block: name, type, qualifiers."""
         found: list[tuple[str, Type, set[str]]] = []
         for field in body.named_children:
@@ -97,7 +93,7 @@ class Declarations(Expressions):
                 found.append((name, own, words))
         return found
 
-    def declarator(self, node: Node, kind: Type) -> tuple[str, Type]:
+    def declarator(self, node: SyntaxNode, kind: Type) -> tuple[str, Type]:
         """The name that a declarator gives, and the type with its arrays."""
         sizes: list[int] = []
         while node.type == "array_declarator":
@@ -110,7 +106,7 @@ class Declarations(Expressions):
             kind = ("array", kind, size)
         return self.of(node), kind
 
-    def size(self, node: Node) -> int:
+    def size(self, node: SyntaxNode) -> int:
         """The size of an array, as far as it is a plain number or a constant that is one."""
         number = whole(self.of(node))
         if number is None:
@@ -120,7 +116,7 @@ class Declarations(Expressions):
             raise self.no(node, "is no size that is understood")
         return number
 
-    def qualifiers(self, node: Node, end: int) -> tuple[set[str], dict[str, int | None]]:
+    def qualifiers(self, node: SyntaxNode, end: int) -> tuple[set[str], dict[str, int | None]]:
         """What stands before a type: words, and the entries of `layout`."""
         layouts = [child for child in node.children if child.type == "layout_specification"]
         text = self.text[node.start_byte : end]
@@ -135,7 +131,7 @@ class Declarations(Expressions):
                     entries[name] = self.plain.get(found.id) if isinstance(found, Value) else None
         return set(_WORD.findall(text)), entries
 
-    def declaration(self, node: Node) -> None:
+    def declaration(self, node: SyntaxNode) -> None:
         if any(child.type == "ERROR" for child in node.children):
             raise self.no(node, "is not understood")
         body = next((child for child in node.named_children if child.type == "field_declaration_list"), None)
@@ -154,7 +150,7 @@ class Declarations(Expressions):
         if kind is None and self.of(typed) not in ("precision",):
             raise self.no(node, "is of no type that is known")
 
-    def declared(self, node: Node, kind: Type, words: set[str], layout: dict[str, int | None]) -> None:
+    def declared(self, node: SyntaxNode, kind: Type, words: set[str], layout: dict[str, int | None]) -> None:
         """A variable outside of functions."""
         given = node.child_by_field_name("value") if node.type == "init_declarator" else None
         target = node.child_by_field_name("declarator") if node.type == "init_declarator" else node
@@ -187,7 +183,7 @@ class Declarations(Expressions):
         self.bindings[name] = (layout.get("set") or 0, layout.get("binding"))
         return layout
 
-    def of_list(self, given: Node, kind: Type) -> Type:
+    def of_list(self, given: SyntaxNode, kind: Type) -> Type:
         """The type of an array whose size its values say."""
         listed = given.child_by_field_name("arguments") or given
         return ("array", kind, sum(child.type != "comment" for child in listed.named_children))
@@ -202,7 +198,9 @@ class Declarations(Expressions):
         if storage == op.OUTPUT and layout.get("location") is None:
             self.unplaced.append(target)
 
-    def constant(self, name: str, kind: Type, given: Node | None, layout: dict[str, int | None], node: Node, fixed: bool) -> None:
+    def constant(
+        self, name: str, kind: Type, given: SyntaxNode | None, layout: dict[str, int | None], node: SyntaxNode, fixed: bool
+    ) -> None:
         """A constant, or a variable that begins with something."""
         if given is None:
             raise self.no(node, "is not understood")
@@ -234,7 +232,7 @@ class Declarations(Expressions):
         self.scopes[0][name] = made_place
         self.starts.append((made_place, given))
 
-    def block(self, node: Node, body: Node) -> None:
+    def block(self, node: SyntaxNode, body: SyntaxNode) -> None:
         """A block of inputs, outputs, uniforms or a buffer."""
         children = node.named_children
         at = children.index(body)
@@ -277,7 +275,7 @@ class Declarations(Expressions):
         self.scopes[0][name] = made
         return made
 
-    def declared_function(self, node: Node) -> None:
+    def declared_function(self, node: SyntaxNode) -> None:
         declarator, typed = node.child_by_field_name("declarator"), node.child_by_field_name("type")
         name = declarator.child_by_field_name("declarator") if declarator is not None else None
         listed = declarator.child_by_field_name("parameters") if declarator is not None else None
@@ -299,6 +297,6 @@ class Declarations(Expressions):
         self.functions.setdefault(self.of(name), []).append(function)
 
 
-def is_unsized(node: Node) -> bool:
+def is_unsized(node: SyntaxNode) -> bool:
     """Whether a declarator is of an array whose size its values say."""
     return node.type == "array_declarator" and node.child_by_field_name("size") is None

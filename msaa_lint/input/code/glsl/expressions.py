@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from msaa_lint.frame.spirv import numbers as op
+from msaa_lint.input.code.parsing import SyntaxNode
 from msaa_lint.input.code.sample_counts.arithmetic import whole
 
 from .text import NotRead
 from .types import BOOL, DOUBLE, FLOAT, INT, UINT, scalar_of, size_of, vector
 from .values import DEEPEST, LOGICAL_AND, LOGICAL_NOT, LOGICAL_NOT_EQUAL, LOGICAL_OR, SELECT, SIGNS, Place, Value, Values, like
-
-if TYPE_CHECKING:
-    from tree_sitter import Node
 
 FETCHES = ("texelFetch", "texelFetchOffset", "imageLoad", "subpassLoad")
 _REAL = re.compile(r"[-+]?(?:\d+\.\d*|\.\d+|\d+)(?:[eE][+-]?\d+)?")
@@ -25,10 +22,10 @@ class Expressions(Values):
 
     ended = False
     """Whether the current block has its last instruction."""
-    call: Callable[[Node, int], Value]
+    call: Callable[[SyntaxNode, int], Value]
     """Evaluates a call."""
 
-    def value(self, node: Node, depth: int = 0) -> Value:
+    def value(self, node: SyntaxNode, depth: int = 0) -> Value:
         """What an expression gives."""
         if depth > DEEPEST:
             raise NotRead("its expressions are too deep")
@@ -62,7 +59,7 @@ class Expressions(Values):
             return self.value(node.named_children[-1], deeper)
         raise self.no(node, "is not followed")
 
-    def taken(self, node: Node, depth: int) -> Value:
+    def taken(self, node: SyntaxNode, depth: int) -> Value:
         """A part of a value."""
         (argument,) = self.parts(node, "argument")
         base = self.value(argument, depth)
@@ -84,7 +81,7 @@ class Expressions(Values):
         n = self.index(base.type, name, node)
         return self.result(op.COMPOSITE_EXTRACT, members[n][1], base.id, n)
 
-    def binary(self, node: Node, depth: int) -> Value:
+    def binary(self, node: SyntaxNode, depth: int) -> Value:
         left, right, sign = self.parts(node, "left", "right", "operator")
         operator = self.of(sign)
         one = self.value(left, depth)
@@ -100,7 +97,7 @@ class Expressions(Values):
             raise self.no(node, "is not followed")
         return self.arithmetic(operator, one, other)
 
-    def has_effects(self, node: Node) -> bool:
+    def has_effects(self, node: SyntaxNode) -> bool:
         """Whether it matters that an expression is worked out: something is called or assigned in it."""
         waiting = [node]
         while waiting:
@@ -115,7 +112,7 @@ class Expressions(Values):
             waiting += each.named_children
         return False
 
-    def guarded(self, one: Value, operator: str, right: Node, depth: int) -> Value:
+    def guarded(self, one: Value, operator: str, right: SyntaxNode, depth: int) -> Value:
         """`&&` and `||` whose second part is worked out only where it decides."""
         kept = self.temporary(BOOL)
         self.stored(kept, one)
@@ -150,7 +147,7 @@ class Expressions(Values):
         self.out.do(op.LABEL, label)
         self.ended = False
 
-    def chosen(self, node: Node, depth: int) -> Value:
+    def chosen(self, node: SyntaxNode, depth: int) -> Value:
         test, then, other = self.parts(node, "condition", "consequence", "alternative")
         condition = self.value(test, depth)
         if not self.has_effects(then) and not self.has_effects(other):
@@ -159,7 +156,7 @@ class Expressions(Values):
             return self.result(SELECT, one.type, condition.id, one.id, two.id)
         kept: list[Place] = []
 
-        def keep(part: Node) -> None:
+        def keep(part: SyntaxNode) -> None:
             value = self.value(part, depth)
             if not kept:
                 kept.append(self.temporary(value.type))
@@ -168,7 +165,7 @@ class Expressions(Values):
         self.branch(condition.id, lambda: keep(then), lambda: keep(other))
         return self.loaded(kept[0])
 
-    def assigned(self, node: Node, depth: int) -> Value:
+    def assigned(self, node: SyntaxNode, depth: int) -> Value:
         left, right, sign = self.parts(node, "left", "right", "operator")
         operator = self.of(sign)
         value = self.value(right, depth)
@@ -183,7 +180,7 @@ class Expressions(Values):
         self.stored(place, value)
         return value
 
-    def unary(self, node: Node, depth: int) -> Value:
+    def unary(self, node: SyntaxNode, depth: int) -> Value:
         inner, sign = self.parts(node, "argument", "operator")
         operator = self.of(sign)
         if operator in ("++", "--"):
@@ -206,7 +203,7 @@ class Expressions(Values):
             return self.result(200, value.type, value.id)
         return self.result(127 if scalar_of(value.type) in (FLOAT, DOUBLE) else 126, value.type, value.id)
 
-    def literal(self, node: Node) -> Value:
+    def literal(self, node: SyntaxNode) -> Value:
         text = self.of(node)
         number = whole(text)
         if number is not None:
@@ -215,7 +212,7 @@ class Expressions(Values):
         kind = DOUBLE if text.endswith(("lf", "LF")) else FLOAT
         return self.constant_value(kind, self.real(node))
 
-    def real(self, node: Node) -> float:
+    def real(self, node: SyntaxNode) -> float:
         """The number that a literal is."""
         text = self.of(node)
         match = _REAL.match(text)

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from msaa_lint.frame.spirv import numbers as op
+from msaa_lint.input.code.parsing import SyntaxNode
 from msaa_lint.input.code.sample_counts.arithmetic import whole
 
 from .declarations import Declarations, is_unsized
 from .text import NotRead, Text
 from .types import BOOL, VOID, Type, is_image, size_of
 from .values import Function, Place, Value
-
-if TYPE_CHECKING:
-    from tree_sitter import Node
 
 DEEPEST = 60
 """Levels of blocks that are read."""
@@ -64,7 +60,7 @@ class Statements(Declarations):
             self.out.do(op.LABEL, self.out.id())
             self.ended = False
 
-    def statements(self, node: Node, depth: int) -> None:
+    def statements(self, node: SyntaxNode, depth: int) -> None:
         if depth > DEEPEST:
             raise NotRead("its blocks are too deep")
         if node.type == "compound_statement":
@@ -75,7 +71,7 @@ class Statements(Declarations):
         else:
             self.statement(node, depth + 1)
 
-    def statement(self, node: Node, depth: int) -> None:
+    def statement(self, node: SyntaxNode, depth: int) -> None:
         kind = node.type
         if kind in ("comment", ";"):
             return
@@ -110,7 +106,7 @@ class Statements(Declarations):
         else:
             raise self.no(node, "is not understood")
 
-    def expression(self, node: Node) -> None:
+    def expression(self, node: SyntaxNode) -> None:
         child = next((each for each in node.named_children if each.type != "comment"), None)
         if child is None:
             return
@@ -121,7 +117,7 @@ class Statements(Declarations):
         else:
             self.value(child)
 
-    def local(self, node: Node) -> None:
+    def local(self, node: SyntaxNode) -> None:
         """Variables of a function."""
         typed = node.child_by_field_name("type")
         kind = self.kind(self.of(typed)) if typed is not None else None
@@ -144,7 +140,7 @@ class Statements(Declarations):
             elif given is not None:
                 raise self.no(given, "is not followed")
 
-    def truth(self, node: Node | None) -> int:
+    def truth(self, node: SyntaxNode | None) -> int:
         """The id of a condition."""
         if node is None:
             return self.out.number(BOOL, True)
@@ -153,7 +149,7 @@ class Statements(Declarations):
             raise self.no(node, "is no condition")
         return value.id
 
-    def conditional(self, node: Node, depth: int) -> None:
+    def conditional(self, node: SyntaxNode, depth: int) -> None:
         then, other = node.child_by_field_name("consequence"), node.child_by_field_name("alternative")
         inner = next((child for child in other.named_children if child.type != "comment"), None) if other is not None else None
 
@@ -168,7 +164,7 @@ class Statements(Declarations):
         condition = self.truth(node.child_by_field_name("condition"))
         self.branch(condition, consequence, alternative if other is not None else None)
 
-    def loop(self, node: Node, depth: int) -> None:
+    def loop(self, node: SyntaxNode, depth: int) -> None:
         out = self.out
         self.scopes.append({})
         first = node.child_by_field_name("initializer")
@@ -203,7 +199,7 @@ class Statements(Declarations):
         self.label(merge)
         self.scopes.pop()
 
-    def switch(self, node: Node, depth: int) -> None:
+    def switch(self, node: SyntaxNode, depth: int) -> None:
         out = self.out
         condition, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
         if condition is None or body is None:

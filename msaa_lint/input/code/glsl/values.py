@@ -3,16 +3,14 @@
 # No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 import zlib
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from msaa_lint.frame.spirv import numbers as op
+from msaa_lint.input.code.parsing import SyntaxNode
 
 from .assembly import Assembly
 from .text import NotRead
 from .types import BOOL, DOUBLE, FLOAT, INT, UINT, Type, named, scalar_of, size_of, vector
-
-if TYPE_CHECKING:
-    from tree_sitter import Node
 
 DEEPEST = 80
 """Levels of an expression that are read."""
@@ -48,7 +46,7 @@ class Place(NamedTuple):
 class Function(NamedTuple):
     """A function of the shader: its syntax, its type, and for each parameter the type, whether it is written back, and its name."""
 
-    node: "Node"
+    node: SyntaxNode
     returns: Type
     parameters: tuple[tuple[Type, bool, str], ...]
     id: int
@@ -73,13 +71,13 @@ class Values:
         """Where samples are fetched: the name of the image, and the place of the call."""
         self.built_in: Callable[[str], Place | None] = lambda name: None
 
-    def of(self, node: "Node") -> str:
+    def of(self, node: SyntaxNode) -> str:
         return self.text[node.start_byte : node.end_byte]
 
-    def no(self, node: "Node", why: str) -> NotRead:
+    def no(self, node: SyntaxNode, why: str) -> NotRead:
         return NotRead(f"`{' '.join(self.of(node)[:40].split())}` {why}")
 
-    def parts(self, node: "Node", *fields: str) -> "list[Node]":
+    def parts(self, node: SyntaxNode, *fields: str) -> "list[SyntaxNode]":
         """The children of a node in some fields. NotRead where one is missing."""
         found = [child for field in fields if (child := node.child_by_field_name(field)) is not None]
         if len(found) < len(fields):
@@ -111,13 +109,13 @@ class Values:
                 return scope[name]
         return self.built_in(name)
 
-    def value(self, node: "Node", depth: int = 0) -> Value:
+    def value(self, node: SyntaxNode, depth: int = 0) -> Value:
         """What an expression gives."""
         raise NotImplementedError
 
     # Places
 
-    def place(self, node: "Node", depth: int = 0) -> Place | None:
+    def place(self, node: SyntaxNode, depth: int = 0) -> Place | None:
         """What can be assigned to, or loaded; None where it is a value alone."""
         if depth > DEEPEST:
             raise NotRead("its expressions are too deep")
@@ -161,7 +159,7 @@ class Values:
         self.out.do(op.ACCESS_CHAIN, self.out.pointer(base.storage, kind), pointer, base.pointer, index)
         return Place(pointer, kind, base.storage)
 
-    def element(self, kind: Type, node: "Node") -> Type:
+    def element(self, kind: Type, node: SyntaxNode) -> Type:
         """The type of what an index takes."""
         if kind[0] in ("array", "vec"):
             inner = kind[1]
@@ -171,7 +169,7 @@ class Values:
             return ("vec", FLOAT, kind[2])
         raise self.no(node, "is not followed")
 
-    def index(self, kind: Type, name: str, node: "Node") -> int:
+    def index(self, kind: Type, name: str, node: SyntaxNode) -> int:
         """The number of a structure's member."""
         members = kind[2]
         assert isinstance(members, tuple)
@@ -180,7 +178,7 @@ class Values:
                 return n
         raise self.no(node, "names no member")
 
-    def letters(self, name: str, kind: Type, node: "Node") -> tuple[int, ...]:
+    def letters(self, name: str, kind: Type, node: SyntaxNode) -> tuple[int, ...]:
         """The components that a swizzle takes."""
         size = size_of(kind)
         parts = tuple(_LETTERS.get(letter, 9) for letter in name)

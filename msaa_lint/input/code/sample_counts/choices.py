@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.parsing import SyntaxNode
 
 from .chains import Chain
 from .masks import Known, Mask
@@ -20,8 +21,6 @@ from .reading import Found, Owner, Reading
 from .uses import Uses
 
 if TYPE_CHECKING:
-    from tree_sitter import Node as Syntax
-
     from msaa_lint.input.code.parsing import Code
 
 RELEVANT = re.compile(r"[sS]ampleCount|SAMPLE_COUNT")
@@ -30,7 +29,7 @@ NOBODY = Owner("", None, "")
 """Of statements outside of all functions."""
 
 
-def choices(root: Syntax, code: Code) -> list[tuple[str, Span, Node]]:
+def choices(root: SyntaxNode, code: Code) -> list[tuple[str, Span, Node]]:
     """The choices of a sample count that a syntax tree of C or C++ holds: what each is called, where it stands, and its entry."""
     if RELEVANT.search(code.text) is None:
         return []
@@ -57,10 +56,10 @@ def choices(root: Syntax, code: Code) -> list[tuple[str, Span, Node]]:
     return _named(made)
 
 
-def _parts(root: Syntax) -> tuple[list[Syntax], list[Syntax]]:
+def _parts(root: SyntaxNode) -> tuple[list[SyntaxNode], list[SyntaxNode]]:
     """The functions of a file, and the statements outside of them all."""
-    functions: list[Syntax] = []
-    outside: list[Syntax] = []
+    functions: list[SyntaxNode] = []
+    outside: list[SyntaxNode] = []
     waiting = [root]
     while waiting:
         node = waiting.pop()

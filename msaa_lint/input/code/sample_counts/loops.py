@@ -3,14 +3,11 @@
 # No `from __future__ import annotations`: it would make names that are only for annotations ones of the module.
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.parsing import SyntaxNode, span
 
 from .masks import Expressions, Known, Mask, Order, Value
-
-if TYPE_CHECKING:
-    from tree_sitter import Node as Syntax
 
 MOST_ROUNDS = 16
 """Rounds that are gone through; there are seven counts."""
@@ -18,7 +15,7 @@ MOST_ROUNDS = 16
 _TO_THE_END = re.compile(r"size|Size|count|Count|_countof|end\b|ARRAY")
 
 
-def rounds(node: "Syntax", expressions: Expressions, known: Known) -> Iterator[Known]:
+def rounds(node: SyntaxNode, expressions: Expressions, known: Known) -> Iterator[Known]:
     """What is known in each round of a loop over counts; none where its bounds are not known."""
     if node.type == "for_range_loop":
         order = expressions.value(node.child_by_field_name("right"), known)
@@ -43,7 +40,7 @@ def rounds(node: "Syntax", expressions: Expressions, known: Known) -> Iterator[K
         value = stepped[1]
 
 
-def waits(node: "Syntax", expressions: Expressions, known: Known) -> tuple[str, list[tuple[Mask, int, Span]]] | None:
+def waits(node: SyntaxNode, expressions: Expressions, known: Known) -> tuple[str, list[tuple[Mask, int, Span]]] | None:
     """`while (!(counts & c)) c >>= 1;`: the variable, and the counts that are asked, one after the other."""
     condition, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
     update = node.child_by_field_name("update") if node.type == "for_statement" else _only(body)
@@ -62,7 +59,7 @@ def waits(node: "Syntax", expressions: Expressions, known: Known) -> tuple[str, 
             negated = _negated(part, expressions)
             mask = expressions.value(negated, inner)
             if isinstance(mask, Mask) and mask.bit is not None and negated is not None:
-                made.append((mask, value, Span(negated.start_byte, negated.end_byte)))
+                made.append((mask, value, span(negated)))
                 asked = True
                 continue
             holds = expressions.value(part, inner)
@@ -79,13 +76,13 @@ def waits(node: "Syntax", expressions: Expressions, known: Known) -> tuple[str, 
     return (name, made) if made else None
 
 
-def _declared(node: "Syntax | None") -> "Syntax | None":
+def _declared(node: SyntaxNode | None) -> SyntaxNode | None:
     while node is not None and node.type in ("reference_declarator", "pointer_declarator"):
         node = node.named_children[-1] if node.named_child_count else None
     return node
 
 
-def _started(node: "Syntax", expressions: Expressions, known: Known) -> tuple[str, int] | None:
+def _started(node: SyntaxNode, expressions: Expressions, known: Known) -> tuple[str, int] | None:
     """The variable of a `for` and what it begins with."""
     first = node.child_by_field_name("initializer")
     made = first.child_by_field_name("declarator") if first is not None and first.type == "declaration" else first
@@ -97,11 +94,11 @@ def _started(node: "Syntax", expressions: Expressions, known: Known) -> tuple[st
     return (name, value) if isinstance(value, int) and name else None
 
 
-def _target(node: "Syntax") -> "Syntax | None":
+def _target(node: SyntaxNode) -> SyntaxNode | None:
     return node.child_by_field_name("left" if node.type == "assignment_expression" else "argument")
 
 
-def _stepped(node: "Syntax", expressions: Expressions, known: Known) -> tuple[str, int] | None:
+def _stepped(node: SyntaxNode, expressions: Expressions, known: Known) -> tuple[str, int] | None:
     """The variable that a step changes, and what it is then."""
     name = expressions.name(_target(node))
     value = known.get(name)
@@ -122,7 +119,7 @@ def _stepped(node: "Syntax", expressions: Expressions, known: Known) -> tuple[st
     return (name, found) if found is not None and found < 1 << 16 else None
 
 
-def _only(body: "Syntax | None") -> "Syntax | None":
+def _only(body: SyntaxNode | None) -> SyntaxNode | None:
     """The one expression of a loop's body."""
     if body is not None and body.type == "compound_statement":
         statements = [child for child in body.named_children if child.type != "comment"]
@@ -132,9 +129,9 @@ def _only(body: "Syntax | None") -> "Syntax | None":
     return body.named_children[0] if body.named_children[0].type in ("assignment_expression", "update_expression") else None
 
 
-def _conjuncts(node: "Syntax") -> list["Syntax"]:
+def _conjuncts(node: SyntaxNode) -> list[SyntaxNode]:
     waiting = [node]
-    found: list[Syntax] = []
+    found: list[SyntaxNode] = []
     while waiting and len(found) < MOST_ROUNDS:
         each = waiting.pop()
         if each.type in ("condition_clause", "parenthesized_expression"):
@@ -146,7 +143,7 @@ def _conjuncts(node: "Syntax") -> list["Syntax"]:
     return found
 
 
-def _negated(node: "Syntax", expressions: Expressions) -> "Syntax | None":
+def _negated(node: SyntaxNode, expressions: Expressions) -> SyntaxNode | None:
     """What a condition asks not to hold."""
     if node.type == "unary_expression" and expressions.of(node)[:1] == "!":
         inner = node.child_by_field_name("argument")

@@ -3,15 +3,13 @@
 # No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 import re
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.parsing import SyntaxNode, span
 
 from .arithmetic import arithmetic, whole
 from .statements import DEEPEST, unwrapped
-
-if TYPE_CHECKING:
-    from tree_sitter import Node
 
 LIMITS = frozenset(
     {
@@ -87,14 +85,14 @@ def united(masks: Iterable[Mask], how: str, at: Span) -> Mask:
     every = list(masks)
     limits: dict[str, Span] = {}
     allowed = EVERY if how == "AND" else 0
-    worst, place = how, at
+    worst, worst_at = how, at
     for mask in every:
-        for name, span in mask.limits:
-            limits.setdefault(name, span)
+        for name, place in mask.limits:
+            limits.setdefault(name, place)
         allowed = allowed & mask.allowed if how == "AND" else allowed | mask.allowed
         if RANK.index(mask.combined) > RANK.index(worst):
-            worst, place = mask.combined, mask.at
-    return Mask(tuple(limits.items()), worst, place, allowed, all(mask.known for mask in every))
+            worst, worst_at = mask.combined, mask.at
+    return Mask(tuple(limits.items()), worst, worst_at, allowed, all(mask.known for mask in every))
 
 
 class Expressions:
@@ -105,16 +103,16 @@ class Expressions:
         self.returns: Known = {}
         self.members: Known = {}
 
-    def of(self, node: "Node") -> str:
+    def of(self, node: SyntaxNode) -> str:
         return self.text[node.start_byte : node.end_byte]
 
-    def name(self, node: "Node | None") -> str:
+    def name(self, node: SyntaxNode | None) -> str:
         """The last part of a name, without its object, scope or template arguments."""
         while node is not None and node.type in ("field_expression", "template_function", "qualified_identifier", "template_method"):
             node = node.child_by_field_name("field") or node.child_by_field_name("name")
         return self.of(node) if node is not None and node.end_byte - node.start_byte < 200 else ""
 
-    def value(self, node: "Node | None", known: Known, depth: int = 0) -> Value | None:
+    def value(self, node: SyntaxNode | None, known: Known, depth: int = 0) -> Value | None:
         """What an expression gives; None where that is not known."""
         if node is None or depth > DEEPEST:
             return None
@@ -140,7 +138,7 @@ class Expressions:
             return self._list(node, known, deeper)
         return self._call(node, known, deeper) if kind == "call_expression" else None
 
-    def _named(self, node: "Node", known: Known) -> Value | None:
+    def _named(self, node: SyntaxNode, known: Known) -> Value | None:
         text = self.of(node)
         if len(text) < 60:
             match = _ENUMERANT.fullmatch(text) or _HPP.fullmatch(text)
@@ -150,14 +148,14 @@ class Expressions:
         if name in known and node.type != "field_expression":
             return known[name]
         if name in LIMITS:
-            at = Span(node.start_byte, node.end_byte)
+            at = span(node)
             return Mask(((name, at),), "NONE", at)
         found = known[name] if name in known else self.members.get(name)
         if found is None and name == "sampleCounts" and node.type == "field_expression":
-            return Mask((), "NONE", Span(node.start_byte, node.end_byte), known=False)
+            return Mask((), "NONE", span(node), known=False)
         return found
 
-    def _binary(self, node: "Node", known: Known, depth: int) -> Value | None:
+    def _binary(self, node: SyntaxNode, known: Known, depth: int) -> Value | None:
         sign = node.child_by_field_name("operator")
         operator = self.of(sign) if sign is not None else ""
         left, right = (self.value(node.child_by_field_name(side), known, depth) for side in ("left", "right"))
@@ -165,7 +163,7 @@ class Expressions:
             return None
         if isinstance(left, int) and isinstance(right, int):
             return arithmetic(operator, left, right)
-        at = Span(sign.start_byte, sign.end_byte)
+        at = span(sign)
         if isinstance(left, Mask) and isinstance(right, Mask):
             if operator in ("&", "bitand"):
                 return united((left, right), "AND", at)
@@ -186,7 +184,7 @@ class Expressions:
             return left if same else None
         return _of_highest(operator, left, right)
 
-    def _unary(self, node: "Node", known: Known, depth: int) -> Value | None:
+    def _unary(self, node: SyntaxNode, known: Known, depth: int) -> Value | None:
         inner = node.child_by_field_name("argument")
         operator = self.of(node)[:1]
         if operator == "!" and inner is not None and inner.type == "unary_expression" and self.of(inner)[:1] == "!":
@@ -196,7 +194,7 @@ class Expressions:
             return int(not value)
         return EVERY & ~value if operator == "~" and isinstance(value, int) else None
 
-    def compared(self, node: "Node | None", known: Known, depth: int = 0) -> tuple[Mask, Mask, bool, Span] | None:
+    def compared(self, node: SyntaxNode | None, known: Known, depth: int = 0) -> tuple[Mask, Mask, bool, Span] | None:
         """Two masks that a condition compares as numbers: both, whether it holds where the first is less, and where it does so."""
         node = unwrapped(node)
         if node is None or node.type != "binary_expression":
@@ -208,7 +206,7 @@ class Expressions:
         left, right = (self.value(node.child_by_field_name(side), known, depth + 1) for side in ("left", "right"))
         if not (isinstance(left, Mask) and isinstance(right, Mask)):
             return None
-        return left, right, operator[0] == "<", Span(node.start_byte, node.end_byte)
+        return left, right, operator[0] == "<", span(node)
 
     def lesser(self, compared: tuple[Mask, Mask, bool, Span], then: Value | None, other: Value | None) -> Mask | None:
         """The lesser or the greater of two masks, by what is taken where the one or the other is less."""
@@ -220,7 +218,7 @@ class Expressions:
             return None
         return united((left, right), "MIN" if (names[2] == names[0]) == less else "MAX", at)
 
-    def _choice(self, node: "Node", known: Known, depth: int) -> Value | None:
+    def _choice(self, node: SyntaxNode, known: Known, depth: int) -> Value | None:
         then, other = (self.value(node.child_by_field_name(side), known, depth) for side in ("consequence", "alternative"))
         if not (isinstance(then, Mask) and isinstance(other, Mask)):
             return None
@@ -231,7 +229,7 @@ class Expressions:
         both = united((then, other), more.combined, more.at)
         return both._replace(allowed=then.allowed | other.allowed)
 
-    def _item(self, node: "Node", known: Known, depth: int) -> Value | None:
+    def _item(self, node: SyntaxNode, known: Known, depth: int) -> Value | None:
         listed = node.child_by_field_name("indices") or node.child_by_field_name("index")
         if listed is not None and listed.type == "subscript_argument_list":
             listed = listed.named_children[0] if listed.named_child_count else None
@@ -240,7 +238,7 @@ class Expressions:
             return order.counts[index]
         return None
 
-    def _list(self, node: "Node", known: Known, depth: int) -> Value | None:
+    def _list(self, node: SyntaxNode, known: Known, depth: int) -> Value | None:
         if node.type == "compound_literal_expression":
             return self.value(node.child_by_field_name("value"), known, depth)
         items = [child for child in node.named_children if child.type != "comment"]
@@ -252,7 +250,7 @@ class Expressions:
         counts = tuple(value for value in values if isinstance(value, int))
         return Order(counts) if counts and len(counts) == len(values) else None
 
-    def _call(self, node: "Node", known: Known, depth: int) -> Value | None:
+    def _call(self, node: SyntaxNode, known: Known, depth: int) -> Value | None:
         function, listed = node.child_by_field_name("function"), node.child_by_field_name("arguments")
         name = self.name(function)
         given = [child for child in listed.named_children if child.type != "comment"] if listed is not None else []
@@ -265,7 +263,7 @@ class Expressions:
             return values[0]
         if name in _LESSER or name in _GREATER:
             masks = [value for value in values if isinstance(value, Mask)]
-            at = Span(function.start_byte, function.end_byte)
+            at = span(function)
             return united(masks, "MIN" if name in _LESSER else "MAX", at) if len(masks) == len(values) > 1 else None
         if name in _POWERS and isinstance(values[-1] if values else None, Highest) and values[:-1] in ([], [2], [1]):
             found = values[-1]

@@ -6,17 +6,15 @@ loops over counts that are known. What hangs on anything else, a setting for one
 
 # No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 import re
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.parsing import SyntaxNode, span
 
 from .chains import MOST_TESTS, Chain, Test, greatest
 from .loops import rounds, waits
 from .masks import COUNTS, Expressions, Highest, Known, Mask, Value, united
-from .statements import links, span, statements, unwrapped
-
-if TYPE_CHECKING:
-    from tree_sitter import Node as Syntax
+from .statements import links, statements, unwrapped
 
 DEEPEST = 40
 """Levels of blocks that are read."""
@@ -56,7 +54,7 @@ class Reading:
         self.combined: dict[Span, tuple[str, Mask]] = {}
         """Masks that are combined in a way that is none, by the place of it: what holds them."""
 
-    def function(self, node: "Syntax") -> None:
+    def function(self, node: SyntaxNode) -> None:
         """A function's definition."""
         declarator = node.child_by_field_name("declarator")
         while declarator is not None and declarator.type != "function_declarator":
@@ -68,10 +66,10 @@ class Reading:
         if declarator is None or name is None or body is None:
             return
         kind = node.child_by_field_name("type")
-        owner = Owner(self.expressions.name(name), Span(name.start_byte, name.end_byte), of(kind) if kind is not None else "")
+        owner = Owner(self.expressions.name(name), span(name), of(kind) if kind is not None else "")
         self.block(body, self.parameters(declarator), owner, 0)
 
-    def parameters(self, declarator: "Syntax") -> Known:
+    def parameters(self, declarator: SyntaxNode) -> Known:
         """Parameters whose type says that they are masks."""
         known: Known = {}
         listed = declarator.child_by_field_name("parameters")
@@ -82,7 +80,7 @@ class Reading:
                 known[self.expressions.of(name)] = Mask((), "NONE", span(name), known=False) if mask else None
         return known
 
-    def block(self, node: "Syntax", known: Known, owner: Owner, depth: int) -> None:
+    def block(self, node: SyntaxNode, known: Known, owner: Owner, depth: int) -> None:
         """Statements, one after the other."""
         chains: dict[str, Chain] = {}
         if depth < DEEPEST:
@@ -91,7 +89,7 @@ class Reading:
         for target, chain in chains.items():
             self.finish(target, chain, owner)
 
-    def statement(self, node: "Syntax", known: Known, owner: Owner, chains: dict[str, Chain], depth: int) -> None:
+    def statement(self, node: SyntaxNode, known: Known, owner: Owner, chains: dict[str, Chain], depth: int) -> None:
         kind = node.type
         if kind == "if_statement":
             self.branches(node, known, owner, chains, depth)
@@ -107,7 +105,7 @@ class Reading:
             self.plain(node, known, owner, chains)
             self.lambdas(node, known, owner, depth)
 
-    def plain(self, node: "Syntax", known: Known, owner: Owner, chains: dict[str, Chain]) -> None:
+    def plain(self, node: SyntaxNode, known: Known, owner: Owner, chains: dict[str, Chain]) -> None:
         """A declaration, an assignment, a return."""
         of = self.expressions.of
         if node.type == "return_statement":
@@ -140,7 +138,7 @@ class Reading:
                 elif name:
                     known[name] = Mask((), "NONE", span(child), known=False) if _MASK_TYPE.search(typed) else None
 
-    def given(self, target: str, node: "Syntax | None", typed: str, known: Known, owner: Owner, chains: dict[str, Chain]) -> None:
+    def given(self, target: str, node: SyntaxNode | None, typed: str, known: Known, owner: Owner, chains: dict[str, Chain]) -> None:
         """What an expression gives to a variable, or returns."""
         value = self.expressions.value(node, known)
         if value is None and node is not None and _MASK_TYPE.search(typed) and target:
@@ -163,7 +161,7 @@ class Reading:
             known[target] = value
         self.conditional(target, node, known, chains)
 
-    def conditional(self, target: str, node: "Syntax | None", known: Known, chains: dict[str, Chain]) -> None:
+    def conditional(self, target: str, node: SyntaxNode | None, known: Known, chains: dict[str, Chain]) -> None:
         """A chain of conditional expressions."""
         made: list[Test] = []
         for _ in range(MOST_TESTS):
@@ -181,7 +179,7 @@ class Reading:
             chain.groups += 1
             chain.tests += made
 
-    def lambdas(self, node: "Syntax", known: Known, owner: Owner, depth: int) -> None:
+    def lambdas(self, node: SyntaxNode, known: Known, owner: Owner, depth: int) -> None:
         """Functions within an expression."""
         waiting = [(node, "")]
         while waiting:
@@ -197,7 +195,7 @@ class Reading:
                 continue
             waiting += [(child, name) for child in each.named_children]
 
-    def branches(self, node: "Syntax", known: Known, owner: Owner, chains: dict[str, Chain], depth: int) -> None:
+    def branches(self, node: SyntaxNode, known: Known, owner: Owner, chains: dict[str, Chain], depth: int) -> None:
         """An `if` with its `else if`s: tests of a chain, and the blocks behind them."""
         self.tested(node, known, chains)
         for condition, then in links(node):
@@ -205,7 +203,7 @@ class Reading:
                 self.compared(condition, then, node, known, owner)
             self.block(then, known, owner, depth)
 
-    def compared(self, condition: "Syntax | None", then: "Syntax", node: "Syntax", known: Known, owner: Owner) -> None:
+    def compared(self, condition: SyntaxNode | None, then: SyntaxNode, node: SyntaxNode, known: Known, owner: Owner) -> None:
         """`if (a < b) counts = a; else counts = b;`, and the same with returns."""
         compared = self.expressions.compared(condition, known) if condition is not None else None
         other = node.child_by_field_name("alternative")
@@ -218,7 +216,7 @@ class Reading:
         if lesser is not None:
             self.combined.setdefault(lesser.at, (first[0] or owner.name, lesser))
 
-    def assigned(self, node: "Syntax | None") -> "tuple[str, Syntax] | None":
+    def assigned(self, node: SyntaxNode | None) -> "tuple[str, SyntaxNode] | None":
         """What a branch gives to what: the target and the expression."""
         for child in statements(node) if node is not None else ():
             if child.type == "return_statement" and child.named_child_count:
@@ -229,7 +227,7 @@ class Reading:
                 return self.expressions.name(inner.child_by_field_name("left")), value
         return None
 
-    def tested(self, node: "Syntax", known: Known, chains: dict[str, Chain]) -> bool:
+    def tested(self, node: SyntaxNode, known: Known, chains: dict[str, Chain]) -> bool:
         """The tests of an `if`; whether it gives a count at all."""
         gave = False
         touched: set[str] = set()
@@ -257,7 +255,7 @@ class Reading:
                 chain.pure = False
         return gave
 
-    def loop(self, node: "Syntax", known: Known, chains: dict[str, Chain]) -> bool:
+    def loop(self, node: SyntaxNode, known: Known, chains: dict[str, Chain]) -> bool:
         """A loop over counts that are known, gone through; whether it is one."""
         found = False
         waited = waits(node, self.expressions, known)
@@ -300,7 +298,7 @@ def _masked(value: Value | None, given: Value | None, at: Span) -> Value | None:
     return value._replace(allowed=value.allowed & given) if isinstance(value, Mask) and isinstance(given, int) else None
 
 
-def _plainly(node: "Syntax", expressions: Expressions) -> bool:
+def _plainly(node: SyntaxNode, expressions: Expressions) -> bool:
     """Whether an assignment is one by `=`."""
     sign = node.child_by_field_name("operator")
     return sign is None or expressions.of(sign) == "="

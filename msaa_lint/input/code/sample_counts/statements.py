@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
-from msaa_lint.core.text.span import Span
-
-if TYPE_CHECKING:
-    from tree_sitter import Node
+from msaa_lint.input.code.parsing import SyntaxNode
 
 DEEPEST = 60
 """Levels of an expression that are read."""
@@ -19,11 +15,7 @@ MOST_LINKS = 64
 _SPLICED = ("preproc_if", "preproc_ifdef", "preproc_else", "preproc_elif", "ERROR")
 
 
-def span(node: Node) -> Span:
-    return Span(node.start_byte, node.end_byte)
-
-
-def unwrapped(node: Node | None) -> Node | None:
+def unwrapped(node: SyntaxNode | None) -> SyntaxNode | None:
     """An expression without the parentheses and C casts around it."""
     for _ in range(DEEPEST):
         if node is None:
@@ -39,7 +31,7 @@ def unwrapped(node: Node | None) -> Node | None:
     return node
 
 
-def statements(node: Node) -> Iterator[Node]:
+def statements(node: SyntaxNode) -> Iterator[SyntaxNode]:
     """The statements of a block, or the one that stands for it; those of the preprocessor's blocks among them."""
     waiting = [node]
     while waiting:
@@ -51,9 +43,9 @@ def statements(node: Node) -> Iterator[Node]:
             yield each
 
 
-def links(node: Node) -> Iterator[tuple[Node | None, Node]]:
+def links(node: SyntaxNode) -> Iterator[tuple[SyntaxNode | None, SyntaxNode]]:
     """The conditions of an `if` and its `else if`s, each with what stands behind it; None for a last `else`."""
-    current: Node | None = node
+    current: SyntaxNode | None = node
     for _ in range(MOST_LINKS):
         if current is None:
             return

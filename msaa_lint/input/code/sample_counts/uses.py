@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.formats import format_of
+from msaa_lint.input.code.parsing import SyntaxNode, span
 
 from .masks import COUNTS, Expressions
-
-if TYPE_CHECKING:
-    from tree_sitter import Node as Syntax
 
 MOST_USES = 200
 """Uses of one name that are looked at; of one that is used more often nothing is said."""
@@ -35,12 +32,12 @@ _SAMPLES = ("samples", "rasterizationSamples", "sampleCount")
 class Uses:
     """The names of a file by where they are used, and the functions that it defines."""
 
-    def __init__(self, root: Syntax, expressions: Expressions) -> None:
+    def __init__(self, root: SyntaxNode, expressions: Expressions) -> None:
         self.expressions = expressions
-        self._named: dict[str, list[Syntax]] = {}
-        self._functions: dict[str, Syntax] = {}
+        self._named: dict[str, list[SyntaxNode]] = {}
+        self._functions: dict[str, SyntaxNode] = {}
         self._left = MOST_STEPS
-        self._used: dict[str, list[Syntax]] = {}
+        self._used: dict[str, list[SyntaxNode]] = {}
         self._held: dict[str, list[str]] = {}
         waiting = [root]
         while waiting:
@@ -71,7 +68,7 @@ class Uses:
                     found.append(target)
         return found
 
-    def _uses(self, name: str) -> list[Syntax]:
+    def _uses(self, name: str) -> list[SyntaxNode]:
         """Where a name is used; a member with what it is of, where that is written alike."""
         if name in self._used:
             return self._used[name]
@@ -98,7 +95,7 @@ class Uses:
                     caps.append(found)
         return min(caps) if caps else None
 
-    def _capped(self, node: Syntax) -> int | None:
+    def _capped(self, node: SyntaxNode) -> int | None:
         """What a use of a count says of its cap, as `cap`."""
         value, parent = _whole(node)
         if parent is None:
@@ -127,7 +124,7 @@ class Uses:
                     self._formats(expression, found, 0, set())
         return found
 
-    def _beside(self, node: Syntax) -> list[Syntax]:
+    def _beside(self, node: SyntaxNode) -> list[SyntaxNode]:
         """What may be the format where a count is an image's: the other arguments of a call, the member `format` of the same structure."""
         value, parent = _whole(node)
         if parent is None:
@@ -150,7 +147,7 @@ class Uses:
                 return [child for child in given if self.expressions.of(child).lstrip(". ").startswith("format")]
         return []
 
-    def _member(self, node: Syntax, structure: str, member: str) -> list[Syntax]:
+    def _member(self, node: SyntaxNode, structure: str, member: str) -> list[SyntaxNode]:
         """What a member of a structure is given in the function around a node."""
         around = node.parent
         while around is not None and around.type not in ("function_definition", "lambda_expression", "translation_unit"):
@@ -167,7 +164,7 @@ class Uses:
                     found.append(right)
         return found
 
-    def _formats(self, node: Syntax, found: dict[str, Span], depth: int, seen: set[str]) -> None:
+    def _formats(self, node: SyntaxNode, found: dict[str, Span], depth: int, seen: set[str]) -> None:
         """The formats that an expression may be: named in it, given to a variable of it, or returned by a function that it calls."""
         waiting = [node]
         while waiting and self._left > 0:
@@ -180,7 +177,7 @@ class Uses:
                 if name is not None:
                     form = format_of(name)
                     if form is not None and not {"depth", "stencil"}.isdisjoint(form.aspects):
-                        found.setdefault(name, Span(each.start_byte, each.end_byte))
+                        found.setdefault(name, span(each))
                     continue
                 short = self.expressions.name(each)
                 if depth < 3 and short not in seen and ("ormat" in short or short in self._functions):
@@ -192,7 +189,7 @@ class Uses:
                     continue
             waiting += reversed(each.named_children)
 
-    def _sources(self, name: str, at: Syntax) -> list[Syntax]:
+    def _sources(self, name: str, at: SyntaxNode) -> list[SyntaxNode]:
         """What a name is given in the file, or what the function of that name says."""
         parent = at.parent
         called = parent is not None and parent.type == "call_expression" and parent.child_by_field_name("function") == at
@@ -201,7 +198,7 @@ class Uses:
             return [body] if body is not None else []
         found = []
         for node in self._named.get(name, ())[:MOST_USES]:
-            holder: Syntax | None = node.parent
+            holder: SyntaxNode | None = node.parent
             field = node
             while holder is not None and holder.type in _DECLARING:
                 field, holder = holder, holder.parent
@@ -213,7 +210,7 @@ class Uses:
         return found
 
 
-def _whole(node: Syntax) -> tuple[Syntax, Syntax | None]:
+def _whole(node: SyntaxNode) -> tuple[SyntaxNode, SyntaxNode | None]:
     """A name with its object, call, parentheses and casts around it, and what that stands in."""
     for _ in range(12):
         parent = node.parent
@@ -231,17 +228,17 @@ def _whole(node: Syntax) -> tuple[Syntax, Syntax | None]:
     return node, node.parent
 
 
-def _last(node: Syntax) -> Syntax | None:
+def _last(node: SyntaxNode) -> SyntaxNode | None:
     return node.child_by_field_name("field") or node.child_by_field_name("name")
 
 
-def _is_cast(node: Syntax) -> bool:
+def _is_cast(node: SyntaxNode) -> bool:
     function = node.child_by_field_name("function")
     name = function.child_by_field_name("name") if function is not None and function.type == "template_function" else function
     return node.type == "call_expression" and name is not None and name.text in (b"static_cast", b"reinterpret_cast", b"uint32_t", b"int")
 
 
-def _given_to(node: Syntax) -> Syntax | None:
+def _given_to(node: SyntaxNode) -> SyntaxNode | None:
     """What is given the value of a use."""
     value, parent = _whole(node)
     if parent is not None and parent.type == "init_declarator" and parent.child_by_field_name("value") == value:

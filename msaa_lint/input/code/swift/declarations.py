@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from msaa_lint.input.code.parsing import SyntaxNode, span
 
-from .expressions import span
 from .syntax import Syntax
 from .terms import LET, Function, Member, Term, Type, Unit
-
-if TYPE_CHECKING:
-    from tree_sitter import Node as SyntaxNode
 
 
 def unit(root: SyntaxNode, syntax: Syntax) -> Unit:

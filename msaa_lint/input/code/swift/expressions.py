@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.parsing import SyntaxNode, span
 
 from .terms import BINARY, CALL, CHOICE, CLOSURE, DO, IF, INDEX, LIST, LITERAL, MEMBER, NAME, NOT, OTHER, TUPLE, Term
-
-if TYPE_CHECKING:
-    from tree_sitter import Node as SyntaxNode
 
 DEEPEST = 40
 """How deep expressions and statements nest that are read."""
@@ -192,8 +189,3 @@ def block(node: SyntaxNode) -> list[SyntaxNode]:
 def last_named(node: SyntaxNode) -> SyntaxNode | None:
     """The last child that is no token."""
     return node.named_children[-1] if node.named_children else None
-
-
-def span(node: SyntaxNode) -> Span:
-    """The place of a node: bytes, which are characters here."""
-    return Span(node.start_byte, node.end_byte)

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.parsing import SyntaxNode, span
 
-from .expressions import DEEPEST, Expressions, block, span
+from .expressions import DEEPEST, Expressions, block
 from .terms import BIND, BLOCK, CALL, CASES, DO, FUNC, GUARD, IF, LEAVE, LET, LOOP, NAME, OTHER, RETURN, SET, Function, Parameter, Term
-
-if TYPE_CHECKING:
-    from tree_sitter import Node as SyntaxNode
 
 MOST_ARMS = 50
 """Of one chain of else-ifs."""

@@ -31,12 +31,10 @@ A condition is an expression, or (BIND, name, expression or None, at) for `let n
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from msaa_lint.core.text.span import Span
-
-if TYPE_CHECKING:
-    from tree_sitter import Node as SyntaxNode
+from msaa_lint.input.code.parsing import SyntaxNode
 
 Term = tuple[Any, ...]
 
