@@ -22,21 +22,10 @@ NUMBER = re.compile(r"(0[xX][0-9a-fA-F']+|0[bB][01']+|[0-9][0-9']*)[uUlLzZ]*")
 REAL = re.compile(r"[0-9']*\.?[0-9']*(?:[eE][-+]?[0-9]+)?[fFlL]?")
 
 
-NAMES = frozenset(
-    {
-        "identifier",
-        "field_identifier",
-        "type_identifier",
-        "qualified_identifier",
-        "namespace_identifier",
-        "this",
-        "template_function",
-        "primitive_type",
-        "template_type",
-        "template_method",
-        "dependent_name",
-    }
-)
+NAMES = frozenset({
+    "identifier", "field_identifier", "type_identifier", "qualified_identifier", "namespace_identifier", "this", "template_function",
+    "primitive_type", "template_type", "template_method", "dependent_name",
+})  # fmt: skip
 
 
 CLASSES = frozenset({"class_specifier", "struct_specifier", "union_specifier"})

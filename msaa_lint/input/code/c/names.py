@@ -88,18 +88,10 @@ MEMBERS: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 """The members of structures in their order, without sType and pNext."""
 
-WITHOUT_TYPE = frozenset(
-    {
-        "AttachmentDescription",
-        "AttachmentReference",
-        "SubpassDescription",
-        "SubpassDependency",
-        "PipelineColorBlendAttachmentState",
-        "PhysicalDeviceFeatures",
-        "Extent3D",
-        "Extent2D",
-    }
-)
+WITHOUT_TYPE = frozenset({
+    "AttachmentDescription", "AttachmentReference", "SubpassDescription", "SubpassDependency", "PipelineColorBlendAttachmentState",
+    "PhysicalDeviceFeatures", "Extent3D", "Extent2D",
+})  # fmt: skip
 """Those that have no sType and no pNext."""
 
 VERSIONED = {

@@ -23,22 +23,10 @@ RELEVANT = re.compile(
 
 VIRTUAL = re.compile(r"\b(?:virtual|override)\b")
 
-CONTAINERS = frozenset(
-    {
-        "translation_unit",
-        "namespace_definition",
-        "declaration_list",
-        "linkage_specification",
-        "template_declaration",
-        "preproc_if",
-        "preproc_ifdef",
-        "preproc_else",
-        "preproc_elif",
-        "preproc_elifdef",
-        "ERROR",
-        "export_declaration",
-    }
-)
+CONTAINERS = frozenset({
+    "translation_unit", "namespace_definition", "declaration_list", "linkage_specification", "template_declaration", "preproc_if",
+    "preproc_ifdef", "preproc_else", "preproc_elif", "preproc_elifdef", "ERROR", "export_declaration",
+})  # fmt: skip
 
 
 def unit(code: Code, root: SyntaxNode, sections: tuple[Section, ...] = ()) -> Unit:

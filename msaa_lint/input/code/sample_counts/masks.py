@@ -11,20 +11,11 @@ from msaa_lint.input.code.parsing import SyntaxNode, span
 from .arithmetic import arithmetic, whole
 from .statements import DEEPEST, unwrapped
 
-LIMITS = frozenset(
-    {
-        "framebufferColorSampleCounts",
-        "framebufferDepthSampleCounts",
-        "framebufferStencilSampleCounts",
-        "framebufferNoAttachmentsSampleCounts",
-        "framebufferIntegerColorSampleCounts",
-        "sampledImageColorSampleCounts",
-        "sampledImageIntegerSampleCounts",
-        "sampledImageDepthSampleCounts",
-        "sampledImageStencilSampleCounts",
-        "storageImageSampleCounts",
-    }
-)
+LIMITS = frozenset({
+    "framebufferColorSampleCounts", "framebufferDepthSampleCounts", "framebufferStencilSampleCounts",
+    "framebufferNoAttachmentsSampleCounts", "framebufferIntegerColorSampleCounts", "sampledImageColorSampleCounts",
+    "sampledImageIntegerSampleCounts", "sampledImageDepthSampleCounts", "sampledImageStencilSampleCounts", "storageImageSampleCounts",
+})  # fmt: skip
 """The members of VkPhysicalDeviceLimits, and of VkPhysicalDeviceVulkan12Properties, that are masks of counts."""
 
 COUNTS = (64, 32, 16, 8, 4, 2, 1)

@@ -14,18 +14,10 @@ DEEPEST = 40
 
 _NUMBER = re.compile(r"0[xX][0-9a-fA-F_]{1,16}|0[bB][01_]{1,64}|0[oO][0-7_]{1,22}|[0-9][0-9_]{0,18}")
 _WRAPPERS = {"try_expression": "expr", "as_expression": "expr", "await_expression": "expr", "postfix_expression": "target"}
-_BINARY = frozenset(
-    {
-        "comparison_expression",
-        "equality_expression",
-        "additive_expression",
-        "multiplicative_expression",
-        "bitwise_operation",
-        "conjunction_expression",
-        "disjunction_expression",
-        "infix_expression",
-    }
-)
+_BINARY = frozenset({
+    "comparison_expression", "equality_expression", "additive_expression", "multiplicative_expression", "bitwise_operation",
+    "conjunction_expression", "disjunction_expression", "infix_expression",
+})  # fmt: skip
 
 
 class Expressions:
