@@ -108,23 +108,23 @@ def read(source: "Source", language: str) -> Program:
     if language == "markdown":
         from .fences import codes
 
-        found = codes(source.text)
+        codes_found = codes(source.text)
     else:
-        found = (Code(ascii_only(source.text), language),)
-    if found and not installed():
+        codes_found = (Code(ascii_only(source.text), language),)
+    if codes_found and not installed():
         raise Missing(EXTRA)
     from .documents import bound
 
-    by_code = [(code, list(_reads(code))) for code in found]
+    by_code = [(code, list(_reads(code))) for code in codes_found]
     shaders = [code for code, _ in by_code if code.language == "glsl"]
     if shaders and len(by_code) > 1:
         from .glsl.description_trees import beside
 
         by_code = beside(by_code)
-    reads = [each for _, own in by_code for each in own]
-    pieces = any(code.fragments for code in found)
-    documents = tuple(bound(source, each.tree, pieces)._replace(modules=each.modules) for each in reads)
-    return Program(documents, tuple(_said(each.assumed, source) for each in reads), found)
+    reads = [entry for _, item in by_code for entry in item]
+    pieces = any(code.fragments for code in codes_found)
+    documents = tuple(bound(source, read.tree, pieces)._replace(modules=read.modules) for read in reads)
+    return Program(documents, tuple(_said(read.assumed, source) for read in reads), codes_found)
 
 
 def _reads(code: "Code") -> "Iterator[Read]":
@@ -135,8 +135,8 @@ def _reads(code: "Code") -> "Iterator[Read]":
     if not any(word in lowered for word in WORDS):
         return
     module = import_module(f".{MODULES[code.language]}", __package__)
-    for each in module.trees(code):
-        yield each if isinstance(each, Read) else Read(each)
+    for tree in module.trees(code):
+        yield tree if isinstance(tree, Read) else Read(tree)
 
 
 MOST_ASSUMED = 3

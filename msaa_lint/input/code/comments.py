@@ -49,31 +49,31 @@ _BEFORE = re.compile(r"[ \t]*\**[ \t]*")
 def comments(codes: Sequence[Code]) -> Comments:
     """The comments of code, in order. One that goes over several lines gives one for each; the `//` or `/*` is a `# ` in them, and what
     closes one is left out, so that offsets hold."""
-    found: list[Comment] = []
+    lines: list[Comment] = []
     alone: set[int] = set()
     for code in codes:
-        _read(code, found, alone)
-    return Comments(tuple(sorted(found)), frozenset(alone))
+        _read(code, lines, alone)
+    return Comments(tuple(sorted(lines)), frozenset(alone))
 
 
-def _read(code: Code, found: list[Comment], alone: set[int]) -> None:
+def _read(code: Code, lines: list[Comment], alone: set[int]) -> None:
     text = code.text
     # Lines count from 1.
     starts = [0, 0, *(match.end() for match in re.finditer(r"\r\n|\r|\n", text)), len(text) + 1]
-    line, done, clean = 1, 0, True
+    line, position, clean = 1, 0, True
     for start, end in spans(code):
-        found.extend(_lines(text, start, end))
+        lines.extend(_lines(text, start, end))
         if starts[line + 1] <= start:
             while starts[line + 1] <= start:
                 line += 1
-            done, clean = starts[line], True
-        clean = clean and not text[done:start].strip()
+            position, clean = starts[line], True
+        clean = clean and not text[position:start].strip()
         while starts[line + 1] < end:
             if clean:
                 alone.add(line)
             line += 1
             clean = True
-        done = end
+        position = end
         rest = _BLANKS.match(text, end)
         if clean and rest is not None and (rest.end() == len(text) or text[rest.end()] in "\r\n"):
             alone.add(line)
@@ -112,14 +112,14 @@ def _lines(text: str, start: int, end: int) -> Iterator[Comment]:
     """The lines of a comment."""
     stop = end - 2 if text.startswith("/*", start) and end - start >= 4 and text.startswith("*/", end - 2) else end
     for match in re.finditer(r"[^\r\n]+", text[start:stop]):
-        at, said = start + match.start(), match[0].rstrip()
+        at, line = start + match.start(), match[0].rstrip()
         if at == start:
-            yield Comment(Span(at, at + len(said)), "# " + said[2:])
+            yield Comment(Span(at, at + len(line)), "# " + line[2:])
             continue
-        before = _BEFORE.match(said)
+        before = _BEFORE.match(line)
         assert before is not None
         # What stands at the margin has nothing before it that could be the `#`.
-        if 0 < before.end() < len(said):
+        if 0 < before.end() < len(line):
             at += before.end() - 1
-            rest = said[before.end() :]
+            rest = line[before.end() :]
             yield Comment(Span(at, at + 1 + len(rest)), "#" + rest)

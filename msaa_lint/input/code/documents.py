@@ -32,9 +32,9 @@ def _read(source: Source, tree: Node) -> Document:
     if tree.kind == "mapping" and ("metal" in tree.value or "renderTargets" in tree.value):
         return description.read(source, tree)
     binder = Binder(dumped=True)
-    made: Description = binder.record(Description, tree, "", "", tree.span)
-    description.check_names(binder, made)
-    return Document(source, made, tuple(binder.problems))
+    record: Description = binder.record(Description, tree, "", "", tree.span)
+    description.check_names(binder, record)
+    return Document(source, record, tuple(binder.problems))
 
 
 MOST_DEEP = 60
@@ -56,9 +56,9 @@ def _copy(node: Node, path: str, wrong: set[str], depth: int) -> tuple[Node, boo
         return copied, any(bad for _, bad in items)
     if node.kind != "mapping":
         return node, False
-    kept = []
+    members = []
     for key, value in node.value.items():
         inner, bad = _copy(value, f"{path}.{shortened(key)}" if path else shortened(key), wrong, depth + 1)
         if not bad:
-            kept.append((key, node.keys[key].span, inner))
-    return mapping(kept, node.span), False
+            members.append((key, node.keys[key].span, inner))
+    return mapping(members, node.span), False

@@ -40,21 +40,21 @@ class Block(NamedTuple):
 
 def codes(text: str) -> tuple[Code, ...]:
     """The code of a page, one for each language, in the order in which they come; an ellipsis that stands for what is left out is blank."""
-    found: dict[str, list[tuple[int, int]]] = {}
+    lines_by_language: dict[str, list[tuple[int, int]]] = {}
     for block in blocks(text):
-        found.setdefault(block.language, []).extend(block.lines)
-    return tuple(Code(_only(text, lines), language, True) for language, lines in found.items())
+        lines_by_language.setdefault(block.language, []).extend(block.lines)
+    return tuple(Code(_only(text, lines), language, True) for language, lines in lines_by_language.items())
 
 
 def _only(text: str, lines: list[tuple[int, int]]) -> str:
     parts = []
-    done = 0
+    position = 0
     for start, end in lines:
-        parts.append(_VISIBLE.sub(" ", text[done:start]))
-        kept = text[start:end]
-        parts.append(" " * len(kept) if _LEFT_OUT.fullmatch(kept) else ascii_only(kept))
-        done = end
-    parts.append(_VISIBLE.sub(" ", text[done:]))
+        parts.append(_VISIBLE.sub(" ", text[position:start]))
+        line = text[start:end]
+        parts.append(" " * len(line) if _LEFT_OUT.fullmatch(line) else ascii_only(line))
+        position = end
+    parts.append(_VISIBLE.sub(" ", text[position:]))
     return "".join(parts)
 
 
@@ -97,8 +97,8 @@ def _inside(text: str, start: int, end: int, around: list[int]) -> int | None:
     """Where a line of a block begins within the containers of the block; None where one of them has ended. The containers that have are
     taken away."""
     at = start
-    for number, each in enumerate(around):
-        if each == QUOTE:
+    for number, container in enumerate(around):
+        if container == QUOTE:
             quote = _QUOTE.match(text, at, end)
             if quote is None:
                 del around[number:]
@@ -106,12 +106,12 @@ def _inside(text: str, start: int, end: int, around: list[int]) -> int | None:
             at = quote.end()
         elif text[at:end].strip():
             indent = _blanks(text, at, end)
-            if indent < each:
+            if indent < container:
                 del around[number:]
                 return None
-            at += each
+            at += container
         else:
-            at = min(at + each, end)
+            at = min(at + container, end)
     return at
 
 
@@ -120,16 +120,16 @@ def _entered(text: str, start: int, end: int, around: list[int]) -> int | None:
     at = start
     number = 0
     while number < len(around):
-        each = around[number]
-        if each == QUOTE:
+        container = around[number]
+        if container == QUOTE:
             quote = _QUOTE.match(text, at, end)
             if quote is None:
                 break
             at = quote.end()
         elif not text[at:end].strip():
             return None
-        elif _blanks(text, at, end) >= each:
-            at += each
+        elif _blanks(text, at, end) >= container:
+            at += container
         else:
             break
         number += 1

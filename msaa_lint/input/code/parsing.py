@@ -79,12 +79,12 @@ def tree(code: Code) -> "Tree":
         # tree-sitter-glsl hands over its grammar in the old way.
         warnings.simplefilter("ignore", DeprecationWarning)
         parser = Parser(Language(grammar.language()))
-    asked = 0
+    calls = 0
 
     def stop(_offset: int, _has_error: bool) -> bool:
-        nonlocal asked
-        asked += 1
-        return asked > MOST_WORK
+        nonlocal calls
+        calls += 1
+        return calls > MOST_WORK
 
     try:
         return parser.parse(lambda offset, _point: data[offset : offset + _CHUNK], progress_callback=stop)

@@ -38,29 +38,29 @@ class Calls(Objects):
             closure = self.closure(name, around)
             if closure is not None:
                 return self.follow(closure.parameters, closure.body, around.within, closure.scopes, term, around)
-        own = self.own(name, len(arguments), function, around)
-        me = self.object_of(own, owner, around) if own is not None and own.within else None
-        if own is not None and me is not OTHERS and self.may_follow(own, place, around):
-            return self.of_own(own, term, around, me)
+        callee = self.own(name, len(arguments), function, around)
+        me = self.object_of(callee, owner, around) if callee is not None and callee.within else None
+        if callee is not None and me is not OTHERS and self.may_follow(callee, place, around):
+            return self.of_own(callee, term, around, me)
         if owner is None:
-            if function[0] == NAME and (made := self.object_made(function[1], term, around)) is not None:
-                return made
+            if function[0] == NAME and (instance := self.object_made(function[1], term, around)) is not None:
+                return instance
             kind = structure(function[1]) if function[0] == NAME else ""
             if kind:
                 return self.constructed(kind, arguments, place, around, function[1].startswith(("vk::", "VULKAN")))
             if name == "to_array" and len(arguments) == 1 and arguments[0][0] == BRACES:
                 return self.listed(function[1].partition("<")[2].rstrip(">"), arguments[0][2], place, around)
             if name in ("make_array", "makeArray") and arguments:
-                return self.listed("", [(None, each) for each in arguments], place, around)
+                return self.listed("", [(None, item) for item in arguments], place, around)
             if function[0] == NAME and len(arguments) == 1 and _CAST.match(function[1]):
                 return self.run.value(arguments[0], around)
             inner = elements(function[1]) if function[0] == NAME else None
             if inner is not None:
                 return self.sized(inner, arguments, place, around)
         else:
-            found = self.method(owner, name, arguments, place, around)
-            if found is not None:
-                return found
+            value = self.method(owner, name, arguments, place, around)
+            if value is not None:
+                return value
         if name == "memset" and len(arguments) == 3:
             return self.zeroed(arguments, around)
         if name in ("min", "max", "MIN", "MAX") and len(arguments) == 2:
@@ -82,29 +82,31 @@ class Calls(Objects):
         every = self.run.functions.get(name)
         if not every:
             return None
-        fitting = [f for f in every if sum(p.default is None for p in f.parameters) <= count <= len(f.parameters)]
-        if len(fitting) > 1 and not self.run.fragments:
+        overloads = [f for f in every if sum(p.default is None for p in f.parameters) <= count <= len(f.parameters)]
+        if len(overloads) > 1 and not self.run.fragments:
             scope = str(function[1]).rpartition("::")[0] if function[0] == NAME else ""
             within = around.within
             if function[0] == FIELD and function[1][:2] != (NAME, "this"):
                 return None
             if scope:
-                fitting = [f for f in fitting if f"{f.within or f.space.rstrip(':')}".endswith(scope)]
+                overloads = [f for f in overloads if f"{f.within or f.space.rstrip(':')}".endswith(scope)]
             else:
-                fitting = [f for f in fitting if f.within == within] or [f for f in fitting if not f.within and f.space == around.space]
-        fitting = [f for f in fitting if not f.open]
-        return fitting[-1] if len(fitting) == 1 or (fitting and self.run.fragments) else None
+                overloads = [f for f in overloads if f.within == within] or [
+                    f for f in overloads if not f.within and f.space == around.space
+                ]
+        overloads = [f for f in overloads if not f.open]
+        return overloads[-1] if len(overloads) == 1 or (overloads and self.run.fragments) else None
 
-    def object_of(self, own: Function, owner: Term | None, around: Around) -> Cell | None:
+    def object_of(self, function: Function, owner: Term | None, around: Around) -> Cell | None:
         """The object whose method is called: None where that is not known, OTHERS where it is of another class."""
         if owner is None or owner[:2] == (NAME, "this"):
-            return around.me if own.within == around.within else None
+            return around.me if function.within == around.within else None
         cell = self.run.place(owner, around) if owner[0] != CALL else None
         if cell is None:
             return None
         kind = self.run.type_of(cell)
-        short = own.within.rpartition("::")[2]
-        if kind and kind != "auto" and short not in kind and self.run.class_of(kind, around.space) != own.within:
+        short = function.within.rpartition("::")[2]
+        if kind and kind != "auto" and short not in kind and self.run.class_of(kind, around.space) != function.within:
             return OTHERS
         known = cell.kind == MEMBER or isinstance(pointee(one(cell.read(around.guards))), Struct)
         return cell if known else None
@@ -112,25 +114,25 @@ class Calls(Objects):
     def object_made(self, kind: str, term: Term, around: Around) -> Value | None:
         """An object of a class of the file's, by its constructor; None where it is none, or there are several that fit."""
         inner = _OWNED.match(kind)
-        found = self.run.class_of(inner[1] if inner is not None else kind, around.space)
-        if found is None:
+        class_name = self.run.class_of(inner[1] if inner is not None else kind, around.space)
+        if class_name is None:
             return None
         count = len(term[2])
-        fitting = [
-            each
-            for each in self.run.functions.get(found.rpartition("::")[2], ())
-            if each.within == found and sum(p.default is None for p in each.parameters) <= count <= len(each.parameters)
+        constructors = [
+            item
+            for item in self.run.functions.get(class_name.rpartition("::")[2], ())
+            if item.within == class_name and sum(p.default is None for p in item.parameters) <= count <= len(item.parameters)
         ]
-        if len(fitting) != 1 or not self.may_follow(fitting[0], term[3], around):
+        if len(constructors) != 1 or not self.may_follow(constructors[0], term[3], around):
             return None
-        made = Struct("", term[3], False)
-        me = Cell(found, "", (Alternative(made, term[3]),))
-        self.of_own(fitting[0], term, around, me)
-        return (Alternative(made, term[3]),)
+        struct = Struct("", term[3], False)
+        me = Cell(class_name, "", (Alternative(struct, term[3]),))
+        self.of_own(constructors[0], term, around, me)
+        return (Alternative(struct, term[3]),)
 
-    def may_follow(self, own: Function, place: Span, around: Around) -> bool:
+    def may_follow(self, function: Function, place: Span, around: Around) -> bool:
         """Whether a call is followed: not too deep, not in a circle, and not again and again by other ways."""
-        if len(around.calls) >= MOST_CALLS or own.at in around.within_calls:
+        if len(around.calls) >= MOST_CALLS or function.at in around.within_calls:
             return False
         self.followed[place] = self.followed.get(place, 0) + 1
         return self.followed[place] <= MOST_WAYS
@@ -144,9 +146,9 @@ class Calls(Objects):
         if (len(value) >= 3 and counts and counts <= {1, 2, 4, 8, 16, 32, 64}) or (COUNTS.search(function.name) and not counts):
             return (Alternative(Symbol(f"{function.name}()", function.name, True), term[-1]),)
         if self.run.fragments and len(self.met) == before:
-            made = self.by_types(function, term, around)
-            if made is not None:
-                return made
+            image = self.by_types(function, term, around)
+            if image is not None:
+                return image
         if not value and VIEW.search(function.name):
             return self.viewed([self.run.value(a, around) for a in term[2]], term, around) or UNKNOWN_VALUE
         return value
@@ -160,7 +162,7 @@ class Calls(Objects):
         term: Term,
         around: Around,
         returns: str = "",
-        own: Function | None = None,
+        function: Function | None = None,
         me: Cell | None = None,
     ) -> Value:
         """Goes through a function with the arguments of a call."""
@@ -172,12 +174,12 @@ class Calls(Objects):
                 value = self.run.value(parameter.default, around, parameter.type)
                 cells[parameter.name] = Cell(parameter.type, parameter.name, value, f"default({parameter.name})")
         inner = Around(within, (*scopes, cells), around.guards, (*around.calls, term[3]))
-        inner.space = around.space if own is None else own.space
-        inner.within_calls = around.within_calls if own is None else (*around.within_calls, own.at)
+        inner.space = around.space if function is None else function.space
+        inner.within_calls = around.within_calls if function is None else (*around.within_calls, function.at)
         inner.loops = around.loops
         inner.returns = returns
         inner.turns = around.turns
-        inner.me = me if own is not None else around.me
+        inner.me = me if function is not None else around.me
         self.run.block(body, inner)
         base = around.guards
         returned = [Alternative(a.value, a.at, a.guards - base) for a in inner.returned]
@@ -185,21 +187,21 @@ class Calls(Objects):
             return UNKNOWN_VALUE
         return tuple(returned)
 
-    def bound(self, parameter: Parameter, given: Term, around: Around) -> Cell:
+    def bound(self, parameter: Parameter, term: Term, around: Around) -> Cell:
         """The cell of a parameter: the argument's own, where that is handed over by reference."""
-        if parameter.by_reference and given[0] in (NAME, FIELD, INDEX):
-            cell = self.run.place(given, around)
+        if parameter.by_reference and term[0] in (NAME, FIELD, INDEX):
+            cell = self.run.place(term, around)
             if cell is not None and not isinstance(one(cell.writes), Ref):
                 return cell
-        value = self.run.value(given, around, parameter.type)
-        made = Cell(parameter.type, parameter.name, key=f"argument({parameter.name})")
+        value = self.run.value(term, around, parameter.type)
+        parameter_cell = Cell(parameter.type, parameter.name, key=f"argument({parameter.name})")
         if parameter.by_reference:
-            made.writes = value
+            parameter_cell.writes = value
         else:
-            made.writes = copies(value)
+            parameter_cell.writes = copies(value)
         if not value:
-            made.writes = (Alternative(UNKNOWN, given[-1]),)
-        return made
+            parameter_cell.writes = (Alternative(UNKNOWN, term[-1]),)
+        return parameter_cell
 
     def least(self, name: str, arguments: Sequence[Term], place: Span, around: Around) -> Value:
         left, right = (one(self.run.value(a, around)) for a in arguments)

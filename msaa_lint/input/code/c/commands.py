@@ -15,15 +15,15 @@ from .values import UNKNOWN, Struct, Symbol, Value, VulkanObject, one
 class Commands(Members):
     """Renderings and resolves as nodes."""
 
-    def rendering(self, made: VulkanObject, attached: dict[int, VulkanObject]) -> Node | None:
+    def rendering(self, vulkan_object: VulkanObject, attached: dict[int, VulkanObject]) -> Node | None:
         """A dynamic rendering."""
-        info = made.info
+        info = vulkan_object.info
         assert info is not None
         colors = self.structs(info, "colorAttachments")
         if colors is None or any(color is None for color in colors) or not (info.zeroed or "colorAttachments" in info.fields):
             return None
         nodes = [self.rendered(color, attached) for color in colors if color is not None]
-        head = head_of(made.at)
+        head = head_of(vulkan_object.at)
         items: list[Item] = []
         if nodes:
             items.append(("colorAttachments", head, sequence([node for node in nodes if node is not None], head)))
@@ -80,8 +80,8 @@ class Commands(Members):
             else f"image at {at.start}"
         )
         if key not in self.strangers:
-            said = value.name if isinstance(value, (Symbol, VulkanObject)) else ""
-            name = self.unique(said.rpartition("::")[2].strip("*&") or "image")
+            label = value.name if isinstance(value, (Symbol, VulkanObject)) else ""
+            name = self.unique(label.rpartition("::")[2].strip("*&") or "image")
             self.strangers[key] = (name, at, mapping((), at))
         return self.strangers[key][0]
 

@@ -41,7 +41,7 @@ def worded(term: Term, names: dict[str, str] = NO_NAMES) -> str:
     if tag == INDEX:
         return f"{worded(term[1], names)}[{worded(term[2], names)}]"
     if tag == CALL:
-        return f"{worded(term[1], names)}({','.join(worded(each, names) for each in term[2])})"
+        return f"{worded(term[1], names)}({','.join(worded(item, names) for item in term[2])})"
     if tag == BINARY:
         return f"({worded(term[2], names)}{term[1]}{worded(term[3], names)})"
     if tag in (ADDRESS, TARGET):
@@ -91,37 +91,37 @@ class Conditions(Places):
         if kind == BINARY and term[1] in ("==", "!=", ">", "<", ">=", "<="):
             return self.comparison(term, around)
         value = self.value(term, around)
-        known = one(value)
-        if isinstance(known, (bool, int, float)):
-            return bool(known)
+        constant = one(value)
+        if isinstance(constant, (bool, int, float)):
+            return bool(constant)
         if len(value) == 2 and {a.value for a in value if isinstance(a.value, bool)} == {True, False}:
             way = next(a for a in value if a.value is True).guards - around.guards
             if way:
                 return way
-        if known is None and value:
+        if constant is None and value:
             return False
-        if isinstance(known, VulkanObject):
+        if isinstance(constant, VulkanObject):
             return True
-        return frozenset({(key_of(known) or self.said(term, around), True)})
+        return frozenset({(key_of(constant) or self.said(term, around), True)})
 
     def said(self, term: Term, around: Around) -> str:
         """A condition in words, the same wherever it is the same: numbers that are known stand for their variables."""
         names: dict[str, str] = {}
-        waiting = [term]
-        while waiting:
-            each = waiting.pop()
-            if each[0] == NAME:
-                known = one(self.value(each, around))
-                if type(known) is int:
-                    names[each[1]] = str(known)
+        stack = [term]
+        while stack:
+            subterm = stack.pop()
+            if subterm[0] == NAME:
+                value = one(self.value(subterm, around))
+                if type(value) is int:
+                    names[subterm[1]] = str(value)
             else:
-                waiting += [
+                stack += [
                     part
-                    for part in each[1:-1]
+                    for part in subterm[1:-1]
                     if isinstance(part, tuple) and part and isinstance(part[0], int) and not isinstance(part, Span)
                 ]
-                if each[0] == CALL:
-                    waiting += each[2]
+                if subterm[0] == CALL:
+                    stack += subterm[2]
         return worded(term, names)
 
     def comparison(self, term: Term, around: Around) -> bool | Guards:

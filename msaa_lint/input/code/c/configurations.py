@@ -58,26 +58,26 @@ class World:
         slots = list(self.sample_slots())
         for value in slots:
             # Of several counts the one that every device has, else the least.
-            several = [each for each in value if type(each.value) is int and each.value > 1]
-            for each in sorted(several, key=lambda a: (a.value != ASSUMED, a.value)):
-                self.take(each.guards)
+            several = [item for item in value if type(item.value) is int and item.value > 1]
+            for alternative in sorted(several, key=lambda a: (a.value != ASSUMED, a.value)):
+                self.take(alternative.guards)
         for value in slots:
-            for each in value:
-                if isinstance(each.value, Symbol) and each.value.chosen:
-                    self.several(each.value, each.guards)
+            for alternative in value:
+                if isinstance(alternative.value, Symbol) and alternative.value.chosen:
+                    self.several(alternative.value, alternative.guards)
         for subpass in self.every_subpass():
             for write in subpass.fields["resolveAttachments"].writes if "resolveAttachments" in subpass.fields else ():
                 if isinstance(write.value, (Ref, Array)):
                     self.take(write.guards)
         for value in self.resolved_slots():
-            for each in value:
-                if isinstance(each.value, Symbol):
-                    self.several(each.value, each.guards)
+            for alternative in value:
+                if isinstance(alternative.value, Symbol):
+                    self.several(alternative.value, alternative.guards)
 
     def every_subpass(self) -> Iterator[Struct]:
-        for made in self.met:
-            if made.kind == "renderPass" and made.info is not None:
-                yield from (each for each in self.structs(made.info, "subpasses") or () if each is not None)
+        for vulkan_object in self.met:
+            if vulkan_object.kind == "renderPass" and vulkan_object.info is not None:
+                yield from (struct for struct in self.structs(vulkan_object.info, "subpasses") or () if struct is not None)
 
     def several(self, symbol: Symbol, guards: Iterable[tuple[str, bool]]) -> None:
         if self.take(guards):
@@ -100,26 +100,26 @@ class World:
         return True
 
     def sample_slots(self) -> Iterator[Value]:
-        for made in self.met:
-            if made.info is None:
+        for vulkan_object in self.met:
+            if vulkan_object.info is None:
                 continue
             for name in ("samples", "rasterizationSamples"):
-                if name in made.info.fields:
-                    yield made.info.fields[name].writes
-            if made.kind == "renderPass" and "attachments" in made.info.fields:
-                for attachment in _inner(made.info.fields["attachments"], 0):
+                if name in vulkan_object.info.fields:
+                    yield vulkan_object.info.fields[name].writes
+            if vulkan_object.kind == "renderPass" and "attachments" in vulkan_object.info.fields:
+                for attachment in _inner(vulkan_object.info.fields["attachments"], 0):
                     if "samples" in attachment.fields:
                         yield attachment.fields["samples"].writes
-            state = self.struct(made.info, "multisampleState")
+            state = self.struct(vulkan_object.info, "multisampleState")
             if state is not None and "rasterizationSamples" in state.fields:
                 yield state.fields["rasterizationSamples"].writes
 
     def resolved_slots(self) -> Iterator[Value]:
         """The counts of attachments that are resolved: a program that may do that has several samples there."""
-        for made in self.met:
-            if made.kind == "renderPass" and made.info is not None:
-                attachments = self.structs(made.info, "attachments") or []
-                for subpass in self.structs(made.info, "subpasses") or ():
+        for vulkan_object in self.met:
+            if vulkan_object.kind == "renderPass" and vulkan_object.info is not None:
+                attachments = self.structs(vulkan_object.info, "attachments") or []
+                for subpass in self.structs(vulkan_object.info, "subpasses") or ():
                     colors = self.structs(subpass, "colorAttachments") if subpass is not None else None
                     targets = self.structs(subpass, "resolveAttachments") if subpass is not None else None
                     for color, target in zip(colors or (), targets or (), strict=False):
@@ -128,17 +128,17 @@ class World:
                             source = attachments[index]
                             if source is not None and "samples" in source.fields:
                                 yield source.fields["samples"].writes
-            if made.kind == "rendering" and made.info is not None:
-                for attachment in self.structs(made.info, "colorAttachments") or ():
+            if vulkan_object.kind == "rendering" and vulkan_object.info is not None:
+                for attachment in self.structs(vulkan_object.info, "colorAttachments") or ():
                     if attachment is None or self.known(attachment, "resolveMode") in (None, 0, "VK_RESOLVE_MODE_NONE", "NONE"):
                         continue
                     image = self.image_of(attachment, "imageView")
                     if image is not None and image.info is not None and "samples" in image.info.fields:
                         yield image.info.fields["samples"].writes
 
-    def excluded(self, made: VulkanObject) -> bool:
+    def excluded(self, vulkan_object: VulkanObject) -> bool:
         """Whether something is only made in another world."""
-        return any(self.world.get(text, way) is not way for text, way in made.guards)
+        return any(self.world.get(text, way) is not way for text, way in vulkan_object.guards)
 
     def settle(self, value: Value) -> Value:
         return settled(value, self.world)
@@ -149,13 +149,13 @@ class World:
         if cell is None or not cell.writes:
             # A structure without what it cannot do without was filled in in some way that is not understood.
             needs = NEEDS.get(first_version(struct.kind), ())
-            told = struct.zeroed and cell is None and all(need in struct.fields for need in needs)
-            return (None if told else UNKNOWN), struct.at
+            is_zero = struct.zeroed and cell is None and all(need in struct.fields for need in needs)
+            return (None if is_zero else UNKNOWN), struct.at
         value = self.settle(cell.writes)
         if struct.zeroed and value and all(a.guards for a in value):
             return UNKNOWN, struct.at
-        known = one(value)
-        return known, value[-1].at if value else struct.at
+        constant = one(value)
+        return constant, value[-1].at if value else struct.at
 
     def known(self, struct: Struct, name: str) -> Any:
         value = self.get(struct, name)[0]
@@ -184,23 +184,23 @@ class World:
             return [value]
         if not isinstance(value, Array) or not value.whole:
             return None
-        made: list[Struct | None] = []
+        structs: list[Struct | None] = []
         for cell in value.items:
             writes = self.settle(cell.writes)
             if cell.writes and not writes:
                 # Only there in another world.
                 continue
-            if writes and all(each.guards for each in writes):
+            if writes and all(write.guards for write in writes):
                 return None
             item = self.aimed(one(writes))
-            made.append(item if isinstance(item, Struct) else None)
+            structs.append(item if isinstance(item, Struct) else None)
         counted = COUNTS.get(name, "")
         count = self.known(struct, counted)
-        if type(count) is int and 0 <= count <= len(made):
-            return made[:count]
-        stated = struct.fields.get(counted)
+        if type(count) is int and 0 <= count <= len(structs):
+            return structs[:count]
+        count_cell = struct.fields.get(counted)
         # How many there are hangs on something else.
-        return None if stated is not None and len(self.settle(stated.writes)) > 1 else made
+        return None if count_cell is not None and len(self.settle(count_cell.writes)) > 1 else structs
 
     def count_of(self, value: Any, at: Span) -> int | None:
         """A sample count; an unknown one that is several is taken for the count that every device has."""
@@ -216,8 +216,8 @@ class World:
         if cell is None or not cell.writes:
             return None, struct.at
         counts = {(self.count_of(a.value, a.at), a.at) for a in self.settle(cell.writes)}
-        found = {count for count, _ in counts}
-        return (found.pop() if len(found) == 1 else None), max(at for _, at in counts) if counts else struct.at
+        numbers = {count for count, _ in counts}
+        return (numbers.pop() if len(numbers) == 1 else None), max(at for _, at in counts) if counts else struct.at
 
     def image_of(self, struct: Struct, name: str) -> VulkanObject | None:
         """The image of a view that a member names."""
@@ -230,9 +230,9 @@ class World:
             return self.first(image) if isinstance(image, VulkanObject) and image.kind == "image" and not self.excluded(image) else None
         return None
 
-    def first(self, made: VulkanObject) -> VulkanObject:
+    def first(self, vulkan_object: VulkanObject) -> VulkanObject:
         """The first of the objects that one call makes alike, wherever the function around it is called."""
-        return self.alike.setdefault((made.name, made.signature()), made)
+        return self.alike.setdefault((vulkan_object.name, vulkan_object.signature()), vulkan_object)
 
 
 def _inner(cell: Cell, depth: int) -> Iterator[Struct]:

@@ -14,9 +14,9 @@ from .terms import BRACES, CALL, DECLARE, LITERAL, NAME, Parameter, Term
 class Declarations(Expressions):
     """Declarations of one text."""
 
-    def parameters(self, listed: SyntaxNode | None) -> tuple[Parameter, ...]:
-        found = []
-        for node in listed.named_children if listed is not None else ():
+    def parameters(self, list_node: SyntaxNode | None) -> tuple[Parameter, ...]:
+        parameters = []
+        for node in list_node.named_children if list_node is not None else ():
             if node.type not in ("parameter_declaration", "optional_parameter_declaration", "variadic_parameter_declaration"):
                 continue
             kind, declarator = node.child_by_field_name("type"), node.child_by_field_name("declarator")
@@ -24,10 +24,10 @@ class Declarations(Expressions):
             name, _, by_reference = self.declarator(declarator)
             text = self.type_text(kind) if kind is not None else ""
             fixed = any(c.type == "type_qualifier" and self.of(c) == "const" for c in node.named_children)
-            found.append(Parameter(text, name, by_reference, self.expression(default, 0) if default is not None else None, fixed))
-        if len(found) == 1 and found[0].type == "void" and not found[0].name:
-            found.clear()
-        return tuple(found)
+            parameters.append(Parameter(text, name, by_reference, self.expression(default, 0) if default is not None else None, fixed))
+        if len(parameters) == 1 and parameters[0].type == "void" and not parameters[0].name:
+            parameters.clear()
+        return tuple(parameters)
 
     def declarator(self, node: SyntaxNode | None) -> tuple[str, SyntaxNode | None, bool]:
         """The name that a declarator gives, the array's size, and whether it is a reference or a pointer."""
@@ -51,45 +51,45 @@ class Declarations(Expressions):
         kind = node.child_by_field_name("type")
         text = self.type_text(kind) if kind is not None else ""
         fixed = any(c.type == "type_qualifier" and self.of(c) in ("const", "constexpr") for c in node.named_children)
-        made: list[Term] = []
+        terms: list[Term] = []
         children = node.children
         for n, child in enumerate(children):
             field = node.field_name_for_child(n)
-            if field == "default_value" and made:
-                made[-1] = (*made[-1][:3], self.value(child, made[-1][1], depth), *made[-1][4:])
+            if field == "default_value" and terms:
+                terms[-1] = (*terms[-1][:3], self.value(child, terms[-1][1], depth), *terms[-1][4:])
             if field != "declarator":
                 continue
             value: Term | None = None
             target: SyntaxNode | None = child
-            given: SyntaxNode | None = None
+            value_node: SyntaxNode | None = None
             if child.type == "init_declarator":
                 target = child.child_by_field_name("declarator")
-                given = child.child_by_field_name("value")
+                value_node = child.child_by_field_name("value")
             elif child.type == "function_declarator":
                 if node.type != "declaration" or not self.constructs(child):
                     continue
                 target = child.child_by_field_name("declarator")
-                listed = child.child_by_field_name("parameters")
+                list_node = child.child_by_field_name("parameters")
                 at = span(child)
-                names = [self.expression(c.named_children[0], depth) for c in (listed.named_children if listed is not None else ())]
+                names = [self.expression(c.named_children[0], depth) for c in (list_node.named_children if list_node is not None else ())]
                 value = (CALL, (NAME, text, at), tuple(names), at)
             if target is not None and target.type in ("structured_binding_declarator",):
                 continue
             name, size, indirect = self.declarator(target)
             if not name:
                 continue
-            shown = target if target is not None else child
-            at = span(shown)
-            said = BLANKS.sub("", self.of(size)) if size is not None and size.type in ("number_literal", "identifier") else ""
-            whole = f"{text}[{said}]" if size is not None else text
-            value = self.value(given, whole, depth) if given is not None else value
-            made.append((DECLARE, whole, name, value, indirect, fixed, at))
-        return made
+            name_node = target if target is not None else child
+            at = span(name_node)
+            extent = BLANKS.sub("", self.of(size)) if size is not None and size.type in ("number_literal", "identifier") else ""
+            whole = f"{text}[{extent}]" if size is not None else text
+            value = self.value(value_node, whole, depth) if value_node is not None else value
+            terms.append((DECLARE, whole, name, value, indirect, fixed, at))
+        return terms
 
     def constructs(self, node: SyntaxNode) -> bool:
         """Whether what looks like the declaration of a function is an object made with arguments: `Image image(device, info);`"""
-        listed = node.child_by_field_name("parameters")
-        children = listed.named_children if listed is not None else []
+        list_node = node.child_by_field_name("parameters")
+        children = list_node.named_children if list_node is not None else []
         return bool(children) and all(
             c.type == "parameter_declaration"
             and c.named_child_count == 1
@@ -116,21 +116,21 @@ class Declarations(Expressions):
 
     def enumerated(self, node: SyntaxNode) -> list[Term]:
         """The enumerators of an enum, as constants by their own name and by the enum's."""
-        listed, owner = node.child_by_field_name("body"), node.child_by_field_name("name")
-        made: list[Term] = []
-        following = 0
-        for each in listed.named_children if listed is not None else ():
-            name, given = each.child_by_field_name("name"), each.child_by_field_name("value")
-            if each.type != "enumerator" or name is None:
+        list_node, owner = node.child_by_field_name("body"), node.child_by_field_name("name")
+        terms: list[Term] = []
+        next_node = 0
+        for child in list_node.named_children if list_node is not None else ():
+            name, value_node = child.child_by_field_name("name"), child.child_by_field_name("value")
+            if child.type != "enumerator" or name is None:
                 continue
             at = span(name)
-            term: Term = (LITERAL, following, at)
-            if given is not None:
-                term = self.expression(given, 0)
-            following = term[1] + 1 if term[0] == LITERAL and isinstance(term[1], int) else -(2**31)
+            term: Term = (LITERAL, next_node, at)
+            if value_node is not None:
+                term = self.expression(value_node, 0)
+            next_node = term[1] + 1 if term[0] == LITERAL and isinstance(term[1], int) else -(2**31)
             prefixes = ("", f"{self.of(owner)}::") if owner is not None else ("",)
-            made += [(DECLARE, "int", prefix + self.of(name), term, False, True, at) for prefix in prefixes]
-        return made
+            terms += [(DECLARE, "int", prefix + self.of(name), term, False, True, at) for prefix in prefixes]
+        return terms
 
     def value(self, node: SyntaxNode, kind: str, depth: int) -> Term:
         """What a declaration is given: braces and parentheses make an object of its type."""

@@ -36,7 +36,7 @@ def trees(code: Code) -> list[Read]:
     if not chosen:
         return [read] if read is not None else []
     start = Span(chosen[0][1].start, chosen[0][1].start)
-    made = read.tree if read is not None else mapping([], Span(0, 0))
-    items = [(key, made.keys[key].span, value) for key, value in made.value.items()]
+    node = read.tree if read is not None else mapping([], Span(0, 0))
+    items = [(key, node.keys[key].span, value) for key, value in node.value.items()]
     items.append(("sampleCountChoices", start, mapping(chosen, start)))
     return [Read(mapping(items, Span(0, 0)), read.assumed if read is not None else ())]

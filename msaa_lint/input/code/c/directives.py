@@ -43,7 +43,7 @@ def lists_cleared(text: str, root: SyntaxNode) -> tuple[str, tuple[Section, ...]
     if not root.has_error or "#if" not in text.replace(" ", ""):
         return text, ()
     torn = sorted(_mistakes(root))
-    found: list[Section] = []
+    sections: list[Section] = []
     blanked: list[tuple[int, int]] = []
     open_groups: list[list[re.Match[str]]] = []
     for match in _DIRECTIVE.finditer(text):
@@ -54,9 +54,9 @@ def lists_cleared(text: str, root: SyntaxNode) -> tuple[str, tuple[Section, ...]
             open_groups[-1].append(match)
             if word == "endif":
                 group = open_groups.pop()
-                if any(_touched(torn, each) for each in group) and _in_a_list(text, group[0].start()):
-                    found += _of_group(group)
-                    blanked += [each.span() for each in group]
+                if any(_touched(torn, item) for item in group) and _in_a_list(text, group[0].start()):
+                    sections += _of_group(group)
+                    blanked += [item.span() for item in group]
     if not blanked:
         return text, ()
     parts: list[str] = []
@@ -64,17 +64,17 @@ def lists_cleared(text: str, root: SyntaxNode) -> tuple[str, tuple[Section, ...]
     for start, end in sorted(blanked):
         parts += (text[last:start], re.sub(r"[^\n]", " ", text[start:end]))
         last = end
-    return "".join((*parts, text[last:])), tuple(sorted(found))
+    return "".join((*parts, text[last:])), tuple(sorted(sections))
 
 
 def _mistakes(root: SyntaxNode) -> Iterator[tuple[int, int]]:
     """Where the parser found what it does not know."""
-    waiting = [root]
-    while waiting:
-        node = waiting.pop()
+    stack = [root]
+    while stack:
+        node = stack.pop()
         if node.is_error:
             yield node.start_byte, node.end_byte
-        waiting += [child for child in node.children if child.has_error]
+        stack += [child for child in node.children if child.has_error]
 
 
 def _touched(torn: list[tuple[int, int]], match: re.Match[str]) -> bool:
@@ -120,6 +120,6 @@ def _of_group(group: list[re.Match[str]]) -> Iterator[Section]:
         yield from (Section(start, end, text, not way) for text, way in failed)
         if match[1] == "else":
             continue
-        said = tested(_COMMENT.sub("", match[2]), not match[1].endswith("ndef"))
-        yield Section(start, end, *said)
-        failed.append(said)
+        condition = tested(_COMMENT.sub("", match[2]), not match[1].endswith("ndef"))
+        yield Section(start, end, *condition)
+        failed.append(condition)

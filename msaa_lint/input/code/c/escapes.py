@@ -40,14 +40,14 @@ def forget(value: Any) -> None:
 def forget_captures(closure: Closure) -> None:
     """Forgets the variables that a lambda names: a function outside the file may call it and change them."""
     names: set[str] = set()
-    waiting: list[Any] = list(closure.body)
-    while waiting:
-        term = waiting.pop()
+    stack: list[Any] = list(closure.body)
+    while stack:
+        term = stack.pop()
         if isinstance(term, tuple) and term and not isinstance(term, Span):
             if term[0] == NAME and len(term) == 3 and isinstance(term[1], str):
                 names.add(term[1])
             else:
-                waiting.extend(term)
+                stack.extend(term)
     for variables in closure.scopes:
         for name in names & variables.keys():
             for write in variables[name].writes:

@@ -49,11 +49,11 @@ class Values(Conditions):
         if tag == CHOICE:
             return self.choice(term, around, kind)
         if tag == CALL:
-            made = self.calls.call(term, around)
+            result = self.calls.call(term, around)
             if an_element(term):
                 # A reference, which counts as what it refers to.
-                made = tuple(b for a in made for b in (a.value.cell.read(around.guards) if isinstance(a.value, Ref) else (a,)))
-            return made
+                result = tuple(b for a in result for b in (a.value.cell.read(around.guards) if isinstance(a.value, Ref) else (a,)))
+            return result
         if tag == BRACES:
             return self.calls.braces(term, around, kind)
         if tag == LAMBDA:
@@ -88,8 +88,8 @@ class Values(Conditions):
         if cell is not None:
             if self.fragments and cell.kind == MEMBER and not cell.writes:
                 # Of a structure that a page does not show there is the name.
-                found = self.gathered(cell.name, place) or (Alternative(Struct("", place, False, cell.name.rpartition("::")[2]), place),)
-                cell = Cell(MEMBER, cell.name, found, cell.key)
+                struct = self.gathered(cell.name, place) or (Alternative(Struct("", place, False, cell.name.rpartition("::")[2]), place),)
+                cell = Cell(MEMBER, cell.name, struct, cell.key)
             return (Alternative(Ref(cell), place),)
         value = self.value(of, around)
         return tuple(Alternative(Ref(Cell(writes=(a,))), place, a.guards) for a in value)
@@ -97,22 +97,22 @@ class Values(Conditions):
     def binary(self, term: Term, around: Around) -> Value:
         sign = term[1]
         if sign in ("&&", "||", "==", "!=", "<", ">", "<=", ">="):
-            found = self.condition(term, around)
-            if isinstance(found, bool):
-                return (Alternative(found, term[-1]),)
-            return (Alternative(True, term[-1], found), Alternative(False, term[-1], opposite(found)))
+            condition = self.condition(term, around)
+            if isinstance(condition, bool):
+                return (Alternative(condition, term[-1]),)
+            return (Alternative(True, term[-1], condition), Alternative(False, term[-1], opposite(condition)))
         left, right = self.value(term[2], around), self.value(term[3], around)
         if sign == "+" and (moved := self.moved(left, right, term[-1])) is not None:
             return moved
-        made = []
+        alternatives = []
         for a in left:
             for b in right:
                 result = _calculated(sign, a, b, term[-1])
                 if result is not UNKNOWN and not clash(a.guards, b.guards):
-                    made.append(Alternative(result, term[-1], a.guards | b.guards))
+                    alternatives.append(Alternative(result, term[-1], a.guards | b.guards))
                 elif result is UNKNOWN:
-                    made.append(Alternative(UNKNOWN, term[-1], a.guards | b.guards))
-        return tuple(made) if 0 < len(made) <= MOST else UNKNOWN_VALUE
+                    alternatives.append(Alternative(UNKNOWN, term[-1], a.guards | b.guards))
+        return tuple(alternatives) if 0 < len(alternatives) <= MOST else UNKNOWN_VALUE
 
     def moved(self, left: Value, right: Value, place: Span) -> Value | None:
         """A pointer into a list, some elements further."""
@@ -126,10 +126,10 @@ class Values(Conditions):
     def unary(self, term: Term, around: Around) -> Value:
         sign = term[1]
         if sign == "!":
-            found = self.condition(term, around)
-            if isinstance(found, bool):
-                return (Alternative(found, term[-1]),)
-            return (Alternative(True, term[-1], found), Alternative(False, term[-1], opposite(found)))
+            condition = self.condition(term, around)
+            if isinstance(condition, bool):
+                return (Alternative(condition, term[-1]),)
+            return (Alternative(True, term[-1], condition), Alternative(False, term[-1], opposite(condition)))
         if sign in ("++", "--", "post++", "post--"):
             cell = self.place(term[2], around)
             before = one(cell.read(around.guards)) if cell is not None else UNKNOWN
@@ -144,10 +144,10 @@ class Values(Conditions):
             cell.write((Alternative(after, term[-1]),), term[-1], around.guards)
             return (Alternative(before if sign.startswith("post") else after, term[-1]),)
         value = self.value(term[2], around)
-        known = one(value)
-        if sign == "-" and isinstance(known, (int, float)):
-            return (Alternative(-known, term[-1]),)
-        if sign == "~" and known == 0:
+        operand = one(value)
+        if sign == "-" and isinstance(operand, (int, float)):
+            return (Alternative(-operand, term[-1]),)
+        if sign == "~" and operand == 0:
             return (Alternative(2**32 - 1, term[-1]),)
         return value if sign == "+" else UNKNOWN_VALUE
 
@@ -167,32 +167,32 @@ class Values(Conditions):
         if isinstance(condition, bool):
             return self.value(term[2] if condition else term[3], around, kind)
         known = dict(around.guards)
-        made: list[Alternative] = []
-        for guards, each in ((condition, term[2]), (opposite(condition), term[3])):
+        alternatives: list[Alternative] = []
+        for guards, branch in ((condition, term[2]), (opposite(condition), term[3])):
             if any(known.get(text) is (not way) for text, way in guards):
                 continue
-            value = self.value(each, around, kind) or (Alternative(UNKNOWN, at(each)),)
-            made += [Alternative(a.value, a.at, a.guards | guards) for a in value if not clash(a.guards, guards)]
-        return tuple(made) if len(made) <= MOST else UNKNOWN_VALUE
+            value = self.value(branch, around, kind) or (Alternative(UNKNOWN, at(branch)),)
+            alternatives += [Alternative(a.value, a.at, a.guards | guards) for a in value if not clash(a.guards, guards)]
+        return tuple(alternatives) if len(alternatives) <= MOST else UNKNOWN_VALUE
 
     def assign(self, term: Term, around: Around) -> Value:
-        _, sign, target, given, place = term
+        _, sign, target, source, place = term
         cell = self.place(target, around)
         kind = cell.kind if cell is not None else ""
-        if given[0] == CALL and given[1][:2] == (NAME, "") and cell is not None:
+        if source[0] == CALL and source[1][:2] == (NAME, "") and cell is not None:
             # A member that a constructor makes before its body.
-            made = self.calls.object_made(self.type_of(cell), given, around)
-            if made is not None:
-                self.store(cell, made, place, around)
-                return made
-        value = self.value(given, around, kind)
-        value = self.by_pointer(_name_of(target), value, given, around)
+            instance = self.calls.object_made(self.type_of(cell), source, around)
+            if instance is not None:
+                self.store(cell, instance, place, around)
+                return instance
+        value = self.value(source, around, kind)
+        value = self.by_pointer(_name_of(target), value, source, around)
         if cell is None:
             self.calls.lost(target, around)
             return value
-        held = one(cell.writes)
-        if isinstance(held, Ref) and not any(isinstance(a.value, Ref) or a.value is None for a in value) and not cell.kind.endswith("*"):
-            cell = held.cell
+        content = one(cell.writes)
+        if isinstance(content, Ref) and not any(isinstance(a.value, Ref) or a.value is None for a in value) and not cell.kind.endswith("*"):
+            cell = content.cell
         if sign != "=":
             before = cell.read(around.guards)
             combined = [
@@ -206,20 +206,20 @@ class Values(Conditions):
         self.store(cell, stored, place, around)
         return value
 
-    def by_pointer(self, name: str, value: Value, given: Term, around: Around) -> Value:
+    def by_pointer(self, name: str, value: Value, term: Term, around: Around) -> Value:
         """A list that is given to a member which is a pointer: what is written to the list later counts as well."""
-        if name[:1] != "p" or not name[1:2].isupper() or given[0] not in (NAME, FIELD, INDEX):
+        if name[:1] != "p" or not name[1:2].isupper() or term[0] not in (NAME, FIELD, INDEX):
             return value
         if not isinstance(one(value), Array):
             return value
-        cell = self.place(given, around)
-        return value if cell is None else (Alternative(Ref(cell), given[-1]),)
+        cell = self.place(term, around)
+        return value if cell is None else (Alternative(Ref(cell), term[-1]),)
 
     def store(self, cell: Cell, value: Value, place: Span, around: Around) -> None:
         """Writes to a cell. A structure that goes to a member goes to the members of that."""
-        known = one(value)
-        if cell.kind == MEMBER and isinstance(known, Struct) and not known.kind:
-            for name, inner in known.fields.items():
+        single = one(value)
+        if cell.kind == MEMBER and isinstance(single, Struct) and not single.kind:
+            for name, inner in single.fields.items():
                 self.store(self.path(f"{cell.name}.{name}"), inner.read(around.guards), place, around)
             return
         cell.write(value, place, around.guards)

@@ -47,7 +47,7 @@ class Expressions(ABC):
     sections: tuple[Section, ...]
 
     @abstractmethod
-    def parameters(self, listed: SyntaxNode | None) -> tuple[Parameter, ...]:
+    def parameters(self, node: SyntaxNode | None) -> tuple[Parameter, ...]:
         """The parameters of a function."""
 
     @abstractmethod
@@ -95,16 +95,16 @@ class Expressions(ABC):
         if kind == "initializer_list":
             return (BRACES, "", tuple(self.items(node, deeper)), at)
         if kind == "compound_literal_expression":
-            typed, given = node.child_by_field_name("type"), node.child_by_field_name("value")
-            items = tuple(self.items(given, deeper)) if given is not None else ()
-            return (BRACES, self.type_text(typed) if typed is not None else "", items, at)
+            type_node, value_node = node.child_by_field_name("type"), node.child_by_field_name("value")
+            items = tuple(self.items(value_node, deeper)) if value_node is not None else ()
+            return (BRACES, self.type_text(type_node) if type_node is not None else "", items, at)
         if kind in WRAPPERS:
             inner = node.child_by_field_name("value") or (node.named_children[-1] if node.named_child_count else None)
             term = self.expression(inner, deeper)
             if kind == "cast_expression" and term[0] in (NAME, LITERAL, BRACES):
-                typed = node.child_by_field_name("type")
-                if term[0] == BRACES and typed is not None:
-                    return (BRACES, self.type_text(typed), *term[2:])
+                type_node = node.child_by_field_name("type")
+                if term[0] == BRACES and type_node is not None:
+                    return (BRACES, self.type_text(type_node), *term[2:])
             return term
         if kind == "binary_expression":
             left, right, sign = (node.child_by_field_name(name) for name in ("left", "right", "operator"))
@@ -124,11 +124,11 @@ class Expressions(ABC):
             return (UNARY, self.of(sign) if sign is not None else "", self.expression(of, deeper), at)
         if kind == "subscript_expression":
             of = node.child_by_field_name("argument")
-            listed = node.child_by_field_name("indices") or node.child_by_field_name("index")
+            list_node = node.child_by_field_name("indices") or node.child_by_field_name("index")
             index = (
-                listed.named_children[0]
-                if listed is not None and listed.type == "subscript_argument_list" and listed.named_child_count
-                else listed
+                list_node.named_children[0]
+                if list_node is not None and list_node.type == "subscript_argument_list" and list_node.named_child_count
+                else list_node
             )
             return (INDEX, self.expression(of, deeper), self.expression(index, deeper), at)
         if kind == "number_literal":
@@ -140,8 +140,8 @@ class Expressions(ABC):
             return (LITERAL, None, at)
         if kind == "lambda_expression":
             declarator, body = node.child_by_field_name("declarator"), node.child_by_field_name("body")
-            listed = declarator.child_by_field_name("parameters") if declarator is not None else None
-            return (LAMBDA, self.parameters(listed), tuple(self.block(body, deeper)) if body is not None else (), at)
+            list_node = declarator.child_by_field_name("parameters") if declarator is not None else None
+            return (LAMBDA, self.parameters(list_node), tuple(self.block(body, deeper)) if body is not None else (), at)
         if kind == "update_expression":
             sign, of = node.child_by_field_name("operator"), node.child_by_field_name("argument")
             after = sign is not None and of is not None and of.start_byte < sign.start_byte
@@ -149,33 +149,33 @@ class Expressions(ABC):
         if kind in ("comma_expression", "ERROR") and node.named_child_count:
             return self.expression(node.named_children[-1], deeper)
         if kind == "new_expression":
-            typed, given = node.child_by_field_name("type"), node.child_by_field_name("arguments")
-            if typed is not None:
-                items = tuple(self.expression(c, deeper) for c in (without_comments(given) if given is not None else ()))
-                return (CALL, (NAME, self.type_text(typed), at), items, at)
+            type_node, value_node = node.child_by_field_name("type"), node.child_by_field_name("arguments")
+            if type_node is not None:
+                items = tuple(self.expression(c, deeper) for c in (without_comments(value_node) if value_node is not None else ()))
+                return (CALL, (NAME, self.type_text(type_node), at), items, at)
         return (UNPARSED, self.of(node) if node.end_byte - node.start_byte < 200 else "", at)
 
     def call(self, node: SyntaxNode, depth: int, at: Span) -> Term:
-        function, listed = node.child_by_field_name("function"), node.child_by_field_name("arguments")
-        said = without_comments(listed) if listed is not None else []
+        function, list_node = node.child_by_field_name("function"), node.child_by_field_name("arguments")
+        argument_nodes = without_comments(list_node) if list_node is not None else []
         if function is not None and function.type == "template_function":
             name = function.child_by_field_name("name")
-            if name is not None and self.of(name).rpartition("::")[2] in CASTS and len(said) == 1:
-                return self.expression(said[0], depth)
+            if name is not None and self.of(name).rpartition("::")[2] in CASTS and len(argument_nodes) == 1:
+                return self.expression(argument_nodes[0], depth)
         if (
             function is not None
             and function.type == "qualified_identifier"
-            and len(said) == 1
+            and len(argument_nodes) == 1
             and self.of(function) in ("std::move", "std::as_const")
         ):
-            return self.expression(said[0], depth)
-        arguments = tuple(self.in_order(said, (self.expression(child, depth) for child in said)))
-        called = self.expression(function, depth)
-        named = called[1] if called[0] == NAME else called[2] if called[0] == FIELD else ""
+            return self.expression(argument_nodes[0], depth)
+        arguments = tuple(self.in_order(argument_nodes, (self.expression(child, depth) for child in argument_nodes)))
+        term = self.expression(function, depth)
+        named = term[1] if term[0] == NAME else term[2] if term[0] == FIELD else ""
         short = str(named).rpartition("::")[2].partition("<")[0]
         if short != self.current:
             self.called_names.add(short)
-        return (CALL, called, arguments, at)
+        return (CALL, term, arguments, at)
 
     def items(self, node: SyntaxNode, depth: int) -> Iterator[tuple[tuple[str | int, ...] | None, Term]]:
         """The items of braces: the members that a designator names, or None, and what stands there."""
@@ -192,7 +192,7 @@ class Expressions(ABC):
                 yield None, self.in_sections(child, self.expression(child, depth))
                 continue
             path: list[str | int] = []
-            given = child.child_by_field_name("value")
+            value_node = child.child_by_field_name("value")
             for part in child.children_by_field_name("designator"):
                 inner = part.named_children[0] if part.named_child_count else None
                 if inner is None:
@@ -202,7 +202,7 @@ class Expressions(ABC):
                     path.append(index[1] if index[0] == LITERAL and isinstance(index[1], int) else f"[{self.of(inner)}")
                 else:
                     path.append(self.of(inner))
-            yield tuple(path), self.in_sections(child, self.expression(given, depth))
+            yield tuple(path), self.in_sections(child, self.expression(value_node, depth))
 
     def torn(self, nodes: list[SyntaxNode]) -> bool:
         """Whether a directive of the preprocessor is left between the items of a list."""
@@ -221,6 +221,6 @@ class Expressions(ABC):
         """Arguments; none is known from the first on that is there only under a condition."""
         shifted = self.torn(nodes)
         for node, term in zip(nodes, terms, strict=True):
-            given = self.in_sections(node, term)
-            shifted = shifted or given[0] == SOME
-            yield (UNPARSED, "", term[-1]) if shifted else given
+            argument = self.in_sections(node, term)
+            shifted = shifted or argument[0] == SOME
+            yield (UNPARSED, "", term[-1]) if shifted else argument

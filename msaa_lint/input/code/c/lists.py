@@ -25,54 +25,58 @@ class Lists(Structures):
     def method(self, owner: Term, name: str, arguments: Sequence[Term], place: Span, around: Around) -> Value | None:
         """A method of a structure or a list; None where it is another's."""
         cell = self.run.place(owner, around) if owner[0] != CALL else None
-        held = cell.read(around.guards) if cell is not None else self.run.value(owner, around)
-        value = pointee(one(held))
-        if len(held) > 1 and any(isinstance(pointee(each.value), Array) for each in held):
-            return self.of_several(held, name, place)
+        content = cell.read(around.guards) if cell is not None else self.run.value(owner, around)
+        value = pointee(one(content))
+        if len(content) > 1 and any(isinstance(pointee(item.value), Array) for item in content):
+            return self.of_several(content, name, place)
         setter = set_by(name)
         if isinstance(value, Struct) and value.kind and setter is not None:
             if len(arguments) != 1 or (setter not in map(member, MEMBERS[value.kind]) and setter != "next"):
-                return held
+                return content
             kind = member_type(value.kind, setter)
-            given = self.run.value(arguments[0], around, kind)
+            argument = self.run.value(arguments[0], around, kind)
             # A setter of a list takes its address.
-            given = self.run.by_pointer("p" + name[3:], given, arguments[0], around)
-            value.cell(setter).write(copies(given), place, around.guards)
-            return held
+            argument = self.run.by_pointer("p" + name[3:], argument, arguments[0], around)
+            value.cell(setter).write(copies(argument), place, around.guards)
+            return content
         if setter is not None and len(arguments) == 1 and self.run.fragments and owner[0] == NAME and not isinstance(value, Array):
             target = self.run.field(owner, setter, around)
             if target is not None:
                 target.write(self.run.value(arguments[0], around), place, around.guards)
-                return held
+                return content
         if isinstance(value, Array):
             return self.of_list(value, cell, name, arguments, place, around)
         if name in SELF and not arguments:
-            return held
+            return content
         if cell is not None and cell.writes == () and name in APPEND and len(arguments) == 1:
             # A list that was not declared here, or whose type says nothing.
             self.run.value(arguments[0], around)
             return UNKNOWN_VALUE
         return None
 
-    def of_several(self, held: Value, name: str, place: Span) -> Value:
+    def of_several(self, value: Value, name: str, place: Span) -> Value:
         """What a method gives of a list that is one or another: nobody can tell which of them others change."""
-        found: list[Alternative] = []
-        for each in held:
-            array = pointee(each.value)
+        alternatives: list[Alternative] = []
+        for alternative in value:
+            array = pointee(alternative.value)
             if name in ("data", "begin", "cbegin"):
-                found.append(Alternative(Ref(Cell(writes=(Alternative(each.value, each.at),))), place, each.guards))
+                alternatives.append(
+                    Alternative(Ref(Cell(writes=(Alternative(alternative.value, alternative.at),))), place, alternative.guards)
+                )
             elif name in COUNTED:
-                found += [a._replace(guards=each.guards) for a in self.counted(array, place)] or [Alternative(UNKNOWN, place, each.guards)]
+                alternatives += [a._replace(guards=alternative.guards) for a in self.counted(array, place)] or [
+                    Alternative(UNKNOWN, place, alternative.guards)
+                ]
             elif isinstance(array, Array):
                 array.whole = False
-        return tuple(found)
+        return tuple(alternatives)
 
     def of_list(self, array: Array, cell: Cell | None, name: str, arguments: Sequence[Term], place: Span, around: Around) -> Value:
         if name in APPEND:
             kind = array.kind
-            found = structure(kind)
-            if name == "emplace_back" and found and (len(arguments) != 1 or arguments[0][0] == LITERAL):
-                value = self.constructed(found, arguments, place, around, kind.startswith("vk::"))
+            struct_name = structure(kind)
+            if name == "emplace_back" and struct_name and (len(arguments) != 1 or arguments[0][0] == LITERAL):
+                value = self.constructed(struct_name, arguments, place, around, kind.startswith("vk::"))
             else:
                 value = self.run.value(arguments[0], around, kind) if arguments else UNKNOWN_VALUE
             if around.loops or len(array.items) >= 64:
@@ -109,10 +113,10 @@ class Lists(Structures):
                 if type(count) is int and 0 <= count <= 64:
                     array.whole = True
                     for _ in range(count):
-                        found = structure(array.kind)
+                        struct_name = structure(array.kind)
                         item = Cell(array.kind)
-                        if found:
-                            item.writes = (Alternative(Struct(found, place, True), place),)
+                        if struct_name:
+                            item.writes = (Alternative(Struct(struct_name, place, True), place),)
                         array.items.append(item)
             return UNKNOWN_VALUE
         return UNKNOWN_VALUE
@@ -127,8 +131,8 @@ class Lists(Structures):
     def lost(self, target: Term, around: Around) -> None:
         """Something was written to a place that cannot be told: of a list's element, the list is no longer known."""
         if target[0] in (FIELD, INDEX):
-            for each in self.run.value(target[1], around):
-                value = pointee(each.value)
+            for alternative in self.run.value(target[1], around):
+                value = pointee(alternative.value)
                 if isinstance(value, Array):
                     value.whole = False
                 elif isinstance(value, Struct) and target[0] == FIELD:

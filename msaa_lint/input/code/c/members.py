@@ -63,11 +63,11 @@ class Members(World):
             return scalar(bool(value), at)
         return None
 
-    def name(self, made: VulkanObject, otherwise: str) -> str:
+    def name(self, vulkan_object: VulkanObject, otherwise: str) -> str:
         """A name that no other object of the tree has."""
-        if id(made) not in self.names:
-            self.names[id(made)] = self.unique(made.name.rpartition("::")[2].strip("*&") or otherwise)
-        return self.names[id(made)]
+        if id(vulkan_object) not in self.names:
+            self.names[id(vulkan_object)] = self.unique(vulkan_object.name.rpartition("::")[2].strip("*&") or otherwise)
+        return self.names[id(vulkan_object)]
 
     def unique(self, base: str) -> str:
         name, n = base, 2

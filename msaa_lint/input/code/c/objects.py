@@ -100,11 +100,11 @@ class Objects(Lists):
             return UNKNOWN_VALUE
         if not _LOOKS.search(name):
             for n, value in enumerate(values):
-                known = pointee(one(value))
-                if isinstance(known, Array) and len(known.items) == 1:
-                    known = pointee(one(known.items[0].writes))
-                if isinstance(known, Struct) and first_version(known.kind) in MAKES:
-                    return self.makes(known, n, term, name, values, around)
+                target = pointee(one(value))
+                if isinstance(target, Array) and len(target.items) == 1:
+                    target = pointee(one(target.items[0].writes))
+                if isinstance(target, Struct) and first_version(target.kind) in MAKES:
+                    return self.makes(target, n, term, name, values, around)
         if _MEMORY.search(name):
             for value in values:
                 if value and all(_of_memory(a.value) for a in value):
@@ -113,25 +113,25 @@ class Objects(Lists):
             viewed = self.viewed(values, term, around)
             if viewed is not None:
                 return viewed
-        for given in term[2]:
-            if given[0] == ADDRESS:
-                cell = self.run.place(given[1], around)
-                held = pointee(one(cell.read(around.guards))) if cell is not None else None
-                if isinstance(held, Struct):
+        for argument in term[2]:
+            if argument[0] == ADDRESS:
+                cell = self.run.place(argument[1], around)
+                content = pointee(one(cell.read(around.guards))) if cell is not None else None
+                if isinstance(content, Struct):
                     # What only asks Vulkan fills the structure in.
-                    kept = name.startswith(("vk", "vma")) and not name.startswith(("vkGet", "vkEnumerate"))
-                    if not kept and not self.keeps(name, given, term):
-                        held.zeroed = False
-                        held.fields.clear()
-                elif cell is not None and not isinstance(held, (Array, VulkanObject)):
+                    is_input = name.startswith(("vk", "vma")) and not name.startswith(("vkGet", "vkEnumerate"))
+                    if not is_input and not self.keeps(name, argument, term):
+                        content.zeroed = False
+                        content.fields.clear()
+                elif cell is not None and not isinstance(content, (Array, VulkanObject)):
                     # The function gives it a value that is not known here.
                     cell.write((Alternative(UNKNOWN, place),), place, around.guards)
             elif not name.startswith(("vk", "vma")):
-                self.handed(name, given, term, around)
+                self.handed(name, argument, term, around)
         if name and not name.startswith(("vk", "vma")) and not name.isupper() and not _HARMLESS.search(name):
             for value in values:
-                for each in value:
-                    mark_escaped(each.value)
+                for alternative in value:
+                    mark_escaped(alternative.value)
         if not name or (name[0].isupper() and owner is None and structure(name)):
             return UNKNOWN_VALUE
         helped = self.initialised(term, name, values, place)
@@ -139,26 +139,26 @@ class Objects(Lists):
             return helped
         return (Alternative(Symbol(worded(term), name, bool(COUNTS.search(name))), place),)
 
-    def keeps(self, name: str, given: Term, term: Term) -> bool:
+    def keeps(self, name: str, argument: Term, term: Term) -> bool:
         """Whether a function is declared not to change what an argument points to."""
-        stated = self.run.unit.prototypes.get(name, ())
-        position = term[2].index(given)
-        return bool(position < len(stated) and stated[position].fixed)
+        parameters = self.run.unit.prototypes.get(name, ())
+        position = term[2].index(argument)
+        return bool(position < len(parameters) and parameters[position].fixed)
 
-    def handed(self, name: str, given: Term, term: Term, around: Around) -> None:
+    def handed(self, name: str, argument: Term, term: Term, around: Around) -> None:
         """A list, or a structure, that is handed to somebody else's function, which may change it if it takes a reference."""
-        for known in [each.value for each in self.run.value(given, around)]:
-            if isinstance(known, Closure):
-                forget_captures(known)
+        for constant in [item.value for item in self.run.value(argument, around)]:
+            if isinstance(constant, Closure):
+                forget_captures(constant)
                 continue
-            value = pointee(known)
-            if not isinstance(value, (Array, Struct)) or self.keeps(name, given, term):
+            value = pointee(constant)
+            if not isinstance(value, (Array, Struct)) or self.keeps(name, argument, term):
                 continue
-            stated = self.run.unit.prototypes.get(name, ())
-            position = term[2].index(given)
-            if isinstance(known, Struct) and name not in _MOVES:
+            parameters = self.run.unit.prototypes.get(name, ())
+            position = term[2].index(argument)
+            if isinstance(constant, Struct) and name not in _MOVES:
                 # C++ may take a reference where nothing looks like it, and a macro may do anything.
-                by_reference = stated[position].by_reference if position < len(stated) else self.run.plus or name.isupper()
+                by_reference = parameters[position].by_reference if position < len(parameters) else self.run.plus or name.isupper()
                 if not by_reference:
                     continue
             forget(value)
@@ -171,30 +171,30 @@ class Objects(Lists):
         kind = structure("Vk" + name[0].upper() + name[1:])
         if not kind:
             return None
-        made = Struct(kind, place, function[1].startswith("vks::") and not values)
+        struct = Struct(kind, place, function[1].startswith("vks::") and not values)
         if kind == "PipelineMultisampleStateCreateInfo" and values:
-            made.cell("rasterizationSamples").writes = values[0]
-        return (Alternative(made, place),)
+            struct.cell("rasterizationSamples").writes = values[0]
+        return (Alternative(struct, place),)
 
     def makes(self, info: Struct, n: int, term: Term, name: str, values: Sequence[Value], around: Around) -> Value:
         kind = MAKES[first_version(info.kind)]
-        made = self.make(kind, info, term, around)
+        vulkan_object = self.make(kind, info, term, around)
         plain = (name.startswith(("vk", "vma")) and name[2:3].isupper()) or name.startswith("vma")
-        result: Value = (Alternative(made, term[3]),)
-        for position, given in enumerate(term[2]):
+        result: Value = (Alternative(vulkan_object, term[3]),)
+        for position, argument in enumerate(term[2]):
             if position <= n:
                 continue
-            target = given[1] if given[0] == ADDRESS else given if plain and given[0] in (NAME, FIELD, INDEX) else None
+            target = argument[1] if argument[0] == ADDRESS else argument if plain and argument[0] in (NAME, FIELD, INDEX) else None
             if target is None:
                 continue
-            held = pointee(one(values[position]))
-            if isinstance(held, Struct) and (held.kind or "requiredFlags" in held.fields or "usage" in held.fields):
+            value = pointee(one(values[position]))
+            if isinstance(value, Struct) and (value.kind or "requiredFlags" in value.fields or "usage" in value.fields):
                 if kind == "image":
-                    made.memory = made.memory or self.allocated(held)
+                    vulkan_object.memory = vulkan_object.memory or self.allocated(value)
                 continue
             cell = self.run.place(target, around)
             pointed = one(cell.writes) if cell is not None else None
-            if cell is not None and given[0] != ADDRESS and isinstance(pointed, Ref):
+            if cell is not None and argument[0] != ADDRESS and isinstance(pointed, Ref):
                 cell = pointed.cell
             if cell is not None:
                 self.run.store(cell, result, term[3], around)
@@ -204,16 +204,16 @@ class Objects(Lists):
     def make(self, kind: str, info: Struct, term: Term, around: Around) -> VulkanObject:
         """The object that a call makes."""
         key = (kind, term[3], around.calls, around.turns)
-        made = self.made.get(key)
-        if made is None:
-            made = self.made[key] = VulkanObject(kind, key, term[3])
+        vulkan_object = self.made.get(key)
+        if vulkan_object is None:
+            vulkan_object = self.made[key] = VulkanObject(kind, key, term[3])
         mark_used(info)
-        made.info = settled_under(copied(info, through=True), dict(around.guards))
-        made.guards = around.guards
-        made.memory = ()
-        made.deep = 99
-        self.met[key] = made
-        return made
+        vulkan_object.info = settled_under(copied(info, through=True), dict(around.guards))
+        vulkan_object.guards = around.guards
+        vulkan_object.memory = ()
+        vulkan_object.deep = 99
+        self.met[key] = vulkan_object
+        return vulkan_object
 
     def allocated(self, info: Struct) -> Value:
         """The memory that VMA is asked for (VmaAllocationCreateInfo)."""
@@ -227,9 +227,9 @@ class Objects(Lists):
 
     def binding(self, values: Sequence[Value], owner: Term | None, around: Around) -> None:
         every = [*values, self.run.value(owner, around)] if owner is not None else list(values)
-        known = [pointee(one(value)) for value in every]
-        image = next((v for v in known if isinstance(v, VulkanObject) and v.kind == "image"), None)
-        memory = next((v for v in known if isinstance(v, VulkanObject) and v.kind == "memory"), None)
+        objects = [pointee(one(value)) for value in every]
+        image = next((v for v in objects if isinstance(v, VulkanObject) and v.kind == "image"), None)
+        memory = next((v for v in objects if isinstance(v, VulkanObject) and v.kind == "memory"), None)
         if image is not None and memory is not None and memory.info is not None and "memoryTypeIndex" in memory.info.fields:
             index = memory.info.fields["memoryTypeIndex"].writes
             image.memory = index if index and all(_of_memory(a.value) for a in index) else ()
@@ -249,17 +249,17 @@ class Objects(Lists):
             if info is not None:
                 self.resolves[place] = (info.cell("srcImage").writes, info.cell("dstImage").writes)
             return
-        given = values[1:] if name.startswith("vk") else values
-        if len(given) >= 3:
-            self.resolves[place] = (given[0], given[2])
+        ends = values[1:] if name.startswith("vk") else values
+        if len(ends) >= 3:
+            self.resolves[place] = (ends[0], ends[2])
 
     @staticmethod
     def called_by(value: Value, name: str, around: Around) -> None:
         """Names what a call made after the variable that it goes to: the outermost function's."""
         for alternative in value:
-            made = alternative.value
-            if isinstance(made, VulkanObject) and name and len(around.calls) < made.deep:
-                made.name, made.deep = name, len(around.calls)
+            vulkan_object = alternative.value
+            if isinstance(vulkan_object, VulkanObject) and name and len(around.calls) < vulkan_object.deep:
+                vulkan_object.name, vulkan_object.deep = name, len(around.calls)
 
     def ended(self, around: Around) -> None:
         """At the end of a beginning: structures that no call was seen to take."""
@@ -269,26 +269,26 @@ class Objects(Lists):
                 continue
             term = (CALL, (NAME, "", info.at), (), info.at)
             around.guards = guards
-            made = self.make(MAKES.get(kind, "state"), info, term, around)
-            made.name = made.name or info.name
+            vulkan_object = self.make(MAKES.get(kind, "state"), info, term, around)
+            vulkan_object.name = vulkan_object.name or info.name
         self.born.clear()
 
     def pieces(self, overlay: dict[str, Cell]) -> None:
         """Of a page's pieces: structures that none of them declares, told by a member that only they have."""
-        known = {key for key in (*self.run.summary, *overlay) if key.count(".") == 1}
-        for key in sorted(known):
+        keys = {key for key in (*self.run.summary, *overlay) if key.count(".") == 1}
+        for key in sorted(keys):
             owner, _, name = key.partition(".")
             kind = {"rasterizationSamples": "PipelineMultisampleStateCreateInfo", "attachments": "FramebufferCreateInfo"}.get(name)
             cell = self.run.path(key)
             if kind is None or not cell.writes:
                 continue
             at = cell.writes[0].at
-            found = self.run.gathered(owner, at)
-            if found and (kind in ALONE or self.of_views(cell)):
-                info = found[0].value
+            struct = self.run.gathered(owner, at)
+            if struct and (kind in ALONE or self.of_views(cell)):
+                info = struct[0].value
                 info.kind = kind
-                made = self.make(MAKES.get(kind, "state"), info, (CALL, (NAME, "", at), (), at), Around("", ({},), ALWAYS, ()))
-                made.name = owner.rpartition("::")[2]
+                vulkan_object = self.make(MAKES.get(kind, "state"), info, (CALL, (NAME, "", at), (), at), Around("", ({},), ALWAYS, ()))
+                vulkan_object.name = owner.rpartition("::")[2]
 
     def of_views(self, cell: Cell) -> bool:
         array = pointee(one(cell.writes))
@@ -299,23 +299,23 @@ class Objects(Lists):
         """An image that a function makes whose body a page leaves out: its parameters' types say what they are."""
         info, out = Struct("ImageCreateInfo", term[3], False), None
         memory: Value = ()
-        for parameter, given in zip(function.parameters, term[2], strict=False):
+        for parameter, argument in zip(function.parameters, term[2], strict=False):
             kind = parameter.type.removeprefix("Vk").removeprefix("vk::")
-            said = _TYPED.get(kind)
-            if said == "memory":
-                memory = self.run.value(given, around)
-            elif said is not None:
-                info.cell(said).writes = self.run.value(given, around)
+            member = _TYPED.get(kind)
+            if member == "memory":
+                memory = self.run.value(argument, around)
+            elif member is not None:
+                info.cell(member).writes = self.run.value(argument, around)
             elif parameter.by_reference and _IMAGE.search(parameter.type):
-                out = given[1] if given[0] == ADDRESS else given
+                out = argument[1] if argument[0] == ADDRESS else argument
         if out is None or "usage" not in info.fields:
             return None
-        made = self.make("image", info, term, around)
-        made.memory = memory
+        vulkan_object = self.make("image", info, term, around)
+        vulkan_object.memory = memory
         cell = self.run.place(out, around)
         if cell is not None:
-            cell.write((Alternative(made, term[3]),), term[3], around.guards)
-            self.called_by((Alternative(made, term[3]),), cell.name, around)
+            cell.write((Alternative(vulkan_object, term[3]),), term[3], around.guards)
+            self.called_by((Alternative(vulkan_object, term[3]),), cell.name, around)
         return UNKNOWN_VALUE
 
 

@@ -19,20 +19,20 @@ class Passes(Members):
 
     def bind(self, passes: Sequence[VulkanObject]) -> None:
         """The images that framebuffers give to the attachments of render passes."""
-        for made in self.met:
-            if made.kind != "framebuffer" or made.info is None:
+        for vulkan_object in self.met:
+            if vulkan_object.kind != "framebuffer" or vulkan_object.info is None:
                 continue
-            views = self.aimed(self.get(made.info, "attachments")[0])
+            views = self.aimed(self.get(vulkan_object.info, "attachments")[0])
             if isinstance(views, VulkanObject):
                 images = [self.image_in(views)]
             elif isinstance(views, Array) and views.whole:
                 images = [self.image_in(one(self.settle(cell.writes))) for cell in views.items]
             else:
                 continue
-            target = self.aimed(self.get(made.info, "renderPass")[0])
+            target = self.aimed(self.get(vulkan_object.info, "renderPass")[0])
             if not isinstance(target, VulkanObject):
-                fitting = [p for p in passes if p.info is not None and len(self.structs(p.info, "attachments") or ()) == len(images)]
-                target = fitting[0] if len(fitting) == 1 and len(passes) == 1 else None
+                render_passes = [p for p in passes if p.info is not None and len(self.structs(p.info, "attachments") or ()) == len(images)]
+                target = render_passes[0] if len(render_passes) == 1 and len(passes) == 1 else None
             if target is None:
                 continue
             before = self.bound.get(id(target))
@@ -59,24 +59,24 @@ class Passes(Members):
             items.insert(min(1, len(items)), ("samples", at, scalar(count, at)))
         return mapping(items, head)
 
-    def render_pass(self, made: VulkanObject, attached: dict[int, VulkanObject]) -> Item | None:
-        info = made.info
+    def render_pass(self, vulkan_object: VulkanObject, attached: dict[int, VulkanObject]) -> Item | None:
+        info = vulkan_object.info
         assert info is not None
         structs = self.structs(info, "attachments")
         if structs is None or not structs:
             return None
-        images = self.bound.get(id(made), [])
+        images = self.bound.get(id(vulkan_object), [])
         names: list[str] = []
         nodes: list[Item] = []
         array = self.aimed(self.get(info, "attachments")[0])
-        listed = array.name if isinstance(array, Array) else ""
+        list_node = array.name if isinstance(array, Array) else ""
         for n, struct in enumerate(structs):
-            name = struct.name if struct is not None and struct.name else f"{listed}[{n}]" if listed else f"attachment {n}"
+            name = struct.name if struct is not None and struct.name else f"{list_node}[{n}]" if list_node else f"attachment {n}"
             name = name if name not in names else f"{name} ({n})"
             names.append(name)
-            at = self.place_of(struct, made.at)
+            at = self.place_of(struct, vulkan_object.at)
             nodes.append((name, head_of(at), NOTHING_SAID))
-        head = head_of(made.at)
+        head = head_of(vulkan_object.at)
         subpasses = self.structs(info, "subpasses")
         written = [self.subpass(s, names) for s in subpasses] if subpasses is not None else []
         sources = _resolved([node for node in written if node is not None])
@@ -98,7 +98,7 @@ class Passes(Members):
             made_nodes = [self.dependency(d) for d in dependencies]
             if all(node is not None for node in made_nodes):
                 items.append(("dependencies", head, sequence([node for node in made_nodes if node is not None], head)))
-        return self.name(made, "renderPass"), head, mapping(items, head)
+        return self.name(vulkan_object, "renderPass"), head, mapping(items, head)
 
     def single(self, structs: Sequence[Struct | None], images: Sequence[VulkanObject | None]) -> bool:
         """Whether the multisampled images of a pass are known, and one each: with one for each frame in flight none waits for another."""
@@ -184,18 +184,18 @@ class Passes(Members):
     def references(self, struct: Struct, name: str, names: Sequence[str]) -> list[Node] | None:
         if name not in struct.fields:
             return []
-        found = self.structs(struct, name)
-        if found is None:
+        structs = self.structs(struct, name)
+        if structs is None:
             return None
-        nodes = [self.reference(each, names) if each is not None else None for each in found]
+        nodes = [self.reference(item, names) if item is not None else None for item in structs]
         return [node for node in nodes if node is not None] if all(node is not None for node in nodes) else None
 
     def reference(self, struct: Struct, names: Sequence[str]) -> Node | None:
         index, at = self.get(struct, "attachment")
         if index is UNKNOWN and self.fragments:
             # A page that changes a program does not repeat that `colorAttachmentRef` is of `colorAttachment`.
-            said = [n for n, name in enumerate(names) if struct.name and struct.name.startswith(name) and struct.name != name]
-            index = said[-1] if len(said) == 1 else UNKNOWN
+            indices = [n for n, name in enumerate(names) if struct.name and struct.name.startswith(name) and struct.name != name]
+            index = indices[-1] if len(indices) == 1 else UNKNOWN
         if index is None:
             index = 0
         if index == 2**32 - 1 or index == "VK_ATTACHMENT_UNUSED":
@@ -225,21 +225,21 @@ class Passes(Members):
 
 def _leaves(node: Node) -> Iterator[Node]:
     """All scalars of a subpass."""
-    waiting = [node]
-    while waiting:
-        each = waiting.pop()
-        if each.kind == "scalar":
-            yield each
+    stack = [node]
+    while stack:
+        inner = stack.pop()
+        if inner.kind == "scalar":
+            yield inner
         else:
-            waiting += each.value.values() if each.kind == "mapping" else each.value
+            stack += inner.value.values() if inner.kind == "mapping" else inner.value
 
 
 def _resolved(subpasses: Sequence[Node]) -> set[str]:
     """The names of the colour attachments that subpasses resolve."""
-    found = set()
+    names = set()
     for subpass in subpasses:
         colors, targets = (subpass.value[key].value if key in subpass.value else [] for key in ("colorAttachments", "resolveAttachments"))
-        found |= {
+        names |= {
             color.text for color, target in zip(colors, targets, strict=False) if color.value is not None and target.value is not None
         }
-    return found
+    return names

@@ -182,10 +182,10 @@ class Places(ABC):
         names = self.parts.get(key)
         if not names:
             return UNKNOWN_VALUE
-        made = Struct("", place, False, key.rpartition("::")[2])
+        struct = Struct("", place, False, key.rpartition("::")[2])
         for name in names:
-            made.fields[name] = self.path(f"{key}.{name}")
-        return (Alternative(made, place),)
+            struct.fields[name] = self.path(f"{key}.{name}")
+        return (Alternative(struct, place),)
 
     def declared(self, key: str) -> Value:
         """What a member or a variable outside is given where it is declared."""
@@ -205,25 +205,27 @@ class Places(ABC):
             and (structure(term[1]) or structure(elements(term[1]) or ""))
         ):
             # What stands outside of functions is zero from the beginning.
-            made = self.bare(term[1], term[2].rpartition("::")[2], term[-1], False, Around("", ({},), ALWAYS, ()))
-            for each in made:
-                for value in [each.value] if isinstance(each.value, Struct) else [one(cell.writes) for cell in each.value.items]:
+            initial = self.bare(term[1], term[2].rpartition("::")[2], term[-1], False, Around("", ({},), ALWAYS, ()))
+            for alternative in initial:
+                for value in (
+                    [alternative.value] if isinstance(alternative.value, Struct) else [one(cell.writes) for cell in alternative.value.items]
+                ):
                     if isinstance(value, Struct):
                         value.zeroed = True
-                if isinstance(each.value, Array):
-                    each.value.zeroed = True
-            self.known[key] = tuple(Alternative(self.taken(a.value, term[1], term[2].rpartition("::")[2]), a.at) for a in made)
+                if isinstance(alternative.value, Array):
+                    alternative.value.zeroed = True
+            self.known[key] = tuple(Alternative(self.taken(a.value, term[1], term[2].rpartition("::")[2]), a.at) for a in initial)
         elif term is not None and term[3] is not None:
             name = term[2].rpartition("::")[2]
             around = Around(within, ({},), ALWAYS, ())
             around.space = key[2:].rpartition("::")[0] if not within else within.rpartition("::")[0]
             around.space += "::" if around.space else ""
             value = self.value(term[3], around, term[1])
-            given = [a for a in value if not (isinstance(a.value, Struct) and not a.value.kind and not a.value.fields)]
+            lasting = [a for a in value if not (isinstance(a.value, Struct) and not a.value.kind and not a.value.fields)]
             if not term[5]:
                 # Who may change it elsewhere changes what it is until then: one sample, nothing, no, an operation.
-                given = [a for a in given if _lasts(a.value)]
-            self.known[key] = tuple(Alternative(self.taken(a.value, term[1], name), a.at, a.guards) for a in given)
+                lasting = [a for a in lasting if _lasts(a.value)]
+            self.known[key] = tuple(Alternative(self.taken(a.value, term[1], name), a.at, a.guards) for a in lasting)
         return self.known[key]
 
     def field(self, of: Term, name: str, around: Around) -> Cell | None:
@@ -247,14 +249,14 @@ class Places(ABC):
         if not cell.writes:
             if cell.key or cell.kind.endswith("*"):
                 if structure(cell.kind):
-                    made = Struct(structure(cell.kind), Span(0, 0), False, cell.name)
-                    cell.writes = (Alternative(made, made.at),)
-                    return made.cell(name)
+                    struct = Struct(structure(cell.kind), Span(0, 0), False, cell.name)
+                    cell.writes = (Alternative(struct, struct.at),)
+                    return struct.cell(name)
                 kind = cell.kind.rstrip("*&")
                 return self.path(f"{self.class_of(kind, around.space) or kind}::{name}")
-            made = Struct(structure(cell.kind), at(of), False, cell.name)
-            cell.writes = (Alternative(made, made.at),)
-            return made.cell(name)
+            struct = Struct(structure(cell.kind), at(of), False, cell.name)
+            cell.writes = (Alternative(struct, struct.at),)
+            return struct.cell(name)
         return None
 
     def class_of(self, kind: str, space: str) -> str | None:
@@ -264,8 +266,8 @@ class Places(ABC):
         if kind in self.members:
             return kind
         short = kind.rpartition("::")[2]
-        found = [name for name in self.members if name.rpartition("::")[2] == short]
-        return found[0] if len(found) == 1 else None
+        members = [name for name in self.members if name.rpartition("::")[2] == short]
+        return members[0] if len(members) == 1 else None
 
     def pointed(self, key: str) -> str:
         """Of a member that points to an object of a class of the file's: the class, with `::`, as no one knows which object it is."""
@@ -273,8 +275,8 @@ class Places(ABC):
         term = self.members.get(within, {}).get(name)
         if term is None or not term[4]:
             return ""
-        found = self.class_of(term[1], within.rpartition("::")[0])
-        return f"{found}::" if found is not None else ""
+        class_name = self.class_of(term[1], within.rpartition("::")[0])
+        return f"{class_name}::" if class_name is not None else ""
 
     def indexed(self, term: Term, around: Around) -> Cell | None:
         cell = self.place(term[1], around)
@@ -301,28 +303,28 @@ class Places(ABC):
 
     def filled(self, array: Array, kind: str, around: Around) -> None:
         """Gives an array as many elements as its type has."""
-        said = extent(kind)
-        count = (int(said) if said.isdecimal() else one(self.value((NAME, said, array.at), around))) if said else 0
-        if not said:
+        size = extent(kind)
+        count = (int(size) if size.isdecimal() else one(self.value((NAME, size, array.at), around))) if size else 0
+        if not size:
             return
         if type(count) is not int or not 0 <= count <= 64:
             array.whole = False
             return
-        found = structure(array.kind)
+        struct_name = structure(array.kind)
         while len(array.items) < count:
             item = Cell(array.kind)
-            if found:
-                item.writes = (Alternative(Struct(found, array.at, array.zeroed), array.at),)
+            if struct_name:
+                item.writes = (Alternative(Struct(struct_name, array.at, array.zeroed), array.at),)
             array.items.append(item)
 
     def bare(self, kind: str, name: str, place: Span, indirect: bool, around: Around) -> Value:
         """A variable without a value. vulkan.hpp's structures are as their constructors leave them."""
         if indirect:
             return UNKNOWN_VALUE
-        found = structure(kind)
-        if found:
-            made = Struct(found, place, kind.startswith("vk::"), name)
-            return (Alternative(made, place),)
+        struct_name = structure(kind)
+        if struct_name:
+            struct = Struct(struct_name, place, kind.startswith("vk::"), name)
+            return (Alternative(struct, place),)
         inner = elements(kind)
         if inner is not None:
             array = Array(inner, place)

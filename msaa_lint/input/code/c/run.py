@@ -36,7 +36,7 @@ class Run(Values):
         try:
             for _ in range(MOST_PASSES):
                 self.program.begin()
-                found: dict[str, dict[tuple[Any, ...], Alternative]] = {}
+                writes_by_key: dict[str, dict[tuple[Any, ...], Alternative]] = {}
                 for function in roots:
                     self.overlay, self.initial = {}, {}
                     self.root(function)
@@ -47,10 +47,10 @@ class Run(Values):
                                 continue
                             if write.value is UNKNOWN:
                                 write = Alternative(Symbol(key, key.rpartition("::")[2]), write.at, write.guards)
-                            found.setdefault(key, {}).setdefault(_mark(write), write)
+                            writes_by_key.setdefault(key, {}).setdefault(_mark(write), write)
                 if self.fragments:
                     self.program.pieces(self.overlay)
-                last, self.summary = self.summary, {key: _joined(key, list(writes.values())) for key, writes in found.items()}
+                last, self.summary = self.summary, {key: _joined(key, list(writes.values())) for key, writes in writes_by_key.items()}
                 if _marks(last) == _marks(self.summary):
                     break
         except (Stop, RecursionError):
@@ -59,8 +59,8 @@ class Run(Values):
     def roots(self) -> list[Function]:
         # A constructor runs where the object is made: as a member, it has no call of its own.
         types = {term[1] for terms in self.members.values() for term in terms.values()}
-        made = {f.name for f in self.unit.functions if f.within.rpartition("::")[2] == f.name and f.parameters and f.name in types}
-        roots = [f for f in self.unit.functions if f.name not in self.unit.called and f.name not in made]
+        constructors = {f.name for f in self.unit.functions if f.within.rpartition("::")[2] == f.name and f.parameters and f.name in types}
+        roots = [f for f in self.unit.functions if f.name not in self.unit.called and f.name not in constructors]
         return [*roots, Function("", "", "", (), self.unit.outside, Span(0, 0))] if self.fragments else roots
 
     def root(self, function: Function) -> None:
@@ -81,11 +81,11 @@ class Run(Values):
                 return
             self.statement(statement, around)
 
-    def within_block(self, statements: Sequence[Term], around: Around, guards: Guards, own: bool = True) -> bool:
+    def within_block(self, statements: Sequence[Term], around: Around, guards: Guards, scoped: bool = True) -> bool:
         """Goes through a block under conditions, with variables of its own; whether it leaves what is around it."""
         outer, scopes = around.guards, around.scopes
         around.guards = outer | guards
-        around.scopes = (*scopes, {}) if own else scopes
+        around.scopes = (*scopes, {}) if scoped else scopes
         self.block(statements, around)
         around.guards, around.scopes = outer, scopes
         left, around.gone = around.gone, False
@@ -118,20 +118,20 @@ class Run(Values):
     def test(self, condition: bool | Guards, term: Term, around: Around) -> None:
         then, otherwise = term[2], term[3]
         # What the preprocessor leaves stands where it stood.
-        own = term[0] == IF
+        scoped = term[0] == IF
         if isinstance(condition, bool):
-            around.gone = self.within_block(then if condition else otherwise, around, ALWAYS, own)
+            around.gone = self.within_block(then if condition else otherwise, around, ALWAYS, scoped)
             return
         known = dict(around.guards)
         if any(known.get(text) is (not way) for text, way in condition):
-            around.gone = self.within_block(otherwise, around, ALWAYS, own)
+            around.gone = self.within_block(otherwise, around, ALWAYS, scoped)
             return
         if all(known.get(text) is way for text, way in condition):
-            around.gone = self.within_block(then, around, ALWAYS, own)
+            around.gone = self.within_block(then, around, ALWAYS, scoped)
             return
         against = opposite(condition)
-        left = self.within_block(then, around, condition, own)
-        leaves = self.within_block(otherwise, around, against, own) if otherwise else False
+        left = self.within_block(then, around, condition, scoped)
+        leaves = self.within_block(otherwise, around, against, scoped) if otherwise else False
         if left and leaves:
             around.gone = True
         elif left:
@@ -194,23 +194,23 @@ class Run(Values):
         return value.items if isinstance(value, Array) and value.whole else None
 
     def declare(self, term: Term, around: Around) -> None:
-        _, kind, name, given, indirect, _, place = term
+        _, kind, name, initializer, indirect, _, place = term
         if self.fragments and len(around.scopes) == 1 and not around.calls and f"::{name}" in self.summary:
             # A page's other pieces give it a value.
             around.scopes[-1][name] = self.path(f"::{name}")
             return
-        if indirect and given is not None:
-            named = given[0] in (NAME, FIELD, INDEX) or an_element(given)
-            cell = self.place(given, around) if named and not kind.endswith("*") else None
+        if indirect and initializer is not None:
+            named = initializer[0] in (NAME, FIELD, INDEX) or an_element(initializer)
+            cell = self.place(initializer, around) if named and not kind.endswith("*") else None
             if cell is not None and not isinstance(one(cell.read(around.guards)), Ref):
                 around.scopes[-1][name] = cell
                 return
         cell = self.declared_elsewhere(name, kind, around) or Cell(kind, name)
         around.scopes[-1][name] = cell
-        if given is None:
+        if initializer is None:
             value = self.bare(kind, name, place, indirect, around)
         else:
-            value = self.value(given, around, kind)
+            value = self.value(initializer, around, kind)
             value = tuple(Alternative(self.taken(a.value, kind, name), a.at, a.guards) for a in value)
         cell.write(value, place, around.guards)
         self.calls.called_by(value, name, around)
@@ -234,8 +234,8 @@ def _mark(write: Alternative) -> tuple[Any, ...]:
 
 def _joined(key: str, writes: list[Alternative]) -> Value:
     """What all functions write to a member: that it is null until then, and again in the end, is no news."""
-    made = [write for write in writes if isinstance(write.value, (VulkanObject, Struct, Array))]
-    joined = tuple(made or writes)
+    objects = [write for write in writes if isinstance(write.value, (VulkanObject, Struct, Array))]
+    joined = tuple(objects or writes)
     return joined if len(joined) <= MOST else (Alternative(Symbol(key, key.rpartition("::")[2]), joined[0].at),)
 
 

@@ -14,11 +14,11 @@ class Statements(Declarations):
     """Statements of one text."""
 
     def block(self, node: SyntaxNode, depth: int) -> list[Term]:
-        made: list[Term] = []
+        terms: list[Term] = []
         if depth < DEEPEST:
             for child in node.named_children:
-                made += self.statement(child, depth + 1)
-        return made
+                terms += self.statement(child, depth + 1)
+        return terms
 
     def statement(self, node: SyntaxNode, depth: int) -> list[Term]:
         kind = node.type
@@ -29,8 +29,8 @@ class Statements(Declarations):
         if kind == "declaration":
             return self.declared(node, depth)
         if kind == "return_statement" or kind == "co_return_statement":
-            said = without_comments(node)
-            return [(RETURN, self.expression(said[0], depth) if said else None, at)]
+            children = without_comments(node)
+            return [(RETURN, self.expression(children[0], depth) if children else None, at)]
         if kind in ("break_statement", "continue_statement", "throw_statement", "goto_statement"):
             return [(LEAVE, at)]
         if kind == "if_statement":
@@ -39,7 +39,7 @@ class Statements(Declarations):
             first = node.child_by_field_name("initializer")
             body = node.child_by_field_name("body")
             test = node.child_by_field_name("condition")
-            made = self.declared(first, depth) if first is not None and first.type == "declaration" else []
+            terms = self.declared(first, depth) if first is not None and first.type == "declaration" else []
             inside = self.inside(body, depth)
             update = node.child_by_field_name("update")
             if update is not None:
@@ -48,13 +48,13 @@ class Statements(Declarations):
                 inside = [(DO, self.expression(test, depth), at), *inside]
             if kind == "do_statement":
                 return inside
-            return [(LOOP, tuple(made), None, tuple(inside), at)]
+            return [(LOOP, tuple(terms), None, tuple(inside), at)]
         if kind == "for_range_loop":
             over, body = node.child_by_field_name("right"), node.child_by_field_name("body")
             name, _, indirect = self.declarator(node.child_by_field_name("declarator"))
-            typed = node.child_by_field_name("type")
-            made = [(DECLARE, self.type_text(typed) if typed is not None else "", name, None, indirect, False, at)] if name else []
-            return [(LOOP, tuple(made), self.expression(over, depth) if over is not None else None, tuple(self.inside(body, depth)), at)]
+            type_node = node.child_by_field_name("type")
+            terms = [(DECLARE, self.type_text(type_node) if type_node is not None else "", name, None, indirect, False, at)] if name else []
+            return [(LOOP, tuple(terms), self.expression(over, depth) if over is not None else None, tuple(self.inside(body, depth)), at)]
         if kind in CHAIN_TESTS:
             return self.conditional(node, depth)
         if kind == "switch_statement":
@@ -98,11 +98,11 @@ class Statements(Declarations):
             links.append((condition, tuple(self.inside(then, depth)), first, at))
             current = None
             if other is not None:
-                following = other.named_children[-1] if other.type == "else_clause" and other.named_child_count else other
-                if following.type == "if_statement" and len(links) < 200:
-                    current = following
+                next_node = other.named_children[-1] if other.type == "else_clause" and other.named_child_count else other
+                if next_node.type == "if_statement" and len(links) < 200:
+                    current = next_node
                 else:
-                    otherwise = self.inside(following, depth)
+                    otherwise = self.inside(next_node, depth)
         for condition, inside, first, at in reversed(links):
             otherwise = [*first, (IF, condition, inside, tuple(otherwise), at)]
         return otherwise
@@ -127,16 +127,18 @@ class Statements(Declarations):
         """A switch, as blocks each under the condition that the value is the case's."""
         test, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
         value = self.expression(test, depth) if test is not None else (UNPARSED, "", Span(0, 0))
-        made: list[Term] = []
+        terms: list[Term] = []
         for child in body.named_children if body is not None and depth < DEEPEST else ():
             if child.type != "case_statement":
                 continue
             at = span(child)
-            given = child.child_by_field_name("value")
-            condition: Term = (BINARY, "==", value, self.expression(given, depth), at) if given is not None else (UNPARSED, "default", at)
+            value_node = child.child_by_field_name("value")
+            condition: Term = (
+                (BINARY, "==", value, self.expression(value_node, depth), at) if value_node is not None else (UNPARSED, "default", at)
+            )
             inside: list[Term] = []
             for inner in child.named_children:
-                if inner != given and inner.type != "break_statement":
+                if inner != value_node and inner.type != "break_statement":
                     inside += self.statement(inner, depth + 1)
-            made.append((IF, condition, tuple(inside), (), at))
-        return made
+            terms.append((IF, condition, tuple(inside), (), at))
+        return terms

@@ -45,12 +45,12 @@ MEMBER_TYPES = {
 }
 
 
-def _hpp_defaults(made: Struct) -> None:
+def _hpp_defaults(struct: Struct) -> None:
     """Sample counts of vulkan.hpp's structures are 1 from the beginning, not 0."""
-    if made.kind in ("AttachmentDescription", "AttachmentDescription2", "ImageCreateInfo"):
-        made.cell("samples").writes = (Alternative(1, made.at),)
-    elif made.kind == "PipelineMultisampleStateCreateInfo":
-        made.cell("rasterizationSamples").writes = (Alternative(1, made.at),)
+    if struct.kind in ("AttachmentDescription", "AttachmentDescription2", "ImageCreateInfo"):
+        struct.cell("samples").writes = (Alternative(1, struct.at),)
+    elif struct.kind == "PipelineMultisampleStateCreateInfo":
+        struct.cell("rasterizationSamples").writes = (Alternative(1, struct.at),)
 
 
 class Structures(ABC):
@@ -77,61 +77,61 @@ class Structures(ABC):
 
     def constructed(self, kind: str, arguments: Sequence[Term], place: Span, around: Around, hpp: bool) -> Value:
         """A structure made with arguments in the order of its members. vulkan.hpp takes lists for a count and a pointer."""
-        made = Struct(kind, place, True)
+        struct = Struct(kind, place, True)
         if hpp:
-            _hpp_defaults(made)
+            _hpp_defaults(struct)
         if len(arguments) == 1 and arguments[0][0] in (NAME, FIELD):
             value = pointee(one(self.run.value(arguments[0], around)))
             if isinstance(value, Struct) and first_version(value.kind) == first_version(kind):
                 return (Alternative(copied(value), place),)
-        self.positional(made, [(None, a) for a in arguments], around, hpp)
-        return (Alternative(made, place),)
+        self.positional(struct, [(None, a) for a in arguments], around, hpp)
+        return (Alternative(struct, place),)
 
-    def positional(self, made: Struct, items: Sequence[tuple[Any, Term]], around: Around, hpp: bool) -> None:
-        names = list(MEMBERS[made.kind])
-        if not hpp and made.kind not in WITHOUT_TYPE:
+    def positional(self, struct: Struct, items: Sequence[tuple[Any, Term]], around: Around, hpp: bool) -> None:
+        names = list(MEMBERS[struct.kind])
+        if not hpp and struct.kind not in WITHOUT_TYPE:
             names = ["sType", "pNext", *names]
-        elif hpp and made.kind not in WITHOUT_TYPE:
+        elif hpp and struct.kind not in WITHOUT_TYPE:
             names.append("pNext")
         n = 0
-        for path, given in items:
+        for path, term in items:
             if path:
-                self.designated(made, path, given, around)
+                self.designated(struct, path, term, around)
                 name = str(path[0])
                 n = names.index(name) + 1 if name in names else n
                 continue
             if n >= len(names):
                 return
-            if given[0] == SOME:
+            if term[0] == SOME:
                 # Which member is which hangs on a condition.
                 for name in names[n:]:
-                    made.cell(member(name)).write(UNKNOWN_VALUE, given[-1], ALWAYS)
+                    struct.cell(member(name)).write(UNKNOWN_VALUE, term[-1], ALWAYS)
                 return
             name = names[n]
-            value = self.run.by_pointer(name, self.run.value(given, around, member_type(made.kind, name)), given, around)
-            known = pointee(one(value))
-            if name.endswith("Count") and hpp and (isinstance(known, (Array, Struct)) or given[0] == BRACES):
+            value = self.run.by_pointer(name, self.run.value(term, around, member_type(struct.kind, name)), term, around)
+            target = pointee(one(value))
+            if name.endswith("Count") and hpp and (isinstance(target, (Array, Struct)) or term[0] == BRACES):
                 n += 1
                 name = names[n] if n < len(names) else name
-            made.cell(member(name)).write(copies(value), given[-1], ALWAYS)
+            struct.cell(member(name)).write(copies(value), term[-1], ALWAYS)
             n += 1
 
-    def designated(self, made: Struct, path: Sequence[str | int], given: Term, around: Around) -> None:
+    def designated(self, struct: Struct, path: Sequence[str | int], term: Term, around: Around) -> None:
         """`.extent.width = 4`."""
         guards = ALWAYS
-        if given[0] == SOME:
-            guards, given = self.sometimes(given)
-        target: Struct = made
+        if term[0] == SOME:
+            guards, term = self.sometimes(term)
+        target: Struct = struct
         for part in path[:-1]:
             cell = target.cell(member(str(part)))
             value = one(cell.writes)
             if not isinstance(value, Struct):
-                value = Struct("", given[-1], True)
-                cell.writes = (Alternative(value, given[-1]),)
+                value = Struct("", term[-1], True)
+                cell.writes = (Alternative(value, term[-1]),)
             target = value
         name = str(path[-1])
-        value = self.run.by_pointer(name, self.run.value(given, around, member_type(target.kind, name)), given, around)
-        target.cell(member(name)).write(copies(value), given[-1], guards)
+        value = self.run.by_pointer(name, self.run.value(term, around, member_type(target.kind, name)), term, around)
+        target.cell(member(name)).write(copies(value), term[-1], guards)
 
     def sometimes(self, term: Term) -> tuple[Guards, Term]:
         """The conditions of an item of braces, and the item."""
@@ -145,25 +145,25 @@ class Structures(ABC):
     def braces(self, term: Term, around: Around, kind: str) -> Value:
         """What braces make, by the type that they are for."""
         kind, items, place = term[1] or kind, term[2], term[3]
-        found = structure(kind)
+        struct_name = structure(kind)
         hpp = kind.startswith(("vk::", "VULKAN"))
-        if found:
-            made = Struct(found, place, True)
+        if struct_name:
+            struct = Struct(struct_name, place, True)
             if hpp:
-                _hpp_defaults(made)
+                _hpp_defaults(struct)
             if len(items) == 1 and items[0][0] is None and items[0][1][0] in (NAME, FIELD):
                 value = pointee(one(self.run.value(items[0][1], around)))
                 if isinstance(value, Struct):
                     return (Alternative(copied(value), place),)
-            self.positional(made, [i for i in items if i[0] is not None or i[1][:2] != (LITERAL, 0) or len(items) > 1], around, hpp)
-            return (Alternative(made, place),)
+            self.positional(struct, [i for i in items if i[0] is not None or i[1][:2] != (LITERAL, 0) or len(items) > 1], around, hpp)
+            return (Alternative(struct, place),)
         inner = elements(kind)
         if items and all(path for path, _ in items) and isinstance(items[0][0][0], str) and inner is None:
-            made = Struct("", place, True)
-            for path, given in items:
-                self.designated(made, path, given, around)
-            return (Alternative(made, place),)
-        if not items and kind in ("", "auto") and not found:
+            struct = Struct("", place, True)
+            for path, item in items:
+                self.designated(struct, path, item, around)
+            return (Alternative(struct, place),)
+        if not items and kind in ("", "auto") and not struct_name:
             # `{}` for flags is none of them.
             return (Alternative(Array("", place), place),)
         if inner is None and kind and kind != "auto":
@@ -190,18 +190,18 @@ class Structures(ABC):
             ):
                 items = inner
         array.zeroed = True
-        for path, given in items:
-            if given[:2] == (LITERAL, 0) and len(items) == 1 and structure(kind):
+        for path, term in items:
+            if term[:2] == (LITERAL, 0) and len(items) == 1 and structure(kind):
                 continue
-            guards, given = self.sometimes(given)
-            value = self.run.value(given, around, kind)
+            guards, term = self.sometimes(term)
+            value = self.run.value(term, around, kind)
             cell = Cell(kind)
             cell.writes = tuple(Alternative(copied(a.value), a.at, a.guards | guards) for a in value) or (
-                Alternative(UNKNOWN, given[-1], guards),
+                Alternative(UNKNOWN, term[-1], guards),
             )
             index = path[0] if path else len(array.items)
             if isinstance(index, str):
-                index = one(self.run.value((NAME, index.removeprefix("["), given[-1]), around))
+                index = one(self.run.value((NAME, index.removeprefix("["), term[-1]), around))
             if not isinstance(index, int) or index > 64:
                 array.whole = False
                 continue
@@ -211,9 +211,9 @@ class Structures(ABC):
                 array.items[index] = cell
             else:
                 array.items.append(cell)
-            made = one(cell.writes)
-            if isinstance(made, Struct) and not made.name and given[0] in (NAME, FIELD):
-                made.name = str(given[1] if given[0] == NAME else given[2])
+            element = one(cell.writes)
+            if isinstance(element, Struct) and not element.name and term[0] in (NAME, FIELD):
+                element.name = str(term[1] if term[0] == NAME else term[2])
         return (Alternative(array, place),)
 
     def sized(self, kind: str, arguments: Sequence[Term], place: Span, around: Around) -> Value:
@@ -237,17 +237,17 @@ class Structures(ABC):
 
     def of_class(self, kind: str, items: Sequence[tuple[Any, Term]], place: Span, around: Around) -> Value:
         """An object of a class of the file's, by its constructor or given its members in their order."""
-        arguments = tuple(given for _, given in items)
+        arguments = tuple(item for _, item in items)
         built = self.object_made(kind, (CALL, (NAME, kind, place), arguments, place), around)
         if built is not None:
             return built
-        made = Struct("", place, False)
+        struct = Struct("", place, False)
         names = list(self.run.members.get(self.run.class_of(kind, around.space) or "", ()))
-        for name, (path, given) in zip(names, items, strict=False):
+        for name, (path, term) in zip(names, items, strict=False):
             if not path:
-                value = self.run.value(given, around)
-                made.cell(member(name)).writes = copies(value)
-        return (Alternative(made, place),)
+                value = self.run.value(term, around)
+                struct.cell(member(name)).writes = copies(value)
+        return (Alternative(struct, place),)
 
     def of_kind(self, term: Term, kind: str, around: Around) -> bool:
         if term[0] == BRACES:
@@ -272,10 +272,12 @@ class Structures(ABC):
                     for cell in value.items:
                         cell.writes = (Alternative(UNKNOWN, first[-1]),)
                     return UNKNOWN_VALUE
-            for each in [value] if isinstance(value, Struct) else [one(c.writes) for c in value.items] if isinstance(value, Array) else []:
-                if isinstance(each, Struct):
-                    each.zeroed = True
-                    each.fields.clear()
+            for element in (
+                [value] if isinstance(value, Struct) else [one(c.writes) for c in value.items] if isinstance(value, Array) else []
+            ):
+                if isinstance(element, Struct):
+                    element.zeroed = True
+                    element.fields.clear()
             if isinstance(value, Array) and structure(value.kind):
                 # Elements that come later are zero as well.
                 value.zeroed = True

@@ -67,9 +67,9 @@ class _Reading(Statements):
 
     def outer(self, root: SyntaxNode) -> None:
         """Goes through what holds functions: namespaces, classes, blocks of the preprocessor."""
-        waiting: list[tuple[str, str, SyntaxNode, int]] = [("", "", root, 0)]
-        while waiting:
-            space, within, node, depth = waiting.pop()
+        stack: list[tuple[str, str, SyntaxNode, int]] = [("", "", root, 0)]
+        while stack:
+            space, within, node, depth = stack.pop()
             kind = node.type
             if kind in CONTAINERS or kind == "field_declaration_list":
                 if kind == "namespace_definition":
@@ -78,16 +78,16 @@ class _Reading(Statements):
                 if kind == "field_declaration_list":
                     self.accesses(node)
                 if depth < DEEPEST:
-                    waiting += [(space, within, child, depth + 1) for child in reversed(node.named_children)]
+                    stack += [(space, within, child, depth + 1) for child in reversed(node.named_children)]
             elif kind in CLASSES:
                 name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
                 if body is not None:
-                    waiting.append((space, f"{space}{self.of(name)}" if name is not None else within, body, depth + 1))
+                    stack.append((space, f"{space}{self.of(name)}" if name is not None else within, body, depth + 1))
             elif kind == "function_definition":
                 if node.child_by_field_name("body") is not None:
                     self.found.append((space, within, node))
             elif kind == "field_declaration":
-                self.class_in(node, waiting, space, within, depth)
+                self.class_in(node, stack, space, within, depth)
                 if within:
                     terms = self.declared(node)
                     if node.start_byte in self.public:
@@ -97,19 +97,19 @@ class _Reading(Statements):
                     self.prototype(node)
                     self.virtuals(node)
             elif kind == "declaration":
-                self.class_in(node, waiting, space, within, depth)
+                self.class_in(node, stack, space, within, depth)
                 self.outside += [(*term[:2], space + term[2], *term[3:]) for term in self.declared(node)]
                 self.prototype(node)
             elif kind == "preproc_def":
                 parent = node.parent
-                asked = parent.child_by_field_name("name") if parent is not None and parent.type == "preproc_ifdef" else None
-                own = node.child_by_field_name("name")
-                if asked is not None and own is not None and self.of(asked) == self.of(own):
+                name_node = parent.child_by_field_name("name") if parent is not None and parent.type == "preproc_ifdef" else None
+                macro = node.child_by_field_name("name")
+                if name_node is not None and macro is not None and self.of(name_node) == self.of(macro):
                     # The build may say otherwise.
                     continue
                 self.outside += self.defined(node)
             elif kind == "type_definition":
-                self.class_in(node, waiting, space, within, depth)
+                self.class_in(node, stack, space, within, depth)
                 self.typedef(node)
             elif kind in ("namespace_alias_definition", "alias_declaration"):
                 self.alias(node)
@@ -120,24 +120,24 @@ class _Reading(Statements):
                 self.outside += self.statement(node, 0)
 
     @staticmethod
-    def class_in(node: SyntaxNode, waiting: list[tuple[str, str, SyntaxNode, int]], space: str, within: str, depth: int) -> None:
+    def class_in(node: SyntaxNode, stack: list[tuple[str, str, SyntaxNode, int]], space: str, within: str, depth: int) -> None:
         kind = node.child_by_field_name("type")
         if kind is not None and (kind.type in CLASSES or kind.type == "enum_specifier"):
-            waiting.append((space, within, kind, depth + 1))
+            stack.append((space, within, kind, depth + 1))
 
     def relevant(self) -> list[tuple[str, str, SyntaxNode]]:
         """The functions that matter: those that say something of multisampling, and those that call them, over and over."""
         texts = [self.of(node) for _, _, node in self.found]
-        taken = [RELEVANT.search(text) is not None for text in texts]
-        fresh = taken
+        relevant = [RELEVANT.search(text) is not None for text in texts]
+        fresh = relevant
         for _ in range(4):
             names = {self.called(self.found[n][2]) for n, new in enumerate(fresh) if new} - {""}
-            if not names or all(taken):
+            if not names or all(relevant):
                 break
             calls = re.compile(r"\b(?:" + "|".join(map(re.escape, sorted(names))) + r")\s*\(")
-            fresh = [not old and calls.search(text) is not None for old, text in zip(taken, texts, strict=True)]
-            taken = [old or new for old, new in zip(taken, fresh, strict=True)]
-        return [each for each, matters in zip(self.found, taken, strict=True) if matters]
+            fresh = [not old and calls.search(text) is not None for old, text in zip(relevant, texts, strict=True)]
+            relevant = [old or new for old, new in zip(relevant, fresh, strict=True)]
+        return [item for item, matters in zip(self.found, relevant, strict=True) if matters]
 
     def accesses(self, node: SyntaxNode) -> None:
         """Notes which members of a class are public."""
@@ -195,25 +195,27 @@ class _Reading(Statements):
         if kind in ("auto", ""):
             trailing = next((c for c in declarator.named_children if c.type == "trailing_return_type"), None)
             kind = self.type_text(trailing).removeprefix("->") if trailing is not None else kind
-        listed = declarator.child_by_field_name("parameters")
+        list_node = declarator.child_by_field_name("parameters")
         owner = within or (space + scope if scope else "")
         self.current = short
         statements = tuple(self.initialised(node)) + tuple(self.block(body, 0))
         at = span(name)
-        parameters = self.parameters(listed)
-        stated = self.prototypes.get(short, ())
-        if len(stated) == len(parameters):
-            parameters = tuple(own._replace(default=own.default or said.default) for own, said in zip(parameters, stated, strict=True))
+        parameters = self.parameters(list_node)
+        declared = self.prototypes.get(short, ())
+        if len(declared) == len(parameters):
+            parameters = tuple(
+                item._replace(default=item.default or entry.default) for item, entry in zip(parameters, declared, strict=True)
+            )
         head = self.text[node.start_byte : body.start_byte]
         overridden = VIRTUAL.search(head) is not None or short in self.virtual
         return Function(short, owner, kind, parameters, statements, at, space, overridden)
 
     def initialised(self, node: SyntaxNode) -> Iterator[Term]:
         """What a constructor gives its members before its body."""
-        given = next((c for c in node.named_children if c.type == "field_initializer_list"), None)
-        for each in given.named_children if given is not None else ():
-            if each.type == "field_initializer" and each.named_child_count == 2:
-                name, value = each.named_children
+        match = next((c for c in node.named_children if c.type == "field_initializer_list"), None)
+        for child in match.named_children if match is not None else ():
+            if child.type == "field_initializer" and child.named_child_count == 2:
+                name, value = child.named_children
                 items = [self.expression(c, 0) for c in without_comments(value)]
                 at = span(name)
                 term = items[0] if len(items) == 1 else (CALL, (NAME, "", at), tuple(items), at)

@@ -27,26 +27,39 @@ class Writer(Passes, Commands):
     def read(self) -> Read | None:
         """The tree; None where the file makes nothing that can be described."""
         self.choose()
-        self.met = [made for made in self.met if not self.excluded(made)]
-        passes = [made for made in self.met if made.kind == "renderPass" and made.info is not None]
+        self.met = [vulkan_object for vulkan_object in self.met if not self.excluded(vulkan_object)]
+        passes = [vulkan_object for vulkan_object in self.met if vulkan_object.kind == "renderPass" and vulkan_object.info is not None]
         self.bind(passes)
         rendered: list[Item] = []
         attached: dict[int, VulkanObject] = {}
-        kept: dict[int, str] = {}
-        for made in passes:
-            item = self.render_pass(made, attached)
+        pass_names: dict[int, str] = {}
+        for render_pass in passes:
+            item = self.render_pass(render_pass, attached)
             if item is not None:
-                kept[id(made)] = item[0]
+                pass_names[id(render_pass)] = item[0]
                 rendered.append(item)
-        recorded = [self.rendering(made, attached) for made in self.met if made.kind == "rendering" and made.info is not None]
+        recorded = [
+            self.rendering(vulkan_object, attached)
+            for vulkan_object in self.met
+            if vulkan_object.kind == "rendering" and vulkan_object.info is not None
+        ]
         recorded += [self.resolve(at, ends, attached) for at, ends in self.resolves.items()]
         commands = _different([node for node in recorded if node is not None])
-        images = list({id(each): each for made in self.met if made.kind == "image" for each in (self.first(made),)}.values())
-        shown = [self.image(made) for made in images if id(made) in attached or self.many(made)]
-        shown += self.strangers.values()
-        pipelines = [item for made in self.met if made.kind in ("pipeline", "state") for item in self.pipeline(made, kept)]
+        images = list(
+            {
+                id(entry): entry for vulkan_object in self.met if vulkan_object.kind == "image" for entry in (self.first(vulkan_object),)
+            }.values()
+        )
+        image_items = [self.image(image) for image in images if id(image) in attached or self.many(image)]
+        image_items += self.strangers.values()
+        pipelines = [
+            item
+            for vulkan_object in self.met
+            if vulkan_object.kind in ("pipeline", "state")
+            for item in self.pipeline(vulkan_object, pass_names)
+        ]
         sections = []
-        for name, every in (("images", shown), ("renderPasses", rendered), ("pipelines", pipelines)):
+        for name, every in (("images", image_items), ("renderPasses", rendered), ("pipelines", pipelines)):
             items = _distinct(every)
             if items:
                 at = items[0][1]
@@ -59,15 +72,15 @@ class Writer(Passes, Commands):
             return None
         return Read(mapping(sections, Span(0, 0)), tuple(self.assumed.values()))
 
-    def many(self, made: VulkanObject) -> bool:
-        return made.info is not None and (self.samples(made.info)[0] or 1) > 1
+    def many(self, vulkan_object: VulkanObject) -> bool:
+        return vulkan_object.info is not None and (self.samples(vulkan_object.info)[0] or 1) > 1
 
-    def image(self, made: VulkanObject) -> Item:
-        info = made.info
+    def image(self, vulkan_object: VulkanObject) -> Item:
+        info = vulkan_object.info
         assert info is not None
         items: list[Item] = []
         for name in ("format", "imageType", "tiling", "sharingMode", "usage"):
-            if name == "usage" and made.escaped and not self.transient(info):
+            if name == "usage" and vulkan_object.escaped and not self.transient(info):
                 # Other code may use it as it likes.
                 continue
             if name == "imageType" and info.zeroed and name not in info.fields:
@@ -80,21 +93,23 @@ class Writer(Passes, Commands):
             value, place = self.get(info, name)
             if type(value) is int and value > 0:
                 items.append((name, place, scalar(value, place)))
-        memory = flags_of(FLAGS["memory"], one(self.settle(made.memory)), made.memory[-1].at) if made.memory else None
+        memory = (
+            flags_of(FLAGS["memory"], one(self.settle(vulkan_object.memory)), vulkan_object.memory[-1].at) if vulkan_object.memory else None
+        )
         if memory is not None:
             items.append(("memory", memory.span, memory))
         head = head_of(info.at)
-        return self.name(made, "image"), head, mapping(items, head)
+        return self.name(vulkan_object, "image"), head, mapping(items, head)
 
     def transient(self, info: Struct) -> bool:
         value = self.get(info, "usage")[0]
         bits = [bit for bit, _ in value.bits] if isinstance(value, Flags) else [value]
         return any(isinstance(bit, str) and "TRANSIENT" in bit for bit in bits)
 
-    def pipeline(self, made: VulkanObject, passes: dict[int, str]) -> Iterator[Item]:
-        info = made.info
+    def pipeline(self, vulkan_object: VulkanObject, passes: dict[int, str]) -> Iterator[Item]:
+        info = vulkan_object.info
         assert info is not None
-        state = info if made.kind == "state" else self.struct(info, "multisampleState")
+        state = info if vulkan_object.kind == "state" else self.struct(info, "multisampleState")
         if state is None or first_version(state.kind) not in ("PipelineMultisampleStateCreateInfo", ""):
             return
         items: list[Item] = []
@@ -110,7 +125,7 @@ class Writer(Passes, Commands):
             return
         head = head_of(state.at)
         members: list[Item] = []
-        if made.kind == "pipeline":
+        if vulkan_object.kind == "pipeline":
             target = self.aimed(self.get(info, "renderPass")[0])
             # Of a page the listings come one after the other, and need not be of one program.
             if isinstance(target, VulkanObject) and id(target) in passes and not self.fragments:
@@ -125,12 +140,12 @@ class Writer(Passes, Commands):
             members += dynamic
             members += self.blending(info)
         members.append(("multisampleState", head, mapping(items, head)))
-        yield self.name(made, state.name or "pipeline"), head, mapping(members, head)
+        yield self.name(vulkan_object, state.name or "pipeline"), head, mapping(members, head)
 
     def supposed(self, state: Struct) -> bool:
         """Whether the count of a pipeline is only taken for what it is."""
         cell = state.fields.get("rasterizationSamples")
-        return cell is not None and any(isinstance(each.value, Symbol) for each in self.settle(cell.writes))
+        return cell is not None and any(isinstance(item.value, Symbol) for item in self.settle(cell.writes))
 
     def mask(self, state: Struct) -> Iterator[Item]:
         """The sample mask, where all its words are known."""
@@ -142,7 +157,7 @@ class Writer(Passes, Commands):
 
     def enabled(self) -> Iterator[Item]:
         """What the file's one device is created with: of its features only whether sample shading is among them."""
-        devices = [made for made in self.met if made.kind == "device" and made.info is not None]
+        devices = [vulkan_object for vulkan_object in self.met if vulkan_object.kind == "device" and vulkan_object.info is not None]
         if len(devices) != 1 or devices[0].info is None:
             return
         info = devices[0].info
@@ -166,22 +181,22 @@ class Writer(Passes, Commands):
         if value is None:
             return []
         state = self.aimed(value)
-        listed = self.aimed(self.get(state, "dynamicStates")[0]) if isinstance(state, Struct) else UNKNOWN
-        if not isinstance(listed, Array) or not listed.whole:
+        list_node = self.aimed(self.get(state, "dynamicStates")[0]) if isinstance(state, Struct) else UNKNOWN
+        if not isinstance(list_node, Array) or not list_node.whole:
             return None
-        names = [parse_enum("VkDynamicState", str(one(self.settle(cell.writes)))) for cell in listed.items]
-        found = [scalar(name, at) for name in names if name is not None]
-        return [("dynamicState", at, sequence(found, at))] if found else []
+        names = [parse_enum("VkDynamicState", str(one(self.settle(cell.writes)))) for cell in list_node.items]
+        nodes = [scalar(name, at) for name in names if name is not None]
+        return [("dynamicState", at, sequence(nodes, at))] if nodes else []
 
     def blending(self, info: Struct) -> Iterator[Item]:
         state = self.struct(info, "colorBlendState")
         attachments = self.structs(state, "attachments") if state is not None else None
-        if not attachments or any(each is None for each in attachments):
+        if not attachments or any(attachment is None for attachment in attachments):
             return
         nodes = []
-        for each in attachments:
-            assert each is not None
-            nodes.append(mapping(self.item(each, "blendEnable"), head_of(each.at)))
+        for blend_state in attachments:
+            assert blend_state is not None
+            nodes.append(mapping(self.item(blend_state, "blendEnable"), head_of(blend_state.at)))
         assert state is not None
         head = head_of(state.at)
         yield "colorBlendState", head, mapping([("attachments", head, sequence(nodes, head))], head)
@@ -189,10 +204,10 @@ class Writer(Passes, Commands):
 
 def _distinct(items: Sequence[Item]) -> list[Item]:
     """Of items that say the same from the same places the first: a function that is called twice makes one thing twice."""
-    kept: dict[str, Item] = {}
+    distinct: dict[str, Item] = {}
     for item in items:
-        kept.setdefault(f"{item[1]} {_signature(item[2])}", item)
-    return list(kept.values())
+        distinct.setdefault(f"{item[1]} {_signature(item[2])}", item)
+    return list(distinct.values())
 
 
 def _different(nodes: Sequence[Node]) -> list[Node]:

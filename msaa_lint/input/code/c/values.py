@@ -85,20 +85,20 @@ def settled(writes: Value, world: Mapping[str, bool]) -> Value:
     """The writes that may be seen in a world: from the last one back to the first that certainly happened."""
     if len(writes) == 1 and not writes[0].guards:
         return writes
-    seen: list[Alternative] = []
+    alternatives: list[Alternative] = []
     for write in reversed(writes):
         rest = []
         for guard in write.guards:
-            known = world.get(guard[0])
-            if known is None:
+            way = world.get(guard[0])
+            if way is None:
                 rest.append(guard)
-            elif known is not guard[1]:
+            elif way is not guard[1]:
                 break
         else:
-            seen.append(Alternative(write.value, write.at, frozenset(rest)) if len(rest) < len(write.guards) else write)
+            alternatives.append(Alternative(write.value, write.at, frozenset(rest)) if len(rest) < len(write.guards) else write)
             if not rest:
                 break
-    return tuple(reversed(seen))
+    return tuple(reversed(alternatives))
 
 
 class Struct:
@@ -163,8 +163,8 @@ class VulkanObject:
     def signature(self) -> tuple[Any, ...]:
         """What it has in common with what the same call makes again alike."""
         fields = self.info.fields if self.info is not None else {}
-        said = [(name, tuple(_said(write.value) for write in cell.writes)) for name, cell in fields.items()]
-        return (self.kind, self.at, tuple(sorted(said)))
+        members = [(name, tuple(_said(write.value) for write in cell.writes)) for name, cell in fields.items()]
+        return (self.kind, self.at, tuple(sorted(members)))
 
 
 def _said(value: Any) -> str:
@@ -203,10 +203,10 @@ def copied(value: Any, depth: int = 0, through: bool = False) -> Any:
     if depth > DEEPEST:
         return UNKNOWN
     if isinstance(value, Struct):
-        made = Struct(value.kind, value.at, value.zeroed, value.name)
+        struct = Struct(value.kind, value.at, value.zeroed, value.name)
         for name, cell in value.fields.items():
-            made.fields[name] = copied_cell(cell, depth, through)
-        return made
+            struct.fields[name] = copied_cell(cell, depth, through)
+        return struct
     if isinstance(value, Array):
         array = Array(value.kind, value.at, value.whole)
         array.zeroed, array.name = value.zeroed, value.name
@@ -218,12 +218,12 @@ def copied(value: Any, depth: int = 0, through: bool = False) -> Any:
 
 
 def copied_cell(cell: Cell, depth: int = 0, through: bool = False) -> Cell:
-    made = Cell(cell.kind, cell.name)
-    made.writes = tuple(
+    copy = Cell(cell.kind, cell.name)
+    copy.writes = tuple(
         Alternative(copied(a.value, depth + 1, through), a.at, a.guards) if isinstance(a.value, (Struct, Array, Ref)) else a
         for a in cell.writes
     )
-    return made
+    return copy
 
 
 def one(value: Value) -> Any:

@@ -58,9 +58,9 @@ class Assembly:
 
     def type(self, kind: Type) -> int:
         """The id of a type."""
-        found = self._types.get(kind)
-        if found is not None:
-            return found
+        type_id = self._types.get(kind)
+        if type_id is not None:
+            return type_id
         operands: Sequence[int]
         if kind[0] == "vec":
             number, operands = op.TYPE_VECTOR, (self.type(_inner(kind[1])), _count(kind[2]))
@@ -73,14 +73,14 @@ class Assembly:
         elif kind[0] == "struct":
             members = kind[2]
             assert isinstance(members, tuple)
-            number, operands = op.TYPE_STRUCT, [self.type(each) for _, each in members]
+            number, operands = op.TYPE_STRUCT, [self.type(item) for _, item in members]
         elif kind[0] == "opaque":
             number, operands = op.TYPE_IMAGE, (self.type(FLOAT), 1, 0, 0, int("MS" in str(kind[1])), 1, 0)
         else:
             number, operands = _SCALARS[kind]
-        found = self._types[kind] = self.id()
-        self.declare(number, found, *operands)
-        return found
+        type_id = self._types[kind] = self.id()
+        self.declare(number, type_id, *operands)
+        return type_id
 
     def pointer(self, storage: int, kind: Type) -> int:
         """The id of the type of pointers to a type."""
@@ -96,34 +96,34 @@ class Assembly:
         key = (kind, type(value), value)
         if specialisation is None and key in self._constants:
             return self._constants[key]
-        type_id, found = self.type(kind), self.id()
+        type_id, constant_id = self.type(kind), self.id()
         special = 0 if specialisation is None else op.SPEC_CONSTANT_TRUE - op.CONSTANT_TRUE
         if kind == BOOL:
-            self.declare((op.CONSTANT_TRUE if value else op.CONSTANT_FALSE) + special, type_id, found)
+            self.declare((op.CONSTANT_TRUE if value else op.CONSTANT_FALSE) + special, type_id, constant_id)
         elif kind == DOUBLE:
             low, high = struct.unpack("<II", struct.pack("<d", value))
-            self.declare(op.CONSTANT + special, type_id, found, low, high)
+            self.declare(op.CONSTANT + special, type_id, constant_id, low, high)
         elif kind == FLOAT:
-            self.declare(op.CONSTANT + special, type_id, found, struct.unpack("<I", struct.pack("<f", value))[0])
+            self.declare(op.CONSTANT + special, type_id, constant_id, struct.unpack("<I", struct.pack("<f", value))[0])
         else:
-            self.declare(op.CONSTANT + special, type_id, found, int(value) & 0xFFFFFFFF)
+            self.declare(op.CONSTANT + special, type_id, constant_id, int(value) & 0xFFFFFFFF)
         if specialisation is None:
-            self._constants[key] = found
+            self._constants[key] = constant_id
         else:
-            self.decorate(found, op.SPEC_ID, specialisation)
-        return found
+            self.decorate(constant_id, op.SPEC_ID, specialisation)
+        return constant_id
 
     def variable(self, storage: int, kind: Type) -> int:
         """A variable: outside of functions, or of the current one."""
-        pointer, found = self.pointer(storage, kind), self.id()
-        words = (4 << 16 | op.VARIABLE, pointer, found, storage)
+        pointer, variable_id = self.pointer(storage, kind), self.id()
+        words = (4 << 16 | op.VARIABLE, pointer, variable_id, storage)
         if storage == op.FUNCTION_LOCAL:
             self.variables += words
         else:
             self.declared += words
             if storage in (op.INPUT, op.OUTPUT):
-                self.interface.append(found)
-        return found
+                self.interface.append(variable_id)
+        return variable_id
 
     def begin(self) -> None:
         """Begins the body of a function."""
@@ -142,15 +142,15 @@ class Assembly:
         text = name.encode() + b"\0" * (4 - len(name) % 4)
         named = struct.unpack(f"<{len(text) // 4}I", text)
         words = [_MAGIC, _VERSION, 0, self.bound, 0]
-        for each in sorted(self.capabilities):
-            words += (2 << 16 | op.CAPABILITY, each)
+        for capabilitie in sorted(self.capabilities):
+            words += (2 << 16 | op.CAPABILITY, capabilitie)
         library = struct.unpack("<4I", b"GLSL.std.450\0\0\0\0")
         words += (6 << 16 | op.EXT_INST_IMPORT, self.extended, *library)
         words += (3 + len(named) + len(self.interface) << 16 | op.ENTRY_POINT, model, main, *named, *self.interface)
         for mode in self.modes:
             words += (3 << 16 | op.EXECUTION_MODE, main, mode)
-        made = array.array("I", [word & 0xFFFFFFFF for part in (words, self.decorations, self.declared, self.functions) for word in part])
-        return made.tobytes()
+        binary = array.array("I", [word & 0xFFFFFFFF for part in (words, self.decorations, self.declared, self.functions) for word in part])
+        return binary.tobytes()
 
 
 _SCALARS: dict[Type, tuple[int, tuple[int, ...]]] = {

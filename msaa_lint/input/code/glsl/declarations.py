@@ -67,9 +67,9 @@ class Declarations(Expressions):
         self.weights[self.of(name)] = sum(map(self.weight, (kind for _, kind in members)), 1)
         if self.weights[self.of(name)] > MOST_PARTS:
             raise self.no(name, "has too many parts")
-        made = ("struct", self.of(name), members)
-        self.structs[self.of(name)] = made
-        return made
+        struct_type = ("struct", self.of(name), members)
+        self.structs[self.of(name)] = struct_type
+        return struct_type
 
     def weight(self, kind: Type) -> int:
         """How many types a type is made of."""
@@ -79,26 +79,26 @@ class Declarations(Expressions):
 
     def members(self, body: SyntaxNode) -> list[tuple[str, Type, set[str]]]:
         """The members of a structure or block: name, type, qualifiers."""
-        found: list[tuple[str, Type, set[str]]] = []
+        members: list[tuple[str, Type, set[str]]] = []
         for field in body.named_children:
             if field.type != "field_declaration":
                 continue
-            typed = field.child_by_field_name("type")
-            kind = self.kind(self.of(typed)) if typed is not None else None
-            if typed is None or kind is None:
+            type_node = field.child_by_field_name("type")
+            kind = self.kind(self.of(type_node)) if type_node is not None else None
+            if type_node is None or kind is None:
                 raise self.no(field, "is not understood")
-            words = set(_WORD.findall(self.text[field.start_byte : typed.start_byte]))
+            words = set(_WORD.findall(self.text[field.start_byte : type_node.start_byte]))
             for declarator in field.children_by_field_name("declarator"):
-                name, own = self.declarator(declarator, kind)
-                found.append((name, own, words))
-        return found
+                name, member_kind = self.declarator(declarator, kind)
+                members.append((name, member_kind, words))
+        return members
 
     def declarator(self, node: SyntaxNode, kind: Type) -> tuple[str, Type]:
         """The name that a declarator gives, and the type with its arrays."""
         sizes: list[int] = []
         while node.type == "array_declarator":
-            given, inner = node.child_by_field_name("size"), node.child_by_field_name("declarator")
-            sizes.append(self.size(given) if given is not None else 0)
+            size_node, inner = node.child_by_field_name("size"), node.child_by_field_name("declarator")
+            sizes.append(self.size(size_node) if size_node is not None else 0)
             if inner is None or len(sizes) > 4:
                 raise self.no(node, "is not understood")
             node = inner
@@ -110,8 +110,8 @@ class Declarations(Expressions):
         """The size of an array, as far as it is a plain number or a constant that is one."""
         number = whole(self.of(node))
         if number is None:
-            found = self.look(self.of(node)) if node.type == "identifier" else None
-            number = self.plain.get(found.id) if isinstance(found, Value) else None
+            constant = self.look(self.of(node)) if node.type == "identifier" else None
+            number = self.plain.get(constant.id) if isinstance(constant, Value) else None
         if number is None or not 0 < number <= 65536:
             raise self.no(node, "is no size that is understood")
         return number
@@ -120,60 +120,60 @@ class Declarations(Expressions):
         """What stands before a type: words, and the entries of `layout`."""
         layouts = [child for child in node.children if child.type == "layout_specification"]
         text = self.text[node.start_byte : end]
-        for each in reversed(layouts):
-            text = text[: each.start_byte - node.start_byte] + " " + text[each.end_byte - node.start_byte :]
+        for layout in reversed(layouts):
+            text = text[: layout.start_byte - node.start_byte] + " " + text[layout.end_byte - node.start_byte :]
         entries: dict[str, int | None] = {}
-        for each in layouts:
-            for name, value in _ENTRY.findall(self.of(each).partition("(")[2]):
+        for layout in layouts:
+            for name, value in _ENTRY.findall(self.of(layout).partition("(")[2]):
                 entries[name] = whole(value) if value else None
                 if value and entries[name] is None:
-                    found = self.look(value)
-                    entries[name] = self.plain.get(found.id) if isinstance(found, Value) else None
+                    constant = self.look(value)
+                    entries[name] = self.plain.get(constant.id) if isinstance(constant, Value) else None
         return set(_WORD.findall(text)), entries
 
     def declaration(self, node: SyntaxNode) -> None:
         if any(child.type == "ERROR" for child in node.children):
             raise self.no(node, "is not understood")
         body = next((child for child in node.named_children if child.type == "field_declaration_list"), None)
-        typed = node.child_by_field_name("type")
-        if body is not None and typed is None:
+        type_node = node.child_by_field_name("type")
+        if body is not None and type_node is None:
             self.block(node, body)
             return
-        if typed is None:
+        if type_node is None:
             return
-        kind = self.structure(typed) if typed.type == "struct_specifier" else self.kind(self.of(typed))
-        words, layout = self.qualifiers(node, typed.start_byte)
+        kind = self.structure(type_node) if type_node.type == "struct_specifier" else self.kind(self.of(type_node))
+        words, layout = self.qualifiers(node, type_node.start_byte)
         for declarator in node.children_by_field_name("declarator"):
             if declarator.type == "function_declarator" or kind is None:
                 continue
             self.declared(declarator, kind, words, layout)
-        if kind is None and self.of(typed) not in ("precision",):
+        if kind is None and self.of(type_node) not in ("precision",):
             raise self.no(node, "is of no type that is known")
 
     def declared(self, node: SyntaxNode, kind: Type, words: set[str], layout: dict[str, int | None]) -> None:
         """A variable outside of functions."""
-        given = node.child_by_field_name("value") if node.type == "init_declarator" else None
+        initializer = node.child_by_field_name("value") if node.type == "init_declarator" else None
         target = node.child_by_field_name("declarator") if node.type == "init_declarator" else node
         if target is None:
             raise self.no(node, "is not understood")
-        if given is not None and is_unsized(target):
-            kind = self.of_list(given, kind)
+        if initializer is not None and is_unsized(target):
+            kind = self.of_list(initializer, kind)
             target = target.child_by_field_name("declarator") or target
         name, kind = self.declarator(target, kind)
-        if "const" in words or given is not None:
-            self.constant(name, kind, given, layout, node, "const" in words)
+        if "const" in words or initializer is not None:
+            self.constant(name, kind, initializer, layout, node, "const" in words)
             return
         storage = next((_STORAGE[word] for word in ("in", "varying", "out", "uniform", "buffer", "shared") if word in words), op.PRIVATE)
-        made = self.variable(storage, kind)
-        self.scopes[0][name] = made
+        variable = self.variable(storage, kind)
+        self.scopes[0][name] = variable
         inner = kind[1] if kind[0] == "array" else kind
         samples = isinstance(inner, tuple) and multisampled(inner)
         if samples:
             layout = self.bound(name, layout)
             self.images[name] = (target.start_byte, target.end_byte)
-        self.decorated(made.pointer, layout, storage)
+        self.decorated(variable.pointer, layout, storage)
         if "sample" in words and storage == op.INPUT:
-            self.out.decorate(made.pointer, op.SAMPLE)
+            self.out.decorate(variable.pointer, op.SAMPLE)
             self.out.capabilities.add(op.SAMPLE_RATE_SHADING)
 
     def bound(self, name: str, layout: dict[str, int | None]) -> dict[str, int | None]:
@@ -183,10 +183,10 @@ class Declarations(Expressions):
         self.bindings[name] = (layout.get("set") or 0, layout.get("binding"))
         return layout
 
-    def of_list(self, given: SyntaxNode, kind: Type) -> Type:
+    def of_list(self, node: SyntaxNode, kind: Type) -> Type:
         """The type of an array whose size its values say."""
-        listed = given.child_by_field_name("arguments") or given
-        return ("array", kind, sum(child.type != "comment" for child in listed.named_children))
+        list_node = node.child_by_field_name("arguments") or node
+        return ("array", kind, sum(child.type != "comment" for child in list_node.named_children))
 
     def decorated(self, target: int, layout: dict[str, int | None], storage: int) -> None:
         for name, number in _DECORATED.items():
@@ -199,14 +199,14 @@ class Declarations(Expressions):
             self.unplaced.append(target)
 
     def constant(
-        self, name: str, kind: Type, given: SyntaxNode | None, layout: dict[str, int | None], node: SyntaxNode, fixed: bool
+        self, name: str, kind: Type, initializer: SyntaxNode | None, layout: dict[str, int | None], node: SyntaxNode, fixed: bool
     ) -> None:
         """A constant, or a variable that begins with something."""
-        if given is None:
+        if initializer is None:
             raise self.no(node, "is not understood")
         special = layout.get("constant_id")
-        negative = given.type == "unary_expression" and self.of(given)[:1] == "-"
-        literal = given.child_by_field_name("argument") if negative else given
+        negative = initializer.type == "unary_expression" and self.of(initializer)[:1] == "-"
+        literal = initializer.child_by_field_name("argument") if negative else initializer
         while literal is not None and literal.type == "parenthesized_expression" and literal.named_child_count == 1:
             literal = literal.named_children[0]
         scalar = kind in (BOOL, INT, UINT, FLOAT)
@@ -219,10 +219,10 @@ class Declarations(Expressions):
             if kind != BOOL:
                 value = float(number) if number is not None else self.real(literal)
                 value = -value if negative else value
-            made = self.out.number(kind, value, special)
-            self.scopes[0][name] = Value(made, kind)
+            constant_id = self.out.number(kind, value, special)
+            self.scopes[0][name] = Value(constant_id, kind)
             if kind in (INT, UINT) and number is not None:
-                self.plain[made] = number
+                self.plain[constant_id] = number
                 self.counts.setdefault(number, (literal.start_byte, literal.end_byte))
             self.specialised = self.specialised or special is not None
             return
@@ -230,7 +230,7 @@ class Declarations(Expressions):
             raise self.no(node, "is not understood")
         made_place = self.variable(op.PRIVATE, kind)
         self.scopes[0][name] = made_place
-        self.starts.append((made_place, given))
+        self.starts.append((made_place, initializer))
 
     def block(self, node: SyntaxNode, body: SyntaxNode) -> None:
         """A block of inputs, outputs, uniforms or a buffer."""
@@ -242,55 +242,55 @@ class Declarations(Expressions):
         storage = op.PUSH_CONSTANT if "push_constant" in layout else op.UNIFORM if storage == op.UNIFORM_CONSTANT else storage
         members = self.members(body)
         label = self.of(named) if named is not None else f"block {node.start_byte}"
-        kind: Type = ("struct", f"{label} {node.start_byte}", tuple((name, own) for name, own, _ in members))
+        kind: Type = ("struct", f"{label} {node.start_byte}", tuple((name, item) for name, item, _ in members))
         instance = next((child for child in children[at + 1 :] if child.type in ("identifier", "array_declarator")), None)
         name, whole_kind = self.declarator(instance, kind) if instance is not None else ("", kind)
-        made = self.variable(storage, whole_kind)
-        self.decorated(made.pointer, {key: value for key, value in layout.items() if key != "location" or storage == op.INPUT}, storage)
+        variable = self.variable(storage, whole_kind)
+        self.decorated(variable.pointer, {key: value for key, value in layout.items() if key != "location" or storage == op.INPUT}, storage)
         type_id = self.out.type(kind)
-        for n, (member, _, own) in enumerate(members):
-            if "sample" in own | words and storage == op.INPUT:
+        for n, (member, _, qualifiers) in enumerate(members):
+            if "sample" in qualifiers | words and storage == op.INPUT:
                 self.out.decorate_member(type_id, n, op.SAMPLE)
                 self.out.capabilities.add(op.SAMPLE_RATE_SHADING)
             if not name:
-                self.scopes[0][member] = (made, n)
+                self.scopes[0][member] = (variable, n)
         if name:
-            self.scopes[0][name] = made
+            self.scopes[0][name] = variable
 
     def of_language(self, name: str) -> Place | None:
         """A built-in variable, declared where it is first used."""
         storage = op.INPUT if name in INPUTS else op.OUTPUT
-        found = INPUTS.get(name) or OUTPUTS.get(name)
+        built_in = INPUTS.get(name) or OUTPUTS.get(name)
         if name == "gl_FragColor":
-            made = self.variable(op.OUTPUT, vector(FLOAT, 4))
-            self.out.decorate(made.pointer, op.LOCATION, 0)
-        elif found is None:
+            variable = self.variable(op.OUTPUT, vector(FLOAT, 4))
+            self.out.decorate(variable.pointer, op.LOCATION, 0)
+        elif built_in is None:
             return None
         else:
-            kind, number = found
-            made = self.variable(storage, kind)
-            self.out.decorate(made.pointer, op.BUILT_IN, number)
+            kind, number = built_in
+            variable = self.variable(storage, kind)
+            self.out.decorate(variable.pointer, op.BUILT_IN, number)
             if name in _SAMPLE_BUILT_INS:
                 self.out.capabilities.add(op.SAMPLE_RATE_SHADING)
-        self.scopes[0][name] = made
-        return made
+        self.scopes[0][name] = variable
+        return variable
 
     def declared_function(self, node: SyntaxNode) -> None:
-        declarator, typed = node.child_by_field_name("declarator"), node.child_by_field_name("type")
+        declarator, type_node = node.child_by_field_name("declarator"), node.child_by_field_name("type")
         name = declarator.child_by_field_name("declarator") if declarator is not None else None
-        listed = declarator.child_by_field_name("parameters") if declarator is not None else None
-        returns = self.kind(self.of(typed)) if typed is not None else None
-        if name is None or listed is None or returns is None:
+        list_node = declarator.child_by_field_name("parameters") if declarator is not None else None
+        returns = self.kind(self.of(type_node)) if type_node is not None else None
+        if name is None or list_node is None or returns is None:
             raise self.no(node, "is not understood")
         parameters: list[tuple[Type, bool, str]] = []
-        for each in listed.named_children:
-            own, target = each.child_by_field_name("type"), each.child_by_field_name("declarator")
-            kind = self.kind(self.of(own)) if own is not None else None
-            if each.type != "parameter_declaration" or own is None or kind is None:
-                raise self.no(each, "is not understood")
+        for child in list_node.named_children:
+            parameter_type, target = child.child_by_field_name("type"), child.child_by_field_name("declarator")
+            kind = self.kind(self.of(parameter_type)) if parameter_type is not None else None
+            if child.type != "parameter_declaration" or parameter_type is None or kind is None:
+                raise self.no(child, "is not understood")
             if kind == VOID:
                 continue
-            words = set(_WORD.findall(self.text[each.start_byte : own.start_byte]))
+            words = set(_WORD.findall(self.text[child.start_byte : parameter_type.start_byte]))
             called, kind = self.declarator(target, kind) if target is not None else ("", kind)
             parameters.append((kind, bool(words & {"out", "inout"}), called))
         function = Function(node, returns, tuple(parameters), self.out.id())

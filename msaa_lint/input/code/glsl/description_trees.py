@@ -36,22 +36,22 @@ def trees(code: Code) -> list[Read]:
     """What each shader reads, where it reads multisampled images. Missing where the grammar is not installed."""
     if RELEVANT.search(code.text) is None:
         return []
-    found: list[Read] = []
+    readings: list[Read] = []
     for start, end in _shaders(code):
         text = blanked(code.text[:start]) + code.text[start:end]
         try:
-            made = shader(text, code.fragments)
-            said = reflect(made.code)
+            lowered = shader(text, code.fragments)
+            reflected = reflect(lowered.code)
         except (NotRead, SpirvError):
             continue
-        number = f"-{len(found) + 1}" if found else ""
-        name = f"{made.entry[:40]}{number}.{'comp' if made.stage == 'COMPUTE' else 'frag'}"
-        tree = _tree(made, said, name)
+        number = f"-{len(readings) + 1}" if readings else ""
+        name = f"{lowered.entry[:40]}{number}.{'comp' if lowered.stage == 'COMPUTE' else 'frag'}"
+        tree = _tree(lowered, reflected, name)
         if tree is not None:
             text = code.text[start:end].rstrip() + "\n"
             text = text[len(text) - len(text.lstrip()) :]
-            found.append(Read(tree, (), {name: text.encode()} if made.stage == "FRAGMENT" else {}))
-    return found
+            readings.append(Read(tree, (), {name: text.encode()} if lowered.stage == "FRAGMENT" else {}))
+    return readings
 
 
 def _shaders(code: Code) -> Iterator[tuple[int, int]]:
@@ -79,54 +79,54 @@ def _shaders(code: Code) -> Iterator[tuple[int, int]]:
         at = match.end() if match is not None else end
 
 
-def _tree(made: Shader, said: Reflected, module: str) -> Node | None:
+def _tree(lowered: Shader, reflected: Reflected, module: str) -> Node | None:
     """A shader as the frame that it is of: images that it reads, the reads, and the draw that does them."""
-    named = [(name, image) for name, image in _images(made, said) if NO_COLOUR.search(name) is None]
-    if not named or len(named) != len(said.images):
+    named = [(name, image) for name, image in _images(lowered, reflected) if NO_COLOUR.search(name) is None]
+    if not named or len(named) != len(reflected.images):
         return None
-    places = {name: _fetched(made, name) for name, _ in named}
+    places = {name: _fetched(lowered, name) for name, _ in named}
     at = next(iter(places.values()))
-    images = [(name, Span(*made.images.get(name, at)), mapping([], places[name])) for name, _ in named]
+    images = [(name, Span(*lowered.images.get(name, at)), mapping([], places[name])) for name, _ in named]
     reads = []
     for name, image in named:
         place = places[name]
-        members = [("image", place, scalar(name, place)), ("stage", place, scalar(made.stage, place))]
-        if made.stage == "COMPUTE" and image.resolves is not None:
+        members = [("image", place, scalar(name, place)), ("stage", place, scalar(lowered.stage, place))]
+        if lowered.stage == "COMPUTE" and image.resolves is not None:
             members += [("samples", place, scalar("ALL", place)), ("resolves", place, scalar(image.resolves, place))]
         reads.append(mapping([("readImage", place, mapping(members, place))], place))
     sections = [("images", at, mapping(images, at))]
-    if made.stage == "FRAGMENT":
+    if lowered.stage == "FRAGMENT":
         count = next((image.total for _, image in named), None)
-        bound = Span(*made.constants[count]) if count is not None and count in made.constants else at
+        bound = Span(*lowered.constants[count]) if count is not None and count in lowered.constants else at
         stage = [
             ("stage", at, scalar("FRAGMENT", at)),
             ("module", at, scalar(module, at)),
             ("specialization", bound, mapping([], bound)),
         ]
         stages = sequence([mapping(stage, at)], at)
-        pipeline = mapping([(made.entry, at, mapping([("stages", at, stages)], at))], at)
+        pipeline = mapping([(lowered.entry, at, mapping([("stages", at, stages)], at))], at)
         sections.append(("pipelines", at, pipeline))
-        draw = mapping([("pipeline", at, scalar(made.entry, at))], at)
+        draw = mapping([("pipeline", at, scalar(lowered.entry, at))], at)
         reads.append(mapping([("draw", at, draw)], at))
     sections.append(("commands", at, sequence(reads, at)))
     return mapping(sections, Span(0, 0))
 
 
-def _images(made: Shader, said: Reflected) -> list[tuple[str, Multisampled]]:
+def _images(lowered: Shader, reflected: Reflected) -> list[tuple[str, Multisampled]]:
     """The images that are fetched from, by their names; none where it is not known which is which, or they are input attachments."""
-    if any(image.image.input_attachment is not None or image.image.element is not None for image in said.images):
+    if any(image.image.input_attachment is not None or image.image.element is not None for image in reflected.images):
         return []
-    if len(said.images) == 1 and len(made.images) == 1:
-        return [(next(iter(made.images)), said.images[0])]
-    by_place = {(each, binding): name for name, (each, binding) in made.bindings.items()}
-    found = [(by_place.get((image.image.descriptor_set or 0, image.image.binding), ""), image) for image in said.images]
-    return found if all(name for name, _ in found) and len({name for name, _ in found}) == len(found) else []
+    if len(reflected.images) == 1 and len(lowered.images) == 1:
+        return [(next(iter(lowered.images)), reflected.images[0])]
+    by_place = {(item, binding): name for name, (item, binding) in lowered.bindings.items()}
+    named_images = [(by_place.get((image.image.descriptor_set or 0, image.image.binding), ""), image) for image in reflected.images]
+    return named_images if all(name for name, _ in named_images) and len({name for name, _ in named_images}) == len(named_images) else []
 
 
-def _fetched(made: Shader, name: str) -> Span:
+def _fetched(lowered: Shader, name: str) -> Span:
     """Where an image is first fetched from: by its own name, else by any."""
-    found = next((fetch for fetch in made.fetches if fetch.image == name), made.fetches[0])
-    return Span(found.start, found.end)
+    match = next((fetch for fetch in lowered.fetches if fetch.image == name), lowered.fetches[0])
+    return Span(match.start, match.end)
 
 
 # Beside other code
@@ -137,44 +137,44 @@ def beside(by_code: list[tuple[Code, list[Read]]]) -> list[tuple[Code, list[Read
 
     Where that code sets specialisation constants, the shaders' own values of them are not known to count.
     """
-    others = [(code, each) for code, own in by_code if code.language != "glsl" for each in own]
+    others = [(code, entry) for code, item in by_code if code.language != "glsl" for entry in item]
     counts: dict[int, Span] = {}
-    for _, each in others:
-        counts = {**_counts(each.tree), **counts}
+    for _, reading in others:
+        counts = {**_counts(reading.tree), **counts}
     if len(counts) != 1 or 0 in counts or any("Specialization" in code.text for code, _ in others):
         return by_code
     ((count, at),) = counts.items()
     return [
-        (code, [each._replace(tree=_with_count(each.tree, count, at)) for each in own] if code.language == "glsl" else own)
-        for code, own in by_code
+        (code, [item._replace(tree=_with_count(item.tree, count, at)) for item in entry] if code.language == "glsl" else entry)
+        for code, entry in by_code
     ]
 
 
 def _counts(tree: Node) -> dict[int, Span]:
     """The sample counts above one of a tree's images, attachments and pipelines, and where each is stated; 0 for one that is unknown."""
-    found: dict[int, Span] = {}
-    waiting = [tree.value[name] for name in ("images", "renderPasses", "pipelines") if tree.kind == "mapping" and name in tree.value]
-    while waiting:
-        node = waiting.pop()
+    counts: dict[int, Span] = {}
+    stack = [tree.value[name] for name in ("images", "renderPasses", "pipelines") if tree.kind == "mapping" and name in tree.value]
+    while stack:
+        node = stack.pop()
         for key, value in node.value.items() if node.kind == "mapping" else ():
             if key in ("samples", "rasterizationSamples") and value.kind == "scalar":
                 from msaa_lint.frame.description.scalars import sample_count
 
                 count = sample_count(value.value)
                 if count is None:
-                    found.setdefault(0, value.span)
+                    counts.setdefault(0, value.span)
                 elif count > 1:
-                    found.setdefault(count, value.span)
+                    counts.setdefault(count, value.span)
             else:
-                waiting.append(value)
+                stack.append(value)
         if node.kind == "sequence":
-            waiting += node.value
-    return found
+            stack += node.value
+    return counts
 
 
 def _with_count(tree: Node, count: int, at: Span) -> Node:
     """A shader's tree whose images have a sample count."""
     images = tree.value["images"]
-    known = [(name, images.keys[name].span, mapping([("samples", at, scalar(count, at))], at)) for name in images.value]
+    counted = [(name, images.keys[name].span, mapping([("samples", at, scalar(count, at))], at)) for name in images.value]
     sections = [(key, tree.keys[key].span, value) for key, value in tree.value.items() if key != "images"]
-    return mapping([("images", images.span, mapping(known, images.span)), *sections], tree.span)
+    return mapping([("images", images.span, mapping(counted, images.span)), *sections], tree.span)

@@ -37,9 +37,9 @@ class Expressions(Values):
         if kind == "parenthesized_expression" and node.named_child_count == 1:
             return self.value(node.named_children[0], deeper)
         if kind == "identifier":
-            found = self.look(self.of(node))
-            if isinstance(found, Value):
-                return found
+            target = self.look(self.of(node))
+            if isinstance(target, Value):
+                return target
         if kind in ("identifier", "field_expression", "subscript_expression"):
             place = self.place(node, depth)
             return self.loaded(place) if place is not None else self.taken(node, deeper)
@@ -64,9 +64,9 @@ class Expressions(Values):
         (argument,) = self.parts(node, "argument")
         base = self.value(argument, depth)
         if node.type == "subscript_expression":
-            (given,) = self.parts(node, "index")
+            (index_node,) = self.parts(node, "index")
             kind = self.element(base.type, node)
-            index = self.value(given, depth)
+            index = self.value(index_node, depth)
             if base.type[0] == "array":
                 variable = self.temporary(base.type)
                 self.stored(variable, base)
@@ -99,26 +99,26 @@ class Expressions(Values):
 
     def has_effects(self, node: SyntaxNode) -> bool:
         """Whether it matters that an expression is worked out: something is called or assigned in it."""
-        waiting = [node]
-        while waiting:
-            each = waiting.pop()
-            if each.type in ("assignment_expression", "update_expression"):
+        stack = [node]
+        while stack:
+            inner = stack.pop()
+            if inner.type in ("assignment_expression", "update_expression"):
                 return True
-            if each.type == "call_expression":
-                function = each.child_by_field_name("function")
+            if inner.type == "call_expression":
+                function = inner.child_by_field_name("function")
                 name = self.of(function) if function is not None else ""
                 if name in self.functions or name in FETCHES:
                     return True
-            waiting += each.named_children
+            stack += inner.named_children
         return False
 
     def guarded(self, one: Value, operator: str, right: SyntaxNode, depth: int) -> Value:
         """`&&` and `||` whose second part is worked out only where it decides."""
-        kept = self.temporary(BOOL)
-        self.stored(kept, one)
+        result = self.temporary(BOOL)
+        self.stored(result, one)
         condition = one.id if operator == "&&" else self.out.made(LOGICAL_NOT, BOOL, one.id)
-        self.branch(condition, lambda: self.stored(kept, self.value(right, depth)), None)
-        return self.loaded(kept)
+        self.branch(condition, lambda: self.stored(result, self.value(right, depth)), None)
+        return self.loaded(result)
 
     def branch(self, condition: int, then: Callable[[], None], other: Callable[[], None] | None) -> None:
         """What is done where a condition holds, and where it does not."""
@@ -154,16 +154,16 @@ class Expressions(Values):
             one, two = self.value(then, depth), self.value(other, depth)
             one, two = self.alike(one, two)
             return self.result(SELECT, one.type, condition.id, one.id, two.id)
-        kept: list[Place] = []
+        places: list[Place] = []
 
         def keep(part: SyntaxNode) -> None:
             value = self.value(part, depth)
-            if not kept:
-                kept.append(self.temporary(value.type))
-            self.stored(kept[0], value)
+            if not places:
+                places.append(self.temporary(value.type))
+            self.stored(places[0], value)
 
         self.branch(condition.id, lambda: keep(then), lambda: keep(other))
-        return self.loaded(kept[0])
+        return self.loaded(places[0])
 
     def assigned(self, node: SyntaxNode, depth: int) -> Value:
         left, right, sign = self.parts(node, "left", "right", "operator")

@@ -84,14 +84,14 @@ class _Lowering(Statements):
             name = self.alone()
         self.out.do(op.RETURN)
         self.out.end(main, VOID, ())
-        done = 0
-        while done < len(self.called):
-            self.function(self.called[done])
-            done += 1
+        position = 0
+        while position < len(self.called):
+            self.function(self.called[position])
+            position += 1
         if len(self.unplaced) > 1:
             raise NotRead("several of its outputs have no location")
-        for each in self.unplaced:
-            self.out.decorate(each, op.LOCATION, 0)
+        for output in self.unplaced:
+            self.out.decorate(output, op.LOCATION, 0)
         for layout in self.source.layouts:
             self.out.modes += (_MODES[word] for word in _WORD.findall(layout) if word in _MODES)
         at = self.source.place
@@ -104,8 +104,8 @@ class _Lowering(Statements):
 
     def alone(self) -> str:
         """Calls the functions of a part of a shader that nothing in it calls, each with images and values of its own; the first's name."""
-        texts = {name: self.of(each.node) for name, found in self.functions.items() for each in found}
-        found = ""
+        texts = {name: self.of(entry.node) for name, item in self.functions.items() for entry in item}
+        first_name = ""
         for name, functions in self.functions.items():
             function = functions[0]
             if not any(multisampled(kind) for kind, _, _ in function.parameters) and "texelFetch" not in texts[name]:
@@ -115,17 +115,17 @@ class _Lowering(Statements):
             passed: list[int] = []
             for kind, written, parameter in function.parameters:
                 storage = op.UNIFORM_CONSTANT if kind[0] == "opaque" else op.FUNCTION_LOCAL if written else op.INPUT
-                made = self.variable(storage, kind)
+                variable = self.variable(storage, kind)
                 if multisampled(kind):
-                    self.decorated(made.pointer, self.bound(parameter, {}), storage)
+                    self.decorated(variable.pointer, self.bound(parameter, {}), storage)
                     self.images.setdefault(parameter, (function.node.start_byte, function.node.start_byte))
-                passed.append(made.pointer if written or kind[0] == "opaque" else self.loaded(made).id)
+                passed.append(variable.pointer if written or kind[0] == "opaque" else self.loaded(variable).id)
             self.called.append(function)
             result = self.out.made(op.FUNCTION_CALL, function.returns, function.id, *passed)
             if function.returns != VOID:
                 output = self.variable(op.OUTPUT, function.returns)
                 self.stored(output, Value(result, function.returns))
-            found = found or name
-        if not found:
+            first_name = first_name or name
+        if not first_name:
             raise NotRead("nothing in it fetches samples")
-        return found
+        return first_name

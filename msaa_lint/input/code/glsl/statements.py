@@ -34,17 +34,17 @@ class Statements(Declarations):
         passed: list[tuple[int, int]] = []
         self.scopes.append({})
         for kind, written, name in function.parameters:
-            given = self.out.id()
+            parameter_id = self.out.id()
             image = is_image(kind)
             if image or written:
                 storage = op.UNIFORM_CONSTANT if image else op.FUNCTION_LOCAL
-                passed.append((self.out.pointer(storage, kind), given))
-                self.scopes[-1][name] = Place(given, kind, storage)
+                passed.append((self.out.pointer(storage, kind), parameter_id))
+                self.scopes[-1][name] = Place(parameter_id, kind, storage)
                 continue
-            passed.append((self.out.type(kind), given))
-            own = self.temporary(kind)
-            self.out.do(op.STORE, own.pointer, given)
-            self.scopes[-1][name] = own
+            passed.append((self.out.type(kind), parameter_id))
+            copy = self.temporary(kind)
+            self.out.do(op.STORE, copy.pointer, parameter_id)
+            self.scopes[-1][name] = copy
         self.statements(body, 0)
         self.scopes.pop()
         if not self.ended:
@@ -83,11 +83,11 @@ class Statements(Declarations):
         elif kind == "expression_statement":
             self.expression(node)
         elif kind == "return_statement":
-            given = next((child for child in node.named_children if child.type != "comment"), None)
-            if given is None:
+            match = next((child for child in node.named_children if child.type != "comment"), None)
+            if match is None:
                 self.go(op.RETURN)
             else:
-                value = self.value(given)
+                value = self.value(match)
                 value = self.as_type(value, self.returns) if size_of(self.returns) else value
                 self.go(op.RETURN_VALUE, value.id)
         elif kind == "if_statement":
@@ -107,7 +107,7 @@ class Statements(Declarations):
             raise self.no(node, "is not understood")
 
     def expression(self, node: SyntaxNode) -> None:
-        child = next((each for each in node.named_children if each.type != "comment"), None)
+        child = next((item for item in node.named_children if item.type != "comment"), None)
         if child is None:
             return
         if child.type == "identifier" and self.of(child) in ("discard", "terminateInvocation"):
@@ -119,26 +119,26 @@ class Statements(Declarations):
 
     def local(self, node: SyntaxNode) -> None:
         """Variables of a function."""
-        typed = node.child_by_field_name("type")
-        kind = self.kind(self.of(typed)) if typed is not None else None
+        type_node = node.child_by_field_name("type")
+        kind = self.kind(self.of(type_node)) if type_node is not None else None
         if kind is None or kind[0] == "opaque":
             raise self.no(node, "is of no type that is known")
         for declarator in node.children_by_field_name("declarator"):
-            given = declarator.child_by_field_name("value") if declarator.type == "init_declarator" else None
+            initializer = declarator.child_by_field_name("value") if declarator.type == "init_declarator" else None
             target = declarator.child_by_field_name("declarator") if declarator.type == "init_declarator" else declarator
-            own = kind
-            if given is not None and target is not None and is_unsized(target):
-                own, target = self.of_list(given, kind), target.child_by_field_name("declarator")
+            declared_kind = kind
+            if initializer is not None and target is not None and is_unsized(target):
+                declared_kind, target = self.of_list(initializer, kind), target.child_by_field_name("declarator")
             if target is None:
                 raise self.no(node, "is not understood")
-            name, own = self.declarator(target, own)
-            value = self.value(given) if given is not None and given.type != "initializer_list" else None
-            place = self.temporary(own)
+            name, declared_kind = self.declarator(target, declared_kind)
+            value = self.value(initializer) if initializer is not None and initializer.type != "initializer_list" else None
+            place = self.temporary(declared_kind)
             self.scopes[-1][name] = place
             if value is not None:
-                self.stored(place, self.as_type(value, own) if size_of(own) else value)
-            elif given is not None:
-                raise self.no(given, "is not followed")
+                self.stored(place, self.as_type(value, declared_kind) if size_of(declared_kind) else value)
+            elif initializer is not None:
+                raise self.no(initializer, "is not followed")
 
     def truth(self, node: SyntaxNode | None) -> int:
         """The id of a condition."""
@@ -211,13 +211,13 @@ class Statements(Declarations):
         pairs: list[int] = []
         default = merge
         for case, label in zip(cases, labels, strict=True):
-            given = case.child_by_field_name("value")
-            if given is None:
+            value_node = case.child_by_field_name("value")
+            if value_node is None:
                 default = label
                 continue
-            number = whole(self.of(given))
-            found = self.look(self.of(given)) if number is None and given.type == "identifier" else None
-            number = self.plain.get(found.id) if isinstance(found, Value) else number
+            number = whole(self.of(value_node))
+            constant = self.look(self.of(value_node)) if number is None and value_node.type == "identifier" else None
+            number = self.plain.get(constant.id) if isinstance(constant, Value) else number
             if number is None:
                 raise self.no(case, "is not followed")
             pairs += (number, label)
@@ -227,9 +227,9 @@ class Statements(Declarations):
         self.scopes.append({})
         for case, label in zip(cases, labels, strict=True):
             self.label(label)
-            given = case.child_by_field_name("value")
+            value_node = case.child_by_field_name("value")
             for child in case.named_children:
-                if child != given:
+                if child != value_node:
                     self.statement(child, depth)
         self.scopes.pop()
         self.leaves.pop()

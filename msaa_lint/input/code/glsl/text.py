@@ -52,8 +52,8 @@ class Text(NamedTuple):
         """Where an offset stands in the original."""
         index = bisect_right(self.pieces, (offset, 1 << 60)) - 1
         start, original = self.pieces[index] if index >= 0 else (0, 0)
-        following = self.pieces[index + 1][1] if index + 1 < len(self.pieces) else 1 << 60
-        return min(original + offset - start, max(following - 1, original))
+        next_node = self.pieces[index + 1][1] if index + 1 < len(self.pieces) else 1 << 60
+        return min(original + offset - start, max(next_node - 1, original))
 
 
 def blanked(text: str) -> str:
@@ -68,27 +68,27 @@ def prepared(text: str) -> Text:
     text = _COMMENT.sub(lambda match: blanked(match[0]), text.replace("\r", " "))
     out: list[str] = []
     pieces: list[tuple[int, int]] = []
-    made = at = 0
+    length = at = 0
     macros: dict[str, Macro] = {"GL_core_profile": Macro(None, "1"), "VULKAN": Macro(None, "100"), "__VERSION__": Macro(None, "450")}
-    taken: list[tuple[bool, bool]] = []
+    branches: list[tuple[bool, bool]] = []
     """Of each condition around: whether this part is taken, and whether one of it was."""
     lines = re.findall(r"(?:[^\n\\]|\\\n|\\)*(?:\n|\Z)", text)
     for line in lines:
         directive = _DIRECTIVE.match(line) if "#" in line else None
         part = line
         if directive is not None:
-            _follow(directive[1], directive[2].replace("\\\n", "").strip(), macros, taken)
+            _follow(directive[1], directive[2].replace("\\\n", "").strip(), macros, branches)
             part = blanked(line)
-        elif taken and not all(each for each, _ in taken):
+        elif branches and not all(item for item, _ in branches):
             part = blanked(line)
         else:
-            made, part = _expanded(line, at, made, macros, pieces, out)
+            length, part = _expanded(line, at, length, macros, pieces, out)
         if part:
-            pieces.append((made, at))
+            pieces.append((length, at))
             out.append(part)
-            made += len(part)
+            length += len(part)
         at += len(line)
-        if made > MOST_TEXT:
+        if length > MOST_TEXT:
             raise NotRead("its macros make too much of it")
     layouts: list[str] = []
 
@@ -100,23 +100,23 @@ def prepared(text: str) -> Text:
     return Text(whole, tuple(pieces), tuple(layouts))
 
 
-def _follow(name: str, rest: str, macros: dict[str, Macro], taken: list[tuple[bool, bool]]) -> None:
+def _follow(name: str, rest: str, macros: dict[str, Macro], branches: list[tuple[bool, bool]]) -> None:
     """A directive."""
-    live = all(each for each, _ in taken)
+    live = all(item for item, _ in branches)
     if name in ("ifdef", "ifndef"):
         word = rest.split()[0] if rest.split() else ""
         holds = (word in macros) == (name == "ifdef")
-        taken.append((holds, holds))
+        branches.append((holds, holds))
     elif name == "if":
         holds = live and _holds(rest, macros)
-        taken.append((holds, holds))
-    elif name in ("else", "elif") and taken:
-        _, before = taken.pop()
-        outer = all(each for each, _ in taken)
+        branches.append((holds, holds))
+    elif name in ("else", "elif") and branches:
+        _, before = branches.pop()
+        outer = all(item for item, _ in branches)
         holds = not before and (name == "else" or (outer and _holds(rest, macros)))
-        taken.append((holds, before or holds))
-    elif name == "endif" and taken:
-        taken.pop()
+        branches.append((holds, before or holds))
+    elif name == "endif" and branches:
+        branches.pop()
     elif name == "define" and live:
         match = _DEFINE.fullmatch(rest)
         if match is not None:
@@ -142,10 +142,10 @@ def _holds(condition: str, macros: dict[str, Macro]) -> bool:
     return answer
 
 
-def _expanded(line: str, at: int, made: int, macros: dict[str, Macro], pieces: list[tuple[int, int]], out: list[str]) -> tuple[int, str]:
+def _expanded(line: str, at: int, length: int, macros: dict[str, Macro], pieces: list[tuple[int, int]], out: list[str]) -> tuple[int, str]:
     """Puts out the pieces of a line up to its last macro; gives how much was put out, and the rest, blanked where it is done."""
     if not any(name in line for name in macros):
-        return made, line
+        return length, line
     position = 0
     tokens = [(match[0], match.start(), match.end()) for match in _TOKEN.finditer(line)]
     index = 0
@@ -155,27 +155,27 @@ def _expanded(line: str, at: int, made: int, macros: dict[str, Macro], pieces: l
         index += 1
         if macro is None:
             continue
-        given: list[str] | None = None
+        values: list[str] | None = None
         if macro.parameters is not None:
-            found = _arguments(tokens, index)
-            if found is None:
+            arguments = _arguments(tokens, index)
+            if arguments is None:
                 continue
-            given, index = found
+            values, index = arguments
             end = tokens[index - 1][2]
-        body = _all(_filled(macro, given), {name: each for name, each in macros.items() if name != word}, 0)
+        body = _all(_filled(macro, values), {name: item for name, item in macros.items() if name != word}, 0)
         for text, original in ((line[position:start], at + position), (body, at + start)):
             if text:
-                pieces.append((made, original))
+                pieces.append((length, original))
                 out.append(text)
-                made += len(text)
+                length += len(text)
         position = end
     if position:
         rest = line[position:]
         if rest:
-            pieces.append((made, at + position))
+            pieces.append((length, at + position))
             out.append(rest)
-        return made + len(rest), ""
-    return made, line
+        return length + len(rest), ""
+    return length, line
 
 
 def _arguments(tokens: list[tuple[str, int, int]], index: int) -> tuple[list[str], int] | None:
@@ -184,23 +184,23 @@ def _arguments(tokens: list[tuple[str, int, int]], index: int) -> tuple[list[str
         index += 1
     if index >= len(tokens) or tokens[index][0] != "(":
         return None
-    depth, given = 0, [""]
+    depth, arguments = 0, [""]
     for n in range(index, len(tokens)):
         word = tokens[n][0]
         depth += (word == "(") - (word == ")")
         if depth == 0:
-            return [each.strip() for each in given], n + 1
+            return [item.strip() for item in arguments], n + 1
         if word == "," and depth == 1:
-            given.append("")
+            arguments.append("")
         elif n > index:
-            given[-1] += word
+            arguments[-1] += word
     return None
 
 
-def _filled(macro: Macro, given: list[str] | None) -> str:
-    if not macro.parameters or given is None:
+def _filled(macro: Macro, arguments: list[str] | None) -> str:
+    if not macro.parameters or arguments is None:
         return macro.body
-    values = dict(zip(macro.parameters, given, strict=False))
+    values = dict(zip(macro.parameters, arguments, strict=False))
     return "".join(values.get(match[0], match[0]) for match in _TOKEN.finditer(macro.body))
 
 
@@ -218,12 +218,12 @@ def _all(text: str, macros: dict[str, Macro], depth: int) -> str:
         macro = macros.get(word)
         index += 1
         if macro is not None and macro.parameters is None:
-            word = _all(macro.body, {name: each for name, each in macros.items() if name != word}, depth + 1)
+            word = _all(macro.body, {name: item for name, item in macros.items() if name != word}, depth + 1)
         elif macro is not None:
-            found = _arguments(tokens, index)
-            if found is not None:
-                body = _filled(macro, found[0])
-                word, index = _all(body, {name: each for name, each in macros.items() if name != word}, depth + 1), found[1]
+            arguments = _arguments(tokens, index)
+            if arguments is not None:
+                body = _filled(macro, arguments[0])
+                word, index = _all(body, {name: item for name, item in macros.items() if name != word}, depth + 1), arguments[1]
         out.append(word)
         size += len(word)
         if size > MOST_EXPANDED:

@@ -120,20 +120,20 @@ LAST = ("smoothstep", "step")
 """Whose result is of the type of their last argument."""
 
 
-def result(name: str, given: list[Type]) -> Type | None:
+def result(name: str, kinds: list[Type]) -> Type | None:
     """The type of what a built-in function gives for arguments of some types; None where it is not known."""
     if name in _NOTHING:
         return VOID
     if name in _FIXED:
         return _FIXED[name]
-    if not given:
+    if not kinds:
         return None
-    first = given[0]
+    first = kinds[0]
     if name in _SAME:
-        wide = max(given, key=size_of) if name in ("clamp", "mix", "mod", "pow") else first
+        wide = max(kinds, key=size_of) if name in ("clamp", "mix", "mod", "pow") else first
         return vector(FLOAT, size_of(wide)) if size_of(wide) and name not in _WHOLE and scalar_of(wide) != BOOL else wide
     if name in LAST:
-        return given[-1] if scalar_of(given[-1]) == FLOAT else vector(FLOAT, size_of(given[-1]))
+        return kinds[-1] if scalar_of(kinds[-1]) == FLOAT else vector(FLOAT, size_of(kinds[-1]))
     if name in _FLOATS:
         return FLOAT
     if name in _COMPARED:
@@ -149,7 +149,7 @@ def result(name: str, given: list[Type]) -> Type | None:
     if name in _TEXELS or name in ("texelFetch", "imageLoad", "subpassLoad"):
         return FLOAT if "Shadow" in str(first[-1]) and "Gather" not in name else texel(first)
     if name.startswith(("imageAtomic", "atomic")):
-        return given[-1]
+        return kinds[-1]
     return None
 
 

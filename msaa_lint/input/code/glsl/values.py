@@ -79,10 +79,10 @@ class Values:
 
     def parts(self, node: SyntaxNode, *fields: str) -> "list[SyntaxNode]":
         """The children of a node in some fields. NotRead where one is missing."""
-        found = [child for field in fields if (child := node.child_by_field_name(field)) is not None]
-        if len(found) < len(fields):
+        children = [child for field in fields if (child := node.child_by_field_name(field)) is not None]
+        if len(children) < len(fields):
             raise self.no(node, "is not followed")
-        return found
+        return children
 
     def result(self, number: int, kind: Type, *operands: int) -> Value:
         """The result of an instruction."""
@@ -122,14 +122,14 @@ class Values:
         if node.type == "parenthesized_expression" and node.named_child_count == 1:
             return self.place(node.named_children[0], depth + 1)
         if node.type == "identifier":
-            found = self.look(self.of(node))
-            if found is None:
+            target = self.look(self.of(node))
+            if target is None:
                 raise self.no(node, "is not declared in it")
-            if isinstance(found, Place):
-                return found
-            if isinstance(found, Value):
+            if isinstance(target, Place):
+                return target
+            if isinstance(target, Value):
                 return None
-            block, index = found
+            block, index = target
             return self.member(block, index)
         if node.type not in ("field_expression", "subscript_expression"):
             return None
@@ -147,7 +147,7 @@ class Values:
         if base.type[0] == "struct":
             return self.member(base, self.index(base.type, name, node))
         parts = self.letters(name, base.type, node)
-        return base._replace(parts=tuple(base.parts[each] for each in parts) if base.parts else parts)
+        return base._replace(parts=tuple(base.parts[part] for part in parts) if base.parts else parts)
 
     def member(self, base: Place, index: int) -> Place:
         members = base.type[2]
@@ -187,8 +187,8 @@ class Values:
         return parts
 
     def loaded(self, place: Place) -> Value:
-        whole = self.result(op.LOAD, place.type, place.pointer)
-        return self.swizzled(whole, place.parts) if place.parts else whole
+        value = self.result(op.LOAD, place.type, place.pointer)
+        return self.swizzled(value, place.parts) if place.parts else value
 
     def swizzled(self, value: Value, parts: tuple[int, ...]) -> Value:
         if size_of(value.type) == 1:
@@ -245,31 +245,31 @@ class Values:
         kind = vector(value.type, size)
         return self.result(op.COMPOSITE_CONSTRUCT, kind, *[value.id] * size)
 
-    def constructed(self, kind: Type, given: Sequence[Value]) -> Value:
+    def constructed(self, kind: Type, values: Sequence[Value]) -> Value:
         """What a constructor of a scalar or vector makes."""
         size, scalar = size_of(kind), scalar_of(kind)
-        if not given or any(not size_of(each.type) for each in given):
-            return self.opaque("construct", kind, given)
-        if len(given) == 1 and size_of(given[0].type) == 1:
-            return self.splat(self.as_type(given[0], scalar), size)
-        if len(given) == 1 and size_of(given[0].type) >= size:
-            whole = given[0] if size_of(given[0].type) == size else self.swizzled(given[0], tuple(range(size)))
+        if not values or any(not size_of(item.type) for item in values):
+            return self.opaque("construct", kind, values)
+        if len(values) == 1 and size_of(values[0].type) == 1:
+            return self.splat(self.as_type(values[0], scalar), size)
+        if len(values) == 1 and size_of(values[0].type) >= size:
+            whole = values[0] if size_of(values[0].type) == size else self.swizzled(values[0], tuple(range(size)))
             return self.as_type(whole, kind)
-        parts = [self.as_type(each, vector(scalar, size_of(each.type))) for each in given]
-        if sum(size_of(each.type) for each in parts) != size:
-            single = [self.swizzled(each, (n,)) for each in parts for n in range(size_of(each.type))]
+        parts = [self.as_type(item, vector(scalar, size_of(item.type))) for item in values]
+        if sum(size_of(part.type) for part in parts) != size:
+            single = [self.swizzled(part, (n,)) for part in parts for n in range(size_of(part.type))]
             parts = single[:size]
             if len(parts) < size:
                 raise NotRead(f"a {shown(kind)} is made of too little")
-        return self.result(op.COMPOSITE_CONSTRUCT, kind, *(each.id for each in parts))
+        return self.result(op.COMPOSITE_CONSTRUCT, kind, *(part.id for part in parts))
 
-    def opaque(self, name: str, kind: Type, given: Sequence[Value]) -> Value:
+    def opaque(self, name: str, kind: Type, values: Sequence[Value]) -> Value:
         """What is made of values in a way that is not followed, the same of the same."""
         # Not one of the numbers that mean something to those who follow.
         number = 1000 + zlib.crc32(name.encode()) % 1_000_000
-        if len(given) > 64:
+        if len(values) > 64:
             raise NotRead("a function has too many arguments")
-        return self.result(op.EXT_INST, kind, self.out.extended, number, *(each.id for each in given))
+        return self.result(op.EXT_INST, kind, self.out.extended, number, *(item.id for item in values))
 
     def arithmetic(self, sign: str, one: Value, other: Value) -> Value:
         """What an operator gives."""
@@ -279,24 +279,24 @@ class Values:
             if sign in ("==", "!="):
                 return self.opaque(sign, BOOL, (one, other))
             raise NotRead(f"`{sign}` of a {shown(one.type)} is not followed")
-        kinds = [scalar_of(each.type) for each in (one, other)]
+        kinds = [scalar_of(item.type) for item in (one, other)]
         scalar: Type = next((kind for kind in (DOUBLE, FLOAT, UINT, INT) if kind in kinds), BOOL)
         size = max(size_of(one.type), size_of(other.type))
         if BOOL in kinds and sign not in ("==", "!="):
             raise NotRead(f"`{sign}` of a bool is not followed")
         if sign in ("<<", ">>"):
             scalar = kinds[0]
-        one, other = (self.as_type(each, vector(scalar, size_of(each.type))) for each in (one, other))
+        one, other = (self.as_type(item, vector(scalar, size_of(item.type))) for item in (one, other))
         if sign == "*" and scalar == FLOAT and size_of(one.type) != size_of(other.type):
             wide, narrow = (one, other) if size_of(one.type) > 1 else (other, one)
             return self.result(142, wide.type, wide.id, narrow.id)
-        one, other = (self.splat(each, size) if size_of(each.type) == 1 else each for each in (one, other))
+        one, other = (self.splat(item, size) if size_of(item.type) == 1 else item for item in (one, other))
         if size_of(one.type) != size_of(other.type):
             raise NotRead(f"`{sign}` of vectors of different sizes")
         if sign in _COMPARES:
             number = SIGNS[sign][column(scalar)] if scalar != BOOL else LOGICAL_EQUAL if sign == "==" else LOGICAL_NOT_EQUAL
-            made = self.result(number, vector(BOOL, size), one.id, other.id)
-            return made if size == 1 else self.result(155 if sign == "==" else 154, BOOL, made.id)
+            value = self.result(number, vector(BOOL, size), one.id, other.id)
+            return value if size == 1 else self.result(155 if sign == "==" else 154, BOOL, value.id)
         kind = vector(scalar, size)
         return self.result(SIGNS[sign][column(scalar)], kind, one.id, other.id)
 
@@ -304,9 +304,9 @@ class Values:
         """Two values made of one type."""
         if one.type == other.type or not size_of(one.type):
             return one, other
-        kinds = [scalar_of(each.type) for each in (one, other)]
+        kinds = [scalar_of(item.type) for item in (one, other)]
         scalar = next((kind for kind in (DOUBLE, FLOAT, UINT, INT) if kind in kinds), BOOL)
-        first, second = (self.as_type(each, vector(scalar, size_of(each.type))) for each in (one, other))
+        first, second = (self.as_type(item, vector(scalar, size_of(item.type))) for item in (one, other))
         return first, second
 
 

@@ -36,18 +36,18 @@ class Chain:
         if self.groups < 2 or all(test.leaves for test in self.tests):
             return self.tests
         # Each that holds writes over those before.
-        made: dict[int, Test] = {}
+        tests_by_bit: dict[int, Test] = {}
         for test in sorted(self.tests, key=lambda test: -test.group):
-            made.setdefault(test.bit, test)
-        return list(made.values())
+            tests_by_bit.setdefault(test.bit, test)
+        return list(tests_by_bit.values())
 
 
 def greatest(tests: list[Test]) -> int:
     """The greatest count that a chain gives: none behind the test of a count that every device offers."""
-    given = []
+    counts = []
     for test in tests:
-        given.append(test.gives)
+        counts.append(test.gives)
         weak = any("Integer" in name or name == "storageImageSampleCounts" for name, _ in test.mask.limits)
         if test.bit == 1 or (test.bit == 4 and not weak):
             break
-    return max(given)
+    return max(counts)

@@ -34,7 +34,7 @@ def choices(root: SyntaxNode, code: Code) -> list[tuple[str, Span, Node]]:
     if RELEVANT.search(code.text) is None:
         return []
     functions, outside = _parts(root)
-    taken = [node for node in functions if RELEVANT.search(code.text, node.start_byte, node.end_byte)]
+    relevant = [node for node in functions if RELEVANT.search(code.text, node.start_byte, node.end_byte)]
     before = Reading(code.text)
     for reading in (before, Reading(code.text)):
         if reading is not before:
@@ -47,52 +47,52 @@ def choices(root: SyntaxNode, code: Code) -> list[tuple[str, Span, Node]]:
             reading.statement(node, known, NOBODY, chains, 0)
         for target, chain in chains.items():
             reading.finish(target, chain, NOBODY)
-        for node in taken:
+        for node in relevant:
             reading.function(node)
     uses = Uses(root, reading.expressions) if reading.found else None
-    made = [(each.name, each.at, _entry(each, uses)) for each in reading.found if uses is not None]
-    covered = {each.mask.at for each in reading.found}
-    made += [(name, mask.at, _alone(mask)) for at, (name, mask) in reading.combined.items() if at not in covered]
-    return _named(made)
+    entries = [(item.name, item.at, _entry(item, uses)) for item in reading.found if uses is not None]
+    covered = {item.mask.at for item in reading.found}
+    entries += [(name, mask.at, _alone(mask)) for at, (name, mask) in reading.combined.items() if at not in covered]
+    return _named(entries)
 
 
 def _parts(root: SyntaxNode) -> tuple[list[SyntaxNode], list[SyntaxNode]]:
     """The functions of a file, and the statements outside of them all."""
     functions: list[SyntaxNode] = []
     outside: list[SyntaxNode] = []
-    waiting = [root]
-    while waiting:
-        node = waiting.pop()
+    stack = [root]
+    while stack:
+        node = stack.pop()
         if node.type == "function_definition":
             functions.append(node)
         elif node.type.endswith("statement") or node.type in ("declaration", "for_range_loop"):
             outside.append(node)
             if node.type == "declaration":
-                waiting += [child for child in node.named_children if child.type.endswith("_specifier")]
+                stack += [child for child in node.named_children if child.type.endswith("_specifier")]
         else:
-            waiting += reversed(node.named_children)
+            stack += reversed(node.named_children)
     return functions, outside
 
 
-def _entry(found: Found, uses: Uses) -> Node:
+def _entry(choice: Found, uses: Uses) -> Node:
     """A choice as an entry of the section."""
-    members = list(_of_mask(found.mask))
-    cap = uses.cap(found.name)
-    most = found.at_most if cap is None else min(cap, found.at_most or cap) if cap else None
+    members = list(_of_mask(choice.mask))
+    cap = uses.cap(choice.name)
+    most = choice.at_most if cap is None else min(cap, choice.at_most or cap) if cap else None
     if most is not None:
         chosen = "MAXIMUM" if most >= 16 else "ATMOST"
-        members += [("chosen", found.at, scalar(chosen, found.at)), ("atMost", found.at, scalar(most, found.at))]
-    if found.tests:
+        members += [("chosen", choice.at, scalar(chosen, choice.at)), ("atMost", choice.at, scalar(most, choice.at))]
+    if choice.tests:
         tests = [
             mapping([("tests", test.at, scalar(test.bit, test.at)), ("gives", test.at, scalar(test.gives, test.at))], test.at)
-            for test in found.tests
+            for test in choice.tests
         ]
-        members.append(("tests", found.tests[0].at, sequence(tests, found.tests[0].at)))
-    formats = uses.formats(found.name)
+        members.append(("tests", choice.tests[0].at, sequence(tests, choice.tests[0].at)))
+    formats = uses.formats(choice.name)
     if formats:
         at = next(iter(formats.values()))
         members.append(("formats", at, sequence([scalar(name, span) for name, span in formats.items()], at)))
-    return mapping(members, found.at)
+    return mapping(members, choice.at)
 
 
 def _of_mask(mask: Mask) -> Iterator[tuple[str, Span, Node]]:
@@ -107,12 +107,12 @@ def _alone(mask: Mask) -> Node:
     return mapping(list(_of_mask(mask)), mask.at)
 
 
-def _named(made: list[tuple[str, Span, Node]]) -> list[tuple[str, Span, Node]]:
+def _named(entries: list[tuple[str, Span, Node]]) -> list[tuple[str, Span, Node]]:
     """The entries in order, each by a name of its own."""
     named: dict[str, tuple[str, Span, Node]] = {}
-    for name, at, node in sorted(made, key=lambda each: each[1]):
-        own, n = name or "samples", 2
-        while own in named:
-            own, n = f"{name or 'samples'} {n}", n + 1
-        named[own] = (own, at, node)
+    for name, at, node in sorted(entries, key=lambda entry: entry[1]):
+        unique, n = name or "samples", 2
+        while unique in named:
+            unique, n = f"{name or 'samples'} {n}", n + 1
+        named[unique] = (unique, at, node)
     return list(named.values())

@@ -23,21 +23,21 @@ def rounds(node: SyntaxNode, expressions: Expressions, known: Known) -> Iterator
         for count in order.counts[:MOST_ROUNDS] if isinstance(order, Order) and name else ():
             yield {**known, name: count}
         return
-    started = _started(node, expressions, known)
+    start = _started(node, expressions, known)
     update, condition = node.child_by_field_name("update"), node.child_by_field_name("condition")
-    if started is None or update is None:
+    if start is None or update is None:
         return
-    name, value = started
+    name, value = start
     for _ in range(MOST_ROUNDS):
         inner = {**known, name: value}
         holds = expressions.value(condition, inner) if condition is not None else 1
         if holds == 0 or not (isinstance(holds, int) or (condition is not None and _TO_THE_END.search(expressions.of(condition)))):
             return
         yield inner
-        stepped = _stepped(update, expressions, inner)
-        if stepped is None or stepped[0] != name or stepped[1] < 0:
+        step = _stepped(update, expressions, inner)
+        if step is None or step[0] != name or step[1] < 0:
             return
-        value = stepped[1]
+        value = step[1]
 
 
 def waits(node: SyntaxNode, expressions: Expressions, known: Known) -> tuple[str, list[tuple[Mask, int, Span]]] | None:
@@ -46,34 +46,34 @@ def waits(node: SyntaxNode, expressions: Expressions, known: Known) -> tuple[str
     update = node.child_by_field_name("update") if node.type == "for_statement" else _only(body)
     if condition is None or update is None or (node.type == "for_statement" and _only(body) is not None):
         return None
-    started = _started(node, expressions, known) if node.type == "for_statement" else None
-    name = started[0] if started is not None else expressions.name(_target(update))
-    value = started[1] if started is not None else known.get(name)
-    made: list[tuple[Mask, int, Span]] = []
+    start = _started(node, expressions, known) if node.type == "for_statement" else None
+    name = start[0] if start is not None else expressions.name(_target(update))
+    value = start[1] if start is not None else known.get(name)
+    tests: list[tuple[Mask, int, Span]] = []
     for _ in range(MOST_ROUNDS):
         if not isinstance(value, int):
             return None
         inner = {**known, name: value}
-        asked = False
+        tests_bit = False
         for part in _conjuncts(condition):
             negated = _negated(part, expressions)
             mask = expressions.value(negated, inner)
             if isinstance(mask, Mask) and mask.bit is not None and negated is not None:
-                made.append((mask, value, span(negated)))
-                asked = True
+                tests.append((mask, value, span(negated)))
+                tests_bit = True
                 continue
             holds = expressions.value(part, inner)
             if holds == 0:
-                return (name, made) if made else None
+                return (name, tests) if tests else None
             if not isinstance(holds, int):
                 return None
-        stepped = _stepped(update, expressions, inner)
-        if not asked or stepped is None or stepped[0] != name:
+        step = _stepped(update, expressions, inner)
+        if not tests_bit or step is None or step[0] != name:
             break
-        if stepped[1] < 1:
-            return name, made
-        value = stepped[1]
-    return (name, made) if made else None
+        if step[1] < 1:
+            return name, tests
+        value = step[1]
+    return (name, tests) if tests else None
 
 
 def _declared(node: SyntaxNode | None) -> SyntaxNode | None:
@@ -85,12 +85,12 @@ def _declared(node: SyntaxNode | None) -> SyntaxNode | None:
 def _started(node: SyntaxNode, expressions: Expressions, known: Known) -> tuple[str, int] | None:
     """The variable of a `for` and what it begins with."""
     first = node.child_by_field_name("initializer")
-    made = first.child_by_field_name("declarator") if first is not None and first.type == "declaration" else first
-    if made is None or made.type not in ("init_declarator", "assignment_expression"):
+    declarator = first.child_by_field_name("declarator") if first is not None and first.type == "declaration" else first
+    if declarator is None or declarator.type not in ("init_declarator", "assignment_expression"):
         return None
-    target, given = ("declarator", "value") if made.type == "init_declarator" else ("left", "right")
-    value: Value | None = expressions.value(made.child_by_field_name(given), known)
-    name = expressions.name(made.child_by_field_name(target))
+    target, source = ("declarator", "value") if declarator.type == "init_declarator" else ("left", "right")
+    value: Value | None = expressions.value(declarator.child_by_field_name(source), known)
+    name = expressions.name(declarator.child_by_field_name(target))
     return (name, value) if isinstance(value, int) and name else None
 
 
@@ -108,15 +108,15 @@ def _stepped(node: SyntaxNode, expressions: Expressions, known: Known) -> tuple[
         return None
     if node.type == "update_expression":
         return name, value + (1 if operator == "++" else -1)
-    given = expressions.value(node.child_by_field_name("right"), known) if node.type == "assignment_expression" else None
-    if not isinstance(given, int):
+    step = expressions.value(node.child_by_field_name("right"), known) if node.type == "assignment_expression" else None
+    if not isinstance(step, int):
         return None
     if operator == "=":
-        return name, given
-    after = {">>=": value >> min(given, 32) if given >= 0 else None, "/=": value // given if given else None, "-=": value - given}
-    after |= {"<<=": value << min(given, 32) if given >= 0 else None, "*=": value * given, "+=": value + given}
-    found = after.get(operator)
-    return (name, found) if found is not None and found < 1 << 16 else None
+        return name, step
+    after = {">>=": value >> min(step, 32) if step >= 0 else None, "/=": value // step if step else None, "-=": value - step}
+    after |= {"<<=": value << min(step, 32) if step >= 0 else None, "*=": value * step, "+=": value + step}
+    number = after.get(operator)
+    return (name, number) if number is not None and number < 1 << 16 else None
 
 
 def _only(body: SyntaxNode | None) -> SyntaxNode | None:
@@ -130,17 +130,17 @@ def _only(body: SyntaxNode | None) -> SyntaxNode | None:
 
 
 def _conjuncts(node: SyntaxNode) -> list[SyntaxNode]:
-    waiting = [node]
-    found: list[SyntaxNode] = []
-    while waiting and len(found) < MOST_ROUNDS:
-        each = waiting.pop()
-        if each.type in ("condition_clause", "parenthesized_expression"):
-            waiting += each.named_children
-        elif each.type == "binary_expression" and any(child.type in ("&&", "and") for child in each.children):
-            waiting += reversed(each.named_children)
+    stack = [node]
+    nodes: list[SyntaxNode] = []
+    while stack and len(nodes) < MOST_ROUNDS:
+        inner = stack.pop()
+        if inner.type in ("condition_clause", "parenthesized_expression"):
+            stack += inner.named_children
+        elif inner.type == "binary_expression" and any(child.type in ("&&", "and") for child in inner.children):
+            stack += reversed(inner.named_children)
         else:
-            found.append(each)
-    return found
+            nodes.append(inner)
+    return nodes
 
 
 def _negated(node: SyntaxNode, expressions: Expressions) -> SyntaxNode | None:

@@ -141,10 +141,10 @@ class Expressions:
         if name in LIMITS:
             at = span(node)
             return Mask(((name, at),), "NONE", at)
-        found = known[name] if name in known else self.members.get(name)
-        if found is None and name == "sampleCounts" and node.type == "field_expression":
+        value = known[name] if name in known else self.members.get(name)
+        if value is None and name == "sampleCounts" and node.type == "field_expression":
             return Mask((), "NONE", span(node), known=False)
-        return found
+        return value
 
     def _binary(self, node: SyntaxNode, known: Known, depth: int) -> Value | None:
         sign = node.child_by_field_name("operator")
@@ -221,10 +221,10 @@ class Expressions:
         return both._replace(allowed=then.allowed | other.allowed)
 
     def _item(self, node: SyntaxNode, known: Known, depth: int) -> Value | None:
-        listed = node.child_by_field_name("indices") or node.child_by_field_name("index")
-        if listed is not None and listed.type == "subscript_argument_list":
-            listed = listed.named_children[0] if listed.named_child_count else None
-        order, index = self.value(node.child_by_field_name("argument"), known, depth), self.value(listed, known, depth)
+        list_node = node.child_by_field_name("indices") or node.child_by_field_name("index")
+        if list_node is not None and list_node.type == "subscript_argument_list":
+            list_node = list_node.named_children[0] if list_node.named_child_count else None
+        order, index = self.value(node.child_by_field_name("argument"), known, depth), self.value(list_node, known, depth)
         if isinstance(order, Order) and isinstance(index, int) and 0 <= index < len(order.counts):
             return order.counts[index]
         return None
@@ -242,23 +242,23 @@ class Expressions:
         return Order(counts) if counts and len(counts) == len(values) else None
 
     def _call(self, node: SyntaxNode, known: Known, depth: int) -> Value | None:
-        function, listed = node.child_by_field_name("function"), node.child_by_field_name("arguments")
+        function, list_node = node.child_by_field_name("function"), node.child_by_field_name("arguments")
         name = self.name(function)
-        given = [child for child in listed.named_children if child.type != "comment"] if listed is not None else []
-        if len(given) == 1 and given[0].type == "initializer_list" and name in _LESSER | _GREATER:
-            given = [child for child in given[0].named_children if child.type != "comment"]
-        if function is None or len(given) > 8:
+        arguments = [child for child in list_node.named_children if child.type != "comment"] if list_node is not None else []
+        if len(arguments) == 1 and arguments[0].type == "initializer_list" and name in _LESSER | _GREATER:
+            arguments = [child for child in arguments[0].named_children if child.type != "comment"]
+        if function is None or len(arguments) > 8:
             return None
-        values = [self.value(each, known, depth) for each in given]
-        if len(given) == 1 and (name in _CASTS or _TYPE.search(name) is not None):
+        values = [self.value(item, known, depth) for item in arguments]
+        if len(arguments) == 1 and (name in _CASTS or _TYPE.search(name) is not None):
             return values[0]
         if name in _LESSER or name in _GREATER:
             masks = [value for value in values if isinstance(value, Mask)]
             at = span(function)
             return united(masks, "MIN" if name in _LESSER else "MAX", at) if len(masks) == len(values) > 1 else None
         if name in _POWERS and isinstance(values[-1] if values else None, Highest) and values[:-1] in ([], [2], [1]):
-            found = values[-1]
-            return found._replace(form="COUNT") if isinstance(found, Highest) and found.form == "INDEX" else None
+            highest = values[-1]
+            return highest._replace(form="COUNT") if isinstance(highest, Highest) and highest.form == "INDEX" else None
         first = values[0] if len(values) == 1 else None
         if isinstance(first, Mask):
             form = next((f for names, f in _FORMS if name in names), None)

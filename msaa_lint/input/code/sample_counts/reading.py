@@ -72,9 +72,9 @@ class Reading:
     def parameters(self, declarator: SyntaxNode) -> Known:
         """Parameters whose type says that they are masks."""
         known: Known = {}
-        listed = declarator.child_by_field_name("parameters")
-        for each in listed.named_children if listed is not None else ():
-            kind, name = each.child_by_field_name("type"), each.child_by_field_name("declarator")
+        list_node = declarator.child_by_field_name("parameters")
+        for child in list_node.named_children if list_node is not None else ():
+            kind, name = child.child_by_field_name("type"), child.child_by_field_name("declarator")
             if kind is not None and name is not None and name.type == "identifier":
                 mask = _MASK_TYPE.search(self.expressions.of(kind)) is not None
                 known[self.expressions.of(name)] = Mask((), "NONE", span(name), known=False) if mask else None
@@ -109,8 +109,8 @@ class Reading:
         """A declaration, an assignment, a return."""
         of = self.expressions.of
         if node.type == "return_statement":
-            given = next((child for child in node.named_children if child.type != "comment"), None)
-            self.given(RETURN, given, owner.returns, known, owner, chains)
+            match = next((child for child in node.named_children if child.type != "comment"), None)
+            self.given(RETURN, match, owner.returns, known, owner, chains)
         elif node.type == "expression_statement":
             child = node.named_children[0] if node.named_child_count else None
             if child is not None and child.type == "assignment_expression":
@@ -124,19 +124,19 @@ class Reading:
                     self.given(name, child.child_by_field_name("right"), "", known, owner, chains)
         else:
             kind = node.child_by_field_name("type")
-            typed = of(kind) if kind is not None else ""
+            type_node = of(kind) if kind is not None else ""
             for child in node.children_by_field_name("declarator"):
-                stated = child.child_by_field_name("value")
+                value_node = child.child_by_field_name("value")
                 target = child.child_by_field_name("declarator") if child.type == "init_declarator" else child
                 while target is not None and target.type.endswith("_declarator"):
                     inner = target.child_by_field_name("declarator")
                     target = inner if inner is not None else next(iter(target.named_children), None)
                 name = self.expressions.name(target)
-                if name and stated is not None:
+                if name and value_node is not None:
                     known[name] = None
-                    self.given(name, stated, typed, known, owner, chains)
+                    self.given(name, value_node, type_node, known, owner, chains)
                 elif name:
-                    known[name] = Mask((), "NONE", span(child), known=False) if _MASK_TYPE.search(typed) else None
+                    known[name] = Mask((), "NONE", span(child), known=False) if _MASK_TYPE.search(type_node) else None
 
     def given(self, target: str, node: SyntaxNode | None, typed: str, known: Known, owner: Owner, chains: dict[str, Chain]) -> None:
         """What an expression gives to a variable, or returns."""
@@ -163,7 +163,7 @@ class Reading:
 
     def conditional(self, target: str, node: SyntaxNode | None, known: Known, chains: dict[str, Chain]) -> None:
         """A chain of conditional expressions."""
-        made: list[Test] = []
+        tests: list[Test] = []
         for _ in range(MOST_TESTS):
             node = unwrapped(node)
             if node is None or node.type != "conditional_expression":
@@ -172,28 +172,28 @@ class Reading:
             mask, count = self.expressions.value(test, known), self.expressions.value(then, known)
             if test is None or not isinstance(mask, Mask) or mask.bit is None or not isinstance(count, int) or count not in COUNTS:
                 break
-            made.append(Test(mask, mask.bit, count, span(test), 0, True, _SPELLED.search(self.expressions.of(node)[:4000]) is not None))
+            tests.append(Test(mask, mask.bit, count, span(test), 0, True, _SPELLED.search(self.expressions.of(node)[:4000]) is not None))
             node = node.child_by_field_name("alternative")
-        if made and (node is None or node.type != "conditional_expression"):
+        if tests and (node is None or node.type != "conditional_expression"):
             chain = chains.setdefault(target, Chain())
             chain.groups += 1
-            chain.tests += made
+            chain.tests += tests
 
     def lambdas(self, node: SyntaxNode, known: Known, owner: Owner, depth: int) -> None:
         """Functions within an expression."""
-        waiting = [(node, "")]
-        while waiting:
-            each, name = waiting.pop()
-            if each.type == "lambda_expression":
-                body, declarator = each.child_by_field_name("body"), each.child_by_field_name("declarator")
+        stack = [(node, "")]
+        while stack:
+            expression, name = stack.pop()
+            if expression.type == "lambda_expression":
+                body, declarator = expression.child_by_field_name("body"), expression.child_by_field_name("declarator")
                 inner = {**known, **(self.parameters(declarator) if declarator is not None else {})}
-                called = each.parent.child_by_field_name("declarator") if each.parent is not None else None
-                at = span(called) if called is not None else None
-                own = Owner(self.expressions.name(called), at, self.expressions.of(declarator) if declarator is not None else "")
+                declared = expression.parent.child_by_field_name("declarator") if expression.parent is not None else None
+                at = span(declared) if declared is not None else None
+                lambda_owner = Owner(self.expressions.name(declared), at, self.expressions.of(declarator) if declarator is not None else "")
                 if body is not None and depth < DEEPEST:
-                    self.block(body, inner, own, depth + 1)
+                    self.block(body, inner, lambda_owner, depth + 1)
                 continue
-            waiting += [(child, name) for child in each.named_children]
+            stack += [(child, name) for child in expression.named_children]
 
     def branches(self, node: SyntaxNode, known: Known, owner: Owner, chains: dict[str, Chain], depth: int) -> None:
         """An `if` with its `else if`s: tests of a chain, and the blocks behind them."""
@@ -232,10 +232,10 @@ class Reading:
         gave = False
         touched: set[str] = set()
         for condition, then in links(node):
-            given = self.assigned(then)
-            if condition is None or given is None:
+            assignment = self.assigned(then)
+            if condition is None or assignment is None:
                 continue
-            target, expression = given
+            target, expression = assignment
             count, mask = self.expressions.value(expression, known), self.expressions.value(condition, known)
             if not isinstance(count, int) or count not in COUNTS:
                 if isinstance(mask, Mask) and mask.bit is not None and target in chains:
@@ -257,7 +257,7 @@ class Reading:
 
     def loop(self, node: SyntaxNode, known: Known, chains: dict[str, Chain]) -> bool:
         """A loop over counts that are known, gone through; whether it is one."""
-        found = False
+        is_loop = False
         waited = waits(node, self.expressions, known)
         if waited is not None:
             name, tests = waited
@@ -270,11 +270,11 @@ class Reading:
         for inner in rounds(node, self.expressions, known):
             for child in statements(body) if body is not None else ():
                 before = {name: len(chain.tests) for name, chain in chains.items()}
-                found |= child.type == "if_statement" and self.tested(child, inner, chains)
+                is_loop |= child.type == "if_statement" and self.tested(child, inner, chains)
                 for name, chain in chains.items():
                     new = chain.tests[before.get(name, 0) :]
                     chain.tests[before.get(name, 0) :] = [test._replace(spelled=spelled) for test in new]
-        return found
+        return is_loop
 
     def finish(self, target: str, chain: Chain, owner: Owner) -> None:
         """A chain of a block that has ended."""
@@ -291,11 +291,11 @@ class Reading:
         self.found.append(Found(target or owner.name or "samples", at, mask, tuple(tests), most, target == RETURN))
 
 
-def _masked(value: Value | None, given: Value | None, at: Span) -> Value | None:
+def _masked(value: Value | None, other: Value | None, at: Span) -> Value | None:
     """What `&=` leaves of a mask."""
-    if isinstance(value, Mask) and isinstance(given, Mask):
-        return united((value, given), "AND", at)
-    return value._replace(allowed=value.allowed & given) if isinstance(value, Mask) and isinstance(given, int) else None
+    if isinstance(value, Mask) and isinstance(other, Mask):
+        return united((value, other), "AND", at)
+    return value._replace(allowed=value.allowed & other) if isinstance(value, Mask) and isinstance(other, int) else None
 
 
 def _plainly(node: SyntaxNode, expressions: Expressions) -> bool:

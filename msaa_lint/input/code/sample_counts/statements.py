@@ -24,23 +24,23 @@ def unwrapped(node: SyntaxNode | None) -> SyntaxNode | None:
             node = node.child_by_field_name("value") or node.named_children[-1]
             continue
         # `(Type)(value)` reads as a call where the grammar knows no types.
-        function, listed = node.child_by_field_name("function"), node.child_by_field_name("arguments")
-        if function is None or listed is None or function.type != "parenthesized_expression" or listed.named_child_count != 1:
+        function, list_node = node.child_by_field_name("function"), node.child_by_field_name("arguments")
+        if function is None or list_node is None or function.type != "parenthesized_expression" or list_node.named_child_count != 1:
             return node
-        node = listed.named_children[0]
+        node = list_node.named_children[0]
     return node
 
 
 def statements(node: SyntaxNode) -> Iterator[SyntaxNode]:
     """The statements of a block, or the one that stands for it; those of the preprocessor's blocks among them."""
-    waiting = [node]
-    while waiting:
-        each = waiting.pop()
-        block = each.type in ("compound_statement", "else_clause", "translation_unit") and (each is node or node.type == "else_clause")
-        if block or each.type in _SPLICED:
-            waiting += reversed(each.named_children)
+    stack = [node]
+    while stack:
+        inner = stack.pop()
+        block = inner.type in ("compound_statement", "else_clause", "translation_unit") and (inner is node or node.type == "else_clause")
+        if block or inner.type in _SPLICED:
+            stack += reversed(inner.named_children)
         else:
-            yield each
+            yield inner
 
 
 def links(node: SyntaxNode) -> Iterator[tuple[SyntaxNode | None, SyntaxNode]]:
@@ -55,8 +55,8 @@ def links(node: SyntaxNode) -> Iterator[tuple[SyntaxNode | None, SyntaxNode]]:
         other = current.child_by_field_name("alternative")
         current = None
         if other is not None:
-            following = other.named_children[-1] if other.type == "else_clause" and other.named_child_count else other
-            if following.type == "if_statement":
-                current = following
+            next_node = other.named_children[-1] if other.type == "else_clause" and other.named_child_count else other
+            if next_node.type == "if_statement":
+                current = next_node
             else:
-                yield None, following
+                yield None, next_node

@@ -39,9 +39,9 @@ class Uses:
         self._left = MOST_STEPS
         self._used: dict[str, list[SyntaxNode]] = {}
         self._held: dict[str, list[str]] = {}
-        waiting = [root]
-        while waiting:
-            node = waiting.pop()
+        stack = [root]
+        while stack:
+            node = stack.pop()
             if node.type in ("identifier", "field_identifier"):
                 self._named.setdefault(expressions.of(node), []).append(node)
             elif node.type == "function_definition":
@@ -50,23 +50,23 @@ class Uses:
                     declarator = declarator.child_by_field_name("declarator")
                 if declarator is not None:
                     self._functions.setdefault(expressions.name(declarator.child_by_field_name("declarator")), node)
-            waiting += reversed(node.named_children)
+            stack += reversed(node.named_children)
 
     def holders(self, name: str) -> list[str]:
         """A function or variable that has a count, and what is given its value."""
         if name in self._held:
             return self._held[name]
-        found = self._held[name] = [name]
-        for each in found:
-            for node in self._uses(each)[:MOST_USES]:
-                given = _given_to(node)
-                target = self.expressions.name(given)
-                if given is not None and target in _SAMPLES:
+        holders = self._held[name] = [name]
+        for holder in holders:
+            for node in self._uses(holder)[:MOST_USES]:
+                receiver = _given_to(node)
+                target = self.expressions.name(receiver)
+                if receiver is not None and target in _SAMPLES:
                     # Many structures have such a member, those that describe an image among them.
-                    target = "" if given.type == "field_expression" and self._beside(node) else self.expressions.of(given)
-                if target and target not in found and len(found) < MOST_NAMES:
-                    found.append(target)
-        return found
+                    target = "" if receiver.type == "field_expression" and self._beside(node) else self.expressions.of(receiver)
+                if target and target not in holders and len(holders) < MOST_NAMES:
+                    holders.append(target)
+        return holders
 
     def _uses(self, name: str) -> list[SyntaxNode]:
         """Where a name is used; a member with what it is of, where that is written alike."""
@@ -76,23 +76,23 @@ class Uses:
         uses = self._named.get(short, [])
         if short != name:
             near = uses if len(uses) <= MOST_MEMBERS else []
-            uses = [each for each in near if each.parent is not None and self.expressions.of(each.parent) == name]
+            uses = [item for item in near if item.parent is not None and self.expressions.of(item.parent) == name]
         elif name in _SAMPLES:
-            uses = [each for each in uses if each.type == "identifier"]
+            uses = [item for item in uses if item.type == "identifier"]
         self._used[name] = uses
         return uses
 
     def cap(self, name: str) -> int | None:
         """The count that caps it; 0 where something caps it that is not known; None where nothing does."""
         caps: list[int] = []
-        for each in self.holders(name):
-            uses = self._uses(each)
+        for holder in self.holders(name):
+            uses = self._uses(holder)
             if len(uses) > MOST_USES:
                 return 0
             for node in uses:
-                found = self._capped(node)
-                if found is not None:
-                    caps.append(found)
+                limit = self._capped(node)
+                if limit is not None:
+                    caps.append(limit)
         return min(caps) if caps else None
 
     def _capped(self, node: SyntaxNode) -> int | None:
@@ -117,12 +117,12 @@ class Uses:
 
     def formats(self, name: str) -> dict[str, Span]:
         """The formats with depth or stencil of images that get the count, and where each is named, as far as that is seen."""
-        found: dict[str, Span] = {}
-        for each in self.holders(name):
-            for node in self._uses(each)[:MOST_USES]:
+        formats: dict[str, Span] = {}
+        for holder in self.holders(name):
+            for node in self._uses(holder)[:MOST_USES]:
                 for expression in self._beside(node):
-                    self._formats(expression, found, 0, set())
-        return found
+                    self._formats(expression, formats, 0, set())
+        return formats
 
     def _beside(self, node: SyntaxNode) -> list[SyntaxNode]:
         """What may be the format where a count is an image's: the other arguments of a call, the member `format` of the same structure."""
@@ -142,9 +142,9 @@ class Uses:
                 return []
             return self._member(parent, name, "format")
         if parent.type == "initializer_pair" and parent.parent is not None:
-            given = [child for child in parent.parent.named_children if child.type == "initializer_pair"]
+            members = [child for child in parent.parent.named_children if child.type == "initializer_pair"]
             if self.expressions.of(parent).lstrip(". ").startswith("samples"):
-                return [child for child in given if self.expressions.of(child).lstrip(". ").startswith("format")]
+                return [child for child in members if self.expressions.of(child).lstrip(". ").startswith("format")]
         return []
 
     def _member(self, node: SyntaxNode, structure: str, member: str) -> list[SyntaxNode]:
@@ -152,42 +152,42 @@ class Uses:
         around = node.parent
         while around is not None and around.type not in ("function_definition", "lambda_expression", "translation_unit"):
             around = around.parent
-        found = []
-        for each in self._named.get(member, ())[:MOST_USES]:
-            field = each.parent
-            given = field.parent if field is not None else None
-            inside = around is not None and around.start_byte <= each.start_byte < around.end_byte
-            if inside and field is not None and given is not None and given.type == "assignment_expression":
-                of, right = field.child_by_field_name("argument"), given.child_by_field_name("right")
+        values = []
+        for use in self._named.get(member, ())[:MOST_USES]:
+            field = use.parent
+            assignment = field.parent if field is not None else None
+            inside = around is not None and around.start_byte <= use.start_byte < around.end_byte
+            if inside and field is not None and assignment is not None and assignment.type == "assignment_expression":
+                of, right = field.child_by_field_name("argument"), assignment.child_by_field_name("right")
                 same = of is not None and self.expressions.of(of) == structure
-                if same and right is not None and given.child_by_field_name("left") == field:
-                    found.append(right)
-        return found
+                if same and right is not None and assignment.child_by_field_name("left") == field:
+                    values.append(right)
+        return values
 
-    def _formats(self, node: SyntaxNode, found: dict[str, Span], depth: int, seen: set[str]) -> None:
+    def _formats(self, node: SyntaxNode, formats: dict[str, Span], depth: int, names: set[str]) -> None:
         """The formats that an expression may be: named in it, given to a variable of it, or returned by a function that it calls."""
-        waiting = [node]
-        while waiting and self._left > 0:
-            each = waiting.pop()
+        stack = [node]
+        while stack and self._left > 0:
+            inner = stack.pop()
             self._left -= 1
-            if each.type == "binary_expression" or each.type in ("case_statement", "lambda_expression"):
+            if inner.type == "binary_expression" or inner.type in ("case_statement", "lambda_expression"):
                 continue
-            if each.type in ("identifier", "field_identifier", "qualified_identifier"):
-                name = _format(self.expressions.of(each))
+            if inner.type in ("identifier", "field_identifier", "qualified_identifier"):
+                name = _format(self.expressions.of(inner))
                 if name is not None:
                     form = format_of(name)
                     if form is not None and not {"depth", "stencil"}.isdisjoint(form.aspects):
-                        found.setdefault(name, span(each))
+                        formats.setdefault(name, span(inner))
                     continue
-                short = self.expressions.name(each)
-                if depth < 3 and short not in seen and ("ormat" in short or short in self._functions):
-                    seen.add(short)
+                short = self.expressions.name(inner)
+                if depth < 3 and short not in names and ("ormat" in short or short in self._functions):
+                    names.add(short)
                     self._left -= min(len(self._named.get(short, ())), MOST_USES)
-                    for source in self._sources(short, each):
-                        self._formats(source, found, depth + 1, seen)
-                if each.type == "qualified_identifier":
+                    for source in self._sources(short, inner):
+                        self._formats(source, formats, depth + 1, names)
+                if inner.type == "qualified_identifier":
                     continue
-            waiting += reversed(each.named_children)
+            stack += reversed(inner.named_children)
 
     def _sources(self, name: str, at: SyntaxNode) -> list[SyntaxNode]:
         """What a name is given in the file, or what the function of that name says."""
@@ -196,7 +196,7 @@ class Uses:
         if name in self._functions and (called or (parent is not None and parent.type in ("field_expression", "qualified_identifier"))):
             body = self._functions[name].child_by_field_name("body")
             return [body] if body is not None else []
-        found = []
+        sources = []
         for node in self._named.get(name, ())[:MOST_USES]:
             holder: SyntaxNode | None = node.parent
             field = node
@@ -206,8 +206,8 @@ class Uses:
                 continue
             value = holder.child_by_field_name("value" if holder.type == "init_declarator" else "right")
             if holder.type in ("init_declarator", "assignment_expression") and value is not None and value != field:
-                found.append(value)
-        return found
+                sources.append(value)
+        return sources
 
 
 def _whole(node: SyntaxNode) -> tuple[SyntaxNode, SyntaxNode | None]:
@@ -258,15 +258,15 @@ def _format(text: str) -> str | None:
         return text[len(_FORMAT) :]
     if "Format::e" not in text or len(text) > 80:
         return None
-    made = ""
+    name = ""
     short = text.rpartition("Format::e")[2]
     for n, letter in enumerate(short):
         upper = letter.isupper() and n > 0 and (short[n - 1].islower() or short[n - 1].isdigit())
-        made += ("_" if upper and _breaks(short, n) else "") + letter.upper()
-    return made
+        name += ("_" if upper and _breaks(short, n) else "") + letter.upper()
+    return name
 
 
 def _breaks(short: str, n: int) -> bool:
     """Whether an underscore stands before a letter of vulkan.hpp's spelling: `D24UnormS8Uint` is D24_UNORM_S8_UINT."""
-    following = short[n + 1 : n + 2]
-    return following.islower() or (short[n - 1].islower() and following.isdigit()) or short[n - 1].islower()
+    next_node = short[n + 1 : n + 2]
+    return next_node.islower() or (short[n - 1].islower() and next_node.isdigit()) or short[n - 1].islower()

@@ -12,39 +12,39 @@ from .values import UNKNOWN, Aggregate, Instance, Symbol
 
 def set_target(machine: Machine, sign: str, target: Term, value: Term, frame: Frame) -> None:
     """What an assignment changes."""
-    held = evaluate(machine, value, frame)
+    new_value = evaluate(machine, value, frame)
     if sign != "=":
-        held = UNKNOWN
+        new_value = UNKNOWN
     kind = target[0]
     place = value[-1]
     if kind == NAME:
-        found = frame.find(target[1])
-        if found is not None:
-            machine.name(held, target[1], frame.function, frame.rank)
-            machine.journal.write(found[0].locals, target[1], held)
+        variable = frame.find(target[1])
+        if variable is not None:
+            machine.name(new_value, target[1], frame.function, frame.rank)
+            machine.journal.write(variable[0].locals, target[1], new_value)
             return
-        own = declares(machine, frame.within, target[1])
-        if frame.me is not None and not own and set_member(machine, frame.me, target[1], held, target[-1], place):
+        is_declared = declares(machine, frame.within, target[1])
+        if frame.me is not None and not is_declared and set_member(machine, frame.me, target[1], new_value, target[-1], place):
             return
-        outer = not own and declares(machine, "", target[1])
-        machine.set_property("" if outer else frame.within, target[1], held, place)
+        outer = not is_declared and declares(machine, "", target[1])
+        machine.set_property("" if outer else frame.within, target[1], new_value, place)
     elif kind == MEMBER and target[1] is not None:
         owner = owner_of(machine, target[1], target[2], frame)
         if isinstance(owner, Instance):
-            machine.set_property(owner.type, target[2], held, place)
+            machine.set_property(owner.type, target[2], new_value, place)
             return
         if isinstance(owner, Symbol):
             owner = adopted(machine, owner, target[1], target[2], frame)
-        set_member(machine, owner, target[2], held, name_at(target), place)
+        set_member(machine, owner, target[2], new_value, name_at(target), place)
     elif kind == INDEX:
         owner = evaluate(machine, target[1], frame)
-        if not set_index(machine, owner, evaluate(machine, target[2], frame), held, target[-1], place):
+        if not set_index(machine, owner, evaluate(machine, target[2], frame), new_value, target[-1], place):
             place_of = cell(target[1], frame)
             if place_of is not None:
-                machine.set_property(place_of[0], place_of[1], held, place)
-    elif kind == TUPLE and isinstance(held, Aggregate):
+                machine.set_property(place_of[0], place_of[1], new_value, place)
+    elif kind == TUPLE and isinstance(new_value, Aggregate):
         for index, (_, item) in enumerate(target[1]):
             if item[0] == NAME and frame.find(item[1]) is not None:
-                machine.journal.write(frame.locals, item[1], held.items.get(str(index), UNKNOWN))
+                machine.journal.write(frame.locals, item[1], new_value.items.get(str(index), UNKNOWN))
             elif item[0] == NAME:
-                machine.set_property(frame.within, item[1], held.items.get(str(index), UNKNOWN), place)
+                machine.set_property(frame.within, item[1], new_value.items.get(str(index), UNKNOWN), place)

@@ -80,9 +80,9 @@ def called(machine: Machine, term: Term, frame: Frame) -> Value:
     elif function[0] == MEMBER:
         value = _by_member(machine, function, call, frame)
     else:
-        held = machine.evaluate(machine, function, frame)
-        if isinstance(held, Code):
-            return machine.call_closure(machine, held, call.values, frame, at)
+        target = machine.evaluate(machine, function, frame)
+        if isinstance(target, Code):
+            return machine.call_closure(machine, target, call.values, frame, at)
     if value is not None:
         return value
     _escape(machine, call)
@@ -192,9 +192,9 @@ def _by_member(machine: Machine, function: Term, call: Call, frame: Frame) -> Va
         return NIL
     if target is None:
         return _implicit(machine, name, call, frame)
-    held = machine.evaluate(machine, target, frame)
-    value = _metal_method(machine, held, name, call, frame)
-    return value if value is not None else _file_method(machine, held, target, name, call, frame)
+    owner = machine.evaluate(machine, target, frame)
+    value = _metal_method(machine, owner, name, call, frame)
+    return value if value is not None else _file_method(machine, owner, target, name, call, frame)
 
 
 def _implicit(machine: Machine, name: str, call: Call, frame: Frame) -> Value | None:
@@ -207,44 +207,44 @@ def _implicit(machine: Machine, name: str, call: Call, frame: Frame) -> Value | 
     return machine.call(machine, functions[0], call.bind(functions[0]), frame, call.at, None) if len(functions) == 1 else None
 
 
-def _file_method(machine: Machine, held: Value, target: Term, name: str, call: Call, frame: Frame) -> Value | None:
+def _file_method(machine: Machine, owner: Value, target: Term, name: str, call: Call, frame: Frame) -> Value | None:
     """The value of a method that the file defines."""
-    within = held.type if isinstance(held, Instance) else target[1] if target[0] == NAME and target[1] in machine.unit.types else ""
-    if isinstance(held, Object):
-        within = next((name for name, kind in OBJECTS.items() if kind == held.kind and machine.type_of(name) is not None), "")
+    within = owner.type if isinstance(owner, Instance) else target[1] if target[0] == NAME and target[1] in machine.unit.types else ""
+    if isinstance(owner, Object):
+        within = next((name for name, kind in OBJECTS.items() if kind == owner.kind and machine.type_of(name) is not None), "")
     function = _function(machine, within, name, call) if within else None
     if function is not None:
-        me = held if isinstance(held, Object) else frame.me
+        me = owner if isinstance(owner, Object) else frame.me
         return machine.call(machine, function, call.bind(function), frame, call.at, me)
-    if isinstance(held, Object):
+    if isinstance(owner, Object):
         if call.closure is not None:
-            machine.call_closure(machine, Code(call.closure), (held,), frame, call.at)
-            return held
-        if held.kind in ("texture", "pass", "pipeline", "attachment"):
-            machine.loosen(held)
+            machine.call_closure(machine, Code(call.closure), (owner,), frame, call.at)
+            return owner
+        if owner.kind in ("texture", "pass", "pipeline", "attachment"):
+            machine.loosen(owner)
         return None
-    others = machine.functions.get(name, ()) if isinstance(held, Symbol) else ()
+    others = machine.functions.get(name, ()) if isinstance(owner, Symbol) else ()
     if len(others) == 1 and call.matches(others[0]):
         machine.arguments.setdefault(others[0].at.start, []).append(call.bind(others[0]))
     return None
 
 
-def _metal_method(machine: Machine, held: Value, name: str, call: Call, frame: Frame) -> Value | None:
+def _metal_method(machine: Machine, owner: Value, name: str, call: Call, frame: Frame) -> Value | None:
     """The value of a method of one of Metal's objects; None where it is another."""
     first = call.values[0] if call.arguments else UNKNOWN
-    kind = held.kind if isinstance(held, Object) else ""
+    kind = owner.kind if isinstance(owner, Object) else ""
     if name == "present":
-        shown = held if kind == "drawable" else first
-        if isinstance(shown, Object) and shown.kind == "drawable":
+        drawable_object = owner if kind == "drawable" else first
+        if isinstance(drawable_object, Object) and drawable_object.kind == "drawable":
             note(machine, "present", (drawable(machine, call.at),), call.at)
             return NIL
         machine.incomplete.add(machine.root)
         return None
-    if isinstance(held, Object) and name == "reset" and kind == "pipeline":
-        machine.renew(held)
+    if isinstance(owner, Object) and name == "reset" and kind == "pipeline":
+        machine.renew(owner)
         return NIL
-    if isinstance(held, Object) and name == "copy" and not call.arguments:
-        return copied(machine, held, call.at, frame)
+    if isinstance(owner, Object) and name == "copy" and not call.arguments:
+        return copied(machine, owner, call.at, frame)
     if name == "copy" and len(call.arguments) > 1 and call.labels[0] == "from":
         ends = [as_texture(machine, value, call.at) for value in (first, dict(call.arguments).get("to", UNKNOWN))]
         if not all(isinstance(end, Texture) for end in ends):
@@ -255,11 +255,11 @@ def _metal_method(machine: Machine, held: Value, name: str, call: Call, frame: F
         at = call.terms[0][1][-1]
         texture = as_texture(machine, first, at)
         if isinstance(texture, Texture):
-            note(machine, "read", (texture, _READS[name], held.of if isinstance(held, Object) else None), at)
+            note(machine, "read", (texture, _READS[name], owner.of if isinstance(owner, Object) else None), at)
             return NIL
-    if name == "setRenderPipelineState" and isinstance(held, Object) and isinstance(held.of, Pass):
+    if name == "setRenderPipelineState" and isinstance(owner, Object) and isinstance(owner.of, Pass):
         pipeline = first.of if isinstance(first, Object) else None
-        if isinstance(pipeline, Pipeline) and held.of not in pipeline.passes[:4]:
-            pipeline.passes.append(held.of)
+        if isinstance(pipeline, Pipeline) and owner.of not in pipeline.passes[:4]:
+            pipeline.passes.append(owner.of)
         return NIL
     return NIL if kind in ("encoder", "commands") and name in ("setFragmentBuffer", "setVertexBuffer", "commit") else None

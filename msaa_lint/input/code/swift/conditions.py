@@ -29,12 +29,12 @@ def _bound(machine: Machine, condition: Term, frame: Frame) -> bool | None:
     """Binds a name; that it is bound is sure of Metal's objects alone."""
     _, name, term, _ = condition
     if term is None:
-        found = frame.find(name)
-        if found is None:
+        variable = frame.find(name)
+        if variable is None:
             value = machine.evaluate(machine, (NAME, name, condition[-1]), frame)
             machine.variable(frame, name, Symbol(name, frame.within) if value == NIL else value)
             return True if isinstance(value, Object) else None
-        return True if isinstance(found[1], (Texture, Object)) else None
+        return True if isinstance(variable[1], (Texture, Object)) else None
     value = machine.evaluate(machine, term, frame)
     machine.variable(frame, name, Symbol(last_name(term) or name, frame.whose) if value == NIL else value)
     return True if isinstance(value, Object) else None
@@ -54,9 +54,9 @@ def decided(machine: Machine, conditions: tuple[Term, ...], then: object, otherw
     """Which way conditions go; None where it cannot be told."""
     if not conditions:
         return None
-    found = truth(machine, conditions, frame)
-    if found is not None:
-        return found
+    way = truth(machine, conditions, frame)
+    if way is not None:
+        return way
     words = words_of(conditions, machine.text)
     goes = machine.worlds.get(words)
     if goes is None:

@@ -26,8 +26,8 @@ def by_words(condition: Term) -> bool | None:
     turned = False
     while condition[0] == NOT:
         condition, turned = condition[1], not turned
-    found = _by_words(condition)
-    return None if found is None else found != turned
+    way = _by_words(condition)
+    return None if way is None else way != turned
 
 
 def _by_words(condition: Term) -> bool | None:
@@ -59,22 +59,22 @@ def by_branches(then: Any, otherwise: Any) -> bool | None:
 
 def speaks(term: Any) -> bool:
     """Whether a branch sets up multisampling."""
-    waiting = [term]
+    stack = [term]
     left = MOST_TERMS
-    while waiting and left:
+    while stack and left:
         left -= 1
-        each = waiting.pop()
-        if not isinstance(each, tuple) or not each:
+        inner = stack.pop()
+        if not isinstance(inner, tuple) or not inner:
             continue
-        if each[0] == MEMBER and len(each) == 4 and each[2] in _WORDS:
+        if inner[0] == MEMBER and len(inner) == 4 and inner[2] in _WORDS:
             return True
-        if each[0] == SET and len(each) == 5 and each[2][0] == MEMBER:
-            name, value = each[2][2], each[3]
+        if inner[0] == SET and len(inner) == 5 and inner[2][0] == MEMBER:
+            name, value = inner[2][2], inner[3]
             if name in ("sampleCount", "rasterSampleCount") and not (value[0] == LITERAL and value[1] == 1):
                 return True
             if name == "resolveTexture" and value[:2] != (LITERAL, None):
                 return True
-        waiting.extend(each)
+        stack.extend(inner)
     return False
 
 

@@ -38,10 +38,10 @@ def trees(code: Code) -> list[Read]:
         return []
     machine = gone_through(code)
     writer = Writer(machine, defaults=not code.fragments)
-    found: Node | None = writer.tree(Span(0, len(code.text)))
-    if found is None:
+    node: Node | None = writer.tree(Span(0, len(code.text)))
+    if node is None:
         return []
-    return [Read(found, tuple((what, at, value) for what, (at, value) in writer.textures.assumed.items()))]
+    return [Read(node, tuple((what, at, value) for what, (at, value) in writer.textures.assumed.items()))]
 
 
 def gone_through(code: Code) -> Machine:
@@ -50,28 +50,28 @@ def gone_through(code: Code) -> Machine:
     parsed = tree(code)
     machine = Machine(code.text, unit(parsed.root_node, syntax), syntax)
     machine.evaluate, machine.call, machine.call_closure = evaluate, call, call_closure
-    shown = _APPLE_ONLY.search(code.text)
-    if shown is not None and not _OTHERS_TOO.search(code.text):
-        machine.imports = Span(shown.start(), shown.end())
-    mentioned = {found[2] or found[3] for found in _CALLED.finditer(code.text) if not found[1]}
-    functions = [each for own in machine.unit.types.values() for named in own.functions.values() for each in named]
-    functions.sort(key=lambda each: (each.name != "init", each.at.start))
+    apple_import = _APPLE_ONLY.search(code.text)
+    if apple_import is not None and not _OTHERS_TOO.search(code.text):
+        machine.imports = Span(apple_import.start(), apple_import.end())
+    mentioned = {match[2] or match[3] for match in _CALLED.finditer(code.text) if not match[1]}
+    functions = [item for type_ in machine.unit.types.values() for named in type_.functions.values() for item in named]
+    functions.sort(key=lambda function: (function.name != "init", function.at.start))
     for turn in range(2):
         if turn:
             machine.end()
         machine.begin()
         _begin(machine)
         called = frozenset(machine.called)
-        for each in functions:
-            if each.name == "init" or not (each.at.start in called if turn else each.name in mentioned):
-                _root(machine, each)
-        for each in functions:
-            if each.at.start not in machine.inlined:
-                _root(machine, each)
-        for own in machine.unit.types.values():
-            for each in own.computed.values():
-                if each.at.start not in machine.inlined:
-                    _root(machine, each)
+        for function in functions:
+            if function.name == "init" or not (function.at.start in called if turn else function.name in mentioned):
+                _root(machine, function)
+        for function in functions:
+            if function.at.start not in machine.inlined:
+                _root(machine, function)
+        for declaring_type in machine.unit.types.values():
+            for function in declaring_type.computed.values():
+                if function.at.start not in machine.inlined:
+                    _root(machine, function)
     machine.end()
     return machine
 
@@ -83,15 +83,15 @@ def _begin(machine: Machine) -> None:
     _guarded(machine, lambda: run(machine, machine.unit.outside, top))
     for name, value in list(top.locals.items()):
         machine.set_property("", name, value, Span(0, 0))
-    for own in machine.unit.types.values():
-        _guarded(machine, lambda own=own: _members(machine, own))
+    for type_ in machine.unit.types.values():
+        _guarded(machine, lambda type_=type_: _members(machine, type_))
 
 
-def _members(machine: Machine, own: Type) -> None:
-    frame = Frame(own.name, "", 0, 0)
-    for name, member in own.members.items():
-        if member.value is not None and own.name:
-            machine.set_property(own.name, name, evaluate(machine, member.value, frame), member.value[-1])
+def _members(machine: Machine, type_: Type) -> None:
+    frame = Frame(type_.name, "", 0, 0)
+    for name, member in type_.members.items():
+        if member.value is not None and type_.name:
+            machine.set_property(type_.name, name, evaluate(machine, member.value, frame), member.value[-1])
 
 
 def _root(machine: Machine, function: Function) -> None:
@@ -104,13 +104,13 @@ def _root(machine: Machine, function: Function) -> None:
 
 
 def _entered(machine: Machine, function: Function, frame: Frame) -> None:
-    given: dict[str, Value] = {}
-    for each in machine.handed.get(function.at.start, ()):
-        for name, value in each.items():
-            given[name] = value if name not in given else joined(given[name], value, name)
-    if not given:
-        given = _of_one_tuple(machine, function)
-    enter(machine, function, given, frame)
+    arguments: dict[str, Value] = {}
+    for call_arguments in machine.handed.get(function.at.start, ()):
+        for name, value in call_arguments.items():
+            arguments[name] = value if name not in arguments else joined(arguments[name], value, name)
+    if not arguments:
+        arguments = _of_one_tuple(machine, function)
+    enter(machine, function, arguments, frame)
     gives = labelled(machine, function, body_of(machine, machine.body(function), frame))
     for item in gives.items.values() if isinstance(gives, Aggregate) else (gives,):
         if isinstance(item, Texture):
@@ -119,11 +119,11 @@ def _entered(machine: Machine, function: Function, frame: Frame) -> None:
 
 def _of_one_tuple(machine: Machine, function: Function) -> dict[str, Value]:
     """The textures that a function is meant to take: those of a tuple of the file with the same labels, two at least."""
-    wanted = [each.name for each in function.parameters if each.type == "MTLTexture"]
-    if len(wanted) < 2 or len(machine.tuples) > MOST_TUPLES:
+    textures = [parameter.name for parameter in function.parameters if parameter.type == "MTLTexture"]
+    if len(textures) < 2 or len(machine.tuples) > MOST_TUPLES:
         return {}
-    found = [items for items in machine.tuples.values() if all(name in items for name in wanted)]
-    return {name: found[0][name] for name in wanted} if len(found) == 1 else {}
+    tuples = [items for items in machine.tuples.values() if all(name in items for name in textures)]
+    return {name: tuples[0][name] for name in textures} if len(tuples) == 1 else {}
 
 
 def _guarded(machine: Machine, goes: object) -> None:

@@ -29,14 +29,14 @@ class Names:
         for _, name, _ in items:
             often[name] = often.get(name, 0) + 1
         for item, name, within in items:
-            wanted = f"{within}.{name}" if often[name] > 1 and within else name
-            while wanted in self.taken:
-                number = self.numbers[wanted] = self.numbers.get(wanted, 1) + 1
-                candidate = f"{wanted} {number}"
+            unique = f"{within}.{name}" if often[name] > 1 and within else name
+            while unique in self.taken:
+                number = self.numbers[unique] = self.numbers.get(unique, 1) + 1
+                candidate = f"{unique} {number}"
                 if candidate not in self.taken:
-                    wanted = candidate
-            self.taken.add(wanted)
-            self.of[id(item)] = wanted
+                    unique = candidate
+            self.taken.add(unique)
+            self.of[id(item)] = unique
 
 
 def type_of(fields: dict[str, Field]) -> object:
@@ -64,8 +64,8 @@ def plain(name: str, field: Field) -> list[Entry]:
 def usage(field: Field) -> list[Entry]:
     """The usage that is stated; `unknown` is 0, and alone allows everything."""
     value = field.value.value if isinstance(field.value, Known) else None
-    stated = (value,) if isinstance(value, str) else value if isinstance(value, tuple) else ()
-    named = [word for word in dict.fromkeys(stated) if word != "unknown"]
+    usages = (value,) if isinstance(value, str) else value if isinstance(value, tuple) else ()
+    named = [word for word in dict.fromkeys(usages) if word != "unknown"]
     if not named or not _USAGES.issuperset(named):
         return []
     return [("usage", field.key, words(named, field.at))]

@@ -59,9 +59,9 @@ def evaluate(machine: Machine, term: Term, frame: Frame) -> Value:
 
 
 def _name(machine: Machine, name: str, at: Span, frame: Frame) -> Value:
-    found = frame.find(name)
-    if found is not None:
-        return found[1]
+    variable = frame.find(name)
+    if variable is not None:
+        return variable[1]
     if name == "self":
         return frame.me if frame.me is not None else Instance(frame.within)
     if name == "Self":
@@ -81,15 +81,15 @@ def _name(machine: Machine, name: str, at: Span, frame: Frame) -> Value:
 
 def _declared(machine: Machine, within: str, name: str, at: Span, frame: Frame) -> Value | None:
     """The value of a property, or of a constant outside of types."""
-    own = machine.type_of(within)
-    if own is not None and name in own.computed:
-        return machine.call(machine, own.computed[name], {}, frame, at, None)
+    declaring_type = machine.type_of(within)
+    if declaring_type is not None and name in declaring_type.computed:
+        return machine.call(machine, declaring_type.computed[name], {}, frame, at, None)
     value = machine.property(within, name)
-    if (value is None or value == NIL or value is UNKNOWN) and own is not None and name in own.members:
-        kind = own.members[name].type
-        typed = machine.typed(kind, name, Span(0, 0), (within, name))
-        return typed if typed is not None else value if value == NIL and not kind else Symbol(name, within)
-    member = own.members.get(name) if own is not None else None
+    if (value is None or value == NIL or value is UNKNOWN) and declaring_type is not None and name in declaring_type.members:
+        kind = declaring_type.members[name].type
+        type_node = machine.typed(kind, name, Span(0, 0), (within, name))
+        return type_node if type_node is not None else value if value == NIL and not kind else Symbol(name, within)
+    member = declaring_type.members.get(name) if declaring_type is not None else None
     if value is UNKNOWN or (member is not None and member.variable and _may_change(machine, within, name, value, member.open)):
         return Symbol(name, within)
     return value
@@ -115,30 +115,30 @@ def _member(machine: Machine, term: Term, frame: Frame) -> Value:
         return Known(name)
     if target[0] == NAME and target[1][:3] in ("MTL", "CAM") and frame.find(target[1]) is None:
         return Known(name)
-    held = owner_of(machine, target, name, frame)
-    if isinstance(held, Instance):
-        own = machine.type_of(held.type)
-        if own is not None and name in own.cases:
-            return Known(f"{held.type}.{name}")
-        value = _declared(machine, held.type, name, at, frame)
-        return value if value is not None else Symbol(name, held.type)
-    if isinstance(held, Known) and isinstance(held.value, str) and name == "rawValue":
-        return _raw(machine, held.value, frame)
-    if isinstance(held, Symbol) and name.endswith(("Attachment", "Attachments")):
-        held = adopted(machine, held, target, name, frame)
-    found = member_of(machine, held, name, at, frame)
-    if found is not None:
-        return found
+    owner = owner_of(machine, target, name, frame)
+    if isinstance(owner, Instance):
+        declaring_type = machine.type_of(owner.type)
+        if declaring_type is not None and name in declaring_type.cases:
+            return Known(f"{owner.type}.{name}")
+        value = _declared(machine, owner.type, name, at, frame)
+        return value if value is not None else Symbol(name, owner.type)
+    if isinstance(owner, Known) and isinstance(owner.value, str) and name == "rawValue":
+        return _raw(machine, owner.value, frame)
+    if isinstance(owner, Symbol) and name.endswith(("Attachment", "Attachments")):
+        owner = adopted(machine, owner, target, name, frame)
+    member = member_of(machine, owner, name, at, frame)
+    if member is not None:
+        return member
     if name == "texture" and "drawable" in last_name(target).lower():
         return _drawable_texture(machine, at, frame)
-    return Symbol(f"{_words(target, machine)}.{name}", frame.whose if isinstance(held, Symbol) else frame.within)
+    return Symbol(f"{_words(target, machine)}.{name}", frame.whose if isinstance(owner, Symbol) else frame.within)
 
 
 def owner_of(machine: Machine, target: Term, name: str, frame: Frame) -> Value:
     """What a member is of: of `self`, the type where it declares the member."""
     if target[:2] == (NAME, "self"):
-        own = machine.type_of(frame.within)
-        if own is not None and (name in own.members or name in own.computed):
+        declaring_type = machine.type_of(frame.within)
+        if declaring_type is not None and (name in declaring_type.members or name in declaring_type.computed):
             return Instance(frame.within)
     return evaluate(machine, target, frame)
 
@@ -150,10 +150,10 @@ def _drawable_texture(machine: Machine, at: Span, frame: Frame) -> Value:
 def _raw(machine: Machine, name: str, frame: Frame) -> Value:
     """The raw value of an enumeration's case; an option set's are as good as its names."""
     of, _, case = name.rpartition(".")
-    own = machine.type_of(of) if of else None
-    if own is None:
+    declaring_type = machine.type_of(of) if of else None
+    if declaring_type is None:
         return Known(name)
-    raw = own.cases.get(case)
+    raw = declaring_type.cases.get(case)
     return evaluate(machine, raw, frame) if raw is not None else UNKNOWN
 
 
@@ -226,11 +226,11 @@ def _list(machine: Machine, term: Term, frame: Frame) -> Value:
 
 
 def _index(machine: Machine, term: Term, frame: Frame) -> Value:
-    held = evaluate(machine, term[1], frame)
+    owner = evaluate(machine, term[1], frame)
     at = evaluate(machine, term[2], frame)
-    found = index_of(machine, held, at, term[-1])
-    if found is not None:
-        return found
+    element = index_of(machine, owner, at, term[-1])
+    if element is not None:
+        return element
     place = cell(term[1], frame)
     value = machine.property(place[0], place[1]) if place is not None else None
     if value is not None:
@@ -249,5 +249,5 @@ def cell(term: Term, frame: Frame) -> tuple[str, str] | None:
 
 def declares(machine: Machine, within: str, name: str) -> bool:
     """Whether a type has a stored property of that name."""
-    own = machine.type_of(within)
-    return own is not None and name in own.members
+    declaring_type = machine.type_of(within)
+    return declaring_type is not None and name in declaring_type.members

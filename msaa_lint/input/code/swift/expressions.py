@@ -63,7 +63,11 @@ class Expressions:
         if kind == "tuple_expression":
             return self.grouped(node, depth)
         if kind == "array_literal":
-            return LIST, tuple(self.expression(each, depth + 1) for each in node.named_children if "comment" not in each.type), span(node)
+            return (
+                LIST,
+                tuple(self.expression(child, depth + 1) for child in node.named_children if "comment" not in child.type),
+                span(node),
+            )
         if kind == "lambda_literal":
             return self.closure(node, depth)
         if kind == "if_statement":
@@ -114,12 +118,12 @@ class Expressions:
         arguments: tuple[tuple[str, Term], ...] = ()
         closure: Term | None = None
         index = False
-        for each in children[-1].named_children:
-            if each.type == "value_arguments":
-                index = self.text[each.start_byte] == "["
-                arguments = tuple(self.argument(one, depth) for one in each.named_children if one.type == "value_argument")
-            elif each.type == "lambda_literal" and closure is None:
-                closure = self.closure(each, depth)
+        for child in children[-1].named_children:
+            if child.type == "value_arguments":
+                index = self.text[child.start_byte] == "["
+                arguments = tuple(self.argument(one, depth) for one in child.named_children if one.type == "value_argument")
+            elif child.type == "lambda_literal" and closure is None:
+                closure = self.closure(child, depth)
         if index:
             indexed: Term = INDEX, function, arguments[0][1] if len(arguments) == 1 else self.other(node), span(node)
             return indexed if closure is None else (CALL, indexed, (), closure, span(node))
@@ -154,16 +158,16 @@ class Expressions:
         kind = node.child_by_field_name("type")
         if kind is not None:
             for parameters in kind.named_children:
-                for each in parameters.named_children if parameters.type == "lambda_function_type_parameters" else ():
-                    name = each.child_by_field_name("name")
+                for child in parameters.named_children if parameters.type == "lambda_function_type_parameters" else ():
+                    name = child.child_by_field_name("name")
                     names.append(self.of(name) if name is not None else "")
         return CLOSURE, tuple(names), self.statements(block(node), depth + 1), span(node)
 
     def choice(self, node: SyntaxNode, depth: int) -> Term:
         """`if` where a value is due."""
-        found = self.branches(node, depth)
-        if found[0] == IF and all(len(arm) == 1 and arm[0][0] == DO for arm in (found[2], found[3])):
-            return CHOICE, found[1], found[2][0][1], found[3][0][1], found[-1]
+        branch = self.branches(node, depth)
+        if branch[0] == IF and all(len(arm) == 1 and arm[0][0] == DO for arm in (branch[2], branch[3])):
+            return CHOICE, branch[1], branch[2][0][1], branch[3][0][1], branch[-1]
         return self.other(node)
 
     def statements(self, nodes: list[SyntaxNode], depth: int = 0) -> tuple[Term, ...]:
@@ -175,7 +179,7 @@ class Expressions:
 
 def block(node: SyntaxNode) -> list[SyntaxNode]:
     """The statements in a node's braces."""
-    return [each for child in node.named_children if child.type == "statements" for each in child.named_children]
+    return [item for child in node.named_children if child.type == "statements" for item in child.named_children]
 
 
 def last_named(node: SyntaxNode) -> SyntaxNode | None:

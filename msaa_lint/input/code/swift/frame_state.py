@@ -34,9 +34,9 @@ class Frame:
         """The variable of that name, and the run that has it."""
         frame: Frame | None = self
         while frame is not None:
-            found = frame.locals.get(name)
-            if found is not None:
-                return frame, found
+            value = frame.locals.get(name)
+            if value is not None:
+                return frame, value
             frame = frame.around
         return None
 

@@ -13,17 +13,17 @@ from .values import Field, Known, Texture
 
 def commands(machine: Machine, textures: Textures, passes: list[Pass], names: dict[int, str]) -> Node | None:
     """What a frame does, where one function encodes all passes and shows the drawable, and nothing of it is hidden."""
-    encodings = [each for each in machine.encoded if each.kind == "pass"]
-    roots = {each.by for each in encodings}
+    encodings = [item for item in machine.encoded if item.kind == "pass"]
+    roots = {encoding.by for encoding in encodings}
     if len(roots) != 1 or len(encodings) != len(passes) or roots & machine.incomplete:
         return None
-    steps = [each for each in machine.encoded if each.by in roots]
-    if not all(each.sure for each in steps) or not any(each.kind == "present" for each in steps):
+    steps = [item for item in machine.encoded if item.by in roots]
+    if not all(item.sure for item in steps) or not any(entry.kind == "present" for entry in steps):
         return None
-    if {id(each.what[0]) for each in encodings} != set(names):
+    if {id(encoding.what[0]) for encoding in encodings} != set(names):
         return None
-    attached = {id(field.value) for each in passes for fields in each.attachments.values() for field in fields.values()}
-    hidden = attached & machine.escaped or any(id(each) in attached and _read_elsewhere(each) for each in textures.all.values())
+    attached = {id(field.value) for render_pass in passes for fields in render_pass.attachments.values() for field in fields.values()}
+    hidden = attached & machine.escaped or any(id(item) in attached and _read_elsewhere(item) for item in textures.all.values())
     if hidden or len(steps) != len(machine.encoded):
         return None
     reads: dict[int, list[Encoded]] = {}
@@ -35,7 +35,7 @@ def commands(machine: Machine, textures: Textures, passes: list[Pass], names: di
     nodes: list[Node] = []
     for step in steps:
         if step.kind == "pass":
-            nodes.extend(_command(textures, each) for each in reads.get(id(step.what[0]), ()))
+            nodes.extend(_command(textures, item) for item in reads.get(id(step.what[0]), ()))
             nodes.append(mapping([("renderPass", step.at, scalar(names[id(step.what[0])], step.at))], step.at))
         elif step.kind != "read":
             nodes.append(_command(textures, step))

@@ -52,8 +52,8 @@ class Machine:
         self.unit = unit
         self.syntax = syntax
         self.functions: dict[str, list[Function]] = {}
-        for own in unit.types.values():
-            for name, named in own.functions.items():
+        for type_ in unit.types.values():
+            for name, named in type_.functions.items():
                 self.functions.setdefault(name, []).extend(named)
         self.journal = Journal()
         self.worlds: dict[str, bool] = {}
@@ -96,9 +96,9 @@ class Machine:
         for texture in self.textures.values():
             texture.rank = 1 << 30
             texture.made = []
-        for each in self.objects.values():
-            each.fields = {}
-            each.loose = False
+        for metal_object in self.objects.values():
+            metal_object.fields = {}
+            metal_object.loose = False
         self.journal.writes.clear()
 
     def end(self) -> None:
@@ -118,10 +118,10 @@ class Machine:
     def made(self, kind: str, name: str, at: Span, way: object, complete: bool) -> Object:
         """The object that a place makes; it begins anew there."""
         key = (kind,) if kind in SHARED else (kind, at.start, at.end, way)
-        found = self.objects.get(key)
-        if found is None:
-            found = self.objects[key] = Object(kind, name, at, complete)
-        return found
+        metal_object = self.objects.get(key)
+        if metal_object is None:
+            metal_object = self.objects[key] = Object(kind, name, at, complete)
+        return metal_object
 
     def renew(self, item: Object) -> None:
         """An object begins anew, where the code that makes it is gone through again."""
@@ -134,18 +134,18 @@ class Machine:
         if plain is None:
             return None
         written = plain[1].rpartition(".")[2]
-        found = OBJECTS.get(written)
-        if found is None and self.is_view(written):
-            found = "view"
-        own = self.unit.types.get(written)
-        if found is None and own is not None and own.members and not own.cases:
+        object_kind = OBJECTS.get(written)
+        if object_kind is None and self.is_view(written):
+            object_kind = "view"
+        type_ = self.unit.types.get(written)
+        if object_kind is None and type_ is not None and type_.members and not type_.cases:
             return Instance(written)
-        return self.made(found, name, at, (way, name), False) if found is not None else None
+        return self.made(object_kind, name, at, (way, name), False) if object_kind is not None else None
 
     def is_view(self, name: str) -> bool:
         """Whether a type of the file is an MTKView."""
-        own = self.unit.types.get(name)
-        return own is not None and any(each == "MTKView" for each in own.inherits)
+        type_ = self.unit.types.get(name)
+        return type_ is not None and any(supertype == "MTKView" for supertype in type_.inherits)
 
     def me(self, within: str) -> Value | None:
         """What `self` is in a type's functions, where that is one of Metal's objects."""
@@ -158,8 +158,8 @@ class Machine:
         """An object's member is set."""
         self.journal.write(item.fields, name, Field(value, key, at, self.root))
         place = (id(item), name)
-        known = self.every.get(place)
-        self.every[place] = value if known is None else joined(known, value, name)
+        before = self.every.get(place)
+        self.every[place] = value if before is None else joined(before, value, name)
 
     def has(self, item: Object, name: str) -> Field | None:
         """What an object's member holds: what this function set, else what agrees with all functions that set it."""
@@ -185,8 +185,8 @@ class Machine:
     def set_property(self, within: str, name: str, value: Value, at: Span) -> None:
         self.name(value, "" if name.endswith("[]") else name, within, -1)
         if isinstance(value, Texture):
-            own = self.unit.types.get(within)
-            member = own.members.get(name.removesuffix("[]")) if own is not None else None
+            type_ = self.unit.types.get(within)
+            member = type_.members.get(name.removesuffix("[]")) if type_ is not None else None
             value.open = value.open or member is None or member.open
         self.hold_property(within, name, value, at)
 
@@ -194,21 +194,21 @@ class Machine:
         """A property is set, and what it holds keeps its name."""
         self.journal.write(self.now.setdefault(within, {}), name, Field(value, at, at, self.root))
         place = (within, name)
-        known = self.all.get(place)
-        if isinstance(known, Texture) and isinstance(value, Texture) and known is not value and _made_for(known, value, within, name):
-            self.same.setdefault(value.key, known.key)
+        before = self.all.get(place)
+        if isinstance(before, Texture) and isinstance(value, Texture) and before is not value and _made_for(before, value, within, name):
+            self.same.setdefault(value.key, before.key)
             return
-        self.all[place] = value if known is None else joined(known, value, name, optional=True)
+        self.all[place] = value if before is None else joined(before, value, name, optional=True)
 
     def property(self, within: str, name: str) -> Value | None:
         """What a property holds; None where nothing in the file sets it."""
         field = self.now.get(within, {}).get(name)
         if field is not None and field.by == self.root:
             return field.value
-        found = self.gathered.get((within, name))
-        if found is None:
+        value = self.gathered.get((within, name))
+        if value is None:
             return field.value if field is not None else None
-        return found
+        return value
 
     # Names
 
@@ -232,40 +232,40 @@ class Machine:
                     self.name(item, label, within, 1 << 29)
         elif isinstance(value, Object) and name:
             if value.kind == "state":
-                made = value.of
-                if isinstance(made, Pipeline):
-                    made.name, made.within = name, within
+                pipeline = value.of
+                if isinstance(pipeline, Pipeline):
+                    pipeline.name, pipeline.within = name, within
             elif not value.name:
                 value.name, value.within = name, within
 
     def opaque(self, text: str, whose: str, at: Span) -> Texture:
         """A texture of which only the name is known."""
         key = ("named", whose, text)
-        found = self.textures.get(key)
-        if found is None:
-            found = self.textures[key] = Texture(text, whose, at)
-        return found
+        texture = self.textures.get(key)
+        if texture is None:
+            texture = self.textures[key] = Texture(text, whose, at)
+        return texture
 
     def body(self, function: Function) -> tuple[Term, ...]:
         """The statements of a function, read when they are first asked for."""
         from .expressions import block
 
         key = function.at.start
-        found = self.bodies.get(key)
-        if found is None:
-            found = self.bodies[key] = self.syntax.statements(block(function.body)) if function.body is not None else ()
-        return found
+        statements = self.bodies.get(key)
+        if statements is None:
+            statements = self.bodies[key] = self.syntax.statements(block(function.body)) if function.body is not None else ()
+        return statements
 
 
 def _made_for(first: Texture, second: Texture, within: str, name: str) -> bool:
     """Whether two textures are made for one property: the same one, made again."""
-    named = all((each.name, each.within) == (name, within) for each in (first, second))
+    named = all((item.name, item.within) == (name, within) for item in (first, second))
     return named and first.multisampled == second.multisampled
 
 
 def agreed(values: list[Value]) -> Value:
     """What a function returns, of all that it may."""
-    found: Value | None = None
+    agreed_value: Value | None = None
     for value in values:
-        found = value if found is None else joined(found, value, optional=True)
-    return NIL if found is None else found
+        agreed_value = value if agreed_value is None else joined(agreed_value, value, optional=True)
+    return NIL if agreed_value is None else agreed_value

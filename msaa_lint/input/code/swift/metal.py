@@ -16,26 +16,26 @@ def note(machine: Machine, kind: str, what: tuple[object, ...], at: Span) -> Non
 
 
 def described(
-    machine: Machine, arguments: list[tuple[str, Value]], given: tuple[tuple[str, Term], ...], at: Span, frame: Frame, name: str
+    machine: Machine, arguments: list[tuple[str, Value]], terms: tuple[tuple[str, Term], ...], at: Span, frame: Frame, name: str
 ) -> Object:
     """A texture's descriptor by one of the class's functions."""
-    made = machine.made("texture", "", at, frame.way, True)
-    machine.renew(made)
-    for (label, value), (_, term) in zip(arguments, given, strict=True):
+    descriptor = machine.made("texture", "", at, frame.way, True)
+    machine.renew(descriptor)
+    for (label, value), (_, term) in zip(arguments, terms, strict=True):
         place = Span(max(term[-1].start - len(label) - 2, at.start), term[-1].start) if label else term[-1]
         start = machine.text.rfind(label, at.start, term[-1].start) if label else -1
         key = Span(start, start + len(label)) if start >= 0 else place
         if label == "size":
-            machine.give(made, "width", value, key, term[-1])
+            machine.give(descriptor, "width", value, key, term[-1])
         elif label != "mipmapped":
-            machine.give(made, label, value, key, term[-1])
+            machine.give(descriptor, label, value, key, term[-1])
         elif value == Known(False):
-            machine.give(made, "mipmapLevelCount", Known(1), key, term[-1])
+            machine.give(descriptor, "mipmapLevelCount", Known(1), key, term[-1])
         else:
-            machine.give(made, "mipmapLevelCount", UNKNOWN, key, term[-1])
+            machine.give(descriptor, "mipmapLevelCount", UNKNOWN, key, term[-1])
     if name != "texture2DDescriptor":
-        machine.give(made, "textureType", Known("typeCube" if name == "textureCubeDescriptor" else "typeTextureBuffer"), at, at)
-    return made
+        machine.give(descriptor, "textureType", Known("typeCube" if name == "textureCubeDescriptor" else "typeTextureBuffer"), at, at)
+    return descriptor
 
 
 def change_options(
@@ -55,23 +55,23 @@ def change_options(
     machine.give(owner, target[2], value, name_at(target), at)
 
 
-def copied(machine: Machine, held: Object, at: Span, frame: Frame) -> Object:
+def copied(machine: Machine, original: Object, at: Span, frame: Frame) -> Object:
     """A copy of a descriptor, and of its attachments."""
-    made = machine.made(held.kind, "", at, frame.way, held.complete)
-    machine.renew(made)
-    machine.superseded.add(id(held))
-    made.loose = held.loose
-    for name, field in machine.snapshot(held).items():
+    copy = machine.made(original.kind, "", at, frame.way, original.complete)
+    machine.renew(copy)
+    machine.superseded.add(id(original))
+    copy.loose = original.loose
+    for name, field in machine.snapshot(original).items():
         value = field.value
         if isinstance(value, Object) and value.kind == "attachment":
             inner = machine.made("attachment", name, at, (frame.way, name), value.complete)
             machine.renew(inner)
-            inner.of = made
-            for key, each in machine.snapshot(value).items():
-                machine.give(inner, key, each.value, each.key, each.at)
+            inner.of = copy
+            for key, member_field in machine.snapshot(value).items():
+                machine.give(inner, key, member_field.value, member_field.key, member_field.at)
             value = inner
-        machine.give(made, name, value, field.key, field.at)
-    return made
+        machine.give(copy, name, value, field.key, field.at)
+    return copy
 
 
 def make_texture(machine: Machine, descriptor: Value, at: Span, frame: Frame) -> Value:
@@ -80,16 +80,16 @@ def make_texture(machine: Machine, descriptor: Value, at: Span, frame: Frame) ->
         return UNKNOWN
     key: tuple[object, ...] = ("made", at.start, frame.way)
     key = machine.same.get(key, key)
-    found = machine.textures.get(key)
-    if found is None:
-        found = machine.textures[key] = Texture("", frame.whose, at)
-        found.key = key
+    texture = machine.textures.get(key)
+    if texture is None:
+        texture = machine.textures[key] = Texture("", frame.whose, at)
+        texture.key = key
     fields = machine.snapshot(descriptor)
     if descriptor.complete and not descriptor.loose:
         fields.setdefault("textureType", Field(Known("type2D"), descriptor.at, descriptor.at, 0, True))
         fields.setdefault("sampleCount", Field(Known(1), descriptor.at, descriptor.at, 0, True))
-    found.made.append(fields)
-    return found
+    texture.made.append(fields)
+    return texture
 
 
 def encode(machine: Machine, buffer: Value, descriptor: Value, at: Span, frame: Frame) -> Value:
@@ -100,12 +100,12 @@ def encode(machine: Machine, buffer: Value, descriptor: Value, at: Span, frame: 
     if not isinstance(descriptor, Object) or descriptor.kind != "pass":
         machine.incomplete.add(machine.root)
         return encoder
-    made = pass_of(machine, descriptor, at)
+    render_pass = pass_of(machine, descriptor, at)
     key = (id(descriptor), at.start, frame.way)
-    machine.passes.setdefault(key, made)
-    made = machine.passes[key]
-    encoder.of = made
-    note(machine, "pass", (made,), at)
+    machine.passes.setdefault(key, render_pass)
+    render_pass = machine.passes[key]
+    encoder.of = render_pass
+    note(machine, "pass", (render_pass,), at)
     return encoder
 
 
@@ -150,6 +150,6 @@ def pipeline_of(machine: Machine, descriptor: Object, at: Span, within: str) -> 
                 colors[name] = machine.snapshot(field.value)
         else:
             fields[name] = field
-    made = Pipeline(descriptor, at, fields, colors)
-    made.within = within
-    return made
+    pipeline = Pipeline(descriptor, at, fields, colors)
+    pipeline.within = within
+    return pipeline

@@ -72,18 +72,18 @@ def _step(machine: Machine, term: Term, frame: Frame) -> bool:
 def _declare(machine: Machine, term: Term, frame: Frame) -> None:
     names, kind, value, at = term[1:]
     if value is not None:
-        held = evaluate(machine, _begun(kind, value), frame)
+        initial = evaluate(machine, _begun(kind, value), frame)
         if len(names) > 1:
             for index, name in enumerate(names):
-                item = held.items.get(str(index), UNKNOWN) if isinstance(held, Aggregate) else UNKNOWN
+                item = initial.items.get(str(index), UNKNOWN) if isinstance(initial, Aggregate) else UNKNOWN
                 machine.variable(frame, name, item)
             return
     else:
-        typed = machine.typed(kind, names[0], at, frame.way)
-        if typed is None and not frame.function and not frame.within:
+        type_node = machine.typed(kind, names[0], at, frame.way)
+        if type_node is None and not frame.function and not frame.within:
             return  # of a fragment, maybe a property that a function of it sets
-        held = typed if typed is not None else NIL
-    machine.variable(frame, names[0], held)
+        initial = type_node if type_node is not None else NIL
+    machine.variable(frame, names[0], initial)
 
 
 def _begun(kind: str, value: Term) -> Term:
@@ -144,7 +144,7 @@ def _cases(machine: Machine, term: Term, frame: Frame) -> bool:
     return False
 
 
-def call(machine: Machine, function: Function, given: dict[str, Value], frame: Frame, site: Span, me: Value | None = None) -> Value:
+def call(machine: Machine, function: Function, arguments: dict[str, Value], frame: Frame, site: Span, me: Value | None = None) -> Value:
     """What a function of the file gives for arguments, by going through it where it is called."""
     machine.inlined.add(function.at.start)
     machine.called.add(function.at.start)
@@ -152,7 +152,7 @@ def call(machine: Machine, function: Function, given: dict[str, Value], frame: F
         return UNKNOWN
     inner = Frame(function.within, function.name, frame.rank + 1, machine.way(frame, site.start), None, me)
     inner.depth = frame.depth + 1
-    enter(machine, function, given, inner)
+    enter(machine, function, arguments, inner)
     result = body_of(machine, machine.body(function), inner)
     return labelled(machine, function, result)
 
@@ -166,16 +166,16 @@ def labelled(machine: Machine, function: Function, result: Value) -> Value:
     return Aggregate({**result.items, **items})
 
 
-def enter(machine: Machine, function: Function, given: dict[str, Value], frame: Frame) -> None:
+def enter(machine: Machine, function: Function, arguments: dict[str, Value], frame: Frame) -> None:
     """Gives a function's parameters their values."""
     for parameter in function.parameters:
-        value = given.get(parameter.name)
+        value = arguments.get(parameter.name)
         if value is None or value is UNKNOWN:
             value = machine.typed(parameter.type, parameter.name, function.at, frame.way)
         if value is None and parameter.default is not None:
             default = evaluate(machine, parameter.default, frame)
             several = isinstance(default, Known) and default != Known(1) and about_samples(parameter.name)
-            if given or several:
+            if arguments or several:
                 value = default
         frame.locals[parameter.name] = value if value is not None else Symbol(parameter.name, frame.whose)
 
@@ -188,19 +188,19 @@ def body_of(machine: Machine, statements: tuple[Term, ...], frame: Frame) -> Val
     return agreed(frame.returned)
 
 
-def call_closure(machine: Machine, code: Code, given: tuple[Value, ...] | dict[str, Value], frame: Frame, site: Span) -> Value:
+def call_closure(machine: Machine, code: Code, arguments: tuple[Value, ...] | dict[str, Value], frame: Frame, site: Span) -> Value:
     """What a closure gives for arguments, or a function in a function for its parameters."""
     if machine.steps < 0 or frame.depth >= DEEPEST_CLOSURE:
         return UNKNOWN
     inner = Frame(frame.within, frame.function, frame.rank, machine.way(frame, site.start), frame, frame.me)
     inner.depth = frame.depth + 1
-    if isinstance(given, dict):
+    if isinstance(arguments, dict):
         if code.function is not None:
             inner.rank += 1
-            enter(machine, code.function, given, inner)
+            enter(machine, code.function, arguments, inner)
         return body_of(machine, code.term[2], inner)
     names = code.term[1]
-    for index, value in enumerate(given):
+    for index, value in enumerate(arguments):
         inner.locals[f"${index}"] = value
         if index < len(names) and names[index]:
             inner.locals[names[index]] = value

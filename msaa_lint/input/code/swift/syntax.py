@@ -27,72 +27,72 @@ class Syntax(Expressions):
         """The terms of statements; `#if` is put together from its directives."""
         if depth > DEEPEST:
             return ()
-        found: list[Term] = []
+        terms: list[Term] = []
         open_: list[_Open] = []
         for node in nodes:
             if node.type == "directive":
-                found = self.directive(node, found, open_)
+                terms = self.directive(node, terms, open_)
                 continue
-            self.statement(node, depth, found)
+            self.statement(node, depth, terms)
         while open_:
-            found = _closed(found, open_)
-        return tuple(found)
+            terms = _closed(terms, open_)
+        return tuple(terms)
 
-    def directive(self, node: SyntaxNode, found: list[Term], open_: list[_Open]) -> list[Term]:
+    def directive(self, node: SyntaxNode, terms: list[Term], open_: list[_Open]) -> list[Term]:
         """What statements after a directive are added to."""
         written = self.of(node)
         arm: list[Term] = []
         if written.startswith("#if") and len(open_) < DEEPEST:
-            open_.append((found, span(node), [(written[3:].strip(), arm)]))
+            open_.append((terms, span(node), [(written[3:].strip(), arm)]))
             return arm
         if written.startswith("#else") and open_ and len(open_[-1][2]) < MOST_ARMS:
             open_[-1][2].append((written.removeprefix("#elseif").strip() if written.startswith("#elseif") else "", arm))
             return arm
         if written.startswith("#endif") and open_:
-            return _closed(found, open_)
-        return found
+            return _closed(terms, open_)
+        return terms
 
-    def statement(self, node: SyntaxNode, depth: int, found: list[Term]) -> None:
+    def statement(self, node: SyntaxNode, depth: int, terms: list[Term]) -> None:
         """Adds the terms of a statement."""
         kind = node.type
         if kind == "property_declaration":
-            self.declared(node, depth, found)
+            self.declared(node, depth, terms)
         elif kind == "assignment":
             target = node.child_by_field_name("target")
             inner = target.named_children[0] if target is not None and target.named_children else None
             sign, value = node.child_by_field_name("operator"), node.child_by_field_name("result")
             if inner is not None and sign is not None:
-                found.append((SET, self.of(sign), self.expression(inner, depth), self.expression(value, depth), span(node)))
+                terms.append((SET, self.of(sign), self.expression(inner, depth), self.expression(value, depth), span(node)))
         elif kind == "infix_expression" and node.child_count == 3 and self.of(node.children[1]).endswith("="):
             # The grammar knows `+=` as an assignment, `<<=` and its like only as operators of somebody's own.
             target, sign, value = node.children
-            found.append((SET, self.of(sign), self.expression(target, depth), self.expression(value, depth), span(node)))
+            terms.append((SET, self.of(sign), self.expression(target, depth), self.expression(value, depth), span(node)))
         elif kind == "if_statement":
-            found.append(self.branches(node, depth))
+            terms.append(self.branches(node, depth))
         elif kind == "guard_statement":
             conditions, bodies = self.conditions(node, depth)
-            found.append((GUARD, conditions, bodies[0] if bodies else (), span(node)))
+            terms.append((GUARD, conditions, bodies[0] if bodies else (), span(node)))
         elif kind in ("for_statement", "while_statement", "repeat_while_statement"):
             item = node.child_by_field_name("item")
-            found.append((LOOP, self.names(item) if item is not None else (), self.statements(block(node), depth + 1), span(node)))
+            terms.append((LOOP, self.names(item) if item is not None else (), self.statements(block(node), depth + 1), span(node)))
         elif kind == "do_statement":
-            found.append((BLOCK, self.statements(block(node), depth + 1), span(node)))
+            terms.append((BLOCK, self.statements(block(node), depth + 1), span(node)))
         elif kind == "switch_statement":
-            entries = [each for each in node.named_children if each.type == "switch_entry"]
-            found.append((CASES, tuple(self.statements(block(each), depth + 1) for each in entries), span(node)))
+            entries = [child for child in node.named_children if child.type == "switch_entry"]
+            terms.append((CASES, tuple(self.statements(block(entry), depth + 1) for entry in entries), span(node)))
         elif kind == "control_transfer_statement":
             result = node.child_by_field_name("result")
             leaving = not self.text.startswith("return", node.start_byte)
-            found.append((LEAVE, span(node)) if leaving else (RETURN, self.expression(result, depth) if result else None, span(node)))
+            terms.append((LEAVE, span(node)) if leaving else (RETURN, self.expression(result, depth) if result else None, span(node)))
         elif kind == "function_declaration":
-            found.append((FUNC, self.function(node, ""), span(node)))
+            terms.append((FUNC, self.function(node, ""), span(node)))
         elif kind == "ERROR":
             if depth < DEEPEST:
-                found.extend(self.statements(node.named_children, depth + 20))
+                terms.extend(self.statements(node.named_children, depth + 20))
         elif not kind.endswith(("declaration", "comment")):
             term = self.expression(node, depth)
             leaves = term[0] == CALL and term[1][0] == NAME and term[1][1] in _LEAVING
-            found.append((LEAVE, span(node)) if leaves else (DO, term, span(node)))
+            terms.append((LEAVE, span(node)) if leaves else (DO, term, span(node)))
 
     def branches(self, node: SyntaxNode, depth: int) -> Term:
         """An `if` with all its else-ifs."""
@@ -101,25 +101,25 @@ class Syntax(Expressions):
         while len(arms) < MOST_ARMS:
             conditions, bodies = self.conditions(node, depth)
             arms.append((conditions, bodies[0] if bodies else (), span(node)))
-            following = node.children[-1]
-            if following.type != "if_statement":
+            next_node = node.children[-1]
+            if next_node.type != "if_statement":
                 otherwise = bodies[1] if len(bodies) > 1 else ()
                 break
-            node = following
+            node = next_node
         for conditions, body, place in reversed(arms):
             otherwise = ((IF, conditions, body, otherwise, place),)
         return otherwise[0]
 
     def conditions(self, node: SyntaxNode, depth: int) -> tuple[tuple[Term, ...], list[tuple[Term, ...]]]:
         """The conditions of an `if` or a `guard`, and the statements between each pair of its braces."""
-        found: list[Term] = []
+        terms: list[Term] = []
         bodies: list[tuple[Term, ...]] = []
         name: SyntaxNode | None = None
         for index, child in enumerate(node.children):
             kind = child.type
             if kind == "{":
                 bodies.append(())
-                self._bind(found, name, None, depth)
+                self._bind(terms, name, None, depth)
                 name = None
             elif kind == "statements" and bodies:
                 bodies[-1] = self.statements(child.named_children, depth + 1)
@@ -128,22 +128,22 @@ class Syntax(Expressions):
                 if field == "bound_identifier":
                     name = child
                 elif kind in (",", "else"):
-                    self._bind(found, name, None, depth)
+                    self._bind(terms, name, None, depth)
                     name = None
                 elif field == "condition" and child.is_named and kind != "value_binding_pattern":
                     if name is not None:
-                        self._bind(found, name, child, depth)
+                        self._bind(terms, name, child, depth)
                         name = None
                     else:
-                        found.append(self.expression(child, depth))
-        return tuple(found), bodies
+                        terms.append(self.expression(child, depth))
+        return tuple(terms), bodies
 
-    def _bind(self, found: list[Term], name: SyntaxNode | None, value: SyntaxNode | None, depth: int) -> None:
+    def _bind(self, terms: list[Term], name: SyntaxNode | None, value: SyntaxNode | None, depth: int) -> None:
         if name is not None:
             place = Span(name.start_byte, value.end_byte if value is not None else name.end_byte)
-            found.append((BIND, self.of(name), self.expression(value, depth) if value is not None else None, place))
+            terms.append((BIND, self.of(name), self.expression(value, depth) if value is not None else None, place))
 
-    def declared(self, node: SyntaxNode, depth: int, found: list[Term]) -> None:
+    def declared(self, node: SyntaxNode, depth: int, terms: list[Term]) -> None:
         """`let` and `var`, each of its names."""
         names: tuple[str, ...] = ()
         kind = ""
@@ -152,21 +152,21 @@ class Syntax(Expressions):
             field = node.field_name_for_child(index)
             if field == "name" and child.type == "pattern":
                 if names:
-                    found.append((LET, names, kind, value, span(node)))
+                    terms.append((LET, names, kind, value, span(node)))
                 names, kind, value = self.names(child), "", None
             elif child.type == "type_annotation":
                 kind = self.of(child).lstrip(": ").rstrip("?! ")
             elif field == "value":
                 value = self.expression(child, depth)
         if names:
-            found.append((LET, names, kind, value, span(node)))
+            terms.append((LET, names, kind, value, span(node)))
 
     def names(self, node: SyntaxNode) -> tuple[str, ...]:
         """The names that a pattern binds; empty ones are passed over."""
         bound = node.child_by_field_name("bound_identifier")
         if bound is not None:
             return (self.of(bound),)
-        return tuple(self.of(each) for each in node.named_children if each.type in ("pattern", "simple_identifier")) or ("",)
+        return tuple(self.of(child) for child in node.named_children if child.type in ("pattern", "simple_identifier")) or ("",)
 
     def function(self, node: SyntaxNode, within: str) -> Function:
         """A function or an initialiser, its body unread."""
@@ -176,8 +176,8 @@ class Syntax(Expressions):
         children = node.children
         for index, child in enumerate(children):
             if child.type == "parameter":
-                following = children[index + 2] if index + 2 < len(children) else None
-                default = following if following is not None and node.field_name_for_child(index + 2) == "default_value" else None
+                next_node = children[index + 2] if index + 2 < len(children) else None
+                default = next_node if next_node is not None and node.field_name_for_child(index + 2) == "default_value" else None
                 parameters.append(self.parameter(child, default))
             elif child.type == "tuple_type":
                 gives = tuple(_LABELS.findall(self.of(child)[:2000]))
@@ -191,7 +191,7 @@ class Syntax(Expressions):
         return Parameter("" if outer == "_" else outer, written, kind, self.expression(default) if default is not None else None)
 
 
-def _closed(found: list[Term], open_: list[_Open]) -> list[Term]:
+def _closed(terms: list[Term], open_: list[_Open]) -> list[Term]:
     """Ends the innermost `#if`: the list around it, with what it says."""
     around, place, arms = open_.pop()
     otherwise: tuple[Term, ...] = ()

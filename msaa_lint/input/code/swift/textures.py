@@ -42,14 +42,14 @@ class Textures:
 
     def fields(self, texture: Texture) -> dict[str, Field]:
         """What a texture is made with: what agrees each time, and of those with several samples where it ever has several."""
-        known = self.given.get(id(texture))
-        if known is None:
+        agreed = self.given.get(id(texture))
+        if agreed is None:
             several = [fields for fields in texture.made if type_of(fields) in MULTISAMPLED_TYPES]
-            known = {}
-            for index, each in enumerate(several or texture.made):
-                known = each if index == 0 else joined_fields(known, each)
-            self.given[id(texture)] = known
-        return known
+            agreed = {}
+            for index, texture_fields in enumerate(several or texture.made):
+                agreed = texture_fields if index == 0 else joined_fields(agreed, texture_fields)
+            self.given[id(texture)] = agreed
+        return agreed
 
     def draw(self, textures: list[Texture]) -> None:
         """Notes the textures of a pass, which all have the same sample count: what is known of one is known of the others."""
@@ -129,7 +129,7 @@ class Textures:
             for name in {"layer": ("pixelFormat",), "view": ("colorPixelFormat",)}.get(item.kind, ())
             if (field := self.machine.has(item, name)) is not None
         ]
-        return plain("pixelFormat", fields[0]) if fields and all(each.value == fields[0].value for each in fields) else []
+        return plain("pixelFormat", fields[0]) if fields and all(entry.value == fields[0].value for entry in fields) else []
 
     def of_view(self, texture: Texture, view: Object) -> list[Entry]:
         """What is known of a texture that MTKView makes."""

@@ -38,23 +38,23 @@ class Writer:
 
     def tree(self, whole: Span) -> Node | None:
         """The tree; None where the file has nothing of Metal's multisampling."""
-        passes = [(each, written) for each in self.passes() if (written := self.used(each))]
+        passes = [(render_pass, written) for render_pass in self.passes() if (written := self.used(render_pass))]
         machine = self.machine
         for texture in machine.textures.values():
             if texture.made:
                 self.textures.add(texture)
         mentioned = set(self.textures.attached)
-        for each in machine.encoded:
-            for item in each.what:
+        for step in machine.encoded:
+            for item in step.what:
                 if isinstance(item, Texture):
                     self.textures.add(item)
                     mentioned.add(id(item))
-        made = {id(each.descriptor) for each in machine.pipelines.values()}
-        built = [each for each in machine.objects.values() if each.kind == "pipeline" and each.fields and id(each) not in made]
-        pipelines = [*machine.pipelines.values(), *(pipeline_of(machine, each, each.at, each.within) for each in built)]
+        descriptors = {id(pipeline.descriptor) for pipeline in machine.pipelines.values()}
+        built = [entry for entry in machine.objects.values() if entry.kind == "pipeline" and entry.fields and id(entry) not in descriptors]
+        pipelines = [*machine.pipelines.values(), *(pipeline_of(machine, entry, entry.at, entry.within) for entry in built)]
         self.textures.names.give([(item, item.name or "texture", item.within) for item in self.textures.all.values()])
         pass_names = Names()
-        pass_names.give([(each, each.descriptor.name or "renderPass", each.descriptor.within) for each, _ in passes])
+        pass_names.give([(entry, entry.descriptor.name or "renderPass", entry.descriptor.within) for entry, _ in passes])
         textures = [
             (self.textures.name(texture), texture.at, mapping(members, texture.at))
             for texture in self.textures.all.values()
@@ -63,13 +63,13 @@ class Writer:
         sections: list[Entry] = []
         for name, entries in (
             ("textures", textures),
-            ("renderPasses", [(pass_names.of[id(each)], each.descriptor.at, self.render_pass(each, used)) for each, used in passes]),
+            ("renderPasses", [(pass_names.of[id(entry)], entry.descriptor.at, self.render_pass(entry, used)) for entry, used in passes]),
             ("renderPipelines", self.pipelines(pipelines, pass_names.of)),
         ):
             if entries:
                 place = entries[0][1]
                 sections.append((name, place, mapping(entries, place)))
-        steps = commands(machine, self.textures, [each for each, _ in passes], pass_names.of)
+        steps = commands(machine, self.textures, [entry for entry, _ in passes], pass_names.of)
         if steps is not None:
             sections.append(("commands", steps.span, steps))
         if not sections:
@@ -82,28 +82,28 @@ class Writer:
     def passes(self) -> list[Pass]:
         """Every pass that is encoded, and every descriptor that is only built up; of one that is encoded alike twice, one."""
         machine = self.machine
-        found: list[Pass] = []
-        seen: dict[int, list[dict[str, dict[str, Value]]]] = {}
-        for each in machine.passes.values():
-            held = {slot: {name: field.value for name, field in fields.items()} for slot, fields in each.attachments.items()}
-            before = seen.setdefault(id(each.descriptor), [])
-            same = next((index for index, one in enumerate(before[:8]) if one == held), None)
-            before.append(held)
+        render_passes: list[Pass] = []
+        values_by_descriptor: dict[int, list[dict[str, dict[str, Value]]]] = {}
+        for render_pass in machine.passes.values():
+            values = {slot: {name: field.value for name, field in fields.items()} for slot, fields in render_pass.attachments.items()}
+            before = values_by_descriptor.setdefault(id(render_pass.descriptor), [])
+            same = next((index for index, one in enumerate(before[:8]) if one == values), None)
+            before.append(values)
             if same is None:
-                found.append(each)
+                render_passes.append(render_pass)
         for item in machine.objects.values():
-            if item.kind == "pass" and id(item) not in seen and item.fields and id(item) not in machine.superseded:
-                made = pass_of(machine, item, item.at)
-                made.complete = False
-                found.append(made)
-        return sorted(found, key=lambda each: each.at.start)
+            if item.kind == "pass" and id(item) not in values_by_descriptor and item.fields and id(item) not in machine.superseded:
+                unencoded = pass_of(machine, item, item.at)
+                unencoded.complete = False
+                render_passes.append(unencoded)
+        return sorted(render_passes, key=lambda render_pass: render_pass.at.start)
 
-    def used(self, each: Pass) -> dict[str, dict[str, Field]]:
+    def used(self, render_pass: Pass) -> dict[str, dict[str, Field]]:
         """The attachments of a pass of which enough is known, in the order of their slots."""
-        found: dict[str, dict[str, Field]] = {}
+        used: dict[str, dict[str, Field]] = {}
         drawn: list[Texture] = []
-        for name in sorted(each.attachments):
-            fields = each.attachments[name]
+        for name in sorted(render_pass.attachments):
+            fields = render_pass.attachments[name]
             texture, resolve, store = fields.get("texture"), fields.get("resolveTexture"), fields.get("storeAction")
             if texture is None or not isinstance(texture.value, Texture):
                 continue
@@ -111,9 +111,11 @@ class Writer:
             if resolve is not None and not isinstance(resolve.value, (Texture, Known)):
                 continue
             # Other code may give it what it resolves to.
-            if resolve is None and (not each.complete if action in RESOLVING else action is None and not each.descriptor.complete):
+            if resolve is None and (
+                not render_pass.complete if action in RESOLVING else action is None and not render_pass.descriptor.complete
+            ):
                 continue
-            found[name] = fields
+            used[name] = fields
             self.textures.add(texture.value)
             drawn.append(texture.value)
             load = fields.get("loadAction")
@@ -125,23 +127,23 @@ class Writer:
                 if action in RESOLVING:
                     self.textures.resolved.setdefault(id(texture.value), texture.at)
         self.textures.draw(drawn)
-        return found
+        return used
 
-    def render_pass(self, each: Pass, used: dict[str, dict[str, Field]]) -> Node:
+    def render_pass(self, render_pass: Pass, used: dict[str, dict[str, Field]]) -> Node:
         entries: list[Entry] = []
         colors: list[Entry] = []
         for name, fields in used.items():
             place = fields["texture"].key
-            node = mapping(self.attachment(each, name, fields), place)
+            node = mapping(self.attachment(render_pass, name, fields), place)
             if name.startswith("color"):
                 colors.append((name.removeprefix("color"), place, node))
             else:
                 entries.append((name, place, node))
         if colors:
             entries.insert(0, ("colorAttachments", colors[0][1], mapping(colors, colors[0][1])))
-        return mapping(entries, each.descriptor.at)
+        return mapping(entries, render_pass.descriptor.at)
 
-    def attachment(self, each: Pass, slot: str, fields: dict[str, Field]) -> list[Entry]:
+    def attachment(self, render_pass: Pass, slot: str, fields: dict[str, Field]) -> list[Entry]:
         entries: list[Entry] = []
         for name in ("texture", "resolveTexture"):
             field = fields.get(name)
@@ -155,7 +157,7 @@ class Writer:
                 stores = field.value in (Known("store"), Known("storeAndMultisampleResolve"))
                 if not (stores and id(fields["texture"].value) in self.perhaps_loaded):
                     entries.extend(word(name, field, allowed))
-            elif each.complete and self.defaults:
+            elif render_pass.complete and self.defaults:
                 place = fields.get("resolveTexture", fields["texture"]).key
                 entries.append((name, place, scalar(_DEFAULTS[kind][index], place)))
         for name, allowed in _FILTERS.items():
@@ -168,18 +170,18 @@ class Writer:
 
     def pipelines(self, pipelines: list[Pipeline], passes: dict[int, str]) -> list[Entry]:
         names = Names()
-        names.give([(each, each.name or each.descriptor.name or "pipeline", each.within) for each in pipelines])
-        made = [(names.of[id(each)], each.descriptor.at, self.pipeline(each, passes)) for each in pipelines]
-        return [entry for entry in made if entry[2].value]
+        names.give([(pipeline, pipeline.name or pipeline.descriptor.name or "pipeline", pipeline.within) for pipeline in pipelines])
+        entries = [(names.of[id(pipeline)], pipeline.descriptor.at, self.pipeline(pipeline, passes)) for pipeline in pipelines]
+        return [entry for entry in entries if entry[2].value]
 
-    def pipeline(self, each: Pipeline, passes: dict[int, str]) -> Node:
+    def pipeline(self, pipeline: Pipeline, passes: dict[int, str]) -> Node:
         entries: list[Entry] = []
-        drawn = next((one for one in each.passes if id(one) in passes), None)
+        drawn = next((one for one in pipeline.passes if id(one) in passes), None)
         if drawn is not None:
-            entries.append(("renderPass", each.at, scalar(passes[id(drawn)], each.at)))
+            entries.append(("renderPass", pipeline.at, scalar(passes[id(drawn)], pipeline.at)))
         counted = False
         for name in ("rasterSampleCount", "sampleCount"):
-            field = each.fields.get(name)
+            field = pipeline.fields.get(name)
             if field is None:
                 continue
             counted = True
@@ -187,21 +189,21 @@ class Writer:
                 entries.append((name, field.key, scalar(field.value.value, field.at)))
             elif isinstance(field.value, Symbol) and field.value in self.textures.symbols:
                 entries.append((name, field.key, scalar(self.textures.symbols[field.value], field.at)))
-        complete = each.descriptor.complete and not each.descriptor.loose
+        complete = pipeline.descriptor.complete and not pipeline.descriptor.loose
         if not counted and drawn is not None and complete and self.defaults:
-            entries.append(("rasterSampleCount", each.descriptor.at, scalar(1, each.descriptor.at)))
+            entries.append(("rasterSampleCount", pipeline.descriptor.at, scalar(1, pipeline.descriptor.at)))
         for name in ("depthAttachmentPixelFormat", "stencilAttachmentPixelFormat", *_SWITCHES):
-            if name in each.fields:
-                entries.extend(plain(name, each.fields[name]))
+            if name in pipeline.fields:
+                entries.extend(plain(name, pipeline.fields[name]))
         colors: list[Entry] = []
-        for slot in sorted(each.colors):
-            fields = each.colors[slot]
+        for slot in sorted(pipeline.colors):
+            fields = pipeline.colors[slot]
             members = [entry for name in ("pixelFormat", "isBlendingEnabled") if name in fields for entry in plain(name, fields[name])]
             if members:
                 colors.append((slot.removeprefix("color"), members[0][1], mapping(members, members[0][1])))
         if colors:
             entries.append(("colorAttachments", colors[0][1], mapping(colors, colors[0][1])))
-        return mapping(entries, each.descriptor.at)
+        return mapping(entries, pipeline.descriptor.at)
 
     # The frame
 
@@ -212,10 +214,10 @@ class Writer:
             name, place = machine.family
             entries.append(("family", place, scalar(name, place)))
         else:
-            found = self.family()
-            if found is not None:
-                self.textures.assume("the GPU's family", found, "apple3, which iOS 13 needs")
-                entries.append(("family", found, scalar("apple3", found)))
+            family_at = self.family()
+            if family_at is not None:
+                self.textures.assume("the GPU's family", family_at, "apple3, which iOS 13 needs")
+                entries.append(("family", family_at, scalar("apple3", family_at)))
         most = max(machine.offered, default=0)
         if most in COUNTS and most > 4:
             place = machine.offered[most]
@@ -224,9 +226,9 @@ class Writer:
 
     def family(self) -> Span | None:
         """Where the file shows that it is for Apple's own GPUs."""
-        found = self.machine.imports
-        if found is not None:
-            return found
+        place = self.machine.imports
+        if place is not None:
+            return place
         for texture in self.textures.all.values():
             for fields in texture.made:
                 mode = fields.get("storageMode")

@@ -71,7 +71,7 @@ class Texture:
     def multisampled(self) -> bool:
         """Whether it is seen to be made with several samples."""
         types = [fields["textureType"].value for fields in self.made if "textureType" in fields]
-        return any(isinstance(each, Known) and each.value in MULTISAMPLED_TYPES for each in types)
+        return any(isinstance(type_, Known) and type_.value in MULTISAMPLED_TYPES for type_ in types)
 
 
 MOST_ITEMS = 32
@@ -171,17 +171,17 @@ def _names(value: Value) -> frozenset[str]:
 
 def joined_fields(first: dict[str, Field], second: dict[str, Field]) -> dict[str, Field]:
     """What an object has been given that was given the one or the other."""
-    found: dict[str, Field] = {}
+    fields: dict[str, Field] = {}
     for name in {**first, **second}:
         one, other = first.get(name), second.get(name)
         if one is None or other is None:
             known = one or other
             assert known is not None
-            found[name] = known._replace(value=joined(known.value, UNKNOWN))
+            fields[name] = known._replace(value=joined(known.value, UNKNOWN))
         else:
             value = joined(one.value, other.value, name)
-            found[name] = (other if value == other.value else one)._replace(value=value)
-    return found
+            fields[name] = (other if value == other.value else one)._replace(value=value)
+    return fields
 
 
 Writes = dict[tuple[int, str], tuple[dict[str, Any], Any]]
