@@ -6,14 +6,14 @@ from typing import Any
 
 from msaa_lint.core.text.span import Span
 
-from .directives import tested
-from .places import Places
-from .scope import Around
+from .directives import condition_key
+from .scope import Scope
 from .terms import ADDRESS, BINARY, CALL, FIELD, INDEX, LITERAL, NAME, TARGET, UNARY, Term
-from .values import MOST, Guards, Symbol, VulkanObject, one
+from .values import MAX_ALTERNATIVES, Guards, Symbol, VulkanObject, sole_value
+from .variables import Variables
 
 
-def opposite(guards: Guards) -> Guards:
+def negated(guards: Guards) -> Guards:
     """What holds where not all of some conditions do."""
     if len(guards) == 1:
         ((text, way),) = guards
@@ -21,7 +21,7 @@ def opposite(guards: Guards) -> Guards:
     return frozenset({(str(sorted(guards)), False)})
 
 
-def clash(left: Guards, right: Guards) -> bool:
+def contradicts(left: Guards, right: Guards) -> bool:
     """Whether two sets of conditions cannot hold together."""
     return any((text, not way) in right for text, way in left)
 
@@ -29,7 +29,7 @@ def clash(left: Guards, right: Guards) -> bool:
 NO_NAMES: dict[str, str] = {}
 
 
-def worded(term: Term, names: dict[str, str] = NO_NAMES) -> str:
+def canonical_text(term: Term, names: dict[str, str] = NO_NAMES) -> str:
     """An expression in words that are the same wherever it is the same; `names` has other words for variables."""
     tag = term[0]
     if tag == NAME:
@@ -37,19 +37,19 @@ def worded(term: Term, names: dict[str, str] = NO_NAMES) -> str:
     if tag == LITERAL:
         return str(term[1])
     if tag == FIELD:
-        return f"{worded(term[1], names)}.{term[2]}"
+        return f"{canonical_text(term[1], names)}.{term[2]}"
     if tag == INDEX:
-        return f"{worded(term[1], names)}[{worded(term[2], names)}]"
+        return f"{canonical_text(term[1], names)}[{canonical_text(term[2], names)}]"
     if tag == CALL:
-        return f"{worded(term[1], names)}({','.join(worded(item, names) for item in term[2])})"
+        return f"{canonical_text(term[1], names)}({','.join(canonical_text(item, names) for item in term[2])})"
     if tag == BINARY:
-        return f"({worded(term[2], names)}{term[1]}{worded(term[3], names)})"
+        return f"({canonical_text(term[2], names)}{term[1]}{canonical_text(term[3], names)})"
     if tag in (ADDRESS, TARGET):
-        return worded(term[1], names)
+        return canonical_text(term[1], names)
     return f"?{term[-1][0]}"
 
 
-def compared(sign: str, left: Any, right: Any) -> bool:
+def compare(sign: str, left: Any, right: Any) -> bool:
     return bool(
         {"==": left == right, "!=": left != right}[sign]
         if sign in ("==", "!=")
@@ -57,61 +57,61 @@ def compared(sign: str, left: Any, right: Any) -> bool:
     )
 
 
-def key_of(value: Any) -> str:
+def symbol_key(value: Any) -> str:
     return value.key if isinstance(value, Symbol) else ""
 
 
-class Conditions(Places):
+class ConditionEvaluator(Variables):
     """What conditions come to."""
 
-    def preprocessed(self, text: str) -> bool | Guards:
-        bare = text[1:].strip()
-        if bare in ("0", "1"):
-            return bare == "1"
-        return frozenset({tested(bare)})
+    def preprocessor_condition(self, text: str) -> bool | Guards:
+        default_value = text[1:].strip()
+        if default_value in ("0", "1"):
+            return default_value == "1"
+        return frozenset({condition_key(default_value)})
 
-    def condition(self, term: Term, around: Around) -> bool | Guards:
+    def condition(self, term: Term, scope: Scope) -> bool | Guards:
         """What a condition comes to: decided, or what must hold."""
         kind = term[0]
         if kind == BINARY and term[1] == "&&":
-            left, right = self.condition(term[2], around), self.condition(term[3], around)
+            left, right = self.condition(term[2], scope), self.condition(term[3], scope)
             if left is False or right is False:
                 return False
             return right if left is True else left if right is True else left | right
         if kind == BINARY and term[1] == "||":
-            left, right = self.condition(term[2], around), self.condition(term[3], around)
+            left, right = self.condition(term[2], scope), self.condition(term[3], scope)
             if left is True or right is True:
                 return True
             if left is False or right is False:
                 return right if left is False else left
             return frozenset({(f"{sorted(left)}||{sorted(right)}", True)})
         if kind == UNARY and term[1] == "!":
-            inner = self.condition(term[2], around)
-            return not inner if isinstance(inner, bool) else opposite(inner)
+            inner = self.condition(term[2], scope)
+            return not inner if isinstance(inner, bool) else negated(inner)
         if kind == BINARY and term[1] in ("==", "!=", ">", "<", ">=", "<="):
-            return self.comparison(term, around)
-        value = self.value(term, around)
-        constant = one(value)
+            return self.comparison(term, scope)
+        value = self.value(term, scope)
+        constant = sole_value(value)
         if isinstance(constant, (bool, int, float)):
             return bool(constant)
         if len(value) == 2 and {a.value for a in value if isinstance(a.value, bool)} == {True, False}:
-            way = next(a for a in value if a.value is True).guards - around.guards
+            way = next(a for a in value if a.value is True).guards - scope.guards
             if way:
                 return way
         if constant is None and value:
             return False
         if isinstance(constant, VulkanObject):
             return True
-        return frozenset({(key_of(constant) or self.said(term, around), True)})
+        return frozenset({(symbol_key(constant) or self.canonical_condition(term, scope), True)})
 
-    def said(self, term: Term, around: Around) -> str:
+    def canonical_condition(self, term: Term, scope: Scope) -> str:
         """A condition in words, the same wherever it is the same: numbers that are known stand for their variables."""
         names: dict[str, str] = {}
         stack = [term]
         while stack:
             subterm = stack.pop()
             if subterm[0] == NAME:
-                value = one(self.value(subterm, around))
+                value = sole_value(self.value(subterm, scope))
                 if type(value) is int:
                     names[subterm[1]] = str(value)
             else:
@@ -122,35 +122,35 @@ class Conditions(Places):
                 ]
                 if subterm[0] == CALL:
                     stack += subterm[2]
-        return worded(term, names)
+        return canonical_text(term, names)
 
-    def comparison(self, term: Term, around: Around) -> bool | Guards:
+    def comparison(self, term: Term, scope: Scope) -> bool | Guards:
         sign = term[1]
         if term[3][0] == NAME and term[3][1].endswith(("VK_SUCCESS", "Result::eSuccess")) and sign in ("==", "!="):
             # What a program does where Vulkan fails is of no interest.
-            self.value(term[2], around)
+            self.value(term[2], scope)
             return bool(sign == "==")
-        every = self.value(term[2], around)
-        left, right = one(every), one(self.value(term[3], around))
-        if isinstance(right, (int, float)) and 1 < len(every) <= MOST and all(isinstance(a.value, (int, float)) for a in every):
-            holds = [a for a in every if compared(sign, a.value, right)]
+        every = self.value(term[2], scope)
+        left, right = sole_value(every), sole_value(self.value(term[3], scope))
+        if isinstance(right, (int, float)) and 1 < len(every) <= MAX_ALTERNATIVES and all(isinstance(a.value, (int, float)) for a in every):
+            holds = [a for a in every if compare(sign, a.value, right)]
             if not holds or len(holds) == len(every):
                 return bool(holds)
-            if len(holds) == 1 and holds[0].guards - around.guards:
-                return holds[0].guards - around.guards
+            if len(holds) == 1 and holds[0].guards - scope.guards:
+                return holds[0].guards - scope.guards
             fails = [a for a in every if a not in holds]
-            if len(fails) == 1 and fails[0].guards - around.guards:
-                return opposite(fails[0].guards - around.guards)
+            if len(fails) == 1 and fails[0].guards - scope.guards:
+                return negated(fails[0].guards - scope.guards)
         if (
             isinstance(left, (int, float, str))
             and isinstance(right, type(left))
             and (isinstance(left, str) is False or sign in ("==", "!="))
         ):
-            return compared(sign, left, right)
+            return compare(sign, left, right)
         if isinstance(left, (int, bool)) and not isinstance(right, int):
             left, right, sign = right, left, {"<": ">", ">": "<", "<=": ">=", ">=": "<="}.get(sign, sign)
             term = (BINARY, sign, term[3], term[2], term[-1])
-        subject = key_of(left) or self.said(term[2], around)
+        subject = symbol_key(left) or self.canonical_condition(term[2], scope)
         if isinstance(right, int) and right == 1 and sign in ("!=", ">", "==", "<="):
             # All ways to ask whether there is multisampling.
             return frozenset({(f"{subject}>1", sign in ("!=", ">"))})
@@ -158,5 +158,5 @@ class Conditions(Places):
             return frozenset({(f"{subject}>1", sign == ">=")})
         if isinstance(right, bool):
             return frozenset({(subject, (sign == "==") is right)})
-        other = key_of(right) or (str(right) if isinstance(right, (int, float, str)) else self.said(term[3], around))
+        other = symbol_key(right) or (str(right) if isinstance(right, (int, float, str)) else self.canonical_condition(term[3], scope))
         return frozenset({(f"{subject}{sign.replace('!', '=')}{other}", sign != "!=")})

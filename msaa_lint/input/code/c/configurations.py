@@ -10,7 +10,7 @@ from msaa_lint.core.text.span import Span
 
 from .calls import Calls
 from .names import first_version
-from .values import UNKNOWN, Array, Cell, Ref, Struct, Symbol, Value, VulkanObject, one, settled
+from .values import UNKNOWN, Array, Cell, Ref, Struct, Symbol, Value, VulkanObject, possible_writes, sole_value
 
 ASSUMED = 4
 """The count above 1 that every device offers for colour, depth and stencil (specification, "Required Limits")."""
@@ -35,113 +35,113 @@ COUNTS = {
 """The members that say how many there are of another."""
 
 
-class World:
+class Configuration:
     """One of the worlds of a file, as its values are there."""
 
     def __init__(self, calls: Calls, fragments: bool, barriers: bool) -> None:
         self.fragments = fragments
         self.barriers = barriers
         """Whether the file records barriers, which may stand in for the dependencies of its passes."""
-        self.met = list(calls.met.values())
+        self.current_objects = list(calls.current_objects.values())
         self.resolves = calls.resolves
-        self.world: dict[str, bool] = {}
+        self.configuration: dict[str, bool] = {}
         self.multisampled: set[str] = set()
         self.assumed: dict[str, tuple[str, Span, str]] = {}
-        self.names: dict[int, str] = {}
-        self.taken: set[str] = set()
-        self.bound: dict[int, list[VulkanObject | None]] = {}
-        self.alike: dict[tuple[Any, ...], VulkanObject] = {}
-        self.strangers: dict[str, tuple[str, Span, Node]] = {}
+        self.object_names: dict[int, str] = {}
+        self.used_names: set[str] = set()
+        self.framebuffer_images: dict[int, list[VulkanObject | None]] = {}
+        self.duplicates: dict[tuple[Any, ...], VulkanObject] = {}
+        self.external_images: dict[str, tuple[str, Span, Node]] = {}
 
-    def choose(self) -> None:
+    def choose_configuration(self) -> None:
         """Chooses the conditions under which there are several samples to a pixel."""
         slots = list(self.sample_slots())
         for value in slots:
             # Of several counts the one that every device has, else the least.
-            several = [item for item in value if type(item.value) is int and item.value > 1]
-            for alternative in sorted(several, key=lambda a: (a.value != ASSUMED, a.value)):
-                self.take(alternative.guards)
+            assume_multisampled = [item for item in value if type(item.value) is int and item.value > 1]
+            for alternative in sorted(assume_multisampled, key=lambda a: (a.value != ASSUMED, a.value)):
+                self.assume(alternative.guards)
         for value in slots:
             for alternative in value:
                 if isinstance(alternative.value, Symbol) and alternative.value.chosen:
-                    self.several(alternative.value, alternative.guards)
+                    self.assume_multisampled(alternative.value, alternative.guards)
         for subpass in self.every_subpass():
             for write in subpass.fields["resolveAttachments"].writes if "resolveAttachments" in subpass.fields else ():
                 if isinstance(write.value, (Ref, Array)):
-                    self.take(write.guards)
+                    self.assume(write.guards)
         for value in self.resolved_slots():
             for alternative in value:
                 if isinstance(alternative.value, Symbol):
-                    self.several(alternative.value, alternative.guards)
+                    self.assume_multisampled(alternative.value, alternative.guards)
 
     def every_subpass(self) -> Iterator[Struct]:
-        for vulkan_object in self.met:
-            if vulkan_object.kind == "renderPass" and vulkan_object.info is not None:
-                yield from (struct for struct in self.structs(vulkan_object.info, "subpasses") or () if struct is not None)
+        for obj in self.current_objects:
+            if obj.kind == "renderPass" and obj.info is not None:
+                yield from (struct for struct in self.structs(obj.info, "subpasses") or () if struct is not None)
 
-    def several(self, symbol: Symbol, guards: Iterable[tuple[str, bool]]) -> None:
-        if self.take(guards):
+    def assume_multisampled(self, symbol: Symbol, guards: Iterable[tuple[str, bool]]) -> None:
+        if self.assume(guards):
             self.multisampled.add(symbol.key)
-            self.world.setdefault(f"{symbol.key}>1", True)
+            self.configuration.setdefault(f"{symbol.key}>1", True)
 
-    def take(self, guards: Iterable[tuple[str, bool]]) -> bool:
+    def assume(self, guards: Iterable[tuple[str, bool]]) -> bool:
         """Adds conditions to the world, where they do not contradict it."""
         guards = list(guards)
-        if any(self.world.get(text, way) is not way for text, way in guards):
+        if any(self.configuration.get(text, way) is not way for text, way in guards):
             return False
         for text, way in guards:
-            self.world[text] = way
+            self.configuration[text] = way
             key, _, number = text.rpartition("=")
             if way and key and number.isdecimal():
                 for other in range(12):
-                    self.world.setdefault(f"{key}={other}", str(other) == number)
-                self.world.setdefault(f"{key}>1", True)
-                self.world.setdefault(f"{key.rpartition('::')[2]}>1", True)
+                    self.configuration.setdefault(f"{key}={other}", str(other) == number)
+                self.configuration.setdefault(f"{key}>1", True)
+                self.configuration.setdefault(f"{key.rpartition('::')[2]}>1", True)
         return True
 
     def sample_slots(self) -> Iterator[Value]:
-        for vulkan_object in self.met:
-            if vulkan_object.info is None:
+        for obj in self.current_objects:
+            if obj.info is None:
                 continue
             for name in ("samples", "rasterizationSamples"):
-                if name in vulkan_object.info.fields:
-                    yield vulkan_object.info.fields[name].writes
-            if vulkan_object.kind == "renderPass" and "attachments" in vulkan_object.info.fields:
-                for attachment in _inner(vulkan_object.info.fields["attachments"], 0):
+                if name in obj.info.fields:
+                    yield obj.info.fields[name].writes
+            if obj.kind == "renderPass" and "attachments" in obj.info.fields:
+                for attachment in _inner(obj.info.fields["attachments"], 0):
                     if "samples" in attachment.fields:
                         yield attachment.fields["samples"].writes
-            state = self.struct(vulkan_object.info, "multisampleState")
+            state = self.struct(obj.info, "multisampleState")
             if state is not None and "rasterizationSamples" in state.fields:
                 yield state.fields["rasterizationSamples"].writes
 
     def resolved_slots(self) -> Iterator[Value]:
         """The counts of attachments that are resolved: a program that may do that has several samples there."""
-        for vulkan_object in self.met:
-            if vulkan_object.kind == "renderPass" and vulkan_object.info is not None:
-                attachments = self.structs(vulkan_object.info, "attachments") or []
-                for subpass in self.structs(vulkan_object.info, "subpasses") or ():
+        for obj in self.current_objects:
+            if obj.kind == "renderPass" and obj.info is not None:
+                attachments = self.structs(obj.info, "attachments") or []
+                for subpass in self.structs(obj.info, "subpasses") or ():
                     colors = self.structs(subpass, "colorAttachments") if subpass is not None else None
                     targets = self.structs(subpass, "resolveAttachments") if subpass is not None else None
                     for color, target in zip(colors or (), targets or (), strict=False):
-                        index = self.known(color, "attachment") if color is not None and target is not None else None
+                        index = self.known_value(color, "attachment") if color is not None and target is not None else None
                         if type(index) is int and 0 <= index < len(attachments):
                             source = attachments[index]
                             if source is not None and "samples" in source.fields:
                                 yield source.fields["samples"].writes
-            if vulkan_object.kind == "rendering" and vulkan_object.info is not None:
-                for attachment in self.structs(vulkan_object.info, "colorAttachments") or ():
-                    if attachment is None or self.known(attachment, "resolveMode") in (None, 0, "VK_RESOLVE_MODE_NONE", "NONE"):
+            if obj.kind == "rendering" and obj.info is not None:
+                for attachment in self.structs(obj.info, "colorAttachments") or ():
+                    if attachment is None or self.known_value(attachment, "resolveMode") in (None, 0, "VK_RESOLVE_MODE_NONE", "NONE"):
                         continue
                     image = self.image_of(attachment, "imageView")
                     if image is not None and image.info is not None and "samples" in image.info.fields:
                         yield image.info.fields["samples"].writes
 
-    def excluded(self, vulkan_object: VulkanObject) -> bool:
+    def is_excluded(self, obj: VulkanObject) -> bool:
         """Whether something is only made in another world."""
-        return any(self.world.get(text, way) is not way for text, way in vulkan_object.guards)
+        return any(self.configuration.get(text, way) is not way for text, way in obj.guards)
 
     def settle(self, value: Value) -> Value:
-        return settled(value, self.world)
+        return possible_writes(value, self.configuration)
 
     def get(self, struct: Struct, name: str) -> tuple[Any, Span]:
         """A member and its place; UNKNOWN where it is not known. What nobody set in a zeroed structure is None."""
@@ -154,35 +154,35 @@ class World:
         value = self.settle(cell.writes)
         if struct.zeroed and value and all(a.guards for a in value):
             return UNKNOWN, struct.at
-        constant = one(value)
+        constant = sole_value(value)
         return constant, value[-1].at if value else struct.at
 
-    def known(self, struct: Struct, name: str) -> Any:
+    def known_value(self, struct: Struct, name: str) -> Any:
         value = self.get(struct, name)[0]
         return None if value is UNKNOWN else value
 
-    def aimed(self, value: Any) -> Any:
+    def dereference(self, value: Any) -> Any:
         for _ in range(4):
             if not isinstance(value, Ref):
                 return value
-            value = one(self.settle(value.cell.writes))
+            value = sole_value(self.settle(value.cell.writes))
         return UNKNOWN
 
     def struct(self, struct: Struct, name: str) -> Struct | None:
-        value = self.aimed(self.get(struct, name)[0])
+        value = self.dereference(self.get(struct, name)[0])
         if isinstance(value, Array) and value.items:
-            value = self.aimed(one(self.settle(value.items[0].writes)))
+            value = self.dereference(sole_value(self.settle(value.items[0].writes)))
         return value if isinstance(value, Struct) else None
 
     def structs(self, struct: Struct, name: str) -> list[Struct | None] | None:
         """The structures that a member lists or points to: empty where it is null, None where they are not known. An element of which
         nothing is known is None."""
-        value = self.aimed(self.get(struct, name)[0])
+        value = self.dereference(self.get(struct, name)[0])
         if value is None or (value == 0 and type(value) is int):
             return []
         if isinstance(value, Struct):
             return [value]
-        if not isinstance(value, Array) or not value.whole:
+        if not isinstance(value, Array) or not value.complete:
             return None
         structs: list[Struct | None] = []
         for cell in value.items:
@@ -192,13 +192,13 @@ class World:
                 continue
             if writes and all(write.guards for write in writes):
                 return None
-            item = self.aimed(one(writes))
+            item = self.dereference(sole_value(writes))
             structs.append(item if isinstance(item, Struct) else None)
-        counted = COUNTS.get(name, "")
-        count = self.known(struct, counted)
+        count_value = COUNTS.get(name, "")
+        count = self.known_value(struct, count_value)
         if type(count) is int and 0 <= count <= len(structs):
             return structs[:count]
-        count_cell = struct.fields.get(counted)
+        count_cell = struct.fields.get(count_value)
         # How many there are hangs on something else.
         return None if count_cell is not None and len(self.settle(count_cell.writes)) > 1 else structs
 
@@ -224,15 +224,19 @@ class World:
         return self.image_in(self.get(struct, name)[0])
 
     def image_in(self, view: Any) -> VulkanObject | None:
-        view = self.aimed(view)
+        view = self.dereference(view)
         if isinstance(view, VulkanObject) and view.kind == "view" and view.info is not None:
-            image = self.aimed(self.get(view.info, "image")[0])
-            return self.first(image) if isinstance(image, VulkanObject) and image.kind == "image" and not self.excluded(image) else None
+            image = self.dereference(self.get(view.info, "image")[0])
+            return (
+                self.first_duplicate(image)
+                if isinstance(image, VulkanObject) and image.kind == "image" and not self.is_excluded(image)
+                else None
+            )
         return None
 
-    def first(self, vulkan_object: VulkanObject) -> VulkanObject:
+    def first_duplicate(self, obj: VulkanObject) -> VulkanObject:
         """The first of the objects that one call makes alike, wherever the function around it is called."""
-        return self.alike.setdefault((vulkan_object.name, vulkan_object.signature()), vulkan_object)
+        return self.duplicates.setdefault((obj.name, obj.signature()), obj)
 
 
 def _inner(cell: Cell, depth: int) -> Iterator[Struct]:

@@ -7,7 +7,7 @@ import re
 from msaa_lint.input.code.parsing import SyntaxNode, span
 
 from .expressions import Expressions
-from .kinds import BLANKS, DEEPEST, NAMES, NUMBER, number, without_comments
+from .kinds import BLANKS, MAX_DEPTH, NAMES, NUMBER, number, without_comments
 from .terms import BRACES, CALL, DECLARE, LITERAL, NAME, Parameter, Term
 
 
@@ -23,7 +23,7 @@ class Declarations(Expressions):
             default = node.child_by_field_name("default_value")
             name, _, by_reference = self.declarator(declarator)
             text = self.type_text(kind) if kind is not None else ""
-            fixed = any(c.type == "type_qualifier" and self.of(c) == "const" for c in node.named_children)
+            fixed = any(c.type == "type_qualifier" and self.text_of(c) == "const" for c in node.named_children)
             parameters.append(Parameter(text, name, by_reference, self.expression(default, 0) if default is not None else None, fixed))
         if len(parameters) == 1 and parameters[0].type == "void" and not parameters[0].name:
             parameters.clear()
@@ -33,7 +33,7 @@ class Declarations(Expressions):
         """The name that a declarator gives, the array's size, and whether it is a reference or a pointer."""
         size: SyntaxNode | None = None
         indirect = False
-        for _ in range(DEEPEST):
+        for _ in range(MAX_DEPTH):
             if node is None:
                 return "", size, indirect
             if node.type in ("reference_declarator", "pointer_declarator", "abstract_reference_declarator", "abstract_pointer_declarator"):
@@ -41,7 +41,7 @@ class Declarations(Expressions):
             elif node.type in ("array_declarator", "abstract_array_declarator"):
                 size = node.child_by_field_name("size") or node
             elif node.type in NAMES:
-                return self.of(node), size, indirect
+                return self.text_of(node), size, indirect
             inner = node.child_by_field_name("declarator")
             node = inner if inner is not None else next((c for c in node.named_children if c.type != "type_qualifier"), None)
         return "", size, indirect
@@ -50,7 +50,7 @@ class Declarations(Expressions):
         """The variables that a declaration declares."""
         kind = node.child_by_field_name("type")
         text = self.type_text(kind) if kind is not None else ""
-        fixed = any(c.type == "type_qualifier" and self.of(c) in ("const", "constexpr") for c in node.named_children)
+        fixed = any(c.type == "type_qualifier" and self.text_of(c) in ("const", "constexpr") for c in node.named_children)
         terms: list[Term] = []
         children = node.children
         for n, child in enumerate(children):
@@ -66,7 +66,7 @@ class Declarations(Expressions):
                 target = child.child_by_field_name("declarator")
                 value_node = child.child_by_field_name("value")
             elif child.type == "function_declarator":
-                if node.type != "declaration" or not self.constructs(child):
+                if node.type != "declaration" or not self.is_construction(child):
                     continue
                 target = child.child_by_field_name("declarator")
                 list_node = child.child_by_field_name("parameters")
@@ -80,13 +80,13 @@ class Declarations(Expressions):
                 continue
             name_node = target if target is not None else child
             at = span(name_node)
-            extent = BLANKS.sub("", self.of(size)) if size is not None and size.type in ("number_literal", "identifier") else ""
-            whole = f"{text}[{extent}]" if size is not None else text
-            value = self.value(value_node, whole, depth) if value_node is not None else value
-            terms.append((DECLARE, whole, name, value, indirect, fixed, at))
+            extent = BLANKS.sub("", self.text_of(size)) if size is not None and size.type in ("number_literal", "identifier") else ""
+            complete = f"{text}[{extent}]" if size is not None else text
+            value = self.value(value_node, complete, depth) if value_node is not None else value
+            terms.append((DECLARE, complete, name, value, indirect, fixed, at))
         return terms
 
-    def constructs(self, node: SyntaxNode) -> bool:
+    def is_construction(self, node: SyntaxNode) -> bool:
         """Whether what looks like the declaration of a function is an object made with arguments: `Image image(device, info);`"""
         list_node = node.child_by_field_name("parameters")
         children = list_node.named_children if list_node is not None else []
@@ -97,12 +97,12 @@ class Declarations(Expressions):
             for c in children
         )
 
-    def defined(self, node: SyntaxNode) -> list[Term]:
+    def macro_constant(self, node: SyntaxNode) -> list[Term]:
         """A macro that stands for a value, as a constant."""
         name, value = node.child_by_field_name("name"), node.child_by_field_name("value")
         if name is None or value is None:
             return []
-        text = self.of(value).partition("//")[0].strip()
+        text = self.text_of(value).partition("//")[0].strip()
         while text[:1] == "(" and text[-1:] == ")":
             text = text[1:-1].strip()
         at = span(value)
@@ -112,9 +112,9 @@ class Declarations(Expressions):
             term = (LITERAL, number(text), at)
         else:
             return []
-        return [(DECLARE, "auto", self.of(name), term, False, True, at)]
+        return [(DECLARE, "auto", self.text_of(name), term, False, True, at)]
 
-    def enumerated(self, node: SyntaxNode) -> list[Term]:
+    def enumerators(self, node: SyntaxNode) -> list[Term]:
         """The enumerators of an enum, as constants by their own name and by the enum's."""
         list_node, owner = node.child_by_field_name("body"), node.child_by_field_name("name")
         terms: list[Term] = []
@@ -128,8 +128,8 @@ class Declarations(Expressions):
             if value_node is not None:
                 term = self.expression(value_node, 0)
             next_node = term[1] + 1 if term[0] == LITERAL and isinstance(term[1], int) else -(2**31)
-            prefixes = ("", f"{self.of(owner)}::") if owner is not None else ("",)
-            terms += [(DECLARE, "int", prefix + self.of(name), term, False, True, at) for prefix in prefixes]
+            prefixes = ("", f"{self.text_of(owner)}::") if owner is not None else ("",)
+            terms += [(DECLARE, "int", prefix + self.text_of(name), term, False, True, at) for prefix in prefixes]
         return terms
 
     def value(self, node: SyntaxNode, kind: str, depth: int) -> Term:

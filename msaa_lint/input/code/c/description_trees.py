@@ -9,10 +9,10 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.parsing import Code, Read, tree
 from msaa_lint.input.code.sample_counts.choices import choices
 
-from .directives import lists_cleared
-from .run import Run
+from .directives import clear_list_directives
+from .interpreter import Interpreter
 from .syntax import unit
-from .tree_writer import Writer
+from .tree_writer import DescriptionWriter
 
 _WAITS = re.compile(r"ipelineBarrier|Queue(?:Submit|Present)[^}]{0,1500}WaitIdle")
 """What may stand in for the dependencies of a pass, frame by frame."""
@@ -24,13 +24,15 @@ _FRAMES = re.compile(r"cquireNextImage")
 def trees(code: Code) -> list[Read]:
     """What a file, or the pieces of a page, makes: one tree, or none. Missing where the grammar is not installed."""
     root = tree(code).root_node
-    text, sections = lists_cleared(code.text, root)
+    text, sections = clear_list_directives(code.text, root)
     if sections:
         code = code._replace(text=text)
         root = tree(code).root_node
-    run = Run(unit(code, root, sections), code.fragments, code.language == "cpp")
-    run.through()
-    read = Writer(run.program, code.fragments, _WAITS.search(code.text) is not None or _FRAMES.search(code.text) is None).read()
+    interpreter = Interpreter(unit(code, root, sections), code.fragments, code.language == "cpp")
+    interpreter.run()
+    read = DescriptionWriter(
+        interpreter.program, code.fragments, _WAITS.search(code.text) is not None or _FRAMES.search(code.text) is None
+    ).read()
     # Masks of sample counts have such a name, wherever they come from.
     chosen = choices(root, code) if "ampleCounts" in code.text else []
     if not chosen:

@@ -19,7 +19,7 @@ _BLOCK = re.compile(
 
 _DEFINED = re.compile(r"(!?)\s*defined\s*(?:\(\s*(\w+)\s*\)|(\w+))")
 
-FARTHEST = 20_000
+MAX_LIST_LENGTH = 20_000
 """Characters that a list may have before a directive in it."""
 
 
@@ -32,17 +32,17 @@ class Section(NamedTuple):
     way: bool
 
 
-def tested(text: str, way: bool = True) -> tuple[str, bool]:
+def condition_key(text: str, way: bool = True) -> tuple[str, bool]:
     """A condition of the preprocessor in words that are the same for #ifdef and #if defined, and which way it goes."""
     match = _DEFINED.fullmatch(text.strip())
     return (f"#{match[2] or match[3]}", way is not bool(match[1])) if match is not None else (f"#{text.strip()}", way)
 
 
-def lists_cleared(text: str, root: SyntaxNode) -> tuple[str, tuple[Section, ...]]:
+def clear_list_directives(text: str, root: SyntaxNode) -> tuple[str, tuple[Section, ...]]:
     """The text without the directives that stand within lists and that the parser stumbled over, and what hangs on each of them."""
     if not root.has_error or "#if" not in text.replace(" ", ""):
         return text, ()
-    torn = sorted(_mistakes(root))
+    has_directives = sorted(_error_ranges(root))
     sections: list[Section] = []
     blanked: list[tuple[int, int]] = []
     open_groups: list[list[re.Match[str]]] = []
@@ -54,7 +54,7 @@ def lists_cleared(text: str, root: SyntaxNode) -> tuple[str, tuple[Section, ...]
             open_groups[-1].append(match)
             if word == "endif":
                 group = open_groups.pop()
-                if any(_touched(torn, item) for item in group) and _in_a_list(text, group[0].start()):
+                if any(_is_error(has_directives, item) for item in group) and _in_a_list(text, group[0].start()):
                     sections += _of_group(group)
                     blanked += [item.span() for item in group]
     if not blanked:
@@ -67,7 +67,7 @@ def lists_cleared(text: str, root: SyntaxNode) -> tuple[str, tuple[Section, ...]
     return "".join((*parts, text[last:])), tuple(sorted(sections))
 
 
-def _mistakes(root: SyntaxNode) -> Iterator[tuple[int, int]]:
+def _error_ranges(root: SyntaxNode) -> Iterator[tuple[int, int]]:
     """Where the parser found what it does not know."""
     stack = [root]
     while stack:
@@ -77,17 +77,17 @@ def _mistakes(root: SyntaxNode) -> Iterator[tuple[int, int]]:
         stack += [child for child in node.children if child.has_error]
 
 
-def _touched(torn: list[tuple[int, int]], match: re.Match[str]) -> bool:
+def _is_error(has_directives: list[tuple[int, int]], match: re.Match[str]) -> bool:
     """Whether a mistake begins or ends on the line of a directive, or is around it and short."""
     start, end = match.span()
-    at = bisect_left(torn, (start, 0))
-    return any(a < end and b > start and (a >= start or b - a < FARTHEST) for a, b in torn[max(at - 8, 0) : at + 8])
+    at = bisect_left(has_directives, (start, 0))
+    return any(a < end and b > start and (a >= start or b - a < MAX_LIST_LENGTH) for a, b in has_directives[max(at - 8, 0) : at + 8])
 
 
 def _in_a_list(text: str, at: int) -> bool:
     """Whether the innermost bracket that is open at a place is one of a call, or of a list of values."""
     depth = 0
-    for n in range(at - 1, max(at - FARTHEST, 0) - 1, -1):
+    for n in range(at - 1, max(at - MAX_LIST_LENGTH, 0) - 1, -1):
         character = text[n]
         if character in ")}]":
             depth += 1
@@ -120,6 +120,6 @@ def _of_group(group: list[re.Match[str]]) -> Iterator[Section]:
         yield from (Section(start, end, text, not way) for text, way in failed)
         if match[1] == "else":
             continue
-        condition = tested(_COMMENT.sub("", match[2]), not match[1].endswith("ndef"))
+        condition = condition_key(_COMMENT.sub("", match[2]), not match[1].endswith("ndef"))
         yield Section(start, end, *condition)
         failed.append(condition)

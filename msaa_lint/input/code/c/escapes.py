@@ -8,7 +8,7 @@ from typing import Any
 from msaa_lint.core.text.span import Span
 
 from .terms import NAME
-from .values import Array, Closure, Struct, VulkanObject, inner_cells, one, pointee, settled
+from .values import Array, Closure, Struct, VulkanObject, inner_cells, pointee, possible_writes, sole_value
 
 MAX_DEPTH = 10
 """Levels of structures, lists and pointers that are followed."""
@@ -30,8 +30,10 @@ def mark_escaped(value: Any, depth: int = 0) -> None:
 def forget(value: Any) -> None:
     """Forgets what is known of a structure or a list."""
     if isinstance(value, Array):
-        value.whole = False
-    for struct in (value,) if isinstance(value, Struct) else (one(cell.writes) for cell in value.items) if isinstance(value, Array) else ():
+        value.complete = False
+    for struct in (
+        (value,) if isinstance(value, Struct) else (sole_value(cell.writes) for cell in value.items) if isinstance(value, Array) else ()
+    ):
         if isinstance(struct, Struct):
             struct.zeroed = False
             struct.fields.clear()
@@ -67,7 +69,7 @@ def settled_under(value: Any, conditions: Mapping[str, bool], depth: int = 0) ->
     """Reduces every cell of a value, in place, to the writes that are possible under some conditions; returns the value."""
     if depth <= MAX_DEPTH and conditions:
         for cell in inner_cells(value):
-            cell.writes = settled(cell.writes, conditions)
+            cell.writes = possible_writes(cell.writes, conditions)
             for write in cell.writes:
                 settled_under(write.value, conditions, depth + 1)
     return value

@@ -8,18 +8,33 @@ from typing import Any
 
 from msaa_lint.core.text.span import Span
 
-from .conditions import Conditions, clash, opposite
+from .conditions import ConditionEvaluator, contradicts, negated
 from .names import constant
-from .places import an_element
-from .scope import MEMBER, Around
+from .scope import MEMBER, Scope
 from .terms import ADDRESS, ASSIGN, BINARY, BRACES, CALL, CHOICE, FIELD, INDEX, LAMBDA, LITERAL, NAME, TARGET, UNARY, Term, at
-from .values import MOST, UNKNOWN, UNKNOWN_VALUE, Alternative, Array, Cell, Closure, Flags, Ref, Struct, Symbol, Value, one, pointee
+from .values import (
+    MAX_ALTERNATIVES,
+    UNKNOWN,
+    UNKNOWN_VALUE,
+    Alternative,
+    Array,
+    Cell,
+    Closure,
+    Flags,
+    Ref,
+    Struct,
+    Symbol,
+    Value,
+    pointee,
+    sole_value,
+)
+from .variables import is_element_access
 
 
-class Values(Conditions):
+class Evaluator(ConditionEvaluator):
     """What expressions may be."""
 
-    def value(self, term: Term, around: Around, kind: str = "") -> Value:
+    def value(self, term: Term, scope: Scope, kind: str = "") -> Value:
         """What an expression may be. `kind` is the type that it is for, where braces need one."""
         self.step()
         tag = term[0]
@@ -32,45 +47,45 @@ class Values(Conditions):
                 return (Alternative(known, place),)
             if term[1] == "this":
                 return UNKNOWN_VALUE
-            return self.read(term, around)
+            return self.read(term, scope)
         if tag in (FIELD, INDEX):
-            return self.read(term, around)
+            return self.read(term, scope)
         if tag == ADDRESS:
-            return self.address(term[1], around, place)
+            return self.address(term[1], scope, place)
         if tag == TARGET:
-            value = self.value(term[1], around)
-            return tuple(b for a in value for b in (a.value.cell.read(around.guards) if isinstance(a.value, Ref) else (a,)))
+            value = self.value(term[1], scope)
+            return tuple(b for a in value for b in (a.value.cell.read(scope.guards) if isinstance(a.value, Ref) else (a,)))
         if tag == BINARY:
-            return self.binary(term, around)
+            return self.binary(term, scope)
         if tag == UNARY:
-            return self.unary(term, around)
+            return self.unary(term, scope)
         if tag == ASSIGN:
-            return self.assign(term, around)
+            return self.assign(term, scope)
         if tag == CHOICE:
-            return self.choice(term, around, kind)
+            return self.choice(term, scope, kind)
         if tag == CALL:
-            result = self.calls.call(term, around)
-            if an_element(term):
+            result = self.calls.call(term, scope)
+            if is_element_access(term):
                 # A reference, which counts as what it refers to.
-                result = tuple(b for a in result for b in (a.value.cell.read(around.guards) if isinstance(a.value, Ref) else (a,)))
+                result = tuple(b for a in result for b in (a.value.cell.read(scope.guards) if isinstance(a.value, Ref) else (a,)))
             return result
         if tag == BRACES:
-            return self.calls.braces(term, around, kind)
+            return self.calls.braced_value(term, scope, kind)
         if tag == LAMBDA:
-            return (Alternative(Closure(term[1], term[2], around.scopes), place),)
+            return (Alternative(Closure(term[1], term[2], scope.scopes), place),)
         return UNKNOWN_VALUE
 
     @abstractmethod
-    def block(self, statements: Sequence[Term], around: Around) -> None:
+    def block(self, statements: Sequence[Term], scope: Scope) -> None:
         """Goes through statements."""
 
-    def read(self, term: Term, around: Around) -> Value:
-        cell = self.place(term, around)
+    def read(self, term: Term, scope: Scope) -> Value:
+        cell = self.cell_of(term, scope)
         if cell is None:
             return UNKNOWN_VALUE
-        value = cell.read(around.guards)
+        value = cell.read(scope.guards)
         if not value and cell.kind == MEMBER:
-            value = self.gathered(cell.name, term[-1])
+            value = self.gathered_struct(cell.name, term[-1])
         if not value:
             return (Alternative(Symbol(cell.key, cell.name.rpartition("::")[2]), term[-1]),) if cell.key else UNKNOWN_VALUE
         if cell.key and cell.kind != MEMBER:
@@ -78,152 +93,154 @@ class Values(Conditions):
             return value
         return tuple(a._replace(at=term[-1]) if not isinstance(a.value, (Struct, Array)) else a for a in value)
 
-    def address(self, of: Term, around: Around, place: Span) -> Value:
-        if of[0] == INDEX:
-            rest = self.moved(self.value(of[1], around), self.value(of[2], around), place)
+    def address(self, operand: Term, scope: Scope, place: Span) -> Value:
+        if operand[0] == INDEX:
+            rest = self.offset_pointer(self.value(operand[1], scope), self.value(operand[2], scope), place)
             if rest is not None:
                 # A pointer: what is written through it is written to the list.
                 return (Alternative(Ref(Cell(writes=rest)), place),)
-        cell = self.place(of, around)
+        cell = self.cell_of(operand, scope)
         if cell is not None:
             if self.fragments and cell.kind == MEMBER and not cell.writes:
                 # Of a structure that a page does not show there is the name.
-                struct = self.gathered(cell.name, place) or (Alternative(Struct("", place, False, cell.name.rpartition("::")[2]), place),)
+                struct = self.gathered_struct(cell.name, place) or (
+                    Alternative(Struct("", place, False, cell.name.rpartition("::")[2]), place),
+                )
                 cell = Cell(MEMBER, cell.name, struct, cell.key)
             return (Alternative(Ref(cell), place),)
-        value = self.value(of, around)
+        value = self.value(operand, scope)
         return tuple(Alternative(Ref(Cell(writes=(a,))), place, a.guards) for a in value)
 
-    def binary(self, term: Term, around: Around) -> Value:
+    def binary(self, term: Term, scope: Scope) -> Value:
         sign = term[1]
         if sign in ("&&", "||", "==", "!=", "<", ">", "<=", ">="):
-            condition = self.condition(term, around)
+            condition = self.condition(term, scope)
             if isinstance(condition, bool):
                 return (Alternative(condition, term[-1]),)
-            return (Alternative(True, term[-1], condition), Alternative(False, term[-1], opposite(condition)))
-        left, right = self.value(term[2], around), self.value(term[3], around)
-        if sign == "+" and (moved := self.moved(left, right, term[-1])) is not None:
-            return moved
+            return (Alternative(True, term[-1], condition), Alternative(False, term[-1], negated(condition)))
+        left, right = self.value(term[2], scope), self.value(term[3], scope)
+        if sign == "+" and (offset_pointer := self.offset_pointer(left, right, term[-1])) is not None:
+            return offset_pointer
         alternatives = []
         for a in left:
             for b in right:
                 result = _calculated(sign, a, b, term[-1])
-                if result is not UNKNOWN and not clash(a.guards, b.guards):
+                if result is not UNKNOWN and not contradicts(a.guards, b.guards):
                     alternatives.append(Alternative(result, term[-1], a.guards | b.guards))
                 elif result is UNKNOWN:
                     alternatives.append(Alternative(UNKNOWN, term[-1], a.guards | b.guards))
-        return tuple(alternatives) if 0 < len(alternatives) <= MOST else UNKNOWN_VALUE
+        return tuple(alternatives) if 0 < len(alternatives) <= MAX_ALTERNATIVES else UNKNOWN_VALUE
 
-    def moved(self, left: Value, right: Value, place: Span) -> Value | None:
+    def offset_pointer(self, left: Value, right: Value, place: Span) -> Value | None:
         """A pointer into a list, some elements further."""
-        array, count = pointee(one(left)), one(right)
+        array, count = pointee(sole_value(left)), sole_value(right)
         if not isinstance(array, Array) or type(count) is not int or not 0 <= count < len(array.items):
             return None
-        rest = Array(array.kind, array.at, array.whole)
+        rest = Array(array.kind, array.at, array.complete)
         rest.items = array.items[count:]
         return (Alternative(rest, place),)
 
-    def unary(self, term: Term, around: Around) -> Value:
+    def unary(self, term: Term, scope: Scope) -> Value:
         sign = term[1]
         if sign == "!":
-            condition = self.condition(term, around)
+            condition = self.condition(term, scope)
             if isinstance(condition, bool):
                 return (Alternative(condition, term[-1]),)
-            return (Alternative(True, term[-1], condition), Alternative(False, term[-1], opposite(condition)))
+            return (Alternative(True, term[-1], condition), Alternative(False, term[-1], negated(condition)))
         if sign in ("++", "--", "post++", "post--"):
-            cell = self.place(term[2], around)
-            before = one(cell.read(around.guards)) if cell is not None else UNKNOWN
+            cell = self.cell_of(term[2], scope)
+            before = sole_value(cell.read(scope.guards)) if cell is not None else UNKNOWN
             if cell is None:
                 return UNKNOWN_VALUE
-            if isinstance(before, Ref) and sign.endswith("++") and not around.loops:
-                return self.next(cell, before, sign, term[-1], around)
-            if type(before) is not int or around.loops:
+            if isinstance(before, Ref) and sign.endswith("++") and not scope.unknown_loops:
+                return self.next(cell, before, sign, term[-1], scope)
+            if type(before) is not int or scope.unknown_loops:
                 cell.writes = (Alternative(UNKNOWN, term[-1]),)
                 return UNKNOWN_VALUE
             after = before + (1 if sign.endswith("++") else -1)
-            cell.write((Alternative(after, term[-1]),), term[-1], around.guards)
+            cell.write((Alternative(after, term[-1]),), term[-1], scope.guards)
             return (Alternative(before if sign.startswith("post") else after, term[-1]),)
-        value = self.value(term[2], around)
-        operand = one(value)
+        value = self.value(term[2], scope)
+        operand = sole_value(value)
         if sign == "-" and isinstance(operand, (int, float)):
             return (Alternative(-operand, term[-1]),)
         if sign == "~" and operand == 0:
             return (Alternative(2**32 - 1, term[-1]),)
         return value if sign == "+" else UNKNOWN_VALUE
 
-    def next(self, cell: Cell, before: Ref, sign: str, place: Span, around: Around) -> Value:
+    def next(self, cell: Cell, before: Ref, sign: str, place: Span, scope: Scope) -> Value:
         """A pointer into a list, one element further."""
         array = pointee(before)
         after: Any = UNKNOWN
         if isinstance(array, Array) and len(array.items) > 1:
-            rest = Array(array.kind, array.at, array.whole)
+            rest = Array(array.kind, array.at, array.complete)
             rest.items = array.items[1:]
             after = Ref(Cell(writes=(Alternative(rest, place),)))
-        cell.write((Alternative(after, place),), place, around.guards)
+        cell.write((Alternative(after, place),), place, scope.guards)
         return (Alternative(before if sign.startswith("post") else after, place),)
 
-    def choice(self, term: Term, around: Around, kind: str) -> Value:
-        condition = self.condition(term[1], around)
+    def choice(self, term: Term, scope: Scope, kind: str) -> Value:
+        condition = self.condition(term[1], scope)
         if isinstance(condition, bool):
-            return self.value(term[2] if condition else term[3], around, kind)
-        known = dict(around.guards)
+            return self.value(term[2] if condition else term[3], scope, kind)
+        known = dict(scope.guards)
         alternatives: list[Alternative] = []
-        for guards, branch in ((condition, term[2]), (opposite(condition), term[3])):
+        for guards, branch in ((condition, term[2]), (negated(condition), term[3])):
             if any(known.get(text) is (not way) for text, way in guards):
                 continue
-            value = self.value(branch, around, kind) or (Alternative(UNKNOWN, at(branch)),)
-            alternatives += [Alternative(a.value, a.at, a.guards | guards) for a in value if not clash(a.guards, guards)]
-        return tuple(alternatives) if len(alternatives) <= MOST else UNKNOWN_VALUE
+            value = self.value(branch, scope, kind) or (Alternative(UNKNOWN, at(branch)),)
+            alternatives += [Alternative(a.value, a.at, a.guards | guards) for a in value if not contradicts(a.guards, guards)]
+        return tuple(alternatives) if len(alternatives) <= MAX_ALTERNATIVES else UNKNOWN_VALUE
 
-    def assign(self, term: Term, around: Around) -> Value:
+    def assign(self, term: Term, scope: Scope) -> Value:
         _, sign, target, source, place = term
-        cell = self.place(target, around)
+        cell = self.cell_of(target, scope)
         kind = cell.kind if cell is not None else ""
         if source[0] == CALL and source[1][:2] == (NAME, "") and cell is not None:
             # A member that a constructor makes before its body.
-            instance = self.calls.object_made(self.type_of(cell), source, around)
+            instance = self.calls.construct_class(self.type_of(cell), source, scope)
             if instance is not None:
-                self.store(cell, instance, place, around)
+                self.store(cell, instance, place, scope)
                 return instance
-        value = self.value(source, around, kind)
-        value = self.by_pointer(_name_of(target), value, source, around)
+        value = self.value(source, scope, kind)
+        value = self.as_pointer(_name_of(target), value, source, scope)
         if cell is None:
-            self.calls.lost(target, around)
+            self.calls.forget_target(target, scope)
             return value
-        content = one(cell.writes)
+        content = sole_value(cell.writes)
         if isinstance(content, Ref) and not any(isinstance(a.value, Ref) or a.value is None for a in value) and not cell.kind.endswith("*"):
             cell = content.cell
         if sign != "=":
-            before = cell.read(around.guards)
+            before = cell.read(scope.guards)
             combined = [
                 Alternative(_calculated(sign[:-1], a, b, place), place, a.guards | b.guards)
                 for a in before
                 for b in value
-                if not clash(a.guards, b.guards)
+                if not contradicts(a.guards, b.guards)
             ]
-            value = tuple(combined) if 0 < len(combined) <= MOST and not around.loops else UNKNOWN_VALUE
-        stored = tuple(Alternative(self.taken(a.value, cell.kind, _name_of(target)), a.at, a.guards) for a in value)
-        self.store(cell, stored, place, around)
+            value = tuple(combined) if 0 < len(combined) <= MAX_ALTERNATIVES and not scope.unknown_loops else UNKNOWN_VALUE
+        stored = tuple(Alternative(self.stored_value(a.value, cell.kind, _name_of(target)), a.at, a.guards) for a in value)
+        self.store(cell, stored, place, scope)
         return value
 
-    def by_pointer(self, name: str, value: Value, term: Term, around: Around) -> Value:
+    def as_pointer(self, name: str, value: Value, term: Term, scope: Scope) -> Value:
         """A list that is given to a member which is a pointer: what is written to the list later counts as well."""
         if name[:1] != "p" or not name[1:2].isupper() or term[0] not in (NAME, FIELD, INDEX):
             return value
-        if not isinstance(one(value), Array):
+        if not isinstance(sole_value(value), Array):
             return value
-        cell = self.place(term, around)
+        cell = self.cell_of(term, scope)
         return value if cell is None else (Alternative(Ref(cell), term[-1]),)
 
-    def store(self, cell: Cell, value: Value, place: Span, around: Around) -> None:
+    def store(self, cell: Cell, value: Value, place: Span, scope: Scope) -> None:
         """Writes to a cell. A structure that goes to a member goes to the members of that."""
-        single = one(value)
-        if cell.kind == MEMBER and isinstance(single, Struct) and not single.kind:
-            for name, inner in single.fields.items():
-                self.store(self.path(f"{cell.name}.{name}"), inner.read(around.guards), place, around)
+        has_single_images = sole_value(value)
+        if cell.kind == MEMBER and isinstance(has_single_images, Struct) and not has_single_images.kind:
+            for name, inner in has_single_images.fields.items():
+                self.store(self.member_cell(f"{cell.name}.{name}"), inner.read(scope.guards), place, scope)
             return
-        cell.write(value, place, around.guards)
-        self.calls.called_by(value, cell.name, around)
+        cell.write(value, place, scope.guards)
+        self.calls.name_objects(value, cell.name, scope)
 
 
 def _name_of(term: Term) -> str:
@@ -241,9 +258,9 @@ def _bits(value: Any, place: Span) -> tuple[tuple[str, Span], ...] | None:
 def _calculated(sign: str, left: Alternative, right: Alternative, place: Span) -> Any:
     a, b = left.value, right.value
     if sign == "|":
-        first, second = _bits(a, left.at), _bits(b, right.at)
-        if first is not None and second is not None and not (isinstance(a, int) and isinstance(b, int)):
-            return Flags((*first, *second))
+        first_duplicate, second = _bits(a, left.at), _bits(b, right.at)
+        if first_duplicate is not None and second is not None and not (isinstance(a, int) and isinstance(b, int)):
+            return Flags((*first_duplicate, *second))
     if type(a) is int and type(b) is int and abs(a) < 2**40 and abs(b) < 2**40:
         if sign == "<<":
             return a << b if 0 <= b < 40 else UNKNOWN

@@ -10,7 +10,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.parsing import SyntaxNode, span
 
 from .directives import Section
-from .kinds import BLANKS, CLASSES, DEEPEST, NAMES, WORD, number, without_comments
+from .kinds import BLANKS, CLASSES, MAX_DEPTH, NAMES, WORD, number, without_comments
 from .terms import (
     ADDRESS,
     ASSIGN,
@@ -54,17 +54,17 @@ class Expressions(ABC):
     def block(self, node: SyntaxNode, depth: int) -> list[Term]:
         """The statements of a block."""
 
-    def of(self, node: SyntaxNode) -> str:
+    def text_of(self, node: SyntaxNode) -> str:
         return self.text[node.start_byte : node.end_byte]
 
     def type_text(self, node: SyntaxNode) -> str:
         """A type as it is written, without blanks, `const`, `struct`."""
         if node.type in CLASSES or node.type == "enum_specifier":
             name = node.child_by_field_name("name")
-            return self.of(name) if name is not None else ""
-        return self.meant(BLANKS.sub("", re.sub(r"\b(?:const|struct|typename|class)\b", " ", self.of(node))))
+            return self.text_of(name) if name is not None else ""
+        return self.resolve_aliases(BLANKS.sub("", re.sub(r"\b(?:const|struct|typename|class)\b", " ", self.text_of(node))))
 
-    def meant(self, name: str) -> str:
+    def resolve_aliases(self, name: str) -> str:
         """A name with what an alias stands for in the alias's place: of `namespace v = vk;` and `using Samples = ...;`."""
         if not self.aliases:
             return name
@@ -72,22 +72,22 @@ class Expressions(ABC):
 
     def expression(self, node: SyntaxNode | None, depth: int) -> Term:
         """An expression's term."""
-        if node is None or depth > DEEPEST:
+        if node is None or depth > MAX_DEPTH:
             return (UNPARSED, "", span(node) if node is not None else Span(0, 0))
         kind = node.type
         at = span(node)
         deeper = depth + 1
         if kind in NAMES:
-            name = self.of(node)
-            return (LITERAL, None, at) if name == "VK_NULL_HANDLE" else (NAME, self.meant(BLANKS.sub("", name)), at)
+            name = self.text_of(node)
+            return (LITERAL, None, at) if name == "VK_NULL_HANDLE" else (NAME, self.resolve_aliases(BLANKS.sub("", name)), at)
         if kind == "field_expression":
-            member, of = node.child_by_field_name("field"), node.child_by_field_name("argument")
+            member, operand = node.child_by_field_name("field"), node.child_by_field_name("argument")
             if member is None:
-                return (UNPARSED, self.of(node), at)
+                return (UNPARSED, self.text_of(node), at)
             return (
                 FIELD,
-                self.expression(of, deeper),
-                self.of(member).partition("<")[0].rpartition("::")[2],
+                self.expression(operand, deeper),
+                self.text_of(member).partition("<")[0].rpartition("::")[2],
                 span(member),
             )
         if kind == "call_expression":
@@ -108,32 +108,44 @@ class Expressions(ABC):
             return term
         if kind == "binary_expression":
             left, right, sign = (node.child_by_field_name(name) for name in ("left", "right", "operator"))
-            return (BINARY, self.of(sign) if sign is not None else "", self.expression(left, deeper), self.expression(right, deeper), at)
+            return (
+                BINARY,
+                self.text_of(sign) if sign is not None else "",
+                self.expression(left, deeper),
+                self.expression(right, deeper),
+                at,
+            )
         if kind == "assignment_expression":
             left, right, sign = (node.child_by_field_name(name) for name in ("left", "right", "operator"))
-            return (ASSIGN, self.of(sign) if sign is not None else "=", self.expression(left, deeper), self.expression(right, deeper), at)
+            return (
+                ASSIGN,
+                self.text_of(sign) if sign is not None else "=",
+                self.expression(left, deeper),
+                self.expression(right, deeper),
+                at,
+            )
         if kind == "conditional_expression":
             test, then, other = (node.child_by_field_name(name) for name in ("condition", "consequence", "alternative"))
             return (CHOICE, self.expression(test, deeper), self.expression(then, deeper), self.expression(other, deeper), at)
         if kind == "pointer_expression":
-            sign, of = node.child_by_field_name("operator"), node.child_by_field_name("argument")
-            address = sign is not None and self.of(sign) == "&"
-            return (ADDRESS if address else TARGET, self.expression(of, deeper), at)
+            sign, operand = node.child_by_field_name("operator"), node.child_by_field_name("argument")
+            address = sign is not None and self.text_of(sign) == "&"
+            return (ADDRESS if address else TARGET, self.expression(operand, deeper), at)
         if kind == "unary_expression":
-            sign, of = node.child_by_field_name("operator"), node.child_by_field_name("argument")
-            return (UNARY, self.of(sign) if sign is not None else "", self.expression(of, deeper), at)
+            sign, operand = node.child_by_field_name("operator"), node.child_by_field_name("argument")
+            return (UNARY, self.text_of(sign) if sign is not None else "", self.expression(operand, deeper), at)
         if kind == "subscript_expression":
-            of = node.child_by_field_name("argument")
+            operand = node.child_by_field_name("argument")
             list_node = node.child_by_field_name("indices") or node.child_by_field_name("index")
             index = (
                 list_node.named_children[0]
                 if list_node is not None and list_node.type == "subscript_argument_list" and list_node.named_child_count
                 else list_node
             )
-            return (INDEX, self.expression(of, deeper), self.expression(index, deeper), at)
+            return (INDEX, self.expression(operand, deeper), self.expression(index, deeper), at)
         if kind == "number_literal":
-            counted = number(self.of(node))
-            return (LITERAL, counted, at) if counted is not None else (UNPARSED, self.of(node)[:40], at)
+            count_value = number(self.text_of(node))
+            return (LITERAL, count_value, at) if count_value is not None else (UNPARSED, self.text_of(node)[:40], at)
         if kind in ("true", "false"):
             return (LITERAL, kind == "true", at)
         if kind == "null":
@@ -143,9 +155,14 @@ class Expressions(ABC):
             list_node = declarator.child_by_field_name("parameters") if declarator is not None else None
             return (LAMBDA, self.parameters(list_node), tuple(self.block(body, deeper)) if body is not None else (), at)
         if kind == "update_expression":
-            sign, of = node.child_by_field_name("operator"), node.child_by_field_name("argument")
-            after = sign is not None and of is not None and of.start_byte < sign.start_byte
-            return (UNARY, ("post" if after else "") + (self.of(sign) if sign is not None else ""), self.expression(of, deeper), at)
+            sign, operand = node.child_by_field_name("operator"), node.child_by_field_name("argument")
+            after = sign is not None and operand is not None and operand.start_byte < sign.start_byte
+            return (
+                UNARY,
+                ("post" if after else "") + (self.text_of(sign) if sign is not None else ""),
+                self.expression(operand, deeper),
+                at,
+            )
         if kind in ("comma_expression", "ERROR") and node.named_child_count:
             return self.expression(node.named_children[-1], deeper)
         if kind == "new_expression":
@@ -153,23 +170,23 @@ class Expressions(ABC):
             if type_node is not None:
                 items = tuple(self.expression(c, deeper) for c in (without_comments(value_node) if value_node is not None else ()))
                 return (CALL, (NAME, self.type_text(type_node), at), items, at)
-        return (UNPARSED, self.of(node) if node.end_byte - node.start_byte < 200 else "", at)
+        return (UNPARSED, self.text_of(node) if node.end_byte - node.start_byte < 200 else "", at)
 
     def call(self, node: SyntaxNode, depth: int, at: Span) -> Term:
         function, list_node = node.child_by_field_name("function"), node.child_by_field_name("arguments")
         argument_nodes = without_comments(list_node) if list_node is not None else []
         if function is not None and function.type == "template_function":
             name = function.child_by_field_name("name")
-            if name is not None and self.of(name).rpartition("::")[2] in CASTS and len(argument_nodes) == 1:
+            if name is not None and self.text_of(name).rpartition("::")[2] in CASTS and len(argument_nodes) == 1:
                 return self.expression(argument_nodes[0], depth)
         if (
             function is not None
             and function.type == "qualified_identifier"
             and len(argument_nodes) == 1
-            and self.of(function) in ("std::move", "std::as_const")
+            and self.text_of(function) in ("std::move", "std::as_const")
         ):
             return self.expression(argument_nodes[0], depth)
-        arguments = tuple(self.in_order(argument_nodes, (self.expression(child, depth) for child in argument_nodes)))
+        arguments = tuple(self.ordered_arguments(argument_nodes, (self.expression(child, depth) for child in argument_nodes)))
         term = self.expression(function, depth)
         named = term[1] if term[0] == NAME else term[2] if term[0] == FIELD else ""
         short = str(named).rpartition("::")[2].partition("<")[0]
@@ -180,18 +197,18 @@ class Expressions(ABC):
     def items(self, node: SyntaxNode, depth: int) -> Iterator[tuple[tuple[str | int, ...] | None, Term]]:
         """The items of braces: the members that a designator names, or None, and what stands there."""
         nodes = node.named_children
-        if self.torn(nodes):
+        if self.has_directives(nodes):
             # What the preprocessor makes of them is not known.
             at = span(node)
             yield None, (SOME, "#", True, (UNPARSED, "", at), at)
             return
         for child in nodes:
-            if child.type == "comment" or depth > DEEPEST:
+            if child.type == "comment" or depth > MAX_DEPTH:
                 continue
             if child.type != "initializer_pair":
-                yield None, self.in_sections(child, self.expression(child, depth))
+                yield None, self.conditional_item(child, self.expression(child, depth))
                 continue
-            path: list[str | int] = []
+            member_cell: list[str | int] = []
             value_node = child.child_by_field_name("value")
             for part in child.children_by_field_name("designator"):
                 inner = part.named_children[0] if part.named_child_count else None
@@ -199,16 +216,16 @@ class Expressions(ABC):
                     continue
                 if part.type == "subscript_designator":
                     index = self.expression(inner, depth)
-                    path.append(index[1] if index[0] == LITERAL and isinstance(index[1], int) else f"[{self.of(inner)}")
+                    member_cell.append(index[1] if index[0] == LITERAL and isinstance(index[1], int) else f"[{self.text_of(inner)}")
                 else:
-                    path.append(self.of(inner))
-            yield tuple(path), self.in_sections(child, self.expression(value_node, depth))
+                    member_cell.append(self.text_of(inner))
+            yield tuple(member_cell), self.conditional_item(child, self.expression(value_node, depth))
 
-    def torn(self, nodes: list[SyntaxNode]) -> bool:
+    def has_directives(self, nodes: list[SyntaxNode]) -> bool:
         """Whether a directive of the preprocessor is left between the items of a list."""
         return any(child.is_error and self.text.startswith("#", child.start_byte) for child in nodes)
 
-    def in_sections(self, node: SyntaxNode, term: Term) -> Term:
+    def conditional_item(self, node: SyntaxNode, term: Term) -> Term:
         """An item of a list with the conditions that it is there under; of one that is half of it under some, nothing is known."""
         for section in self.sections:
             if node.start_byte < section.start < node.end_byte and term[0] not in (BRACES, CALL, LAMBDA):
@@ -217,10 +234,10 @@ class Expressions(ABC):
                 term = (SOME, section.text, section.way, term, term[-1])
         return term
 
-    def in_order(self, nodes: list[SyntaxNode], terms: Iterator[Term]) -> Iterator[Term]:
+    def ordered_arguments(self, nodes: list[SyntaxNode], terms: Iterator[Term]) -> Iterator[Term]:
         """Arguments; none is known from the first on that is there only under a condition."""
-        shifted = self.torn(nodes)
+        shifted = self.has_directives(nodes)
         for node, term in zip(nodes, terms, strict=True):
-            argument = self.in_sections(node, term)
+            argument = self.conditional_item(node, term)
             shifted = shifted or argument[0] == SOME
             yield (UNPARSED, "", term[-1]) if shifted else argument

@@ -6,7 +6,7 @@ import re
 
 from msaa_lint.input.code.parsing import SyntaxNode
 
-DEEPEST = 120
+MAX_DEPTH = 120
 """Levels of an expression, or of blocks, that are read: what nests deeper was not written by people."""
 
 
@@ -35,7 +35,7 @@ CHAIN_TESTS = frozenset({"preproc_if", "preproc_ifdef", "preproc_elif", "preproc
 
 
 def function_declarator(node: SyntaxNode | None) -> SyntaxNode | None:
-    for _ in range(DEEPEST):
+    for _ in range(MAX_DEPTH):
         if node is None or node.type == "function_declarator":
             return node
         inner = node.child_by_field_name("declarator")

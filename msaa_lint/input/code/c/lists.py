@@ -6,11 +6,25 @@ from collections.abc import Sequence
 
 from msaa_lint.core.text.span import Span
 
-from .names import MEMBERS, member, set_by, structure
-from .scope import Around
+from .names import MEMBERS, member, setter_member, vulkan_struct
+from .scope import Scope
 from .structures import Structures, member_type
 from .terms import CALL, FIELD, INDEX, LITERAL, NAME, Term
-from .values import ALWAYS, UNKNOWN, UNKNOWN_VALUE, Alternative, Array, Cell, Ref, Struct, Value, copied, copies, one, pointee
+from .values import (
+    ALWAYS,
+    UNKNOWN,
+    UNKNOWN_VALUE,
+    Alternative,
+    Array,
+    Cell,
+    Ref,
+    Struct,
+    Value,
+    copy_alternatives,
+    copy_value,
+    pointee,
+    sole_value,
+)
 
 APPEND = frozenset({"push_back", "emplace_back", "append", "add", "pushBack", "Add", "PushBack", "push"})
 
@@ -19,42 +33,42 @@ COUNTED = frozenset({"size", "count", "length"})
 SELF = frozenset({"get", "value", "data", "begin", "as_span", "handle", "ptr", "operator*", "release", "Get", "asSpan", "c_ptr"})
 
 
-class Lists(Structures):
+class ListMethods(Structures):
     """Lists of one file."""
 
-    def method(self, owner: Term, name: str, arguments: Sequence[Term], place: Span, around: Around) -> Value | None:
+    def method(self, owner: Term, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value | None:
         """A method of a structure or a list; None where it is another's."""
-        cell = self.run.place(owner, around) if owner[0] != CALL else None
-        content = cell.read(around.guards) if cell is not None else self.run.value(owner, around)
-        value = pointee(one(content))
+        cell = self.run.cell_of(owner, scope) if owner[0] != CALL else None
+        content = cell.read(scope.guards) if cell is not None else self.run.value(owner, scope)
+        value = pointee(sole_value(content))
         if len(content) > 1 and any(isinstance(pointee(item.value), Array) for item in content):
-            return self.of_several(content, name, place)
-        setter = set_by(name)
+            return self.on_alternatives(content, name, place)
+        setter = setter_member(name)
         if isinstance(value, Struct) and value.kind and setter is not None:
             if len(arguments) != 1 or (setter not in map(member, MEMBERS[value.kind]) and setter != "next"):
                 return content
             kind = member_type(value.kind, setter)
-            argument = self.run.value(arguments[0], around, kind)
+            argument = self.run.value(arguments[0], scope, kind)
             # A setter of a list takes its address.
-            argument = self.run.by_pointer("p" + name[3:], argument, arguments[0], around)
-            value.cell(setter).write(copies(argument), place, around.guards)
+            argument = self.run.as_pointer("p" + name[3:], argument, arguments[0], scope)
+            value.cell(setter).write(copy_alternatives(argument), place, scope.guards)
             return content
         if setter is not None and len(arguments) == 1 and self.run.fragments and owner[0] == NAME and not isinstance(value, Array):
-            target = self.run.field(owner, setter, around)
+            target = self.run.field(owner, setter, scope)
             if target is not None:
-                target.write(self.run.value(arguments[0], around), place, around.guards)
+                target.write(self.run.value(arguments[0], scope), place, scope.guards)
                 return content
         if isinstance(value, Array):
-            return self.of_list(value, cell, name, arguments, place, around)
+            return self.on_list(value, cell, name, arguments, place, scope)
         if name in SELF and not arguments:
             return content
         if cell is not None and cell.writes == () and name in APPEND and len(arguments) == 1:
             # A list that was not declared here, or whose type says nothing.
-            self.run.value(arguments[0], around)
+            self.run.value(arguments[0], scope)
             return UNKNOWN_VALUE
         return None
 
-    def of_several(self, value: Value, name: str, place: Span) -> Value:
+    def on_alternatives(self, value: Value, name: str, place: Span) -> Value:
         """What a method gives of a list that is one or another: nobody can tell which of them others change."""
         alternatives: list[Alternative] = []
         for alternative in value:
@@ -64,56 +78,56 @@ class Lists(Structures):
                     Alternative(Ref(Cell(writes=(Alternative(alternative.value, alternative.at),))), place, alternative.guards)
                 )
             elif name in COUNTED:
-                alternatives += [a._replace(guards=alternative.guards) for a in self.counted(array, place)] or [
+                alternatives += [a._replace(guards=alternative.guards) for a in self.count_value(array, place)] or [
                     Alternative(UNKNOWN, place, alternative.guards)
                 ]
             elif isinstance(array, Array):
-                array.whole = False
+                array.complete = False
         return tuple(alternatives)
 
-    def of_list(self, array: Array, cell: Cell | None, name: str, arguments: Sequence[Term], place: Span, around: Around) -> Value:
+    def on_list(self, array: Array, cell: Cell | None, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value:
         if name in APPEND:
             kind = array.kind
-            struct_name = structure(kind)
+            struct_name = vulkan_struct(kind)
             if name == "emplace_back" and struct_name and (len(arguments) != 1 or arguments[0][0] == LITERAL):
-                value = self.constructed(struct_name, arguments, place, around, kind.startswith("vk::"))
+                value = self.construct(struct_name, arguments, place, scope, kind.startswith("vk::"))
             else:
-                value = self.run.value(arguments[0], around, kind) if arguments else UNKNOWN_VALUE
-            if around.loops or len(array.items) >= 64:
-                array.whole = False
+                value = self.run.value(arguments[0], scope, kind) if arguments else UNKNOWN_VALUE
+            if scope.unknown_loops or len(array.items) >= 64:
+                array.complete = False
                 return UNKNOWN_VALUE
             item = Cell(kind)
-            item.write(tuple(self.named_copy(a, arguments) for a in value), place, around.guards)
+            item.write(tuple(self.named_copy(a, arguments) for a in value), place, scope.guards)
             array.items.append(item)
             return (Alternative(Ref(item), place),)
         if name in ("data", "begin", "cbegin", "get"):
             return (Alternative(Ref(cell if cell is not None else Cell(writes=(Alternative(array, place),))), place),)
         if name in COUNTED:
-            return self.counted(array, place)
+            return self.count_value(array, place)
         if name in ("back", "front") and array.items:
             return (Alternative(Ref(array.items[-1 if name == "back" else 0]), place),)
         if name == "at" and len(arguments) == 1:
-            index = one(self.run.value(arguments[0], around))
+            index = sole_value(self.run.value(arguments[0], scope))
             if type(index) is int and 0 <= index < len(array.items):
                 return (Alternative(Ref(array.items[index]), place),)
         if name in ("at", "rbegin", "rend"):
             # Of which element it is, nobody can tell what is written to it.
-            array.whole = False
+            array.complete = False
             return UNKNOWN_VALUE
         if name in ("clear",):
             array.items.clear()
-            array.whole = not around.guards
+            array.complete = not scope.guards
             return UNKNOWN_VALUE
         if name in ("resize", "reserve", "fill", "assign", "insert", "pop_back", "erase", "swap", "emplace"):
             if name != "reserve":
-                array.whole = array.whole and name == "resize" and not array.items
-            if name == "resize" and arguments and array.whole:
-                count = one(self.run.value(arguments[0], around))
-                array.whole = False
+                array.complete = array.complete and name == "resize" and not array.items
+            if name == "resize" and arguments and array.complete:
+                count = sole_value(self.run.value(arguments[0], scope))
+                array.complete = False
                 if type(count) is int and 0 <= count <= 64:
-                    array.whole = True
+                    array.complete = True
                     for _ in range(count):
-                        struct_name = structure(array.kind)
+                        struct_name = vulkan_struct(array.kind)
                         item = Cell(array.kind)
                         if struct_name:
                             item.writes = (Alternative(Struct(struct_name, place, True), place),)
@@ -123,17 +137,17 @@ class Lists(Structures):
 
     @staticmethod
     def named_copy(alternative: Alternative, arguments: Sequence[Term]) -> Alternative:
-        value = copied(alternative.value)
+        value = copy_value(alternative.value)
         if isinstance(value, Struct) and not value.name and arguments and arguments[0][0] == NAME:
             value.name = str(arguments[0][1])
         return Alternative(value, alternative.at, alternative.guards)
 
-    def lost(self, target: Term, around: Around) -> None:
+    def forget_target(self, target: Term, scope: Scope) -> None:
         """Something was written to a place that cannot be told: of a list's element, the list is no longer known."""
         if target[0] in (FIELD, INDEX):
-            for alternative in self.run.value(target[1], around):
+            for alternative in self.run.value(target[1], scope):
                 value = pointee(alternative.value)
                 if isinstance(value, Array):
-                    value.whole = False
+                    value.complete = False
                 elif isinstance(value, Struct) and target[0] == FIELD:
                     value.cell(member(target[2])).write(UNKNOWN_VALUE, target[-1], ALWAYS)

@@ -10,7 +10,7 @@ from msaa_lint.core.text.node_builder import scalar, sequence
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.names import parse_enum, parse_flags
 
-from .configurations import World
+from .configurations import Configuration
 from .values import Array, Flags, Struct, VulkanObject
 
 Item = tuple[str, Span, Node]
@@ -36,7 +36,7 @@ ZERO = {
 """What zero is, where it says something."""
 
 
-class Members(World):
+class Members(Configuration):
     """Members of structures as nodes."""
 
     def item(self, struct: Struct, name: str) -> Iterator[Item]:
@@ -63,23 +63,23 @@ class Members(World):
             return scalar(bool(value), at)
         return None
 
-    def name(self, vulkan_object: VulkanObject, otherwise: str) -> str:
+    def object_name(self, obj: VulkanObject, otherwise: str) -> str:
         """A name that no other object of the tree has."""
-        if id(vulkan_object) not in self.names:
-            self.names[id(vulkan_object)] = self.unique(vulkan_object.name.rpartition("::")[2].strip("*&") or otherwise)
-        return self.names[id(vulkan_object)]
+        if id(obj) not in self.object_names:
+            self.object_names[id(obj)] = self.unique(obj.name.rpartition("::")[2].strip("*&") or otherwise)
+        return self.object_names[id(obj)]
 
     def unique(self, base: str) -> str:
         name, n = base, 2
-        while name in self.taken:
+        while name in self.used_names:
             name, n = f"{base} ({n})", n + 1
-        self.taken.add(name)
+        self.used_names.add(name)
         return name
 
 
 def flags_of(enum: str, value: Any, at: Span) -> Node | None:
     """A list of flags; None where one of them is not known."""
-    if value == () or (type(value) is int and value == 0) or (isinstance(value, Array) and value.whole and not value.items):
+    if value == () or (type(value) is int and value == 0) or (isinstance(value, Array) and value.complete and not value.items):
         return sequence([], at)
     bits = value.bits if isinstance(value, Flags) else ((value, at),) if isinstance(value, str) else ()
     nodes = []

@@ -122,7 +122,7 @@ _TABLES = {
 }
 
 
-def structure(type_text: str) -> str:
+def vulkan_struct(type_text: str) -> str:
     """The structure that a type is, without `Vk` and a vendor's suffix; empty where it is none that we read."""
     match = _STRUCTURE.match(type_text.removeprefix("VULKAN_HPP_NAMESPACE::"))
     if match is None:
@@ -136,7 +136,7 @@ def is_scalar(type_text: str) -> bool:
     return _SCALAR.search(type_text) is not None or not type_text.startswith(("Vk", "vk::", "VULKAN"))
 
 
-def elements(type_text: str) -> str | None:
+def element_type(type_text: str) -> str | None:
     """The type of an array's elements; None where a type is no array or list."""
     if type_text.endswith("]"):
         return type_text.partition("[")[0]
@@ -144,7 +144,7 @@ def elements(type_text: str) -> str | None:
     return match[1] if match is not None else None
 
 
-def extent(type_text: str) -> str:
+def array_size(type_text: str) -> str:
     """How many elements an array has, as it is written; empty where its type does not say."""
     if type_text.endswith("]"):
         return type_text.partition("[")[2].rstrip("]")
@@ -194,7 +194,7 @@ def member(name: str) -> str:
     return name[1].lower() + name[2:] if len(name) > 1 and name[0] == "p" and name[1].isupper() else name
 
 
-def set_by(method: str) -> str | None:
+def setter_member(method: str) -> str | None:
     """The member that a setter of vulkan.hpp sets, by the name above; None where it is none."""
     if len(method) < 4 or not method.startswith("set") or not method[3].isupper():
         return None

@@ -9,9 +9,9 @@ from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
 
 from .members import Item, Members, head_of
-from .values import UNKNOWN, Array, Struct, VulkanObject, one
+from .values import UNKNOWN, Array, Struct, VulkanObject, sole_value
 
-NOTHING_SAID = mapping((), Span(0, 0))
+EMPTY = mapping((), Span(0, 0))
 
 
 class Passes(Members):
@@ -19,27 +19,27 @@ class Passes(Members):
 
     def bind(self, passes: Sequence[VulkanObject]) -> None:
         """The images that framebuffers give to the attachments of render passes."""
-        for vulkan_object in self.met:
-            if vulkan_object.kind != "framebuffer" or vulkan_object.info is None:
+        for obj in self.current_objects:
+            if obj.kind != "framebuffer" or obj.info is None:
                 continue
-            views = self.aimed(self.get(vulkan_object.info, "attachments")[0])
+            views = self.dereference(self.get(obj.info, "attachments")[0])
             if isinstance(views, VulkanObject):
                 images = [self.image_in(views)]
-            elif isinstance(views, Array) and views.whole:
-                images = [self.image_in(one(self.settle(cell.writes))) for cell in views.items]
+            elif isinstance(views, Array) and views.complete:
+                images = [self.image_in(sole_value(self.settle(cell.writes))) for cell in views.items]
             else:
                 continue
-            target = self.aimed(self.get(vulkan_object.info, "renderPass")[0])
+            target = self.dereference(self.get(obj.info, "renderPass")[0])
             if not isinstance(target, VulkanObject):
                 render_passes = [p for p in passes if p.info is not None and len(self.structs(p.info, "attachments") or ()) == len(images)]
                 target = render_passes[0] if len(render_passes) == 1 and len(passes) == 1 else None
             if target is None:
                 continue
-            before = self.bound.get(id(target))
+            before = self.framebuffer_images.get(id(target))
             if before is None:
-                self.bound[id(target)] = images
+                self.framebuffer_images[id(target)] = images
             else:
-                self.bound[id(target)] = [a if a is b else None for a, b in zip(before, images, strict=False)]
+                self.framebuffer_images[id(target)] = [a if a is b else None for a, b in zip(before, images, strict=False)]
 
     def attachment(
         self, struct: Struct | None, image: VulkanObject | None, attached: dict[int, VulkanObject], head: Span, resolved: bool
@@ -51,39 +51,39 @@ class Passes(Members):
         of_image = self.samples(image.info)[0] if image is not None and image.info is not None else None
         if image is not None and (count is None or of_image is None or count == of_image):
             attached[id(image)] = image
-            items.append(("image", head, scalar(self.name(image, "image"), head)))
+            items.append(("image", head, scalar(self.object_name(image, "image"), head)))
         for name in ("format", "loadOp", "storeOp", "stencilLoadOp", "stencilStoreOp", "initialLayout", "finalLayout"):
             items += self.item(struct, name)
-        items += self.stored(struct, resolved)
+        items += self.assumed_store(struct, resolved)
         if count is not None:
             items.insert(min(1, len(items)), ("samples", at, scalar(count, at)))
         return mapping(items, head)
 
-    def render_pass(self, vulkan_object: VulkanObject, attached: dict[int, VulkanObject]) -> Item | None:
-        info = vulkan_object.info
+    def render_pass(self, obj: VulkanObject, attached: dict[int, VulkanObject]) -> Item | None:
+        info = obj.info
         assert info is not None
         structs = self.structs(info, "attachments")
         if structs is None or not structs:
             return None
-        images = self.bound.get(id(vulkan_object), [])
+        images = self.framebuffer_images.get(id(obj), [])
         names: list[str] = []
         nodes: list[Item] = []
-        array = self.aimed(self.get(info, "attachments")[0])
+        array = self.dereference(self.get(info, "attachments")[0])
         list_node = array.name if isinstance(array, Array) else ""
         for n, struct in enumerate(structs):
             name = struct.name if struct is not None and struct.name else f"{list_node}[{n}]" if list_node else f"attachment {n}"
             name = name if name not in names else f"{name} ({n})"
             names.append(name)
-            at = self.place_of(struct, vulkan_object.at)
-            nodes.append((name, head_of(at), NOTHING_SAID))
-        head = head_of(vulkan_object.at)
+            at = self.place_of(struct, obj.at)
+            nodes.append((name, head_of(at), EMPTY))
+        head = head_of(obj.at)
         subpasses = self.structs(info, "subpasses")
         written = [self.subpass(s, names) for s in subpasses] if subpasses is not None else []
         sources = _resolved([node for node in written if node is not None])
         for n, struct in enumerate(structs):
             image = images[n] if n < len(images) else None
             nodes[n] = (*nodes[n][:2], self.attachment(struct, image, attached, nodes[n][1], names[n] in sources))
-        if type(self.known(info, "attachmentCount")) is not int:
+        if type(self.known_value(info, "attachmentCount")) is not int:
             # How many there are is not known: those at the end that nothing refers to need not be there.
             referred = {reference.text for node in written if node is not None for reference in _leaves(node)}
             while nodes and nodes[-1][0] not in referred:
@@ -94,13 +94,13 @@ class Passes(Members):
         if written and all(node is not None for node in written):
             items.append(("subpasses", head, sequence([node for node in written if node is not None], head)))
         dependencies = self.structs(info, "dependencies")
-        if dependencies and not self.barriers and self.single(structs, images):
+        if dependencies and not self.barriers and self.has_single_images(structs, images):
             made_nodes = [self.dependency(d) for d in dependencies]
             if all(node is not None for node in made_nodes):
                 items.append(("dependencies", head, sequence([node for node in made_nodes if node is not None], head)))
-        return self.name(vulkan_object, "renderPass"), head, mapping(items, head)
+        return self.object_name(obj, "renderPass"), head, mapping(items, head)
 
-    def single(self, structs: Sequence[Struct | None], images: Sequence[VulkanObject | None]) -> bool:
+    def has_single_images(self, structs: Sequence[Struct | None], images: Sequence[VulkanObject | None]) -> bool:
         """Whether the multisampled images of a pass are known, and one each: with one for each frame in flight none waits for another."""
         for n, struct in enumerate(structs):
             image = images[n] if n < len(images) else None
@@ -116,7 +116,7 @@ class Passes(Members):
             return struct.at
         return min((cell.writes[0].at for cell in struct.fields.values() if cell.writes), default=struct.at)
 
-    def stored(self, struct: Struct, resolved: bool) -> Iterator[Item]:
+    def assumed_store(self, struct: Struct, resolved: bool) -> Iterator[Item]:
         """On a page that makes an attachment multisampled and resolves it, and says nothing of its store operation: the one that zero is,
         and that whoever shows the attachment on the screen until then needs."""
         if self.fragments and resolved and "storeOp" not in struct.fields and not struct.zeroed and "samples" in struct.fields:
@@ -149,7 +149,7 @@ class Passes(Members):
                 items.append(("depthStencilAttachment", at, node))
         else:
             return None
-        chained = self.aimed(self.get(struct, "next")[0]) if struct.zeroed or "next" in struct.fields else None
+        chained = self.dereference(self.get(struct, "next")[0]) if struct.zeroed or "next" in struct.fields else None
         if chained is not None and not isinstance(chained, Struct):
             return None
         if isinstance(chained, Struct) and chained.kind == "SubpassDescriptionDepthStencilResolve":
@@ -169,7 +169,7 @@ class Passes(Members):
 
     def depth_resolve(self, struct: Struct, names: Sequence[str]) -> Node | None:
         items: list[Item] = []
-        target = self.aimed(self.get(struct, "depthStencilResolveAttachment")[0])
+        target = self.dereference(self.get(struct, "depthStencilResolveAttachment")[0])
         if isinstance(target, Struct):
             node = self.reference(target, names)
             if node is None:

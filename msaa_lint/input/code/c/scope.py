@@ -33,30 +33,43 @@ MOST_WAYS = 4
 """How often one call is followed, by whatever other calls it is come to."""
 
 
-class Stop(Exception):
+class StepLimitExceeded(Exception):
     """There is too much of it."""
 
 
-class Around:
+class Scope:
     """What a function is gone through in: its variables, its class, the calls that lead to it."""
 
-    __slots__ = ("calls", "gone", "guards", "loops", "me", "returned", "returns", "scopes", "space", "turns", "within", "within_calls")
+    __slots__ = (
+        "active_functions",
+        "calls",
+        "class_name",
+        "guards",
+        "iterations",
+        "namespace",
+        "return_type",
+        "return_values",
+        "scopes",
+        "this_object",
+        "unknown_loops",
+        "unreachable",
+    )
 
-    def __init__(self, within: str, scopes: Scopes, guards: Guards, calls: tuple[Span, ...]) -> None:
-        self.within = within
+    def __init__(self, class_name: str, scopes: Scopes, guards: Guards, calls: tuple[Span, ...]) -> None:
+        self.class_name = class_name
         self.scopes = scopes
         self.guards = guards
         self.calls = calls
-        self.returned: list[Alternative] = []
-        self.returns = ""
-        self.space = ""
+        self.return_values: list[Alternative] = []
+        self.return_type = ""
+        self.namespace = ""
         """The namespace, with `::` at its end."""
-        self.gone = False
+        self.unreachable = False
         """Whether what follows is not reached."""
-        self.loops = 0
-        self.turns: tuple[int, ...] = ()
+        self.unknown_loops = 0
+        self.iterations: tuple[int, ...] = ()
         """Which turns of loops it is in, of those that are gone through one by one."""
-        self.me: Cell | None = None
+        self.this_object: Cell | None = None
         """The object whose method it is, where that is known."""
-        self.within_calls: tuple[Span, ...] = ()
+        self.active_functions: tuple[Span, ...] = ()
         """The functions that are being gone through."""

@@ -6,7 +6,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.parsing import SyntaxNode, span
 
 from .declarations import Declarations
-from .kinds import CHAIN_TESTS, DEEPEST, without_comments
+from .kinds import CHAIN_TESTS, MAX_DEPTH, without_comments
 from .terms import BINARY, BLOCK, DECLARE, DO, IF, LEAVE, LOOP, RETURN, SOME, UNPARSED, Term
 
 
@@ -15,7 +15,7 @@ class Statements(Declarations):
 
     def block(self, node: SyntaxNode, depth: int) -> list[Term]:
         terms: list[Term] = []
-        if depth < DEEPEST:
+        if depth < MAX_DEPTH:
             for child in node.named_children:
                 terms += self.statement(child, depth + 1)
         return terms
@@ -34,37 +34,45 @@ class Statements(Declarations):
         if kind in ("break_statement", "continue_statement", "throw_statement", "goto_statement"):
             return [(LEAVE, at)]
         if kind == "if_statement":
-            return self.chain(node, depth)
+            return self.if_chain(node, depth)
         if kind in ("for_statement", "while_statement", "do_statement"):
-            first = node.child_by_field_name("initializer")
+            first_duplicate = node.child_by_field_name("initializer")
             body = node.child_by_field_name("body")
             test = node.child_by_field_name("condition")
-            terms = self.declared(first, depth) if first is not None and first.type == "declaration" else []
-            inside = self.inside(body, depth)
+            terms = self.declared(first_duplicate, depth) if first_duplicate is not None and first_duplicate.type == "declaration" else []
+            nested_statements = self.nested_statements(body, depth)
             update = node.child_by_field_name("update")
             if update is not None:
-                inside.append((DO, self.expression(update, depth), at))
+                nested_statements.append((DO, self.expression(update, depth), at))
             if test is not None:
-                inside = [(DO, self.expression(test, depth), at), *inside]
+                nested_statements = [(DO, self.expression(test, depth), at), *nested_statements]
             if kind == "do_statement":
-                return inside
-            return [(LOOP, tuple(terms), None, tuple(inside), at)]
+                return nested_statements
+            return [(LOOP, tuple(terms), None, tuple(nested_statements), at)]
         if kind == "for_range_loop":
             over, body = node.child_by_field_name("right"), node.child_by_field_name("body")
             name, _, indirect = self.declarator(node.child_by_field_name("declarator"))
             type_node = node.child_by_field_name("type")
             terms = [(DECLARE, self.type_text(type_node) if type_node is not None else "", name, None, indirect, False, at)] if name else []
-            return [(LOOP, tuple(terms), self.expression(over, depth) if over is not None else None, tuple(self.inside(body, depth)), at)]
+            return [
+                (
+                    LOOP,
+                    tuple(terms),
+                    self.expression(over, depth) if over is not None else None,
+                    tuple(self.nested_statements(body, depth)),
+                    at,
+                )
+            ]
         if kind in CHAIN_TESTS:
-            return self.conditional(node, depth)
+            return self.preprocessor_block(node, depth)
         if kind == "switch_statement":
-            return self.cases(node, depth)
+            return self.switch_cases(node, depth)
         if kind == "preproc_def":
-            return self.defined(node)
+            return self.macro_constant(node)
         if kind == "function_definition":
             # Within a function: what a macro made of the text, or a lambda's remains.
             body = node.child_by_field_name("body")
-            return self.block(body, depth) if body is not None and depth < DEEPEST else []
+            return self.block(body, depth) if body is not None and depth < MAX_DEPTH else []
         if kind in (
             "compound_statement",
             "try_statement",
@@ -78,10 +86,10 @@ class Statements(Declarations):
             return [(BLOCK, tuple(self.block(node, depth)), at)]
         return []
 
-    def inside(self, node: SyntaxNode | None, depth: int) -> list[Term]:
-        return self.statement(node, depth + 1) if node is not None and depth < DEEPEST else []
+    def nested_statements(self, node: SyntaxNode | None, depth: int) -> list[Term]:
+        return self.statement(node, depth + 1) if node is not None and depth < MAX_DEPTH else []
 
-    def chain(self, node: SyntaxNode, depth: int) -> list[Term]:
+    def if_chain(self, node: SyntaxNode, depth: int) -> list[Term]:
         """An if with all its else ifs, which nest in the tree and not in the text."""
         links: list[tuple[Term, tuple[Term, ...], list[Term], Span]] = []
         otherwise: list[Term] = []
@@ -89,46 +97,46 @@ class Statements(Declarations):
         while current is not None:
             test, then, other = (current.child_by_field_name(name) for name in ("condition", "consequence", "alternative"))
             at = span(current)
-            first: list[Term] = []
+            first_duplicate: list[Term] = []
             if test is not None and test.type == "condition_clause":
                 start = test.child_by_field_name("initializer")
-                first = self.block(start, depth) if start is not None else []
+                first_duplicate = self.block(start, depth) if start is not None else []
                 test = test.child_by_field_name("value") or test
             condition = self.expression(test, depth) if test is not None else (UNPARSED, "", at)
-            links.append((condition, tuple(self.inside(then, depth)), first, at))
+            links.append((condition, tuple(self.nested_statements(then, depth)), first_duplicate, at))
             current = None
             if other is not None:
                 next_node = other.named_children[-1] if other.type == "else_clause" and other.named_child_count else other
                 if next_node.type == "if_statement" and len(links) < 200:
                     current = next_node
                 else:
-                    otherwise = self.inside(next_node, depth)
-        for condition, inside, first, at in reversed(links):
-            otherwise = [*first, (IF, condition, inside, tuple(otherwise), at)]
+                    otherwise = self.nested_statements(next_node, depth)
+        for condition, nested_statements, first_duplicate, at in reversed(links):
+            otherwise = [*first_duplicate, (IF, condition, nested_statements, tuple(otherwise), at)]
         return otherwise
 
-    def conditional(self, node: SyntaxNode, depth: int) -> list[Term]:
+    def preprocessor_block(self, node: SyntaxNode, depth: int) -> list[Term]:
         """A block of the preprocessor within a function."""
         test = node.child_by_field_name("condition") or node.child_by_field_name("name")
         other = node.child_by_field_name("alternative")
         negated = node.type == "preproc_ifdef" and self.text.startswith("#ifndef", node.start_byte)
         then: list[Term] = []
         for child in node.named_children:
-            if depth < DEEPEST and child not in (test, other):
+            if depth < MAX_DEPTH and child not in (test, other):
                 then += self.statement(child, depth + 1)
-        otherwise = self.inside(other, depth) if other is not None else []
+        otherwise = self.nested_statements(other, depth) if other is not None else []
         at = span(node)
-        text = "#" + (self.of(test).strip() if test is not None else "")
+        text = "#" + (self.text_of(test).strip() if test is not None else "")
         if negated:
             then, otherwise = otherwise, then
         return [(SOME, text, tuple(then), tuple(otherwise), at)]
 
-    def cases(self, node: SyntaxNode, depth: int) -> list[Term]:
+    def switch_cases(self, node: SyntaxNode, depth: int) -> list[Term]:
         """A switch, as blocks each under the condition that the value is the case's."""
         test, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
         value = self.expression(test, depth) if test is not None else (UNPARSED, "", Span(0, 0))
         terms: list[Term] = []
-        for child in body.named_children if body is not None and depth < DEEPEST else ():
+        for child in body.named_children if body is not None and depth < MAX_DEPTH else ():
             if child.type != "case_statement":
                 continue
             at = span(child)
@@ -136,9 +144,9 @@ class Statements(Declarations):
             condition: Term = (
                 (BINARY, "==", value, self.expression(value_node, depth), at) if value_node is not None else (UNPARSED, "default", at)
             )
-            inside: list[Term] = []
+            nested_statements: list[Term] = []
             for inner in child.named_children:
                 if inner != value_node and inner.type != "break_statement":
-                    inside += self.statement(inner, depth + 1)
-            terms.append((IF, condition, tuple(inside), (), at))
+                    nested_statements += self.statement(inner, depth + 1)
+            terms.append((IF, condition, tuple(nested_statements), (), at))
         return terms

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from msaa_lint.input.code.parsing import Code, SyntaxNode, span
 
 from .directives import Section
-from .kinds import CLASSES, DEEPEST, function_declarator, without_comments
+from .kinds import CLASSES, MAX_DEPTH, function_declarator, without_comments
 from .statements import Statements
 from .terms import ASSIGN, CALL, DO, NAME, Function, Parameter, Term, Unit
 
@@ -32,10 +32,10 @@ CONTAINERS = frozenset({
 def unit(code: Code, root: SyntaxNode, sections: tuple[Section, ...] = ()) -> Unit:
     """The functions of a file, what its classes declare, and what stands outside. `sections` are parts of lists that are there only
     under conditions."""
-    return _Reading(code.text, code.fragments, sections).unit(root)
+    return _Reader(code.text, code.fragments, sections).unit(root)
 
 
-class _Reading(Statements):
+class _Reader(Statements):
     """One file while it is read."""
 
     def __init__(self, text: str, fragments: bool, sections: tuple[Section, ...]) -> None:
@@ -58,103 +58,103 @@ class _Reading(Statements):
         """The names of functions that another function calls."""
 
     def unit(self, root: SyntaxNode) -> Unit:
-        self.outer(root)
-        functions = [self.function(node, space, within) for space, within, node in self.relevant()]
+        self.read_declarations(root)
+        functions = [self.function(node, namespace, class_name) for namespace, class_name, node in self.relevant_functions()]
         members = {name: tuple(terms) for name, terms in self.members.items()}
         return Unit(
             tuple(f for f in functions if f is not None), members, tuple(self.outside), self.prototypes, frozenset(self.called_names)
         )
 
-    def outer(self, root: SyntaxNode) -> None:
+    def read_declarations(self, root: SyntaxNode) -> None:
         """Goes through what holds functions: namespaces, classes, blocks of the preprocessor."""
         stack: list[tuple[str, str, SyntaxNode, int]] = [("", "", root, 0)]
         while stack:
-            space, within, node, depth = stack.pop()
+            namespace, class_name, node, depth = stack.pop()
             kind = node.type
             if kind in CONTAINERS or kind == "field_declaration_list":
                 if kind == "namespace_definition":
                     name = node.child_by_field_name("name")
-                    space = f"{space}{self.of(name)}::" if name is not None else space
+                    namespace = f"{namespace}{self.text_of(name)}::" if name is not None else namespace
                 if kind == "field_declaration_list":
-                    self.accesses(node)
-                if depth < DEEPEST:
-                    stack += [(space, within, child, depth + 1) for child in reversed(node.named_children)]
+                    self.note_public_members(node)
+                if depth < MAX_DEPTH:
+                    stack += [(namespace, class_name, child, depth + 1) for child in reversed(node.named_children)]
             elif kind in CLASSES:
                 name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
                 if body is not None:
-                    stack.append((space, f"{space}{self.of(name)}" if name is not None else within, body, depth + 1))
+                    stack.append((namespace, f"{namespace}{self.text_of(name)}" if name is not None else class_name, body, depth + 1))
             elif kind == "function_definition":
                 if node.child_by_field_name("body") is not None:
-                    self.found.append((space, within, node))
+                    self.found.append((namespace, class_name, node))
             elif kind == "field_declaration":
-                self.class_in(node, stack, space, within, depth)
-                if within:
+                self.queue_class(node, stack, namespace, class_name, depth)
+                if class_name:
                     terms = self.declared(node)
                     if node.start_byte in self.public:
                         # Anybody may change it: what it begins with says nothing.
                         terms = [term if term[5] else (*term[:3], None, *term[4:]) for term in terms]
-                    self.members.setdefault(within, []).extend(terms)
-                    self.prototype(node)
-                    self.virtuals(node)
+                    self.members.setdefault(class_name, []).extend(terms)
+                    self.note_prototype(node)
+                    self.note_virtual_methods(node)
             elif kind == "declaration":
-                self.class_in(node, stack, space, within, depth)
-                self.outside += [(*term[:2], space + term[2], *term[3:]) for term in self.declared(node)]
-                self.prototype(node)
+                self.queue_class(node, stack, namespace, class_name, depth)
+                self.outside += [(*term[:2], namespace + term[2], *term[3:]) for term in self.declared(node)]
+                self.note_prototype(node)
             elif kind == "preproc_def":
                 parent = node.parent
                 name_node = parent.child_by_field_name("name") if parent is not None and parent.type == "preproc_ifdef" else None
                 macro = node.child_by_field_name("name")
-                if name_node is not None and macro is not None and self.of(name_node) == self.of(macro):
+                if name_node is not None and macro is not None and self.text_of(name_node) == self.text_of(macro):
                     # The build may say otherwise.
                     continue
-                self.outside += self.defined(node)
+                self.outside += self.macro_constant(node)
             elif kind == "type_definition":
-                self.class_in(node, stack, space, within, depth)
+                self.queue_class(node, stack, namespace, class_name, depth)
                 self.typedef(node)
             elif kind in ("namespace_alias_definition", "alias_declaration"):
                 self.alias(node)
             elif kind == "enum_specifier":
-                self.outside += [(*term[:2], space + term[2], *term[3:]) for term in self.enumerated(node)]
+                self.outside += [(*term[:2], namespace + term[2], *term[3:]) for term in self.enumerators(node)]
             elif self.fragments:
                 # A page shows statements without the function that they are of.
                 self.outside += self.statement(node, 0)
 
     @staticmethod
-    def class_in(node: SyntaxNode, stack: list[tuple[str, str, SyntaxNode, int]], space: str, within: str, depth: int) -> None:
+    def queue_class(node: SyntaxNode, stack: list[tuple[str, str, SyntaxNode, int]], namespace: str, class_name: str, depth: int) -> None:
         kind = node.child_by_field_name("type")
         if kind is not None and (kind.type in CLASSES or kind.type == "enum_specifier"):
-            stack.append((space, within, kind, depth + 1))
+            stack.append((namespace, class_name, kind, depth + 1))
 
-    def relevant(self) -> list[tuple[str, str, SyntaxNode]]:
+    def relevant_functions(self) -> list[tuple[str, str, SyntaxNode]]:
         """The functions that matter: those that say something of multisampling, and those that call them, over and over."""
-        texts = [self.of(node) for _, _, node in self.found]
-        relevant = [RELEVANT.search(text) is not None for text in texts]
-        fresh = relevant
+        texts = [self.text_of(node) for _, _, node in self.found]
+        relevant_functions = [RELEVANT.search(text) is not None for text in texts]
+        fresh = relevant_functions
         for _ in range(4):
-            names = {self.called(self.found[n][2]) for n, new in enumerate(fresh) if new} - {""}
-            if not names or all(relevant):
+            names = {self.function_name(self.found[n][2]) for n, new in enumerate(fresh) if new} - {""}
+            if not names or all(relevant_functions):
                 break
             calls = re.compile(r"\b(?:" + "|".join(map(re.escape, sorted(names))) + r")\s*\(")
-            fresh = [not old and calls.search(text) is not None for old, text in zip(relevant, texts, strict=True)]
-            relevant = [old or new for old, new in zip(relevant, fresh, strict=True)]
-        return [item for item, matters in zip(self.found, relevant, strict=True) if matters]
+            fresh = [not old and calls.search(text) is not None for old, text in zip(relevant_functions, texts, strict=True)]
+            relevant_functions = [old or new for old, new in zip(relevant_functions, fresh, strict=True)]
+        return [item for item, matters in zip(self.found, relevant_functions, strict=True) if matters]
 
-    def accesses(self, node: SyntaxNode) -> None:
+    def note_public_members(self, node: SyntaxNode) -> None:
         """Notes which members of a class are public."""
         parent = node.parent
         public = parent is not None and parent.type != "class_specifier"
         for child in node.named_children:
             if child.type == "access_specifier":
-                public = self.of(child).startswith("public")
+                public = self.text_of(child).startswith("public")
             elif public:
                 self.public.add(child.start_byte)
 
-    def virtuals(self, node: SyntaxNode) -> None:
-        if VIRTUAL.search(self.of(node)):
+    def note_virtual_methods(self, node: SyntaxNode) -> None:
+        if VIRTUAL.search(self.text_of(node)):
             declarator = function_declarator(node.child_by_field_name("declarator"))
             name = declarator.child_by_field_name("declarator") if declarator is not None else None
             if name is not None:
-                self.virtual.add(self.of(name))
+                self.virtual.add(self.text_of(name))
 
     def alias(self, node: SyntaxNode) -> None:
         name = node.child_by_field_name("name")
@@ -162,43 +162,43 @@ class _Reading(Statements):
         if name is not None and stands is not None and stands.end_byte - stands.start_byte < 100 and len(self.aliases) < 200:
             text = self.type_text(stands)
             if text.startswith(("vk", "Vk", "VULKAN")):
-                self.aliases[self.of(name)] = text
+                self.aliases[self.text_of(name)] = text
 
     def typedef(self, node: SyntaxNode) -> None:
         stands, name = node.child_by_field_name("type"), node.child_by_field_name("declarator")
         if stands is not None and name is not None and name.type == "type_identifier" and stands.type == "type_identifier":
-            text = self.of(stands)
+            text = self.text_of(stands)
             if text.startswith(("vk", "Vk")) and len(self.aliases) < 200:
-                self.aliases[self.of(name)] = text
+                self.aliases[self.text_of(name)] = text
 
-    def prototype(self, node: SyntaxNode) -> None:
+    def note_prototype(self, node: SyntaxNode) -> None:
         declarator = function_declarator(node.child_by_field_name("declarator"))
         name = declarator.child_by_field_name("declarator") if declarator is not None else None
         if declarator is not None and name is not None:
             parameters = self.parameters(declarator.child_by_field_name("parameters"))
-            self.prototypes.setdefault(self.of(name).rpartition("::")[2], parameters)
+            self.prototypes.setdefault(self.text_of(name).rpartition("::")[2], parameters)
 
-    def called(self, node: SyntaxNode) -> str:
+    def function_name(self, node: SyntaxNode) -> str:
         declarator = function_declarator(node.child_by_field_name("declarator"))
         name = declarator.child_by_field_name("declarator") if declarator is not None else None
-        return self.of(name).rpartition("::")[2].strip() if name is not None else ""
+        return self.text_of(name).rpartition("::")[2].strip() if name is not None else ""
 
-    def function(self, node: SyntaxNode, space: str, within: str) -> Function | None:
+    def function(self, node: SyntaxNode, namespace: str, class_name: str) -> Function | None:
         declarator = function_declarator(node.child_by_field_name("declarator"))
         name = declarator.child_by_field_name("declarator") if declarator is not None else None
         body = node.child_by_field_name("body")
         if declarator is None or name is None or body is None:
             return None
-        scope, _, short = self.type_text(name).rpartition("::")
-        returns = node.child_by_field_name("type")
-        kind = self.type_text(returns) if returns is not None else ""
+        qualifier, _, short = self.type_text(name).rpartition("::")
+        return_type = node.child_by_field_name("type")
+        kind = self.type_text(return_type) if return_type is not None else ""
         if kind in ("auto", ""):
             trailing = next((c for c in declarator.named_children if c.type == "trailing_return_type"), None)
             kind = self.type_text(trailing).removeprefix("->") if trailing is not None else kind
         list_node = declarator.child_by_field_name("parameters")
-        owner = within or (space + scope if scope else "")
+        owner = class_name or (namespace + qualifier if qualifier else "")
         self.current = short
-        statements = tuple(self.initialised(node)) + tuple(self.block(body, 0))
+        statements = tuple(self.initializer(node)) + tuple(self.block(body, 0))
         at = span(name)
         parameters = self.parameters(list_node)
         declared = self.prototypes.get(short, ())
@@ -208,9 +208,9 @@ class _Reading(Statements):
             )
         head = self.text[node.start_byte : body.start_byte]
         overridden = VIRTUAL.search(head) is not None or short in self.virtual
-        return Function(short, owner, kind, parameters, statements, at, space, overridden)
+        return Function(short, owner, kind, parameters, statements, at, namespace, overridden)
 
-    def initialised(self, node: SyntaxNode) -> Iterator[Term]:
+    def initializer(self, node: SyntaxNode) -> Iterator[Term]:
         """What a constructor gives its members before its body."""
         match = next((c for c in node.named_children if c.type == "field_initializer_list"), None)
         for child in match.named_children if match is not None else ():
@@ -219,4 +219,4 @@ class _Reading(Statements):
                 items = [self.expression(c, 0) for c in without_comments(value)]
                 at = span(name)
                 term = items[0] if len(items) == 1 else (CALL, (NAME, "", at), tuple(items), at)
-                yield (DO, (ASSIGN, "=", (NAME, self.of(name), at), term, at), at)
+                yield (DO, (ASSIGN, "=", (NAME, self.text_of(name), at), term, at), at)

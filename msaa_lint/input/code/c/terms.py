@@ -49,15 +49,15 @@ class Parameter(NamedTuple):
 
 
 class Function(NamedTuple):
-    """A function with a body. `within` is the class that it belongs to, or empty; `returns` its type, or empty."""
+    """A function with a body. `class_name` is the class that it belongs to, or empty; `return_type` its type, or empty."""
 
     name: str
-    within: str
-    returns: str
+    class_name: str
+    return_type: str
     parameters: tuple[Parameter, ...]
     body: tuple[Term, ...]
     at: Span
-    space: str = ""
+    namespace: str = ""
     """The namespace that it is in, with `::` at its end."""
     open: bool = False
     """Whether a derived class may have another in its place."""

@@ -14,21 +14,21 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.names import parse_enum
 from msaa_lint.input.code.parsing import Read
 
-from .commands import Commands
 from .members import FLAGS, Item, flags_of, head_of
 from .names import first_version
 from .passes import Passes
-from .values import UNKNOWN, Array, Flags, Struct, Symbol, VulkanObject, one
+from .renderings import Commands
+from .values import UNKNOWN, Array, Flags, Struct, Symbol, VulkanObject, sole_value
 
 
-class Writer(Passes, Commands):
+class DescriptionWriter(Passes, Commands):
     """The tree of one file while it is written."""
 
     def read(self) -> Read | None:
         """The tree; None where the file makes nothing that can be described."""
-        self.choose()
-        self.met = [vulkan_object for vulkan_object in self.met if not self.excluded(vulkan_object)]
-        passes = [vulkan_object for vulkan_object in self.met if vulkan_object.kind == "renderPass" and vulkan_object.info is not None]
+        self.choose_configuration()
+        self.current_objects = [obj for obj in self.current_objects if not self.is_excluded(obj)]
+        passes = [obj for obj in self.current_objects if obj.kind == "renderPass" and obj.info is not None]
         self.bind(passes)
         rendered: list[Item] = []
         attached: dict[int, VulkanObject] = {}
@@ -38,26 +38,15 @@ class Writer(Passes, Commands):
             if item is not None:
                 pass_names[id(render_pass)] = item[0]
                 rendered.append(item)
-        recorded = [
-            self.rendering(vulkan_object, attached)
-            for vulkan_object in self.met
-            if vulkan_object.kind == "rendering" and vulkan_object.info is not None
-        ]
+        recorded = [self.rendering(obj, attached) for obj in self.current_objects if obj.kind == "rendering" and obj.info is not None]
         recorded += [self.resolve(at, ends, attached) for at, ends in self.resolves.items()]
-        commands = _different([node for node in recorded if node is not None])
+        commands = _distinct_nodes([node for node in recorded if node is not None])
         images = list(
-            {
-                id(entry): entry for vulkan_object in self.met if vulkan_object.kind == "image" for entry in (self.first(vulkan_object),)
-            }.values()
+            {id(entry): entry for obj in self.current_objects if obj.kind == "image" for entry in (self.first_duplicate(obj),)}.values()
         )
-        image_items = [self.image(image) for image in images if id(image) in attached or self.many(image)]
-        image_items += self.strangers.values()
-        pipelines = [
-            item
-            for vulkan_object in self.met
-            if vulkan_object.kind in ("pipeline", "state")
-            for item in self.pipeline(vulkan_object, pass_names)
-        ]
+        image_items = [self.image(image) for image in images if id(image) in attached or self.is_multisampled(image)]
+        image_items += self.external_images.values()
+        pipelines = [item for obj in self.current_objects if obj.kind in ("pipeline", "state") for item in self.pipeline(obj, pass_names)]
         sections = []
         for name, every in (("images", image_items), ("renderPasses", rendered), ("pipelines", pipelines)):
             items = _distinct(every)
@@ -72,15 +61,15 @@ class Writer(Passes, Commands):
             return None
         return Read(mapping(sections, Span(0, 0)), tuple(self.assumed.values()))
 
-    def many(self, vulkan_object: VulkanObject) -> bool:
-        return vulkan_object.info is not None and (self.samples(vulkan_object.info)[0] or 1) > 1
+    def is_multisampled(self, obj: VulkanObject) -> bool:
+        return obj.info is not None and (self.samples(obj.info)[0] or 1) > 1
 
-    def image(self, vulkan_object: VulkanObject) -> Item:
-        info = vulkan_object.info
+    def image(self, obj: VulkanObject) -> Item:
+        info = obj.info
         assert info is not None
         items: list[Item] = []
         for name in ("format", "imageType", "tiling", "sharingMode", "usage"):
-            if name == "usage" and vulkan_object.escaped and not self.transient(info):
+            if name == "usage" and obj.escaped and not self.is_transient(info):
                 # Other code may use it as it likes.
                 continue
             if name == "imageType" and info.zeroed and name not in info.fields:
@@ -93,23 +82,21 @@ class Writer(Passes, Commands):
             value, place = self.get(info, name)
             if type(value) is int and value > 0:
                 items.append((name, place, scalar(value, place)))
-        memory = (
-            flags_of(FLAGS["memory"], one(self.settle(vulkan_object.memory)), vulkan_object.memory[-1].at) if vulkan_object.memory else None
-        )
+        memory = flags_of(FLAGS["memory"], sole_value(self.settle(obj.memory)), obj.memory[-1].at) if obj.memory else None
         if memory is not None:
             items.append(("memory", memory.span, memory))
         head = head_of(info.at)
-        return self.name(vulkan_object, "image"), head, mapping(items, head)
+        return self.object_name(obj, "image"), head, mapping(items, head)
 
-    def transient(self, info: Struct) -> bool:
+    def is_transient(self, info: Struct) -> bool:
         value = self.get(info, "usage")[0]
         bits = [bit for bit, _ in value.bits] if isinstance(value, Flags) else [value]
         return any(isinstance(bit, str) and "TRANSIENT" in bit for bit in bits)
 
-    def pipeline(self, vulkan_object: VulkanObject, passes: dict[int, str]) -> Iterator[Item]:
-        info = vulkan_object.info
+    def pipeline(self, obj: VulkanObject, passes: dict[int, str]) -> Iterator[Item]:
+        info = obj.info
         assert info is not None
-        state = info if vulkan_object.kind == "state" else self.struct(info, "multisampleState")
+        state = info if obj.kind == "state" else self.struct(info, "multisampleState")
         if state is None or first_version(state.kind) not in ("PipelineMultisampleStateCreateInfo", ""):
             return
         items: list[Item] = []
@@ -118,15 +105,15 @@ class Writer(Passes, Commands):
             items.append(("rasterizationSamples", at, scalar(count, at)))
         for name in ("sampleShadingEnable", "minSampleShading", "alphaToCoverageEnable", "alphaToOneEnable"):
             # What some fraction of a count comes to is not known where the count is not.
-            if name != "minSampleShading" or not self.supposed(state) or self.known(state, name) in (None, 0, 1):
+            if name != "minSampleShading" or not self.has_assumed_count(state) or self.known_value(state, name) in (None, 0, 1):
                 items += self.item(state, name)
         items += self.mask(state)
         if not items:
             return
         head = head_of(state.at)
         members: list[Item] = []
-        if vulkan_object.kind == "pipeline":
-            target = self.aimed(self.get(info, "renderPass")[0])
+        if obj.kind == "pipeline":
+            target = self.dereference(self.get(info, "renderPass")[0])
             # Of a page the listings come one after the other, and need not be of one program.
             if isinstance(target, VulkanObject) and id(target) in passes and not self.fragments:
                 at = self.get(info, "renderPass")[1]
@@ -140,9 +127,9 @@ class Writer(Passes, Commands):
             members += dynamic
             members += self.blending(info)
         members.append(("multisampleState", head, mapping(items, head)))
-        yield self.name(vulkan_object, state.name or "pipeline"), head, mapping(members, head)
+        yield self.object_name(obj, state.name or "pipeline"), head, mapping(members, head)
 
-    def supposed(self, state: Struct) -> bool:
+    def has_assumed_count(self, state: Struct) -> bool:
         """Whether the count of a pipeline is only taken for what it is."""
         cell = state.fields.get("rasterizationSamples")
         return cell is not None and any(isinstance(item.value, Symbol) for item in self.settle(cell.writes))
@@ -150,19 +137,19 @@ class Writer(Passes, Commands):
     def mask(self, state: Struct) -> Iterator[Item]:
         """The sample mask, where all its words are known."""
         value, at = self.get(state, "sampleMask")
-        known = self.aimed(value)
-        words = [one(self.settle(cell.writes)) for cell in known.items] if isinstance(known, Array) and known.whole else [known]
+        known = self.dereference(value)
+        words = [sole_value(self.settle(cell.writes)) for cell in known.items] if isinstance(known, Array) and known.complete else [known]
         if words and all(type(word) is int and 0 <= word < 2**32 for word in words) and value not in (None, 0):
             yield "sampleMask", at, sequence([scalar(word, at) for word in words], at)
 
     def enabled(self) -> Iterator[Item]:
         """What the file's one device is created with: of its features only whether sample shading is among them."""
-        devices = [vulkan_object for vulkan_object in self.met if vulkan_object.kind == "device" and vulkan_object.info is not None]
+        devices = [obj for obj in self.current_objects if obj.kind == "device" and obj.info is not None]
         if len(devices) != 1 or devices[0].info is None:
             return
         info = devices[0].info
         features = self.struct(info, "enabledFeatures")
-        chained = self.aimed(self.get(info, "next")[0]) if "next" in info.fields else None
+        chained = self.dereference(self.get(info, "next")[0]) if "next" in info.fields else None
         if features is None and isinstance(chained, Struct) and chained.kind == "PhysicalDeviceFeatures2":
             features = self.struct(chained, "features")
         elif chained is not None and chained != 0:
@@ -180,11 +167,11 @@ class Writer(Passes, Commands):
         value, at = self.get(info, "dynamicState")
         if value is None:
             return []
-        state = self.aimed(value)
-        list_node = self.aimed(self.get(state, "dynamicStates")[0]) if isinstance(state, Struct) else UNKNOWN
-        if not isinstance(list_node, Array) or not list_node.whole:
+        state = self.dereference(value)
+        list_node = self.dereference(self.get(state, "dynamicStates")[0]) if isinstance(state, Struct) else UNKNOWN
+        if not isinstance(list_node, Array) or not list_node.complete:
             return None
-        names = [parse_enum("VkDynamicState", str(one(self.settle(cell.writes)))) for cell in list_node.items]
+        names = [parse_enum("VkDynamicState", str(sole_value(self.settle(cell.writes)))) for cell in list_node.items]
         nodes = [scalar(name, at) for name in names if name is not None]
         return [("dynamicState", at, sequence(nodes, at))] if nodes else []
 
@@ -210,7 +197,7 @@ def _distinct(items: Sequence[Item]) -> list[Item]:
     return list(distinct.values())
 
 
-def _different(nodes: Sequence[Node]) -> list[Node]:
+def _distinct_nodes(nodes: Sequence[Node]) -> list[Node]:
     return list({_signature(node): node for node in nodes}.values())
 
 

@@ -15,7 +15,7 @@ Guards = frozenset[tuple[str, bool]]
 
 ALWAYS: Guards = frozenset()
 
-MOST = 12
+MAX_ALTERNATIVES = 12
 """Alternatives of a value that are followed; with more, nothing is known."""
 
 
@@ -64,11 +64,11 @@ class Cell:
         before = tuple(w for w in self.writes if not guards <= w.guards) if guards else ()
         writes = (*before, *fresh)
         # Without its earliest alternatives, a value would be known where it is not.
-        self.writes = writes if len(writes) <= MOST else (Alternative(UNKNOWN, at),)
+        self.writes = writes if len(writes) <= MAX_ALTERNATIVES else (Alternative(UNKNOWN, at),)
 
     def read(self, guards: Guards) -> Value:
         """What may be in it where some conditions hold."""
-        return settled(self.writes, dict(guards)) if self.writes else UNKNOWN_VALUE
+        return possible_writes(self.writes, dict(guards)) if self.writes else UNKNOWN_VALUE
 
 
 class Unknown:
@@ -81,7 +81,7 @@ class Unknown:
 UNKNOWN = Unknown()
 
 
-def settled(writes: Value, world: Mapping[str, bool]) -> Value:
+def possible_writes(writes: Value, configuration: Mapping[str, bool]) -> Value:
     """The writes that may be seen in a world: from the last one back to the first that certainly happened."""
     if len(writes) == 1 and not writes[0].guards:
         return writes
@@ -89,7 +89,7 @@ def settled(writes: Value, world: Mapping[str, bool]) -> Value:
     for write in reversed(writes):
         rest = []
         for guard in write.guards:
-            way = world.get(guard[0])
+            way = configuration.get(guard[0])
             if way is None:
                 rest.append(guard)
             elif way is not guard[1]:
@@ -123,15 +123,15 @@ class Struct:
 
 
 class Array:
-    """A list. `whole`: these are all its elements, in their places. `zeroed`: further structures in it are zero."""
+    """A list. `complete`: these are all its elements, in their places. `zeroed`: further structures in it are zero."""
 
-    __slots__ = ("at", "items", "kind", "name", "whole", "zeroed")
+    __slots__ = ("at", "complete", "items", "kind", "name", "zeroed")
 
-    def __init__(self, kind: str, at: Span, whole: bool = True) -> None:
+    def __init__(self, kind: str, at: Span, complete: bool = True) -> None:
         self.kind = kind
         self.at = at
         self.items: list[Cell] = []
-        self.whole = whole
+        self.complete = complete
         self.zeroed = False
         self.name = ""
 
@@ -145,14 +145,14 @@ class Ref(NamedTuple):
 class VulkanObject:
     """An object of Vulkan's that a call made: an image, a view, a render pass. `info` is what it was made with, copied at the call."""
 
-    __slots__ = ("at", "deep", "escaped", "guards", "info", "key", "kind", "memory", "name")
+    __slots__ = ("at", "escaped", "guards", "info", "key", "kind", "memory", "name", "name_depth")
 
     def __init__(self, kind: str, key: tuple[Any, ...], at: Span) -> None:
         self.kind = kind
         self.key = key
         self.at = at
         self.name = ""
-        self.deep = 99
+        self.name_depth = 99
         """How many calls deep it was named."""
         self.escaped = False
         """Whether it is handed to code that is not the file's."""
@@ -190,47 +190,47 @@ def inner_cells(value: Any) -> list[Cell]:
     return [value.cell] if isinstance(value, Ref) else []
 
 
-DEEPEST = 10
+MAX_DEPTH = 10
 
 
-def copies(value: Value, guards: Guards = ALWAYS) -> Value:
+def copy_alternatives(value: Value, guards: Guards = ALWAYS) -> Value:
     """The alternatives of a value, with structures and lists copied, under further conditions."""
-    return tuple(Alternative(copied(a.value), a.at, a.guards | guards) for a in value)
+    return tuple(Alternative(copy_value(a.value), a.at, a.guards | guards) for a in value)
 
 
-def copied(value: Any, depth: int = 0, through: bool = False) -> Any:
-    """A copy of what is in a value. `through` follows pointers as well: what a call is handed, as it is at that moment."""
-    if depth > DEEPEST:
+def copy_value(value: Any, depth: int = 0, follow_pointers: bool = False) -> Any:
+    """A copy of what is in a value. `follow_pointers` follows pointers as well: what a call is handed, as it is at that moment."""
+    if depth > MAX_DEPTH:
         return UNKNOWN
     if isinstance(value, Struct):
         struct = Struct(value.kind, value.at, value.zeroed, value.name)
         for name, cell in value.fields.items():
-            struct.fields[name] = copied_cell(cell, depth, through)
+            struct.fields[name] = copy_cell(cell, depth, follow_pointers)
         return struct
     if isinstance(value, Array):
-        array = Array(value.kind, value.at, value.whole)
+        array = Array(value.kind, value.at, value.complete)
         array.zeroed, array.name = value.zeroed, value.name
-        array.items = [copied_cell(cell, depth, through) for cell in value.items]
+        array.items = [copy_cell(cell, depth, follow_pointers) for cell in value.items]
         return array
-    if isinstance(value, Ref) and through:
-        return Ref(copied_cell(value.cell, depth, through))
+    if isinstance(value, Ref) and follow_pointers:
+        return Ref(copy_cell(value.cell, depth, follow_pointers))
     return value
 
 
-def copied_cell(cell: Cell, depth: int = 0, through: bool = False) -> Cell:
+def copy_cell(cell: Cell, depth: int = 0, follow_pointers: bool = False) -> Cell:
     copy = Cell(cell.kind, cell.name)
     copy.writes = tuple(
-        Alternative(copied(a.value, depth + 1, through), a.at, a.guards) if isinstance(a.value, (Struct, Array, Ref)) else a
+        Alternative(copy_value(a.value, depth + 1, follow_pointers), a.at, a.guards) if isinstance(a.value, (Struct, Array, Ref)) else a
         for a in cell.writes
     )
     return copy
 
 
-def one(value: Value) -> Any:
+def sole_value(value: Value) -> Any:
     """What a value is, where it is one thing alone; UNKNOWN otherwise."""
     if len(value) == 1:
         return value[0].value
-    if value and all(same(a.value, value[0].value) for a in value):
+    if value and all(are_equal(a.value, value[0].value) for a in value):
         return value[0].value
     return UNKNOWN
 
@@ -240,11 +240,11 @@ def pointee(value: Any) -> Any:
     for _ in range(4):
         if not isinstance(value, Ref):
             return value
-        value = one(value.cell.writes)
+        value = sole_value(value.cell.writes)
     return value
 
 
-def same(left: Any, right: Any) -> bool:
+def are_equal(left: Any, right: Any) -> bool:
     """Whether two values are alike for sure."""
     if isinstance(left, Flags) and isinstance(right, Flags):
         return {bit for bit, _ in left.bits} == {bit for bit, _ in right.bits}

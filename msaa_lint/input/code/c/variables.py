@@ -8,10 +8,10 @@ from typing import Any, Protocol
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.names import parse_enum
 
-from .names import constant, elements, extent, member, structure
-from .scope import MEMBER, MOST_STEPS, Around, Stop
+from .names import array_size, constant, element_type, member, vulkan_struct
+from .scope import MEMBER, MOST_STEPS, Scope, StepLimitExceeded
 from .terms import ADDRESS, CALL, DECLARE, FIELD, INDEX, NAME, TARGET, Function, Term, Unit, at
-from .values import ALWAYS, UNKNOWN_VALUE, Alternative, Array, Cell, Flags, Ref, Struct, Value, copied, one, pointee
+from .values import ALWAYS, UNKNOWN_VALUE, Alternative, Array, Cell, Flags, Ref, Struct, Value, copy_value, pointee, sole_value
 
 
 def _lasts(value: object) -> bool:
@@ -21,7 +21,7 @@ def _lasts(value: object) -> bool:
     return value is not None and not isinstance(value, (bool, float, Flags)) and (not isinstance(value, int) or value > 1)
 
 
-def an_element(term: Term) -> bool:
+def is_element_access(term: Term) -> bool:
     """Whether an expression calls a method that gives a reference to an element of a list."""
     return bool(term[0] == CALL and term[1][0] == FIELD and term[1][2] in ("front", "back", "at"))
 
@@ -29,32 +29,32 @@ def an_element(term: Term) -> bool:
 class CallHandler(Protocol):
     """What the evaluation of expressions needs of the calls in them."""
 
-    def call(self, term: Term, around: Around) -> Value:
+    def call(self, term: Term, scope: Scope) -> Value:
         """The value of a call."""
 
-    def braces(self, term: Term, around: Around, kind: str) -> Value:
+    def braced_value(self, term: Term, scope: Scope, kind: str) -> Value:
         """The value of a list in braces, for a type."""
 
-    def object_made(self, kind: str, term: Term, around: Around) -> Value | None:
+    def construct_class(self, kind: str, term: Term, scope: Scope) -> Value | None:
         """The object of a class that a constructor makes; None for other types."""
 
-    def called_by(self, value: Value, name: str, around: Around) -> None:
+    def name_objects(self, value: Value, name: str, scope: Scope) -> None:
         """Names Vulkan objects after the variable that they are assigned to."""
 
-    def lost(self, target: Term, around: Around) -> None:
+    def forget_target(self, target: Term, scope: Scope) -> None:
         """Forgets what a write to an unknown place may have changed."""
 
 
-class Places(ABC):
+class Variables(ABC):
     """The variables and members of one file, and what expressions name of them."""
 
     calls: CallHandler
 
-    def __init__(self, unit: Unit, fragments: bool, plus: bool) -> None:
+    def __init__(self, unit: Unit, fragments: bool, is_cpp: bool) -> None:
         self.unit = unit
         self.fragments = fragments
         """Whether it is pieces of a page, not a whole program."""
-        self.plus = plus
+        self.is_cpp = is_cpp
         """Whether it is C++, where an argument may be a reference."""
         self.functions: dict[str, list[Function]] = {}
         for function in unit.functions:
@@ -73,97 +73,97 @@ class Places(ABC):
         """What they hold in the function that is gone through."""
         self.initial: dict[str, Value] = {}
         """What the members of the overlay held when the function began."""
-        self.known: dict[str, Value] = {}
+        self.declared_values: dict[str, Value] = {}
         self.parts: dict[str, dict[str, None]] = {}
         """By a member, the members of it that are named anywhere."""
         self.steps = 0
 
     @abstractmethod
-    def value(self, term: Term, around: Around, kind: str = "") -> Value:
+    def value(self, term: Term, scope: Scope, kind: str = "") -> Value:
         """What an expression may be. `kind` is the type that it is for, where braces need one."""
 
     def step(self) -> None:
         self.steps += 1
         if self.steps > MOST_STEPS:
-            raise Stop
+            raise StepLimitExceeded
 
     @staticmethod
-    def taken(value: Any, kind: str, name: str) -> Any:
+    def stored_value(value: Any, kind: str, name: str) -> Any:
         """A value as a variable has it: structures are copied, and called by the variable's name."""
-        value = copied(value)
+        value = copy_value(value)
         if isinstance(value, Struct):
-            value.kind = value.kind or structure(kind)
+            value.kind = value.kind or vulkan_struct(kind)
             value.name = name or value.name
         if isinstance(value, Array):
-            value.kind = value.kind or elements(kind) or ""
+            value.kind = value.kind or element_type(kind) or ""
             value.name = name or value.name
         return value
 
-    def place(self, term: Term, around: Around) -> Cell | None:
+    def cell_of(self, term: Term, scope: Scope) -> Cell | None:
         """The cell that an expression names; None where it names none that can be told."""
         self.step()
         kind = term[0]
         if kind == NAME:
-            return self.named(term[1], around)
+            return self.variable(term[1], scope)
         if kind == FIELD:
-            return self.field(term[1], term[2], around)
+            return self.field(term[1], term[2], scope)
         if kind == INDEX:
-            return self.indexed(term, around)
+            return self.indexed(term, scope)
         if kind == TARGET:
-            value = one(self.value(term[1], around))
+            value = sole_value(self.value(term[1], scope))
             array = pointee(value)
             if isinstance(array, Array) and array.items:
                 return array.items[0]
-            return value.cell if isinstance(value, Ref) else self.place(term[1], around)
+            return value.cell if isinstance(value, Ref) else self.cell_of(term[1], scope)
         if kind == ADDRESS:
             return None
         if kind == CALL:
-            value = one(self.calls.call(term, around))
+            value = sole_value(self.calls.call(term, scope))
             return value.cell if isinstance(value, Ref) else None
         return None
 
-    def named(self, name: str, around: Around) -> Cell | None:
+    def variable(self, name: str, scope: Scope) -> Cell | None:
         name = name.removeprefix("this->")
-        for scope in reversed(around.scopes):
-            if name in scope:
-                return scope[name]
+        for variables in reversed(scope.scopes):
+            if name in variables:
+                return variables[name]
         if constant(name) is not None:
             return None
-        if around.me is not None and name in self.members.get(around.within, ()):
-            return self.mine(name, around.me, around)
-        return self.path(self.member_key(name, around))
+        if scope.this_object is not None and name in self.members.get(scope.class_name, ()):
+            return self.own_member(name, scope.this_object, scope)
+        return self.member_cell(self.member_key(name, scope))
 
-    def mine(self, name: str, me: Cell, around: Around) -> Cell:
+    def own_member(self, name: str, this_object: Cell, scope: Scope) -> Cell:
         """A member of the object whose method is gone through."""
-        value = pointee(one(me.read(around.guards)))
+        value = pointee(sole_value(this_object.read(scope.guards)))
         if isinstance(value, Struct):
             return value.cell(name)
-        if me.kind == MEMBER:
-            return self.path(f"{self.pointed(me.name) or me.name + '.'}{name}")
-        return self.path(f"{around.within}::{name}")
+        if this_object.kind == MEMBER:
+            return self.member_cell(f"{self.pointed_class(this_object.name) or this_object.name + '.'}{name}")
+        return self.member_cell(f"{scope.class_name}::{name}")
 
     def type_of(self, cell: Cell) -> str:
         """The type that a variable or member is declared with; empty where that is not known."""
         if cell.kind != MEMBER:
             return cell.kind
-        within, _, name = cell.name.rpartition("::")
-        term = self.members.get(within, {}).get(name) if within else self.globals.get(name)
+        class_name, _, name = cell.name.rpartition("::")
+        term = self.members.get(class_name, {}).get(name) if class_name else self.globals.get(name)
         return str(term[1]) if term is not None else ""
 
-    def member_key(self, name: str, around: Around) -> str:
+    def member_key(self, name: str, scope: Scope) -> str:
         """What a name that no function declares is called: a member of the class, or a variable outside."""
-        space = around.space
+        namespace = scope.namespace
         while True:
-            if space + name in self.globals and name not in self.members.get(around.within, ()):
-                return f"::{space}{name}"
-            if not space:
+            if namespace + name in self.globals and name not in self.members.get(scope.class_name, ()):
+                return f"::{namespace}{name}"
+            if not namespace:
                 break
-            space = space[:-2].rpartition("::")[0]
-            space += "::" if space else ""
+            namespace = namespace[:-2].rpartition("::")[0]
+            namespace += "::" if namespace else ""
         short = name.rpartition("::")[2]
-        return f"{around.within}::{short}" if around.within and not self.fragments else f"::{short}"
+        return f"{scope.class_name}::{short}" if scope.class_name and not self.fragments else f"::{short}"
 
-    def path(self, key: str) -> Cell:
+    def member_cell(self, key: str) -> Cell:
         """The cell of a member of some object, by the words that lead to it."""
         cell = self.overlay.get(key)
         if cell is None:
@@ -177,159 +177,163 @@ class Places(ABC):
             cell.writes = self.initial[key] = writes
         return cell
 
-    def gathered(self, key: str, place: Span) -> Value:
+    def gathered_struct(self, key: str, place: Span) -> Value:
         """A structure that nobody declares here, from the members that are written to."""
         names = self.parts.get(key)
         if not names:
             return UNKNOWN_VALUE
         struct = Struct("", place, False, key.rpartition("::")[2])
         for name in names:
-            struct.fields[name] = self.path(f"{key}.{name}")
+            struct.fields[name] = self.member_cell(f"{key}.{name}")
         return (Alternative(struct, place),)
 
     def declared(self, key: str) -> Value:
         """What a member or a variable outside is given where it is declared."""
-        if key in self.known:
-            return self.known[key]
-        self.known[key] = UNKNOWN_VALUE
+        if key in self.declared_values:
+            return self.declared_values[key]
+        self.declared_values[key] = UNKNOWN_VALUE
         if key.startswith("::"):
-            within, term = "", self.globals.get(key[2:])
+            class_name, term = "", self.globals.get(key[2:])
         else:
-            within, _, name = key.rpartition("::")
-            term = self.members.get(within, {}).get(name)
+            class_name, _, name = key.rpartition("::")
+            term = self.members.get(class_name, {}).get(name)
         if (
             term is not None
             and term[3] is None
             and not term[4]
-            and within == ""
-            and (structure(term[1]) or structure(elements(term[1]) or ""))
+            and class_name == ""
+            and (vulkan_struct(term[1]) or vulkan_struct(element_type(term[1]) or ""))
         ):
             # What stands outside of functions is zero from the beginning.
-            initial = self.bare(term[1], term[2].rpartition("::")[2], term[-1], False, Around("", ({},), ALWAYS, ()))
+            initial = self.default_value(term[1], term[2].rpartition("::")[2], term[-1], False, Scope("", ({},), ALWAYS, ()))
             for alternative in initial:
                 for value in (
-                    [alternative.value] if isinstance(alternative.value, Struct) else [one(cell.writes) for cell in alternative.value.items]
+                    [alternative.value]
+                    if isinstance(alternative.value, Struct)
+                    else [sole_value(cell.writes) for cell in alternative.value.items]
                 ):
                     if isinstance(value, Struct):
                         value.zeroed = True
                 if isinstance(alternative.value, Array):
                     alternative.value.zeroed = True
-            self.known[key] = tuple(Alternative(self.taken(a.value, term[1], term[2].rpartition("::")[2]), a.at) for a in initial)
+            self.declared_values[key] = tuple(
+                Alternative(self.stored_value(a.value, term[1], term[2].rpartition("::")[2]), a.at) for a in initial
+            )
         elif term is not None and term[3] is not None:
             name = term[2].rpartition("::")[2]
-            around = Around(within, ({},), ALWAYS, ())
-            around.space = key[2:].rpartition("::")[0] if not within else within.rpartition("::")[0]
-            around.space += "::" if around.space else ""
-            value = self.value(term[3], around, term[1])
+            scope = Scope(class_name, ({},), ALWAYS, ())
+            scope.namespace = key[2:].rpartition("::")[0] if not class_name else class_name.rpartition("::")[0]
+            scope.namespace += "::" if scope.namespace else ""
+            value = self.value(term[3], scope, term[1])
             lasting = [a for a in value if not (isinstance(a.value, Struct) and not a.value.kind and not a.value.fields)]
             if not term[5]:
                 # Who may change it elsewhere changes what it is until then: one sample, nothing, no, an operation.
                 lasting = [a for a in lasting if _lasts(a.value)]
-            self.known[key] = tuple(Alternative(self.taken(a.value, term[1], name), a.at, a.guards) for a in lasting)
-        return self.known[key]
+            self.declared_values[key] = tuple(Alternative(self.stored_value(a.value, term[1], name), a.at, a.guards) for a in lasting)
+        return self.declared_values[key]
 
-    def field(self, of: Term, name: str, around: Around) -> Cell | None:
+    def field(self, operand: Term, name: str, scope: Scope) -> Cell | None:
         name = member(name)
-        if of[0] == NAME and of[1] in ("this", "self"):
-            if around.me is not None:
-                return self.mine(name, around.me, around)
-            return self.path(self.member_key(name, around))
-        cell = self.place(of, around)
+        if operand[0] == NAME and operand[1] in ("this", "self"):
+            if scope.this_object is not None:
+                return self.own_member(name, scope.this_object, scope)
+            return self.member_cell(self.member_key(name, scope))
+        cell = self.cell_of(operand, scope)
         if cell is None:
-            value = pointee(one(self.value(of, around)))
+            value = pointee(sole_value(self.value(operand, scope)))
             return value.cell(name) if isinstance(value, Struct) else None
-        value = pointee(one(cell.read(around.guards)))
+        value = pointee(sole_value(cell.read(scope.guards)))
         if isinstance(value, Array) and value.items:
             # A pointer to the first of a list.
-            value = pointee(one(value.items[0].writes))
+            value = pointee(sole_value(value.items[0].writes))
         if isinstance(value, Struct):
             return value.cell(name)
         if cell.kind == MEMBER:
-            return self.path(f"{self.pointed(cell.name) or cell.name + '.'}{name}")
+            return self.member_cell(f"{self.pointed_class(cell.name) or cell.name + '.'}{name}")
         if not cell.writes:
             if cell.key or cell.kind.endswith("*"):
-                if structure(cell.kind):
-                    struct = Struct(structure(cell.kind), Span(0, 0), False, cell.name)
+                if vulkan_struct(cell.kind):
+                    struct = Struct(vulkan_struct(cell.kind), Span(0, 0), False, cell.name)
                     cell.writes = (Alternative(struct, struct.at),)
                     return struct.cell(name)
                 kind = cell.kind.rstrip("*&")
-                return self.path(f"{self.class_of(kind, around.space) or kind}::{name}")
-            struct = Struct(structure(cell.kind), at(of), False, cell.name)
+                return self.member_cell(f"{self.class_of(kind, scope.namespace) or kind}::{name}")
+            struct = Struct(vulkan_struct(cell.kind), at(operand), False, cell.name)
             cell.writes = (Alternative(struct, struct.at),)
             return struct.cell(name)
         return None
 
-    def class_of(self, kind: str, space: str) -> str | None:
+    def class_of(self, kind: str, namespace: str) -> str | None:
         """The class of the file that a type is; None where it is none."""
-        if f"{space}{kind}" in self.members:
-            return f"{space}{kind}"
+        if f"{namespace}{kind}" in self.members:
+            return f"{namespace}{kind}"
         if kind in self.members:
             return kind
         short = kind.rpartition("::")[2]
         members = [name for name in self.members if name.rpartition("::")[2] == short]
         return members[0] if len(members) == 1 else None
 
-    def pointed(self, key: str) -> str:
+    def pointed_class(self, key: str) -> str:
         """Of a member that points to an object of a class of the file's: the class, with `::`, as no one knows which object it is."""
-        within, _, name = key.rpartition("::")
-        term = self.members.get(within, {}).get(name)
+        class_name, _, name = key.rpartition("::")
+        term = self.members.get(class_name, {}).get(name)
         if term is None or not term[4]:
             return ""
-        class_name = self.class_of(term[1], within.rpartition("::")[0])
-        return f"{class_name}::" if class_name is not None else ""
+        target = self.class_of(term[1], class_name.rpartition("::")[0])
+        return f"{target}::" if target is not None else ""
 
-    def indexed(self, term: Term, around: Around) -> Cell | None:
-        cell = self.place(term[1], around)
-        index = one(self.value(term[2], around))
+    def indexed(self, term: Term, scope: Scope) -> Cell | None:
+        cell = self.cell_of(term[1], scope)
+        index = sole_value(self.value(term[2], scope))
         if cell is None:
             return None
-        value = pointee(one(cell.read(around.guards)))
+        value = pointee(sole_value(cell.read(scope.guards)))
         if isinstance(value, Array):
             if type(index) is not int or not 0 <= index < 64:
-                value.whole = False
+                value.complete = False
                 return Cell()
             while len(value.items) <= index:
-                kind = structure(value.kind)
+                kind = vulkan_struct(value.kind)
                 fresh = Cell(value.kind)
                 if kind:
                     fresh.writes = (Alternative(Struct(kind, term[-1], value.zeroed), term[-1]),)
                 value.items.append(fresh)
             return value.items[index]
         if cell.kind == MEMBER:
-            return self.path(f"{cell.name}[{index}]" if type(index) is int else f"{cell.name}[]")
+            return self.member_cell(f"{cell.name}[{index}]" if type(index) is int else f"{cell.name}[]")
         if isinstance(value, Struct) and index == 0:
             return cell
         return None
 
-    def filled(self, array: Array, kind: str, around: Around) -> None:
+    def fill_array(self, array: Array, kind: str, scope: Scope) -> None:
         """Gives an array as many elements as its type has."""
-        size = extent(kind)
-        count = (int(size) if size.isdecimal() else one(self.value((NAME, size, array.at), around))) if size else 0
+        size = array_size(kind)
+        count = (int(size) if size.isdecimal() else sole_value(self.value((NAME, size, array.at), scope))) if size else 0
         if not size:
             return
         if type(count) is not int or not 0 <= count <= 64:
-            array.whole = False
+            array.complete = False
             return
-        struct_name = structure(array.kind)
+        struct_name = vulkan_struct(array.kind)
         while len(array.items) < count:
             item = Cell(array.kind)
             if struct_name:
                 item.writes = (Alternative(Struct(struct_name, array.at, array.zeroed), array.at),)
             array.items.append(item)
 
-    def bare(self, kind: str, name: str, place: Span, indirect: bool, around: Around) -> Value:
+    def default_value(self, kind: str, name: str, place: Span, indirect: bool, scope: Scope) -> Value:
         """A variable without a value. vulkan.hpp's structures are as their constructors leave them."""
         if indirect:
             return UNKNOWN_VALUE
-        struct_name = structure(kind)
+        struct_name = vulkan_struct(kind)
         if struct_name:
             struct = Struct(struct_name, place, kind.startswith("vk::"), name)
             return (Alternative(struct, place),)
-        inner = elements(kind)
+        inner = element_type(kind)
         if inner is not None:
             array = Array(inner, place)
             array.name = name
-            self.filled(array, kind, around)
+            self.fill_array(array, kind, scope)
             return (Alternative(array, place),)
         if kind[:1].isupper() and not kind.startswith(("Vk", "VK", "PFN")):
             return (Alternative(Struct("", place, False, name), place),)

@@ -9,21 +9,21 @@ from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
 
 from .members import Item, Members, head_of
-from .values import UNKNOWN, Struct, Symbol, Value, VulkanObject, one
+from .values import UNKNOWN, Struct, Symbol, Value, VulkanObject, sole_value
 
 
 class Commands(Members):
     """Renderings and resolves as nodes."""
 
-    def rendering(self, vulkan_object: VulkanObject, attached: dict[int, VulkanObject]) -> Node | None:
+    def rendering(self, obj: VulkanObject, attached: dict[int, VulkanObject]) -> Node | None:
         """A dynamic rendering."""
-        info = vulkan_object.info
+        info = obj.info
         assert info is not None
         colors = self.structs(info, "colorAttachments")
         if colors is None or any(color is None for color in colors) or not (info.zeroed or "colorAttachments" in info.fields):
             return None
         nodes = [self.rendered(color, attached) for color in colors if color is not None]
-        head = head_of(vulkan_object.at)
+        head = head_of(obj.at)
         items: list[Item] = []
         if nodes:
             items.append(("colorAttachments", head, sequence([node for node in nodes if node is not None], head)))
@@ -45,13 +45,13 @@ class Commands(Members):
         view, at = self.get(struct, "imageView")
         if view in (None, 0):
             return scalar(None, head)
-        items: list[Item] = [("image", at, self.named(view, at, attached))]
+        items: list[Item] = [("image", at, self.image_name(view, at, attached))]
         mode, place = self.get(struct, "resolveMode")
         if mode is UNKNOWN:
             return None
         target, target_at = self.get(struct, "resolveImageView")
         if target is not None and target != 0:
-            items.append(("resolveImage", target_at, self.named(target, target_at, attached)))
+            items.append(("resolveImage", target_at, self.image_name(target, target_at, attached)))
         mode = mode if mode is not None else 0
         node = self.node("resolveMode", mode, place)
         if node is None:
@@ -61,17 +61,17 @@ class Commands(Members):
             items += self.item(struct, member)
         return mapping(items, head)
 
-    def named(self, view: Any, at: Span, attached: dict[int, VulkanObject]) -> Node:
+    def image_name(self, view: Any, at: Span, attached: dict[int, VulkanObject]) -> Node:
         """The name of the image of a view; an image of which nothing is known has one of its own."""
         image = self.image_in(view)
         if image is None:
-            return scalar(self.stranger(view, at), at)
+            return scalar(self.external_image(view, at), at)
         attached[id(image)] = image
-        return scalar(self.name(image, "image"), at)
+        return scalar(self.object_name(image, "image"), at)
 
-    def stranger(self, value: Any, at: Span) -> str:
+    def external_image(self, value: Any, at: Span) -> str:
         """The name of an image that the file does not make."""
-        value = self.aimed(value)
+        value = self.dereference(value)
         key = (
             value.key
             if isinstance(value, Symbol)
@@ -79,23 +79,23 @@ class Commands(Members):
             if isinstance(value, VulkanObject)
             else f"image at {at.start}"
         )
-        if key not in self.strangers:
+        if key not in self.external_images:
             label = value.name if isinstance(value, (Symbol, VulkanObject)) else ""
             name = self.unique(label.rpartition("::")[2].strip("*&") or "image")
-            self.strangers[key] = (name, at, mapping((), at))
-        return self.strangers[key][0]
+            self.external_images[key] = (name, at, mapping((), at))
+        return self.external_images[key][0]
 
     def resolve(self, at: Span, ends: tuple[Value, Value], attached: dict[int, VulkanObject]) -> Node | None:
         """A vkCmdResolveImage of an image that the file makes."""
         head = head_of(at)
         items: list[Item] = []
         for name, value in zip(("srcImage", "dstImage"), ends, strict=True):
-            known = self.aimed(one(self.settle(value)))
-            image = self.first(known) if isinstance(known, VulkanObject) and known.kind == "image" else None
+            known = self.dereference(sole_value(self.settle(value)))
+            image = self.first_duplicate(known) if isinstance(known, VulkanObject) and known.kind == "image" else None
             if image is None and name == "srcImage":
                 return None
             if image is not None:
                 attached[id(image)] = image
-            text = self.name(image, "image") if image is not None else self.stranger(known, at)
+            text = self.object_name(image, "image") if image is not None else self.external_image(known, at)
             items.append((name, head, scalar(text, head)))
         return mapping([("resolveImage", head, mapping(items, head))], head)

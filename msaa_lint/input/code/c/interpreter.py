@@ -1,0 +1,266 @@
+"""C and C++ functions gone through from top to bottom, as far as they fill in structures of Vulkan's.
+
+Every function that none of the file calls is a beginning; a call of the file's own functions is followed with its arguments. Conditions
+are not decided, but kept with what was written under them. What members hold is the union of what all functions write to them: the file is
+gone through again with what the first time found. A value that is not known stays so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from msaa_lint.core.text.span import Span
+
+from .calls import Calls
+from .conditions import contradicts, negated
+from .escapes import mark_escaped
+from .evaluate import Evaluator
+from .scope import MOST_PASSES, MOST_TURNS, Scope, StepLimitExceeded
+from .terms import BINARY, BLOCK, DECLARE, DO, FIELD, IF, INDEX, LEAVE, LOOP, NAME, RETURN, SOME, UNARY, Function, Term, Unit, at
+from .values import (
+    ALWAYS,
+    MAX_ALTERNATIVES,
+    UNKNOWN,
+    Alternative,
+    Array,
+    Cell,
+    Closure,
+    Guards,
+    Ref,
+    Struct,
+    Symbol,
+    Value,
+    VulkanObject,
+    pointee,
+    sole_value,
+)
+from .variables import is_element_access
+
+
+class Interpreter(Evaluator):
+    """One file while it is gone through."""
+
+    def __init__(self, unit: Unit, fragments: bool, is_cpp: bool = True) -> None:
+        super().__init__(unit, fragments, is_cpp)
+        self.program = Calls(self)
+        self.calls = self.program
+
+    def run(self) -> None:
+        """Goes through the file until what members hold is the same as before."""
+        entry_points = self.entry_points()
+        try:
+            for _ in range(MOST_PASSES):
+                self.program.begin()
+                writes_by_key: dict[str, dict[tuple[Any, ...], Alternative]] = {}
+                for function in entry_points:
+                    self.overlay, self.initial = {}, {}
+                    self.run_entry_point(function)
+                    for key, cell in self.overlay.items():
+                        before = {id(write) for write in self.initial.get(key, ())}
+                        for write in cell.writes:
+                            if id(write) in before:
+                                continue
+                            if write.value is UNKNOWN:
+                                write = Alternative(Symbol(key, key.rpartition("::")[2]), write.at, write.guards)
+                            writes_by_key.setdefault(key, {}).setdefault(_mark(write), write)
+                if self.fragments:
+                    self.program.create_from_fragments(self.overlay)
+                last, self.summary = self.summary, {key: _joined(key, list(writes.values())) for key, writes in writes_by_key.items()}
+                if _marks(last) == _marks(self.summary):
+                    break
+        except (StepLimitExceeded, RecursionError):
+            return
+
+    def entry_points(self) -> list[Function]:
+        # A constructor runs where the object is made: as a member, it has no call of its own.
+        types = {term[1] for terms in self.members.values() for term in terms.values()}
+        constructors = {
+            f.name for f in self.unit.functions if f.class_name.rpartition("::")[2] == f.name and f.parameters and f.name in types
+        }
+        entry_points = [f for f in self.unit.functions if f.name not in self.unit.called and f.name not in constructors]
+        return [*entry_points, Function("", "", "", (), self.unit.outside, Span(0, 0))] if self.fragments else entry_points
+
+    def run_entry_point(self, function: Function) -> None:
+        scope = Scope(function.class_name, ({},), ALWAYS, ())
+        scope.namespace = function.namespace
+        for parameter in function.parameters:
+            cell = Cell(parameter.type, parameter.name, (), f"{function.name}({parameter.name})")
+            if parameter.name:
+                scope.scopes[-1][parameter.name] = cell
+        self.block(function.body, scope)
+        for return_values in scope.return_values:
+            mark_escaped(return_values.value)
+        self.program.create_unused(scope)
+
+    def block(self, statements: Sequence[Term], scope: Scope) -> None:
+        for statement in statements:
+            if scope.unreachable:
+                return
+            self.statement(statement, scope)
+
+    def run_block(self, statements: Sequence[Term], scope: Scope, guards: Guards, scoped: bool = True) -> bool:
+        """Goes through a block under conditions, with variables of its own; whether it leaves what is around it."""
+        read_declarations, scopes = scope.guards, scope.scopes
+        scope.guards = read_declarations | guards
+        scope.scopes = (*scopes, {}) if scoped else scopes
+        self.block(statements, scope)
+        scope.guards, scope.scopes = read_declarations, scopes
+        left, scope.unreachable = scope.unreachable, False
+        return left
+
+    def statement(self, term: Term, scope: Scope) -> None:
+        self.step()
+        kind = term[0]
+        if kind == DECLARE:
+            self.declare(term, scope)
+        elif kind == DO:
+            self.value(term[1], scope)
+        elif kind == RETURN:
+            if term[1] is not None:
+                value = self.value(term[1], scope, scope.return_type)
+                base = scope.guards
+                scope.return_values += [Alternative(a.value, a.at, a.guards | base) for a in value] or [
+                    Alternative(UNKNOWN, term[-1], base)
+                ]
+            scope.unreachable = True
+        elif kind == LEAVE:
+            scope.unreachable = True
+        elif kind == IF:
+            self.test(self.condition(term[1], scope), term, scope)
+        elif kind == SOME:
+            self.test(self.preprocessor_condition(term[1]), term, scope)
+        elif kind == LOOP:
+            self.loop(term, scope)
+        elif kind == BLOCK:
+            scope.unreachable = self.run_block(term[1], scope, ALWAYS)
+
+    def test(self, condition: bool | Guards, term: Term, scope: Scope) -> None:
+        then, otherwise = term[2], term[3]
+        # What the preprocessor leaves stands where it stood.
+        scoped = term[0] == IF
+        if isinstance(condition, bool):
+            scope.unreachable = self.run_block(then if condition else otherwise, scope, ALWAYS, scoped)
+            return
+        known = dict(scope.guards)
+        if any(known.get(text) is (not way) for text, way in condition):
+            scope.unreachable = self.run_block(otherwise, scope, ALWAYS, scoped)
+            return
+        if all(known.get(text) is way for text, way in condition):
+            scope.unreachable = self.run_block(then, scope, ALWAYS, scoped)
+            return
+        against = negated(condition)
+        left = self.run_block(then, scope, condition, scoped)
+        leaves = self.run_block(otherwise, scope, against, scoped) if otherwise else False
+        if left and leaves:
+            scope.unreachable = True
+        elif left:
+            scope.guards |= against
+        elif leaves:
+            scope.guards |= condition
+
+    def loop(self, term: Term, scope: Scope) -> None:
+        declared, over, body = term[1], term[2], term[3]
+        scopes = scope.scopes
+        scope.scopes = (*scopes, {})
+        if over is not None:
+            items = self.list_elements(over, scope)
+            if items is not None and declared and len(items) <= MOST_TURNS:
+                before = scope.iterations
+                for turn, item in enumerate(items):
+                    scope.scopes[-1][declared[0][2]] = item
+                    scope.iterations = (*before, turn)
+                    self.run_block(body, scope, ALWAYS)
+                scope.scopes, scope.iterations = scopes, before
+                return
+        iterations = self.iteration_range(declared, body, scope) if over is None else None
+        for statement in declared:
+            self.declare(statement, scope)
+        if iterations is not None:
+            cell = scope.scopes[-1][declared[0][2]]
+            before = scope.iterations
+            for turn in range(*iterations):
+                cell.writes = (Alternative(turn, at(declared[0])),)
+                scope.iterations = (*before, turn)
+                self.run_block(body, scope, ALWAYS)
+            scope.iterations = before
+        else:
+            for statement in declared:
+                scope.scopes[-1][statement[2]] = Cell(statement[1], statement[2])
+            scope.unknown_loops += 1
+            self.run_block(body, scope, ALWAYS)
+            scope.unknown_loops -= 1
+        scope.scopes = scopes
+
+    def iteration_range(self, declared: Sequence[Term], body: Sequence[Term], scope: Scope) -> tuple[int, int] | None:
+        """From where to where a counter goes, where that is known and short."""
+        if len(declared) != 1 or declared[0][3] is None or not body or body[0][0] != DO:
+            return None
+        test, name = body[0][1], declared[0][2]
+        update: Term = body[-1][1] if body[-1][0] == DO else body[-1]
+        if update[0] != UNARY or update[1] not in ("++", "post++") or update[2][:2] != (NAME, name):
+            return None
+        if test[0] != BINARY or test[1] not in ("<", "!=", "<=") or test[2][:2] != (NAME, name):
+            return None
+        first_duplicate, last = sole_value(self.value(declared[0][3], scope)), sole_value(self.value(test[3], scope))
+        if type(first_duplicate) is not int or type(last) is not int:
+            return None
+        last += test[1] == "<="
+        return (first_duplicate, last) if 0 <= last - first_duplicate <= MOST_TURNS else None
+
+    def list_elements(self, over: Term, scope: Scope) -> list[Cell] | None:
+        """The elements of a list that is known whole."""
+        value = pointee(sole_value(self.value(over, scope)))
+        return value.items if isinstance(value, Array) and value.complete else None
+
+    def declare(self, term: Term, scope: Scope) -> None:
+        _, kind, name, initializer, indirect, _, place = term
+        if self.fragments and len(scope.scopes) == 1 and not scope.calls and f"::{name}" in self.summary:
+            # A page's other pieces give it a value.
+            scope.scopes[-1][name] = self.member_cell(f"::{name}")
+            return
+        if indirect and initializer is not None:
+            named = initializer[0] in (NAME, FIELD, INDEX) or is_element_access(initializer)
+            cell = self.cell_of(initializer, scope) if named and not kind.endswith("*") else None
+            if cell is not None and not isinstance(sole_value(cell.read(scope.guards)), Ref):
+                scope.scopes[-1][name] = cell
+                return
+        cell = self.other_branch_variable(name, kind, scope) or Cell(kind, name)
+        scope.scopes[-1][name] = cell
+        if initializer is None:
+            value = self.default_value(kind, name, place, indirect, scope)
+        else:
+            value = self.value(initializer, scope, kind)
+            value = tuple(Alternative(self.stored_value(a.value, kind, name), a.at, a.guards) for a in value)
+        cell.write(value, place, scope.guards)
+        self.calls.name_objects(value, name, scope)
+        self.program.declared_structs += [(a.value, scope.guards) for a in value if isinstance(a.value, Struct) and a.value.kind]
+
+    @staticmethod
+    def other_branch_variable(name: str, kind: str, scope: Scope) -> Cell | None:
+        """A variable that the preprocessor has declared in the other branch of an #if."""
+        before = scope.scopes[-1].get(name)
+        if before is None or before.kind.partition("[")[0] != kind.partition("[")[0] or not scope.guards or not before.writes:
+            return None
+        return before if all(contradicts(write.guards, scope.guards) for write in before.writes) else None
+
+
+def _mark(write: Alternative) -> tuple[Any, ...]:
+    value = write.value
+    if isinstance(value, VulkanObject):
+        return (value.signature(), write.guards)
+    return (id(value) if isinstance(value, (Struct, Array, Closure)) else repr(value), write.at, write.guards)
+
+
+def _joined(key: str, writes: list[Alternative]) -> Value:
+    """What all functions write to a member: that it is null until then, and again in the end, is no news."""
+    objects = [write for write in writes if isinstance(write.value, (VulkanObject, Struct, Array))]
+    joined = tuple(objects or writes)
+    return joined if len(joined) <= MAX_ALTERNATIVES else (Alternative(Symbol(key, key.rpartition("::")[2]), joined[0].at),)
+
+
+def _marks(summary: dict[str, Value]) -> dict[str, list[tuple[Any, ...]]]:
+    return {
+        key: [(type(w.value).__name__, w.value if isinstance(w.value, (int, str, float, Symbol)) else None, w.at) for w in writes]
+        for key, writes in summary.items()
+    }
