@@ -132,7 +132,7 @@ class Modules:
     def _of_text(self, name: str, code: bytes) -> bytes:
         """Compiles GLSL to SPIR-V."""
         from .code.glsl.shader import shader
-        from .code.glsl.text import NotRead
+        from .code.glsl.text import UnsupportedShader
         from .code.parsing import Missing
 
         self._left -= STEP * len(code)
@@ -141,7 +141,7 @@ class Modules:
             return shader(code.decode("utf-8", "replace"), True).code
         except Missing as error:
             raise _Unusable("MSAA903", f"{_quoted(name)} is GLSL", str(error)) from None
-        except NotRead as error:
+        except UnsupportedShader as error:
             raise _Unusable(
                 "MSAA903", f"{_quoted(name)} cannot be analyzed: {error}", "name its SPIR-V instead, which is fully supported"
             ) from None

@@ -115,19 +115,19 @@ def read(source: "Source", language: str) -> Program:
         raise Missing(EXTRA)
     from .documents import bound
 
-    by_code = [(code, list(_reads(code))) for code in codes_found]
+    by_code = [(code, list(_readings(code))) for code in codes_found]
     shaders = [code for code, _ in by_code if code.language == "glsl"]
     if shaders and len(by_code) > 1:
-        from .glsl.description_trees import beside
+        from .glsl.description_trees import with_page_counts
 
-        by_code = beside(by_code)
+        by_code = with_page_counts(by_code)
     reads = [entry for _, item in by_code for entry in item]
     pieces = any(code.fragments for code in codes_found)
     documents = tuple(bound(source, read.tree, pieces)._replace(modules=read.modules) for read in reads)
-    return Program(documents, tuple(_said(read.assumed, source) for read in reads), codes_found)
+    return Program(documents, tuple(_assumption_lines(read.assumed, source) for read in reads), codes_found)
 
 
-def _reads(code: "Code") -> "Iterator[Read]":
+def _readings(code: "Code") -> "Iterator[Read]":
     """What the module of its language reads of code."""
     from .parsing import Read
 
@@ -139,12 +139,12 @@ def _reads(code: "Code") -> "Iterator[Read]":
         yield tree if isinstance(tree, Read) else Read(tree)
 
 
-MOST_ASSUMED = 3
+MAX_ASSUMED = 3
 """Assumptions of a document that are told."""
 
 
-def _said(assumed: "tuple[tuple[str, Span, str], ...]", source: "Source") -> tuple[str, ...]:
+def _assumption_lines(assumed: "tuple[tuple[str, Span, str], ...]", source: "Source") -> tuple[str, ...]:
     """Assumptions in words, the first of them."""
     lines = [f"{what} (line {source.position(at.start).line}) is not known here: judged as {value}" for what, at, value in assumed]
-    more = len(lines) - MOST_ASSUMED
-    return (*lines[:MOST_ASSUMED], f"{more} more {'is' if more == 1 else 'are'} assumed") if more > 0 else tuple(lines)
+    more = len(lines) - MAX_ASSUMED
+    return (*lines[:MAX_ASSUMED], f"{more} more {'is' if more == 1 else 'are'} assumed") if more > 0 else tuple(lines)

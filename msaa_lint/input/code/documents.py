@@ -10,13 +10,13 @@ from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import Description
 from msaa_lint.input.readers import description
 
-MOST_ROUNDS = 4
+MAX_ROUNDS = 4
 """How often what is wrong is left out, and the rest read again."""
 
 
 def bound(source: Source, tree: Node, pieces: bool = False) -> Document:
     """The document of a tree in the form of a description; `pieces` says that a page shows pieces of a program."""
-    for _ in range(MOST_ROUNDS):
+    for _ in range(MAX_ROUNDS):
         document = _read(source, tree)
         if not document.problems:
             break
@@ -37,7 +37,7 @@ def _read(source: Source, tree: Node) -> Document:
     return Document(source, record, tuple(binder.problems))
 
 
-MOST_DEEP = 60
+MAX_DEEP = 60
 """Nesting below which a tree is left out; what code is read as is a few levels deep."""
 
 
@@ -48,7 +48,7 @@ def _without(tree: Node, problems: tuple[Problem, ...]) -> Node:
 
 def _copy(node: Node, path: str, wrong: set[str], depth: int) -> tuple[Node, bool]:
     """A node without its wrong members, and whether it is itself wrong."""
-    if (path and path in wrong) or depth > MOST_DEEP:
+    if (path and path in wrong) or depth > MAX_DEEP:
         return node, True
     if node.kind == "sequence":
         items = [_copy(item, f"{path}[{n}]", wrong, depth + 1) for n, item in enumerate(node.value)]

@@ -19,7 +19,7 @@ NAMES = {
 }  # fmt: skip
 """The language by the first word of an info string, in lower case."""
 
-MOST_NESTED = 32
+MAX_NESTED = 32
 """Lists and quotes within each other that are followed."""
 
 _LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n|\Z)")
@@ -134,7 +134,7 @@ def _entered(text: str, start: int, end: int, around: list[int]) -> int | None:
             break
         number += 1
     del around[number:]
-    while len(around) < MOST_NESTED:
+    while len(around) < MAX_NESTED:
         indent = _blanks(text, at, end)
         if indent > 3:
             return None

@@ -26,7 +26,7 @@ GRAMMARS = {"c": "tree_sitter_c", "cpp": "tree_sitter_cpp", "swift": "tree_sitte
 """The package of each language's grammar."""
 
 
-MOST_WORK = 30_000
+MAX_WORK = 30_000
 """How often the parser may say how far it is: 4 MB of code as people write it, a minute of what was written to take long."""
 
 _CHUNK = 1 << 16
@@ -84,7 +84,7 @@ def tree(code: Code) -> "Tree":
     def stop(_offset: int, _has_error: bool) -> bool:
         nonlocal calls
         calls += 1
-        return calls > MOST_WORK
+        return calls > MAX_WORK
 
     try:
         return parser.parse(lambda offset, _point: data[offset : offset + _CHUNK], progress_callback=stop)

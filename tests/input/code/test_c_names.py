@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from msaa_lint.input.code.c.names import MEMBERS, WITHOUT_TYPE, constant, elements, extent, member, set_by, structure
+from msaa_lint.input.code.c.names import MEMBERS, WITHOUT_TYPE, array_size, constant, element_type, member, setter_member, vulkan_struct
 
 
 @pytest.fixture(scope="module")
@@ -48,12 +48,17 @@ def test_constants(name: str, value: object) -> None:
 
 
 def test_types() -> None:
-    assert structure("VkImageCreateInfo") == structure("vk::ImageCreateInfo") == "ImageCreateInfo"
-    assert structure("VkRenderingAttachmentInfoKHR") == "RenderingAttachmentInfo"
-    assert structure("VkImageCreateInfo[3]") == structure("VkDevice") == structure("ImageCreateInfo") == ""
-    assert elements("std::array<VkImageView,3>") == elements("VkImageView[]") == elements("std::vector<VkImageView>") == "VkImageView"
-    assert elements("VkImageView") is None
-    assert [extent(text) for text in ("std::array<VkImageView,3>", "VkImageView[N]", "VkImageView[]", "std::vector<VkImageView>")] == [
+    assert vulkan_struct("VkImageCreateInfo") == vulkan_struct("vk::ImageCreateInfo") == "ImageCreateInfo"
+    assert vulkan_struct("VkRenderingAttachmentInfoKHR") == "RenderingAttachmentInfo"
+    assert vulkan_struct("VkImageCreateInfo[3]") == vulkan_struct("VkDevice") == vulkan_struct("ImageCreateInfo") == ""
+    assert (
+        element_type("std::array<VkImageView,3>")
+        == element_type("VkImageView[]")
+        == element_type("std::vector<VkImageView>")
+        == "VkImageView"
+    )
+    assert element_type("VkImageView") is None
+    assert [array_size(text) for text in ("std::array<VkImageView,3>", "VkImageView[N]", "VkImageView[]", "std::vector<VkImageView>")] == [
         "3",
         "N",
         "",
@@ -63,7 +68,7 @@ def test_types() -> None:
 
 def test_members_and_setters() -> None:
     assert [member(name) for name in ("pAttachments", "pNext", "preserve", "p")] == ["attachments", "next", "preserve", "p"]
-    assert [set_by(name) for name in ("setSamples", "setPDepthStencilAttachment", "settle", "samples")] == [
+    assert [setter_member(name) for name in ("setSamples", "setPDepthStencilAttachment", "settle", "samples")] == [
         "samples",
         "depthStencilAttachment",
         None,

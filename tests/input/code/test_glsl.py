@@ -15,7 +15,7 @@ from hypothesis import given
 from msaa_lint.frame.spirv.reflect import Reflected, reflect
 from msaa_lint.input.code.glsl.description_trees import trees
 from msaa_lint.input.code.glsl.shader import shader
-from msaa_lint.input.code.glsl.text import NotRead, prepared
+from msaa_lint.input.code.glsl.text import UnsupportedShader, preprocess
 from msaa_lint.input.code.parsing import Code
 from msaa_lint.input.source_file import read_source_file
 from msaa_lint.linter.engine import LintOptions
@@ -345,7 +345,7 @@ HOSTILE = {
 @pytest.mark.parametrize("name", HOSTILE)
 def test_hostile_text_ends_soon(name: str) -> None:
     begun = time.perf_counter()
-    with contextlib.suppress(NotRead):
+    with contextlib.suppress(UnsupportedShader):
         reflect(shader(HOSTILE[name]).code)
     for fragments in (False, True):
         trees(Code(HOSTILE[name], "glsl", fragments))
@@ -355,7 +355,7 @@ def test_hostile_text_ends_soon(name: str) -> None:
 def test_what_stands_where() -> None:
     """Each character of what is parsed knows the one that it is from."""
     text = "#define N 4\n#define ADD(a, b) (a + b)\nint x = N; int y = ADD(N, 2) * N;\nint z;\n"
-    made = prepared(text)
+    made = preprocess(text)
     assert made.text.split() == ["int", "x", "=", "4;", "int", "y", "=", "(4", "+", "2)", "*", "4;", "int", "z;"]
     for word in ("int x", "int y", "int z", "* "):
         assert text.startswith(word, made.place(made.text.index(word)))

@@ -9,7 +9,7 @@ from msaa_lint.core.text.span import Span
 
 from .creation import COUNTS, VIEW, ObjectCreation
 from .names import element_type, vulkan_struct
-from .scope import MEMBER, MOST_CALLS, MOST_WAYS, Scope
+from .scope import MAX_CALLS, MAX_WAYS, MEMBER, Scope
 from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, Function, Parameter, Term
 from .values import (
     MAX_ALTERNATIVES,
@@ -146,10 +146,10 @@ class Calls(ObjectCreation):
 
     def may_follow(self, function: Function, place: Span, scope: Scope) -> bool:
         """Whether a call is followed: not too deep, not in a circle, and not again and again by other ways."""
-        if len(scope.calls) >= MOST_CALLS or function.at in scope.active_functions:
+        if len(scope.calls) >= MAX_CALLS or function.at in scope.active_functions:
             return False
         self.follow_counts[place] = self.follow_counts.get(place, 0) + 1
-        return self.follow_counts[place] <= MOST_WAYS
+        return self.follow_counts[place] <= MAX_WAYS
 
     def call_function(self, function: Function, term: Term, scope: Scope, this_object: Cell | None = None) -> Value:
         before = len(self.current_objects)

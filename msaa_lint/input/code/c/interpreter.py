@@ -16,7 +16,7 @@ from .calls import Calls
 from .conditions import contradicts, negated
 from .escapes import mark_escaped
 from .evaluate import Evaluator
-from .scope import MOST_PASSES, MOST_TURNS, Scope, StepLimitExceeded
+from .scope import MAX_PASSES, MAX_TURNS, Scope, StepLimitExceeded
 from .terms import BINARY, BLOCK, DECLARE, DO, FIELD, IF, INDEX, LEAVE, LOOP, NAME, RETURN, SOME, UNARY, Function, Term, Unit, at
 from .values import (
     ALWAYS,
@@ -50,7 +50,7 @@ class Interpreter(Evaluator):
         """Goes through the file until what members hold is the same as before."""
         entry_points = self.entry_points()
         try:
-            for _ in range(MOST_PASSES):
+            for _ in range(MAX_PASSES):
                 self.program.begin()
                 writes_by_key: dict[str, dict[tuple[Any, ...], Alternative]] = {}
                 for function in entry_points:
@@ -165,7 +165,7 @@ class Interpreter(Evaluator):
         scope.scopes = (*scopes, {})
         if over is not None:
             items = self.list_elements(over, scope)
-            if items is not None and declared and len(items) <= MOST_TURNS:
+            if items is not None and declared and len(items) <= MAX_TURNS:
                 before = scope.iterations
                 for turn, item in enumerate(items):
                     scope.scopes[-1][declared[0][2]] = item
@@ -206,7 +206,7 @@ class Interpreter(Evaluator):
         if type(first_duplicate) is not int or type(last) is not int:
             return None
         last += test[1] == "<="
-        return (first_duplicate, last) if 0 <= last - first_duplicate <= MOST_TURNS else None
+        return (first_duplicate, last) if 0 <= last - first_duplicate <= MAX_TURNS else None
 
     def list_elements(self, over: Term, scope: Scope) -> list[Cell] | None:
         """The elements of a list that is known whole."""

@@ -6,15 +6,15 @@ from msaa_lint.core.text.span import Span
 
 from .values import Alternative, Cell, Guards
 
-MOST_STEPS = 80_000
+MAX_STEPS = 80_000
 """Terms that are evaluated in one file: with more, the rest of it is not followed."""
 
 
-MOST_TURNS = 16
+MAX_TURNS = 16
 """Turns of a loop over a list, or with a counter, that are gone through one by one."""
 
 
-MOST_PASSES = 3
+MAX_PASSES = 3
 """Times that a file is gone through: what a member holds may come from another, which holds what a third does."""
 
 
@@ -25,11 +25,11 @@ MEMBER = "member"
 Scopes = tuple[dict[str, Cell], ...]
 
 
-MOST_CALLS = 5
+MAX_CALLS = 5
 """How deep calls of the file's own functions are followed."""
 
 
-MOST_WAYS = 4
+MAX_WAYS = 4
 """How often one call is followed, by whatever other calls it is come to."""
 
 

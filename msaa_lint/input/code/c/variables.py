@@ -9,7 +9,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.names import parse_enum
 
 from .names import array_size, constant, element_type, member, vulkan_struct
-from .scope import MEMBER, MOST_STEPS, Scope, StepLimitExceeded
+from .scope import MAX_STEPS, MEMBER, Scope, StepLimitExceeded
 from .terms import ADDRESS, CALL, DECLARE, FIELD, INDEX, NAME, TARGET, Function, Term, Unit, at
 from .values import ALWAYS, UNKNOWN_VALUE, Alternative, Array, Cell, Flags, Ref, Struct, Value, copy_value, pointee, sole_value
 
@@ -84,7 +84,7 @@ class Variables(ABC):
 
     def step(self) -> None:
         self.steps += 1
-        if self.steps > MOST_STEPS:
+        if self.steps > MAX_STEPS:
             raise StepLimitExceeded
 
     @staticmethod

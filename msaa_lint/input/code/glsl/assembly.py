@@ -18,7 +18,7 @@ class Assembly:
     """A module. `code` is what is being written of the current function, `variables` what its first block begins with."""
 
     def __init__(self) -> None:
-        self.bound = 1
+        self.with_binding = 1
         self.capabilities: set[int] = set()
         self.modes: list[int] = []
         self.decorations: list[int] = []
@@ -33,21 +33,21 @@ class Assembly:
 
     def id(self) -> int:
         """A number that nothing has."""
-        self.bound += 1
-        return self.bound - 1
+        self.with_binding += 1
+        return self.with_binding - 1
 
     def declare(self, number: int, *operands: int) -> None:
         """An instruction outside of functions."""
         self.declared += (len(operands) + 1 << 16 | number, *operands)
 
-    def do(self, number: int, *operands: int) -> None:
+    def emit(self, number: int, *operands: int) -> None:
         """An instruction of the current function."""
         self.code += (len(operands) + 1 << 16 | number, *operands)
 
-    def made(self, number: int, kind: Type, *operands: int) -> int:
+    def instruction(self, number: int, kind: Type, *operands: int) -> int:
         """The result of an instruction."""
         result = self.id()
-        self.do(number, self.type(kind), result, *operands)
+        self.emit(number, self.type(kind), result, *operands)
         return result
 
     def decorate(self, target: int, number: int, *operands: int) -> None:
@@ -141,7 +141,7 @@ class Assembly:
         """The module with its one entry point."""
         text = name.encode() + b"\0" * (4 - len(name) % 4)
         named = struct.unpack(f"<{len(text) // 4}I", text)
-        words = [_MAGIC, _VERSION, 0, self.bound, 0]
+        words = [_MAGIC, _VERSION, 0, self.with_binding, 0]
         for capabilitie in sorted(self.capabilities):
             words += (2 << 16 | op.CAPABILITY, capabilitie)
         library = struct.unpack("<4I", b"GLSL.std.450\0\0\0\0")

@@ -9,13 +9,13 @@ from msaa_lint.frame.spirv import numbers as op
 from msaa_lint.input.code.parsing import Code, SyntaxNode, tree
 from msaa_lint.input.code.sample_counts.arithmetic import whole
 
-from .calls import called
+from .calls import evaluate_call
 from .expressions import Expressions
-from .text import Text
+from .text import PreprocessedText
 from .types import BOOL, FLOAT, INPUTS, INT, OUTPUTS, UINT, VOID, Type, multisampled, vector
 from .values import Function, Place, Value
 
-MOST_PARTS = 1000
+MAX_PARTS = 1000
 """Types that a structure is made of, those of its members included."""
 
 _WORD = re.compile(r"\w+")
@@ -29,11 +29,11 @@ _SAMPLE_BUILT_INS = ("gl_SampleID", "gl_SamplePosition")
 class Declarations(Expressions):
     """The declarations of one shader."""
 
-    def __init__(self, source: Text) -> None:
+    def __init__(self, source: PreprocessedText) -> None:
         super().__init__(source.text)
         self.source = source
-        self.built_in = self.of_language
-        self.call = partial(called, self)
+        self.built_in = self.built_in_variable
+        self.call = partial(evaluate_call, self)
         self.root = tree(Code(source.text, "glsl")).root_node
         self.starts: list[tuple[Place, SyntaxNode]] = []
         """Variables outside of functions with what they begin with."""
@@ -42,33 +42,33 @@ class Declarations(Expressions):
         self.counts: dict[int, tuple[int, int]] = {}
         """Where each whole number that a constant has stands first."""
         self.weights: dict[str, int] = {}
-        self.unplaced: list[int] = []
-        self.plain: dict[int, int] = {}
+        self.outputs_without_location: list[int] = []
+        self.integer_constants: dict[int, int] = {}
         """The whole numbers that constants are, by their ids."""
         self.specialised = False
 
-    def outer(self, node: SyntaxNode, depth: int = 0) -> None:
+    def global_declaration(self, node: SyntaxNode, depth: int = 0) -> None:
         """What stands outside of functions."""
         kind = node.type
         if kind == "function_definition":
-            self.declared_function(node)
+            self.function_header(node)
         elif kind == "struct_specifier":
             self.structure(node)
         elif kind == "declaration":
             self.declaration(node)
         elif kind == "ERROR" or kind.endswith("statement"):
-            raise self.no(node, "is not understood")
+            raise self.unsupported(node, "is not understood")
 
     def structure(self, node: SyntaxNode) -> Type | None:
         name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
         if name is None or body is None:
             return None
         members = tuple((member, kind) for member, kind, _ in self.members(body))
-        self.weights[self.of(name)] = sum(map(self.weight, (kind for _, kind in members)), 1)
-        if self.weights[self.of(name)] > MOST_PARTS:
-            raise self.no(name, "has too many parts")
-        struct_type = ("struct", self.of(name), members)
-        self.structs[self.of(name)] = struct_type
+        self.weights[self.text_of(name)] = sum(map(self.weight, (kind for _, kind in members)), 1)
+        if self.weights[self.text_of(name)] > MAX_PARTS:
+            raise self.unsupported(name, "has too many parts")
+        struct_type = ("struct", self.text_of(name), members)
+        self.structs[self.text_of(name)] = struct_type
         return struct_type
 
     def weight(self, kind: Type) -> int:
@@ -84,9 +84,9 @@ class Declarations(Expressions):
             if field.type != "field_declaration":
                 continue
             type_node = field.child_by_field_name("type")
-            kind = self.kind(self.of(type_node)) if type_node is not None else None
+            kind = self.kind(self.text_of(type_node)) if type_node is not None else None
             if type_node is None or kind is None:
-                raise self.no(field, "is not understood")
+                raise self.unsupported(field, "is not understood")
             words = set(_WORD.findall(self.text[field.start_byte : type_node.start_byte]))
             for declarator in field.children_by_field_name("declarator"):
                 name, member_kind = self.declarator(declarator, kind)
@@ -100,20 +100,20 @@ class Declarations(Expressions):
             size_node, inner = node.child_by_field_name("size"), node.child_by_field_name("declarator")
             sizes.append(self.size(size_node) if size_node is not None else 0)
             if inner is None or len(sizes) > 4:
-                raise self.no(node, "is not understood")
+                raise self.unsupported(node, "is not understood")
             node = inner
         for size in sizes:
             kind = ("array", kind, size)
-        return self.of(node), kind
+        return self.text_of(node), kind
 
     def size(self, node: SyntaxNode) -> int:
         """The size of an array, as far as it is a plain number or a constant that is one."""
-        number = whole(self.of(node))
+        number = whole(self.text_of(node))
         if number is None:
-            constant = self.look(self.of(node)) if node.type == "identifier" else None
-            number = self.plain.get(constant.id) if isinstance(constant, Value) else None
+            constant = self.lookup(self.text_of(node)) if node.type == "identifier" else None
+            number = self.integer_constants.get(constant.id) if isinstance(constant, Value) else None
         if number is None or not 0 < number <= 65536:
-            raise self.no(node, "is no size that is understood")
+            raise self.unsupported(node, "is no size that is understood")
         return number
 
     def qualifiers(self, node: SyntaxNode, end: int) -> tuple[set[str], dict[str, int | None]]:
@@ -124,16 +124,16 @@ class Declarations(Expressions):
             text = text[: layout.start_byte - node.start_byte] + " " + text[layout.end_byte - node.start_byte :]
         entries: dict[str, int | None] = {}
         for layout in layouts:
-            for name, value in _ENTRY.findall(self.of(layout).partition("(")[2]):
+            for name, value in _ENTRY.findall(self.text_of(layout).partition("(")[2]):
                 entries[name] = whole(value) if value else None
                 if value and entries[name] is None:
-                    constant = self.look(value)
-                    entries[name] = self.plain.get(constant.id) if isinstance(constant, Value) else None
+                    constant = self.lookup(value)
+                    entries[name] = self.integer_constants.get(constant.id) if isinstance(constant, Value) else None
         return set(_WORD.findall(text)), entries
 
     def declaration(self, node: SyntaxNode) -> None:
         if any(child.type == "ERROR" for child in node.children):
-            raise self.no(node, "is not understood")
+            raise self.unsupported(node, "is not understood")
         body = next((child for child in node.named_children if child.type == "field_declaration_list"), None)
         type_node = node.child_by_field_name("type")
         if body is not None and type_node is None:
@@ -141,23 +141,23 @@ class Declarations(Expressions):
             return
         if type_node is None:
             return
-        kind = self.structure(type_node) if type_node.type == "struct_specifier" else self.kind(self.of(type_node))
+        kind = self.structure(type_node) if type_node.type == "struct_specifier" else self.kind(self.text_of(type_node))
         words, layout = self.qualifiers(node, type_node.start_byte)
         for declarator in node.children_by_field_name("declarator"):
             if declarator.type == "function_declarator" or kind is None:
                 continue
             self.declared(declarator, kind, words, layout)
-        if kind is None and self.of(type_node) not in ("precision",):
-            raise self.no(node, "is of no type that is known")
+        if kind is None and self.text_of(type_node) not in ("precision",):
+            raise self.unsupported(node, "is of no type that is known")
 
     def declared(self, node: SyntaxNode, kind: Type, words: set[str], layout: dict[str, int | None]) -> None:
         """A variable outside of functions."""
         initializer = node.child_by_field_name("value") if node.type == "init_declarator" else None
         target = node.child_by_field_name("declarator") if node.type == "init_declarator" else node
         if target is None:
-            raise self.no(node, "is not understood")
+            raise self.unsupported(node, "is not understood")
         if initializer is not None and is_unsized(target):
-            kind = self.of_list(initializer, kind)
+            kind = self.sized_by_values(initializer, kind)
             target = target.child_by_field_name("declarator") or target
         name, kind = self.declarator(target, kind)
         if "const" in words or initializer is not None:
@@ -169,26 +169,26 @@ class Declarations(Expressions):
         inner = kind[1] if kind[0] == "array" else kind
         samples = isinstance(inner, tuple) and multisampled(inner)
         if samples:
-            layout = self.bound(name, layout)
+            layout = self.with_binding(name, layout)
             self.images[name] = (target.start_byte, target.end_byte)
-        self.decorated(variable.pointer, layout, storage)
+        self.decorate_layout(variable.pointer, layout, storage)
         if "sample" in words and storage == op.INPUT:
             self.out.decorate(variable.pointer, op.SAMPLE)
             self.out.capabilities.add(op.SAMPLE_RATE_SHADING)
 
-    def bound(self, name: str, layout: dict[str, int | None]) -> dict[str, int | None]:
+    def with_binding(self, name: str, layout: dict[str, int | None]) -> dict[str, int | None]:
         """The layout of a multisampled image; one that has no binding, as OpenGL's, gets one that tells it from others."""
         if layout.get("binding") is None:
             layout = {**layout, "binding": 1000 + len(self.bindings)}
         self.bindings[name] = (layout.get("set") or 0, layout.get("binding"))
         return layout
 
-    def of_list(self, node: SyntaxNode, kind: Type) -> Type:
+    def sized_by_values(self, node: SyntaxNode, kind: Type) -> Type:
         """The type of an array whose size its values say."""
         list_node = node.child_by_field_name("arguments") or node
         return ("array", kind, sum(child.type != "comment" for child in list_node.named_children))
 
-    def decorated(self, target: int, layout: dict[str, int | None], storage: int) -> None:
+    def decorate_layout(self, target: int, layout: dict[str, int | None], storage: int) -> None:
         for name, number in _DECORATED.items():
             value = layout.get(name)
             if value is not None:
@@ -196,38 +196,38 @@ class Declarations(Expressions):
         if storage == op.UNIFORM_CONSTANT and layout.get("binding") is not None and layout.get("set") is None:
             self.out.decorate(target, op.DESCRIPTOR_SET, 0)
         if storage == op.OUTPUT and layout.get("location") is None:
-            self.unplaced.append(target)
+            self.outputs_without_location.append(target)
 
     def constant(
         self, name: str, kind: Type, initializer: SyntaxNode | None, layout: dict[str, int | None], node: SyntaxNode, fixed: bool
     ) -> None:
         """A constant, or a variable that begins with something."""
         if initializer is None:
-            raise self.no(node, "is not understood")
+            raise self.unsupported(node, "is not understood")
         special = layout.get("constant_id")
-        negative = initializer.type == "unary_expression" and self.of(initializer)[:1] == "-"
+        negative = initializer.type == "unary_expression" and self.text_of(initializer)[:1] == "-"
         literal = initializer.child_by_field_name("argument") if negative else initializer
         while literal is not None and literal.type == "parenthesized_expression" and literal.named_child_count == 1:
             literal = literal.named_children[0]
         scalar = kind in (BOOL, INT, UINT, FLOAT)
         if fixed and scalar and literal is not None and literal.type in ("number_literal", "true", "false"):
-            text = self.of(literal)
+            text = self.text_of(literal)
             number = whole(text)
             value: float | bool = text == "true"
             if kind in (INT, UINT) and number is None:
-                raise self.no(node, "is not understood")
+                raise self.unsupported(node, "is not understood")
             if kind != BOOL:
                 value = float(number) if number is not None else self.real(literal)
                 value = -value if negative else value
             constant_id = self.out.number(kind, value, special)
             self.scopes[0][name] = Value(constant_id, kind)
             if kind in (INT, UINT) and number is not None:
-                self.plain[constant_id] = number
+                self.integer_constants[constant_id] = number
                 self.counts.setdefault(number, (literal.start_byte, literal.end_byte))
             self.specialised = self.specialised or special is not None
             return
         if special is not None:
-            raise self.no(node, "is not understood")
+            raise self.unsupported(node, "is not understood")
         made_place = self.variable(op.PRIVATE, kind)
         self.scopes[0][name] = made_place
         self.starts.append((made_place, initializer))
@@ -241,12 +241,14 @@ class Declarations(Expressions):
         storage = next((_STORAGE[word] for word in ("in", "out", "uniform", "buffer", "shared") if word in words), op.UNIFORM)
         storage = op.PUSH_CONSTANT if "push_constant" in layout else op.UNIFORM if storage == op.UNIFORM_CONSTANT else storage
         members = self.members(body)
-        label = self.of(named) if named is not None else f"block {node.start_byte}"
+        label = self.text_of(named) if named is not None else f"block {node.start_byte}"
         kind: Type = ("struct", f"{label} {node.start_byte}", tuple((name, item) for name, item, _ in members))
         instance = next((child for child in children[at + 1 :] if child.type in ("identifier", "array_declarator")), None)
         name, whole_kind = self.declarator(instance, kind) if instance is not None else ("", kind)
         variable = self.variable(storage, whole_kind)
-        self.decorated(variable.pointer, {key: value for key, value in layout.items() if key != "location" or storage == op.INPUT}, storage)
+        self.decorate_layout(
+            variable.pointer, {key: value for key, value in layout.items() if key != "location" or storage == op.INPUT}, storage
+        )
         type_id = self.out.type(kind)
         for n, (member, _, qualifiers) in enumerate(members):
             if "sample" in qualifiers | words and storage == op.INPUT:
@@ -257,7 +259,7 @@ class Declarations(Expressions):
         if name:
             self.scopes[0][name] = variable
 
-    def of_language(self, name: str) -> Place | None:
+    def built_in_variable(self, name: str) -> Place | None:
         """A built-in variable, declared where it is first used."""
         storage = op.INPUT if name in INPUTS else op.OUTPUT
         built_in = INPUTS.get(name) or OUTPUTS.get(name)
@@ -275,26 +277,26 @@ class Declarations(Expressions):
         self.scopes[0][name] = variable
         return variable
 
-    def declared_function(self, node: SyntaxNode) -> None:
+    def function_header(self, node: SyntaxNode) -> None:
         declarator, type_node = node.child_by_field_name("declarator"), node.child_by_field_name("type")
         name = declarator.child_by_field_name("declarator") if declarator is not None else None
         list_node = declarator.child_by_field_name("parameters") if declarator is not None else None
-        returns = self.kind(self.of(type_node)) if type_node is not None else None
+        returns = self.kind(self.text_of(type_node)) if type_node is not None else None
         if name is None or list_node is None or returns is None:
-            raise self.no(node, "is not understood")
+            raise self.unsupported(node, "is not understood")
         parameters: list[tuple[Type, bool, str]] = []
         for child in list_node.named_children:
             parameter_type, target = child.child_by_field_name("type"), child.child_by_field_name("declarator")
-            kind = self.kind(self.of(parameter_type)) if parameter_type is not None else None
+            kind = self.kind(self.text_of(parameter_type)) if parameter_type is not None else None
             if child.type != "parameter_declaration" or parameter_type is None or kind is None:
-                raise self.no(child, "is not understood")
+                raise self.unsupported(child, "is not understood")
             if kind == VOID:
                 continue
             words = set(_WORD.findall(self.text[child.start_byte : parameter_type.start_byte]))
-            called, kind = self.declarator(target, kind) if target is not None else ("", kind)
-            parameters.append((kind, bool(words & {"out", "inout"}), called))
+            evaluate_call, kind = self.declarator(target, kind) if target is not None else ("", kind)
+            parameters.append((kind, bool(words & {"out", "inout"}), evaluate_call))
         function = Function(node, returns, tuple(parameters), self.out.id())
-        self.functions.setdefault(self.of(name), []).append(function)
+        self.functions.setdefault(self.text_of(name), []).append(function)
 
 
 def is_unsized(node: SyntaxNode) -> bool:

@@ -17,14 +17,14 @@ from msaa_lint.frame.spirv.words import SpirvError
 from msaa_lint.input.code.parsing import Code, Read
 
 from .shader import Shader, shader
-from .text import NotRead, blanked
+from .text import UnsupportedShader, blank
 
 RELEVANT = re.compile(r"\b[iu]?(?:sampler2DMS|texture2DMS|image2DMS|subpassInputMS)")
 
 NO_COLOUR = re.compile(r"depth|stencil|normal|position|velocity|motion|shadow|(?:^|_)ids?(?:_|$)", re.IGNORECASE)
 """Names of images whose samples are not to be averaged, or whose average is no resolve of a colour."""
 
-MOST_SHADERS = 50
+MAX_SHADERS = 50
 """Shaders of one page that are read."""
 
 _APART = re.compile(r"(?:[ \t\r]*\n){3,}")
@@ -38,11 +38,11 @@ def trees(code: Code) -> list[Read]:
         return []
     readings: list[Read] = []
     for start, end in _shaders(code):
-        text = blanked(code.text[:start]) + code.text[start:end]
+        text = blank(code.text[:start]) + code.text[start:end]
         try:
             lowered = shader(text, code.fragments)
             reflected = reflect(lowered.code)
-        except (NotRead, SpirvError):
+        except (UnsupportedShader, SpirvError):
             continue
         number = f"-{len(readings) + 1}" if readings else ""
         name = f"{lowered.entry[:40]}{number}.{'comp' if lowered.stage == 'COMPUTE' else 'frag'}"
@@ -74,7 +74,7 @@ def _shaders(code: Code) -> Iterator[tuple[int, int]]:
                 count += 1
                 yield start, end
             start = end
-        if count >= MOST_SHADERS:
+        if count >= MAX_SHADERS:
             return
         at = match.end() if match is not None else end
 
@@ -97,11 +97,11 @@ def _tree(lowered: Shader, reflected: Reflected, module: str) -> Node | None:
     sections = [("images", at, mapping(images, at))]
     if lowered.stage == "FRAGMENT":
         count = next((image.total for _, image in named), None)
-        bound = Span(*lowered.constants[count]) if count is not None and count in lowered.constants else at
+        with_binding = Span(*lowered.constants[count]) if count is not None and count in lowered.constants else at
         stage = [
             ("stage", at, scalar("FRAGMENT", at)),
             ("module", at, scalar(module, at)),
-            ("specialization", bound, mapping([], bound)),
+            ("specialization", with_binding, mapping([], with_binding)),
         ]
         stages = sequence([mapping(stage, at)], at)
         pipeline = mapping([(lowered.entry, at, mapping([("stages", at, stages)], at))], at)
@@ -132,7 +132,7 @@ def _fetched(lowered: Shader, name: str) -> Span:
 # Beside other code
 
 
-def beside(by_code: list[tuple[Code, list[Read]]]) -> list[tuple[Code, list[Read]]]:
+def with_page_counts(by_code: list[tuple[Code, list[Read]]]) -> list[tuple[Code, list[Read]]]:
     """What is read of a page: images of its shaders with the sample count that all multisampled ones which its other code makes have.
 
     Where that code sets specialisation constants, the shaders' own values of them are not known to count.

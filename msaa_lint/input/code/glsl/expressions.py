@@ -9,9 +9,9 @@ from msaa_lint.frame.spirv import numbers as op
 from msaa_lint.input.code.parsing import SyntaxNode
 from msaa_lint.input.code.sample_counts.arithmetic import whole
 
-from .text import NotRead
+from .text import UnsupportedShader
 from .types import BOOL, DOUBLE, FLOAT, INT, UINT, scalar_of, size_of, vector
-from .values import DEEPEST, LOGICAL_AND, LOGICAL_NOT, LOGICAL_NOT_EQUAL, LOGICAL_OR, SELECT, SIGNS, Place, Value, Values, like
+from .values import LOGICAL_AND, LOGICAL_NOT, LOGICAL_NOT_EQUAL, LOGICAL_OR, MAX_DEPTH, SELECT, SIGNS, Place, Value, Values, literal_of
 
 FETCHES = ("texelFetch", "texelFetchOffset", "imageLoad", "subpassLoad")
 _REAL = re.compile(r"[-+]?(?:\d+\.\d*|\.\d+|\d+)(?:[eE][+-]?\d+)?")
@@ -27,8 +27,8 @@ class Expressions(Values):
 
     def value(self, node: SyntaxNode, depth: int = 0) -> Value:
         """What an expression gives."""
-        if depth > DEEPEST:
-            raise NotRead("its expressions are too deep")
+        if depth > MAX_DEPTH:
+            raise UnsupportedShader("its expressions are too deep")
         kind, deeper = node.type, depth + 1
         if kind == "number_literal":
             return self.literal(node)
@@ -37,29 +37,29 @@ class Expressions(Values):
         if kind == "parenthesized_expression" and node.named_child_count == 1:
             return self.value(node.named_children[0], deeper)
         if kind == "identifier":
-            target = self.look(self.of(node))
+            target = self.lookup(self.text_of(node))
             if isinstance(target, Value):
                 return target
         if kind in ("identifier", "field_expression", "subscript_expression"):
             place = self.place(node, depth)
-            return self.loaded(place) if place is not None else self.taken(node, deeper)
+            return self.load(place) if place is not None else self.extract(node, deeper)
         if kind == "call_expression":
             return self.call(node, deeper)
         if kind == "binary_expression":
             return self.binary(node, deeper)
         if kind == "assignment_expression":
-            return self.assigned(node, deeper)
+            return self.assignment(node, deeper)
         if kind in ("unary_expression", "update_expression"):
             return self.unary(node, deeper)
         if kind == "conditional_expression":
-            return self.chosen(node, deeper)
+            return self.conditional_value(node, deeper)
         if kind == "comma_expression":
             for child in node.named_children[:-1]:
                 self.value(child, deeper)
             return self.value(node.named_children[-1], deeper)
-        raise self.no(node, "is not followed")
+        raise self.unsupported(node, "is not followed")
 
-    def taken(self, node: SyntaxNode, depth: int) -> Value:
+    def extract(self, node: SyntaxNode, depth: int) -> Value:
         """A part of a value."""
         (argument,) = self.parts(node, "argument")
         base = self.value(argument, depth)
@@ -69,13 +69,13 @@ class Expressions(Values):
             index = self.value(index_node, depth)
             if base.type[0] == "array":
                 variable = self.temporary(base.type)
-                self.stored(variable, base)
-                return self.loaded(self.chained(variable, kind, index.id))
+                self.store(variable, base)
+                return self.load(self.access_chain(variable, kind, index.id))
             return self.result(77, kind, base.id, index.id)
         field = node.child_by_field_name("field")
-        name = self.of(field) if field is not None else ""
+        name = self.text_of(field) if field is not None else ""
         if base.type[0] != "struct":
-            return self.swizzled(base, self.letters(name, base.type, node))
+            return self.swizzle(base, self.swizzle_parts(name, base.type, node))
         members = base.type[2]
         assert isinstance(members, tuple)
         n = self.index(base.type, name, node)
@@ -83,18 +83,18 @@ class Expressions(Values):
 
     def binary(self, node: SyntaxNode, depth: int) -> Value:
         left, right, sign = self.parts(node, "left", "right", "operator")
-        operator = self.of(sign)
+        operator = self.text_of(sign)
         one = self.value(left, depth)
         if operator in ("&&", "||"):
             if self.has_effects(right):
-                return self.guarded(one, operator, right, depth)
+                return self.short_circuit(one, operator, right, depth)
             other = self.value(right, depth)
             return self.result(LOGICAL_AND if operator == "&&" else LOGICAL_OR, BOOL, one.id, other.id)
         other = self.value(right, depth)
         if operator == "^^":
             return self.result(LOGICAL_NOT_EQUAL, BOOL, one.id, other.id)
         if operator not in SIGNS:
-            raise self.no(node, "is not followed")
+            raise self.unsupported(node, "is not followed")
         return self.arithmetic(operator, one, other)
 
     def has_effects(self, node: SyntaxNode) -> bool:
@@ -106,53 +106,53 @@ class Expressions(Values):
                 return True
             if inner.type == "call_expression":
                 function = inner.child_by_field_name("function")
-                name = self.of(function) if function is not None else ""
+                name = self.text_of(function) if function is not None else ""
                 if name in self.functions or name in FETCHES:
                     return True
             stack += inner.named_children
         return False
 
-    def guarded(self, one: Value, operator: str, right: SyntaxNode, depth: int) -> Value:
+    def short_circuit(self, one: Value, operator: str, right: SyntaxNode, depth: int) -> Value:
         """`&&` and `||` whose second part is worked out only where it decides."""
         result = self.temporary(BOOL)
-        self.stored(result, one)
-        condition = one.id if operator == "&&" else self.out.made(LOGICAL_NOT, BOOL, one.id)
-        self.branch(condition, lambda: self.stored(result, self.value(right, depth)), None)
-        return self.loaded(result)
+        self.store(result, one)
+        condition = one.id if operator == "&&" else self.out.instruction(LOGICAL_NOT, BOOL, one.id)
+        self.branch(condition, lambda: self.store(result, self.value(right, depth)), None)
+        return self.load(result)
 
     def branch(self, condition: int, then: Callable[[], None], other: Callable[[], None] | None) -> None:
         """What is done where a condition holds, and where it does not."""
-        yes, no, merge = self.out.id(), self.out.id(), self.out.id()
-        self.out.do(op.SELECTION_MERGE, merge, 0)
-        self.go(op.BRANCH_CONDITIONAL, condition, yes, no if other is not None else merge)
+        yes, unsupported, merge = self.out.id(), self.out.id(), self.out.id()
+        self.out.emit(op.SELECTION_MERGE, merge, 0)
+        self.terminate(op.BRANCH_CONDITIONAL, condition, yes, unsupported if other is not None else merge)
         self.label(yes)
         then()
-        self.go(op.BRANCH, merge)
+        self.terminate(op.BRANCH, merge)
         if other is not None:
-            self.label(no)
+            self.label(unsupported)
             other()
-            self.go(op.BRANCH, merge)
+            self.terminate(op.BRANCH, merge)
         self.label(merge)
 
-    def go(self, number: int, *operands: int) -> None:
+    def terminate(self, number: int, *operands: int) -> None:
         """Ends a block, unless it has ended."""
         if not self.ended:
-            self.out.do(number, *operands)
+            self.out.emit(number, *operands)
         self.ended = True
 
     def label(self, label: int) -> None:
         """Begins a block; the one before leads to it, unless it has ended."""
         if not self.ended:
-            self.out.do(op.BRANCH, label)
-        self.out.do(op.LABEL, label)
+            self.out.emit(op.BRANCH, label)
+        self.out.emit(op.LABEL, label)
         self.ended = False
 
-    def chosen(self, node: SyntaxNode, depth: int) -> Value:
+    def conditional_value(self, node: SyntaxNode, depth: int) -> Value:
         test, then, other = self.parts(node, "condition", "consequence", "alternative")
         condition = self.value(test, depth)
         if not self.has_effects(then) and not self.has_effects(other):
             one, two = self.value(then, depth), self.value(other, depth)
-            one, two = self.alike(one, two)
+            one, two = self.common_type(one, two)
             return self.result(SELECT, one.type, condition.id, one.id, two.id)
         places: list[Place] = []
 
@@ -160,37 +160,37 @@ class Expressions(Values):
             value = self.value(part, depth)
             if not places:
                 places.append(self.temporary(value.type))
-            self.stored(places[0], value)
+            self.store(places[0], value)
 
         self.branch(condition.id, lambda: keep(then), lambda: keep(other))
-        return self.loaded(places[0])
+        return self.load(places[0])
 
-    def assigned(self, node: SyntaxNode, depth: int) -> Value:
+    def assignment(self, node: SyntaxNode, depth: int) -> Value:
         left, right, sign = self.parts(node, "left", "right", "operator")
-        operator = self.of(sign)
+        operator = self.text_of(sign)
         value = self.value(right, depth)
         place = self.place(left, depth)
         if place is None:
-            raise self.no(left, "cannot be assigned to")
+            raise self.unsupported(left, "cannot be assigned to")
         kind = vector(scalar_of(place.type), len(place.parts)) if place.parts else place.type
         if operator != "=":
-            value = self.arithmetic(operator[:-1], self.loaded(place), value)
+            value = self.arithmetic(operator[:-1], self.load(place), value)
         if value.type != kind:
             value = self.as_type(value, kind)
-        self.stored(place, value)
+        self.store(place, value)
         return value
 
     def unary(self, node: SyntaxNode, depth: int) -> Value:
         inner, sign = self.parts(node, "argument", "operator")
-        operator = self.of(sign)
+        operator = self.text_of(sign)
         if operator in ("++", "--"):
             place = self.place(inner, depth)
             if place is None:
-                raise self.no(node, "is not followed")
-            before = self.loaded(place)
-            one = Value(self.out.number(scalar_of(before.type), like(scalar_of(before.type), 1)), scalar_of(before.type))
+                raise self.unsupported(node, "is not followed")
+            before = self.load(place)
+            one = Value(self.out.number(scalar_of(before.type), literal_of(scalar_of(before.type), 1)), scalar_of(before.type))
             after = self.arithmetic(operator[0], before, one)
-            self.stored(place, after)
+            self.store(place, after)
             return after if sign.start_byte < inner.start_byte else before
         value = self.value(inner, depth)
         if operator == "+":
@@ -204,7 +204,7 @@ class Expressions(Values):
         return self.result(127 if scalar_of(value.type) in (FLOAT, DOUBLE) else 126, value.type, value.id)
 
     def literal(self, node: SyntaxNode) -> Value:
-        text = self.of(node)
+        text = self.text_of(node)
         number = whole(text)
         if number is not None:
             kind = UINT if text[-1] in "uU" else INT
@@ -214,11 +214,11 @@ class Expressions(Values):
 
     def real(self, node: SyntaxNode) -> float:
         """The number that a literal is."""
-        text = self.of(node)
+        text = self.text_of(node)
         match = _REAL.match(text)
         if match is None or text[match.end() :] not in ("", "f", "F", "lf", "LF", "hf", "HF", "u", "U"):
-            raise self.no(node, "is no number")
+            raise self.unsupported(node, "is no number")
         real = float(match[0])
         if abs(real) > 3e38:
-            raise self.no(node, "is too large a number")
+            raise self.unsupported(node, "is too large a number")
         return real

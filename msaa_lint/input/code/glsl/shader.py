@@ -11,7 +11,7 @@ from msaa_lint.frame.spirv import numbers as op
 from msaa_lint.input.code.parsing import ascii_only
 
 from .statements import Statements
-from .text import NotRead, prepared
+from .text import UnsupportedShader, preprocess
 from .types import VOID, multisampled, size_of
 from .values import Value
 
@@ -53,10 +53,10 @@ def shader(text: str, part: bool = False) -> Shader:
 
     NotRead where it cannot be followed; `parsing.Missing` where the extra is not installed.
     """
-    return _Lowering(prepared(ascii_only(text))).shader(part)
+    return _ShaderLowering(preprocess(ascii_only(text))).shader(part)
 
 
-class _Lowering(Statements):
+class _ShaderLowering(Statements):
     """One shader while it is read."""
 
     @property
@@ -65,32 +65,32 @@ class _Lowering(Statements):
 
     def shader(self, part: bool) -> Shader:
         for node in self.root.named_children:
-            self.outer(node)
+            self.global_declaration(node)
         entry = self.functions.get("main", [None])[0]
         name = "main"
         if entry is None or entry.node.child_by_field_name("body") is None:
             entry = None
         if entry is None and not part:
-            raise NotRead("it has no function `main`")
+            raise UnsupportedShader("it has no function `main`")
         main = self.out.id()
         self.out.begin()
         for place, node in self.starts:
             value = self.value(node)
-            self.stored(place, self.as_type(value, place.type) if size_of(place.type) else value)
+            self.store(place, self.as_type(value, place.type) if size_of(place.type) else value)
         if entry is not None:
-            self.called.append(entry)
-            self.out.do(op.FUNCTION_CALL, self.out.type(VOID), self.out.id(), entry.id)
+            self.called_functions.append(entry)
+            self.out.emit(op.FUNCTION_CALL, self.out.type(VOID), self.out.id(), entry.id)
         else:
-            name = self.alone()
-        self.out.do(op.RETURN)
+            name = self.call_uncalled_functions()
+        self.out.emit(op.RETURN)
         self.out.end(main, VOID, ())
         position = 0
-        while position < len(self.called):
-            self.function(self.called[position])
+        while position < len(self.called_functions):
+            self.function(self.called_functions[position])
             position += 1
-        if len(self.unplaced) > 1:
-            raise NotRead("several of its outputs have no location")
-        for output in self.unplaced:
+        if len(self.outputs_without_location) > 1:
+            raise UnsupportedShader("several of its outputs have no location")
+        for output in self.outputs_without_location:
             self.out.decorate(output, op.LOCATION, 0)
         for layout in self.source.layouts:
             self.out.modes += (_MODES[word] for word in _WORD.findall(layout) if word in _MODES)
@@ -102,9 +102,9 @@ class _Lowering(Statements):
         stage = "COMPUTE" if self.compute else "FRAGMENT"
         return Shader(code, stage, name, fetches, images, self.bindings, constants, self.specialised)
 
-    def alone(self) -> str:
+    def call_uncalled_functions(self) -> str:
         """Calls the functions of a part of a shader that nothing in it calls, each with images and values of its own; the first's name."""
-        texts = {name: self.of(entry.node) for name, item in self.functions.items() for entry in item}
+        texts = {name: self.text_of(entry.node) for name, item in self.functions.items() for entry in item}
         first_name = ""
         for name, functions in self.functions.items():
             function = functions[0]
@@ -117,15 +117,15 @@ class _Lowering(Statements):
                 storage = op.UNIFORM_CONSTANT if kind[0] == "opaque" else op.FUNCTION_LOCAL if written else op.INPUT
                 variable = self.variable(storage, kind)
                 if multisampled(kind):
-                    self.decorated(variable.pointer, self.bound(parameter, {}), storage)
+                    self.decorate_layout(variable.pointer, self.with_binding(parameter, {}), storage)
                     self.images.setdefault(parameter, (function.node.start_byte, function.node.start_byte))
-                passed.append(variable.pointer if written or kind[0] == "opaque" else self.loaded(variable).id)
-            self.called.append(function)
-            result = self.out.made(op.FUNCTION_CALL, function.returns, function.id, *passed)
+                passed.append(variable.pointer if written or kind[0] == "opaque" else self.load(variable).id)
+            self.called_functions.append(function)
+            result = self.out.instruction(op.FUNCTION_CALL, function.returns, function.id, *passed)
             if function.returns != VOID:
                 output = self.variable(op.OUTPUT, function.returns)
-                self.stored(output, Value(result, function.returns))
+                self.store(output, Value(result, function.returns))
             first_name = first_name or name
         if not first_name:
-            raise NotRead("nothing in it fetches samples")
+            raise UnsupportedShader("nothing in it fetches samples")
         return first_name

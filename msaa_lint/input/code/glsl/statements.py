@@ -7,20 +7,20 @@ from msaa_lint.input.code.parsing import SyntaxNode
 from msaa_lint.input.code.sample_counts.arithmetic import whole
 
 from .declarations import Declarations, is_unsized
-from .text import NotRead, Text
+from .text import PreprocessedText, UnsupportedShader
 from .types import BOOL, VOID, Type, is_image, size_of
 from .values import Function, Place, Value
 
-DEEPEST = 60
+MAX_DEPTH = 60
 """Levels of blocks that are read."""
 
 
 class Statements(Declarations):
     """The functions of one shader."""
 
-    def __init__(self, source: Text) -> None:
+    def __init__(self, source: PreprocessedText) -> None:
         super().__init__(source)
-        self.leaves: list[tuple[int, int]] = []
+        self.jump_targets: list[tuple[int, int]] = []
         """Of the loops and switches around: where `break` and `continue` lead."""
         self.returns: Type = VOID
 
@@ -28,9 +28,9 @@ class Statements(Declarations):
         """The body of a function."""
         body = function.node.child_by_field_name("body")
         if body is None:
-            raise self.no(function.node, "has no body")
+            raise self.unsupported(function.node, "has no body")
         self.out.begin()
-        self.returns, self.ended, self.leaves = function.returns, False, []
+        self.returns, self.ended, self.jump_targets = function.returns, False, []
         passed: list[tuple[int, int]] = []
         self.scopes.append({})
         for kind, written, name in function.parameters:
@@ -43,26 +43,26 @@ class Statements(Declarations):
                 continue
             passed.append((self.out.type(kind), parameter_id))
             copy = self.temporary(kind)
-            self.out.do(op.STORE, copy.pointer, parameter_id)
+            self.out.emit(op.STORE, copy.pointer, parameter_id)
             self.scopes[-1][name] = copy
         self.statements(body, 0)
         self.scopes.pop()
         if not self.ended:
             if function.returns == VOID:
-                self.out.do(op.RETURN)
+                self.out.emit(op.RETURN)
             else:
-                self.out.do(op.UNREACHABLE)
+                self.out.emit(op.UNREACHABLE)
         self.out.end(function.id, function.returns, passed)
 
-    def live(self) -> None:
+    def ensure_block(self) -> None:
         """What follows an end is a block that nothing leads to."""
         if self.ended:
-            self.out.do(op.LABEL, self.out.id())
+            self.out.emit(op.LABEL, self.out.id())
             self.ended = False
 
     def statements(self, node: SyntaxNode, depth: int) -> None:
-        if depth > DEEPEST:
-            raise NotRead("its blocks are too deep")
+        if depth > MAX_DEPTH:
+            raise UnsupportedShader("its blocks are too deep")
         if node.type == "compound_statement":
             self.scopes.append({})
             for child in node.named_children:
@@ -75,7 +75,7 @@ class Statements(Declarations):
         kind = node.type
         if kind in ("comment", ";"):
             return
-        self.live()
+        self.ensure_block()
         if kind == "compound_statement":
             self.statements(node, depth)
         elif kind == "declaration":
@@ -85,11 +85,11 @@ class Statements(Declarations):
         elif kind == "return_statement":
             match = next((child for child in node.named_children if child.type != "comment"), None)
             if match is None:
-                self.go(op.RETURN)
+                self.terminate(op.RETURN)
             else:
                 value = self.value(match)
                 value = self.as_type(value, self.returns) if size_of(self.returns) else value
-                self.go(op.RETURN_VALUE, value.id)
+                self.terminate(op.RETURN_VALUE, value.id)
         elif kind == "if_statement":
             self.conditional(node, depth)
         elif kind in ("for_statement", "while_statement", "do_statement"):
@@ -97,56 +97,56 @@ class Statements(Declarations):
         elif kind == "switch_statement":
             self.switch(node, depth)
         elif kind in ("break_statement", "continue_statement"):
-            if not self.leaves:
-                raise self.no(node, "is not understood")
-            ways = [way[kind == "continue_statement"] for way in self.leaves if way[kind == "continue_statement"]]
+            if not self.jump_targets:
+                raise self.unsupported(node, "is not understood")
+            ways = [way[kind == "continue_statement"] for way in self.jump_targets if way[kind == "continue_statement"]]
             if not ways:
-                raise self.no(node, "is not understood")
-            self.go(op.BRANCH, ways[-1])
+                raise self.unsupported(node, "is not understood")
+            self.terminate(op.BRANCH, ways[-1])
         else:
-            raise self.no(node, "is not understood")
+            raise self.unsupported(node, "is not understood")
 
     def expression(self, node: SyntaxNode) -> None:
         child = next((item for item in node.named_children if item.type != "comment"), None)
         if child is None:
             return
-        if child.type == "identifier" and self.of(child) in ("discard", "terminateInvocation"):
-            self.go(op.KILL)
-        elif child.type == "identifier" and self.of(child) == "demote":
-            self.out.do(op.DEMOTE)
+        if child.type == "identifier" and self.text_of(child) in ("discard", "terminateInvocation"):
+            self.terminate(op.KILL)
+        elif child.type == "identifier" and self.text_of(child) == "demote":
+            self.out.emit(op.DEMOTE)
         else:
             self.value(child)
 
     def local(self, node: SyntaxNode) -> None:
         """Variables of a function."""
         type_node = node.child_by_field_name("type")
-        kind = self.kind(self.of(type_node)) if type_node is not None else None
+        kind = self.kind(self.text_of(type_node)) if type_node is not None else None
         if kind is None or kind[0] == "opaque":
-            raise self.no(node, "is of no type that is known")
+            raise self.unsupported(node, "is of no type that is known")
         for declarator in node.children_by_field_name("declarator"):
             initializer = declarator.child_by_field_name("value") if declarator.type == "init_declarator" else None
             target = declarator.child_by_field_name("declarator") if declarator.type == "init_declarator" else declarator
             declared_kind = kind
             if initializer is not None and target is not None and is_unsized(target):
-                declared_kind, target = self.of_list(initializer, kind), target.child_by_field_name("declarator")
+                declared_kind, target = self.sized_by_values(initializer, kind), target.child_by_field_name("declarator")
             if target is None:
-                raise self.no(node, "is not understood")
+                raise self.unsupported(node, "is not understood")
             name, declared_kind = self.declarator(target, declared_kind)
             value = self.value(initializer) if initializer is not None and initializer.type != "initializer_list" else None
             place = self.temporary(declared_kind)
             self.scopes[-1][name] = place
             if value is not None:
-                self.stored(place, self.as_type(value, declared_kind) if size_of(declared_kind) else value)
+                self.store(place, self.as_type(value, declared_kind) if size_of(declared_kind) else value)
             elif initializer is not None:
-                raise self.no(initializer, "is not followed")
+                raise self.unsupported(initializer, "is not followed")
 
-    def truth(self, node: SyntaxNode | None) -> int:
+    def condition_id(self, node: SyntaxNode | None) -> int:
         """The id of a condition."""
         if node is None:
             return self.out.number(BOOL, True)
         value = self.value(node)
         if value.type != BOOL:
-            raise self.no(node, "is no condition")
+            raise self.unsupported(node, "is no condition")
         return value.id
 
     def conditional(self, node: SyntaxNode, depth: int) -> None:
@@ -161,7 +161,7 @@ class Statements(Declarations):
             if other is not None and inner is not None:
                 self.statements(inner if other.type == "else_clause" else other, depth)
 
-        condition = self.truth(node.child_by_field_name("condition"))
+        condition = self.condition_id(node.child_by_field_name("condition"))
         self.branch(condition, consequence, alternative if other is not None else None)
 
     def loop(self, node: SyntaxNode, depth: int) -> None:
@@ -176,26 +176,26 @@ class Statements(Declarations):
         condition, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
         header, test, begin, again, merge = out.id(), out.id(), out.id(), out.id(), out.id()
         self.label(header)
-        out.do(op.LOOP_MERGE, merge, again, 0)
+        out.emit(op.LOOP_MERGE, merge, again, 0)
         after = node.type == "do_statement"
-        self.go(op.BRANCH, begin if after else test)
+        self.terminate(op.BRANCH, begin if after else test)
         if not after:
             self.label(test)
-            self.go(op.BRANCH_CONDITIONAL, self.truth(condition), begin, merge)
+            self.terminate(op.BRANCH_CONDITIONAL, self.condition_id(condition), begin, merge)
         self.label(begin)
-        self.leaves.append((merge, again))
+        self.jump_targets.append((merge, again))
         if body is not None:
             self.statements(body, depth)
-        self.leaves.pop()
-        self.go(op.BRANCH, again)
+        self.jump_targets.pop()
+        self.terminate(op.BRANCH, again)
         self.label(again)
         update = node.child_by_field_name("update")
         if update is not None:
             self.value(update)
         if after:
-            self.go(op.BRANCH_CONDITIONAL, self.truth(condition), header, merge)
+            self.terminate(op.BRANCH_CONDITIONAL, self.condition_id(condition), header, merge)
         else:
-            self.go(op.BRANCH, header)
+            self.terminate(op.BRANCH, header)
         self.label(merge)
         self.scopes.pop()
 
@@ -203,7 +203,7 @@ class Statements(Declarations):
         out = self.out
         condition, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
         if condition is None or body is None:
-            raise self.no(node, "is not understood")
+            raise self.unsupported(node, "is not understood")
         selector = self.value(condition)
         cases = [child for child in body.named_children if child.type == "case_statement"]
         merge = out.id()
@@ -215,15 +215,15 @@ class Statements(Declarations):
             if value_node is None:
                 default = label
                 continue
-            number = whole(self.of(value_node))
-            constant = self.look(self.of(value_node)) if number is None and value_node.type == "identifier" else None
-            number = self.plain.get(constant.id) if isinstance(constant, Value) else number
+            number = whole(self.text_of(value_node))
+            constant = self.lookup(self.text_of(value_node)) if number is None and value_node.type == "identifier" else None
+            number = self.integer_constants.get(constant.id) if isinstance(constant, Value) else number
             if number is None:
-                raise self.no(case, "is not followed")
+                raise self.unsupported(case, "is not followed")
             pairs += (number, label)
-        out.do(op.SELECTION_MERGE, merge, 0)
-        self.go(op.SWITCH, selector.id, default, *pairs)
-        self.leaves.append((merge, 0))
+        out.emit(op.SELECTION_MERGE, merge, 0)
+        self.terminate(op.SWITCH, selector.id, default, *pairs)
+        self.jump_targets.append((merge, 0))
         self.scopes.append({})
         for case, label in zip(cases, labels, strict=True):
             self.label(label)
@@ -232,5 +232,5 @@ class Statements(Declarations):
                 if child != value_node:
                     self.statement(child, depth)
         self.scopes.pop()
-        self.leaves.pop()
+        self.jump_targets.pop()
         self.label(merge)

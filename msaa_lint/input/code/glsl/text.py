@@ -8,16 +8,16 @@ import re
 from bisect import bisect_right
 from typing import NamedTuple
 
-MOST_TEXT = 1 << 20
+MAX_TEXT = 1 << 20
 """Characters of a shader, and of what its macros make of it."""
 
-MOST_EXPANDED = 1 << 17
+MAX_EXPANDED = 1 << 17
 """Characters of what one macro stands for."""
 
-MOST_NESTED = 16
+MAX_NESTED = 16
 """Macros within macros."""
 
-MOST_MACROS = 500
+MAX_MACROS = 500
 
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)", re.DOTALL)
 _VISIBLE = re.compile(r"[^\n]")
@@ -30,7 +30,7 @@ _ALONE = re.compile(
 )
 
 
-class NotRead(Exception):
+class UnsupportedShader(Exception):
     """The shader cannot be followed: why, in words."""
 
 
@@ -41,7 +41,7 @@ class Macro(NamedTuple):
     body: str
 
 
-class Text(NamedTuple):
+class PreprocessedText(NamedTuple):
     """What is parsed: the text, where its pieces stand in the original (their offsets in both), and what `layout(...) in;` says."""
 
     text: str
@@ -56,16 +56,16 @@ class Text(NamedTuple):
         return min(original + offset - start, max(next_node - 1, original))
 
 
-def blanked(text: str) -> str:
+def blank(text: str) -> str:
     """A text with a blank for each character but line ends."""
     return _VISIBLE.sub(" ", text)
 
 
-def prepared(text: str) -> Text:
+def preprocess(text: str) -> PreprocessedText:
     """A shader as it is parsed. NotRead where a directive is not understood."""
-    if len(text) > MOST_TEXT:
-        raise NotRead("it is too long")
-    text = _COMMENT.sub(lambda match: blanked(match[0]), text.replace("\r", " "))
+    if len(text) > MAX_TEXT:
+        raise UnsupportedShader("it is too long")
+    text = _COMMENT.sub(lambda match: blank(match[0]), text.replace("\r", " "))
     out: list[str] = []
     pieces: list[tuple[int, int]] = []
     length = at = 0
@@ -77,10 +77,10 @@ def prepared(text: str) -> Text:
         directive = _DIRECTIVE.match(line) if "#" in line else None
         part = line
         if directive is not None:
-            _follow(directive[1], directive[2].replace("\\\n", "").strip(), macros, branches)
-            part = blanked(line)
+            _apply_directive(directive[1], directive[2].replace("\\\n", "").strip(), macros, branches)
+            part = blank(line)
         elif branches and not all(item for item, _ in branches):
-            part = blanked(line)
+            part = blank(line)
         else:
             length, part = _expanded(line, at, length, macros, pieces, out)
         if part:
@@ -88,57 +88,57 @@ def prepared(text: str) -> Text:
             out.append(part)
             length += len(part)
         at += len(line)
-        if length > MOST_TEXT:
-            raise NotRead("its macros make too much of it")
+        if length > MAX_TEXT:
+            raise UnsupportedShader("its macros make too much of it")
     layouts: list[str] = []
 
     def noted(match: re.Match[str]) -> str:
         layouts.append(match[1] or "")
-        return blanked(match[0])
+        return blank(match[0])
 
     whole = _ALONE.sub(noted, "".join(out))
-    return Text(whole, tuple(pieces), tuple(layouts))
+    return PreprocessedText(whole, tuple(pieces), tuple(layouts))
 
 
-def _follow(name: str, rest: str, macros: dict[str, Macro], branches: list[tuple[bool, bool]]) -> None:
+def _apply_directive(name: str, rest: str, macros: dict[str, Macro], branches: list[tuple[bool, bool]]) -> None:
     """A directive."""
-    live = all(item for item, _ in branches)
+    ensure_block = all(item for item, _ in branches)
     if name in ("ifdef", "ifndef"):
         word = rest.split()[0] if rest.split() else ""
         holds = (word in macros) == (name == "ifdef")
         branches.append((holds, holds))
     elif name == "if":
-        holds = live and _holds(rest, macros)
+        holds = ensure_block and _condition_holds(rest, macros)
         branches.append((holds, holds))
     elif name in ("else", "elif") and branches:
         _, before = branches.pop()
-        outer = all(item for item, _ in branches)
-        holds = not before and (name == "else" or (outer and _holds(rest, macros)))
+        global_declaration = all(item for item, _ in branches)
+        holds = not before and (name == "else" or (global_declaration and _condition_holds(rest, macros)))
         branches.append((holds, before or holds))
     elif name == "endif" and branches:
         branches.pop()
-    elif name == "define" and live:
+    elif name == "define" and ensure_block:
         match = _DEFINE.fullmatch(rest)
         if match is not None:
             parameters = tuple(word.strip() for word in match[2][1:-1].split(",") if word.strip()) if match[2] else None
             macros[match[1]] = Macro(parameters, match[3].strip())
-            if len(macros) > MOST_MACROS:
-                raise NotRead("it has too many macros")
-    elif name == "undef" and live:
+            if len(macros) > MAX_MACROS:
+                raise UnsupportedShader("it has too many macros")
+    elif name == "undef" and ensure_block:
         macros.pop(rest, None)
     # What `include` has may be anything; what is missing then ends the reading where it is used.
 
 
-def _holds(condition: str, macros: dict[str, Macro]) -> bool:
+def _condition_holds(condition: str, macros: dict[str, Macro]) -> bool:
     """Whether a condition of `#if` holds; NotRead where that is not plain."""
     text = _DEFINED.sub(lambda match: "1" if (match[1] or match[2]) in macros else "0", condition)
-    text = _all(text, macros, 0)
+    text = _expand(text, macros, 0)
     text = re.sub(r"\b[A-Za-z_]\w*\b", "0", text)
     from msaa_lint.input.code.sample_counts.arithmetic import condition_holds
 
     answer = condition_holds(text)
     if answer is None:
-        raise NotRead(f"`#if {condition[:40]}` is not understood")
+        raise UnsupportedShader(f"`#if {condition[:40]}` is not understood")
     return answer
 
 
@@ -162,7 +162,7 @@ def _expanded(line: str, at: int, length: int, macros: dict[str, Macro], pieces:
                 continue
             values, index = arguments
             end = tokens[index - 1][2]
-        body = _all(_filled(macro, values), {name: item for name, item in macros.items() if name != word}, 0)
+        body = _expand(_filled(macro, values), {name: item for name, item in macros.items() if name != word}, 0)
         for text, original in ((line[position:start], at + position), (body, at + start)):
             if text:
                 pieces.append((length, original))
@@ -204,12 +204,12 @@ def _filled(macro: Macro, arguments: list[str] | None) -> str:
     return "".join(values.get(match[0], match[0]) for match in _TOKEN.finditer(macro.body))
 
 
-def _all(text: str, macros: dict[str, Macro], depth: int) -> str:
+def _expand(text: str, macros: dict[str, Macro], depth: int) -> str:
     """A text with its macros expanded."""
-    if len(text) > MOST_EXPANDED:
-        raise NotRead("its macros make too much of it")
+    if len(text) > MAX_EXPANDED:
+        raise UnsupportedShader("its macros make too much of it")
     tokens = [(match[0], match.start(), match.end()) for match in _TOKEN.finditer(text)]
-    if depth > MOST_NESTED or not any(word in macros for word, _, _ in tokens):
+    if depth > MAX_NESTED or not any(word in macros for word, _, _ in tokens):
         return text
     out: list[str] = []
     index = size = 0
@@ -218,14 +218,14 @@ def _all(text: str, macros: dict[str, Macro], depth: int) -> str:
         macro = macros.get(word)
         index += 1
         if macro is not None and macro.parameters is None:
-            word = _all(macro.body, {name: item for name, item in macros.items() if name != word}, depth + 1)
+            word = _expand(macro.body, {name: item for name, item in macros.items() if name != word}, depth + 1)
         elif macro is not None:
             arguments = _arguments(tokens, index)
             if arguments is not None:
                 body = _filled(macro, arguments[0])
-                word, index = _all(body, {name: item for name, item in macros.items() if name != word}, depth + 1), arguments[1]
+                word, index = _expand(body, {name: item for name, item in macros.items() if name != word}, depth + 1), arguments[1]
         out.append(word)
         size += len(word)
-        if size > MOST_EXPANDED:
-            raise NotRead("its macros make too much of it")
+        if size > MAX_EXPANDED:
+            raise UnsupportedShader("its macros make too much of it")
     return "".join(out)

@@ -9,10 +9,10 @@ from msaa_lint.frame.spirv import numbers as op
 from msaa_lint.input.code.parsing import SyntaxNode
 
 from .assembly import Assembly
-from .text import NotRead
+from .text import UnsupportedShader
 from .types import BOOL, DOUBLE, FLOAT, INT, UINT, Type, named, scalar_of, size_of, vector
 
-DEEPEST = 80
+MAX_DEPTH = 80
 """Levels of an expression that are read."""
 
 SIGNS: dict[str, tuple[int, int, int]] = {
@@ -65,28 +65,28 @@ class Values:
         self.scopes: list[dict[str, Named]] = [{}]
         self.structs: dict[str, Type] = {}
         self.functions: dict[str, list[Function]] = {}
-        self.called: list[Function] = []
+        self.called_functions: list[Function] = []
         """Functions in the order in which they were first called."""
         self.fetches: list[tuple[str, int, int]] = []
         """Where samples are fetched: the name of the image, and the place of the call."""
         self.built_in: Callable[[str], Place | None] = lambda name: None
 
-    def of(self, node: SyntaxNode) -> str:
+    def text_of(self, node: SyntaxNode) -> str:
         return self.text[node.start_byte : node.end_byte]
 
-    def no(self, node: SyntaxNode, why: str) -> NotRead:
-        return NotRead(f"`{' '.join(self.of(node)[:40].split())}` {why}")
+    def unsupported(self, node: SyntaxNode, why: str) -> UnsupportedShader:
+        return UnsupportedShader(f"`{' '.join(self.text_of(node)[:40].split())}` {why}")
 
     def parts(self, node: SyntaxNode, *fields: str) -> "list[SyntaxNode]":
         """The children of a node in some fields. NotRead where one is missing."""
         children = [child for field in fields if (child := node.child_by_field_name(field)) is not None]
         if len(children) < len(fields):
-            raise self.no(node, "is not followed")
+            raise self.unsupported(node, "is not followed")
         return children
 
     def result(self, number: int, kind: Type, *operands: int) -> Value:
         """The result of an instruction."""
-        return Value(self.out.made(number, kind, *operands), kind)
+        return Value(self.out.instruction(number, kind, *operands), kind)
 
     def constant_value(self, kind: Type, number: float | bool) -> Value:
         return Value(self.out.number(kind, number), kind)
@@ -103,7 +103,7 @@ class Values:
         """The type of a name."""
         return self.structs.get(name) or named(name)
 
-    def look(self, name: str) -> Named | None:
+    def lookup(self, name: str) -> Named | None:
         for scope in reversed(self.scopes):
             if name in scope:
                 return scope[name]
@@ -117,14 +117,14 @@ class Values:
 
     def place(self, node: SyntaxNode, depth: int = 0) -> Place | None:
         """What can be assigned to, or loaded; None where it is a value alone."""
-        if depth > DEEPEST:
-            raise NotRead("its expressions are too deep")
+        if depth > MAX_DEPTH:
+            raise UnsupportedShader("its expressions are too deep")
         if node.type == "parenthesized_expression" and node.named_child_count == 1:
             return self.place(node.named_children[0], depth + 1)
         if node.type == "identifier":
-            target = self.look(self.of(node))
+            target = self.lookup(self.text_of(node))
             if target is None:
-                raise self.no(node, "is not declared in it")
+                raise self.unsupported(node, "is not declared in it")
             if isinstance(target, Place):
                 return target
             if isinstance(target, Value):
@@ -141,22 +141,22 @@ class Values:
             index_node = node.child_by_field_name("index")
             if index_node is None or base.parts:
                 return None
-            return self.chained(base, self.element(base.type, node), self.value(index_node, depth + 1).id)
+            return self.access_chain(base, self.element(base.type, node), self.value(index_node, depth + 1).id)
         field = node.child_by_field_name("field")
-        name = self.of(field) if field is not None else ""
+        name = self.text_of(field) if field is not None else ""
         if base.type[0] == "struct":
             return self.member(base, self.index(base.type, name, node))
-        parts = self.letters(name, base.type, node)
+        parts = self.swizzle_parts(name, base.type, node)
         return base._replace(parts=tuple(base.parts[part] for part in parts) if base.parts else parts)
 
     def member(self, base: Place, index: int) -> Place:
         members = base.type[2]
         assert isinstance(members, tuple)
-        return self.chained(base, members[index][1], self.out.number(INT, index))
+        return self.access_chain(base, members[index][1], self.out.number(INT, index))
 
-    def chained(self, base: Place, kind: Type, index: int) -> Place:
+    def access_chain(self, base: Place, kind: Type, index: int) -> Place:
         pointer = self.out.id()
-        self.out.do(op.ACCESS_CHAIN, self.out.pointer(base.storage, kind), pointer, base.pointer, index)
+        self.out.emit(op.ACCESS_CHAIN, self.out.pointer(base.storage, kind), pointer, base.pointer, index)
         return Place(pointer, kind, base.storage)
 
     def element(self, kind: Type, node: SyntaxNode) -> Type:
@@ -167,7 +167,7 @@ class Values:
             return inner
         if kind[0] == "mat":
             return ("vec", FLOAT, kind[2])
-        raise self.no(node, "is not followed")
+        raise self.unsupported(node, "is not followed")
 
     def index(self, kind: Type, name: str, node: SyntaxNode) -> int:
         """The number of a structure's member."""
@@ -176,46 +176,46 @@ class Values:
         for n, (member, _) in enumerate(members):
             if member == name:
                 return n
-        raise self.no(node, "names no member")
+        raise self.unsupported(node, "names no member")
 
-    def letters(self, name: str, kind: Type, node: SyntaxNode) -> tuple[int, ...]:
+    def swizzle_parts(self, name: str, kind: Type, node: SyntaxNode) -> tuple[int, ...]:
         """The components that a swizzle takes."""
         size = size_of(kind)
         parts = tuple(_LETTERS.get(letter, 9) for letter in name)
         if not 0 < len(parts) <= 4 or any(part >= size for part in parts):
-            raise self.no(node, "is not followed")
+            raise self.unsupported(node, "is not followed")
         return parts
 
-    def loaded(self, place: Place) -> Value:
+    def load(self, place: Place) -> Value:
         value = self.result(op.LOAD, place.type, place.pointer)
-        return self.swizzled(value, place.parts) if place.parts else value
+        return self.swizzle(value, place.parts) if place.parts else value
 
-    def swizzled(self, value: Value, parts: tuple[int, ...]) -> Value:
+    def swizzle(self, value: Value, parts: tuple[int, ...]) -> Value:
         if size_of(value.type) == 1:
-            return self.constructed(vector(value.type, len(parts)), [value]) if len(parts) > 1 else value
+            return self.construct(vector(value.type, len(parts)), [value]) if len(parts) > 1 else value
         kind = vector(scalar_of(value.type), len(parts))
         if len(parts) == 1:
             return self.result(op.COMPOSITE_EXTRACT, kind, value.id, parts[0])
         return self.result(op.VECTOR_SHUFFLE, kind, value.id, value.id, *parts)
 
-    def stored(self, place: Place, value: Value) -> None:
+    def store(self, place: Place, value: Value) -> None:
         out = self.out
         if not place.parts:
-            out.do(op.STORE, place.pointer, self.as_type(value, place.type).id)
+            out.emit(op.STORE, place.pointer, self.as_type(value, place.type).id)
             return
         scalar = scalar_of(place.type)
         value = self.as_type(value, vector(scalar, len(place.parts)))
         if len(place.parts) == 1 and size_of(place.type) > 1:
-            part = self.chained(place, scalar, out.number(INT, place.parts[0]))
-            out.do(op.STORE, part.pointer, value.id)
+            part = self.access_chain(place, scalar, out.number(INT, place.parts[0]))
+            out.emit(op.STORE, part.pointer, value.id)
             return
         if size_of(place.type) == 1:
-            out.do(op.STORE, place.pointer, value.id)
+            out.emit(op.STORE, place.pointer, value.id)
             return
-        before = self.loaded(place._replace(parts=()))
+        before = self.load(place._replace(parts=()))
         size = size_of(place.type)
         order = [size + place.parts.index(n) if n in place.parts else n for n in range(size)]
-        out.do(op.STORE, place.pointer, out.made(op.VECTOR_SHUFFLE, place.type, before.id, value.id, *order))
+        out.emit(op.STORE, place.pointer, out.instruction(op.VECTOR_SHUFFLE, place.type, before.id, value.id, *order))
 
     # Values
 
@@ -226,12 +226,12 @@ class Values:
         one, other = scalar_of(value.type), scalar_of(kind)
         size = size_of(kind)
         if not size or size_of(value.type) != size:
-            raise NotRead(f"a {shown(value.type)} is made a {shown(kind)}, which is not followed")
+            raise UnsupportedShader(f"a {type_text(value.type)} is made a {type_text(kind)}, which is not followed")
         if one == BOOL:
-            yes, no = (self.splat(self.constant_value(other, like(other, n)), size).id for n in (1, 0))
-            return self.result(SELECT, kind, value.id, yes, no)
+            yes, unsupported = (self.splat(self.constant_value(other, literal_of(other, n)), size).id for n in (1, 0))
+            return self.result(SELECT, kind, value.id, yes, unsupported)
         if other == BOOL:
-            zero = self.splat(self.constant_value(one, like(one, 0)), size)
+            zero = self.splat(self.constant_value(one, literal_of(one, 0)), size)
             return self.result(SIGNS["!="][column(one)], kind, value.id, zero.id)
         real, made_real = one in (FLOAT, DOUBLE), other in (FLOAT, DOUBLE)
         number = 115 if real and made_real else 111 if one == INT and made_real else 112 if made_real else 110 if other == INT else 109
@@ -245,7 +245,7 @@ class Values:
         kind = vector(value.type, size)
         return self.result(op.COMPOSITE_CONSTRUCT, kind, *[value.id] * size)
 
-    def constructed(self, kind: Type, values: Sequence[Value]) -> Value:
+    def construct(self, kind: Type, values: Sequence[Value]) -> Value:
         """What a constructor of a scalar or vector makes."""
         size, scalar = size_of(kind), scalar_of(kind)
         if not values or any(not size_of(item.type) for item in values):
@@ -253,14 +253,14 @@ class Values:
         if len(values) == 1 and size_of(values[0].type) == 1:
             return self.splat(self.as_type(values[0], scalar), size)
         if len(values) == 1 and size_of(values[0].type) >= size:
-            whole = values[0] if size_of(values[0].type) == size else self.swizzled(values[0], tuple(range(size)))
+            whole = values[0] if size_of(values[0].type) == size else self.swizzle(values[0], tuple(range(size)))
             return self.as_type(whole, kind)
         parts = [self.as_type(item, vector(scalar, size_of(item.type))) for item in values]
         if sum(size_of(part.type) for part in parts) != size:
-            single = [self.swizzled(part, (n,)) for part in parts for n in range(size_of(part.type))]
+            single = [self.swizzle(part, (n,)) for part in parts for n in range(size_of(part.type))]
             parts = single[:size]
             if len(parts) < size:
-                raise NotRead(f"a {shown(kind)} is made of too little")
+                raise UnsupportedShader(f"a {type_text(kind)} is made of too little")
         return self.result(op.COMPOSITE_CONSTRUCT, kind, *(part.id for part in parts))
 
     def opaque(self, name: str, kind: Type, values: Sequence[Value]) -> Value:
@@ -268,7 +268,7 @@ class Values:
         # Not one of the numbers that mean something to those who follow.
         number = 1000 + zlib.crc32(name.encode()) % 1_000_000
         if len(values) > 64:
-            raise NotRead("a function has too many arguments")
+            raise UnsupportedShader("a function has too many arguments")
         return self.result(op.EXT_INST, kind, self.out.extended, number, *(item.id for item in values))
 
     def arithmetic(self, sign: str, one: Value, other: Value) -> Value:
@@ -278,12 +278,12 @@ class Values:
         if not size_of(one.type) or not size_of(other.type):
             if sign in ("==", "!="):
                 return self.opaque(sign, BOOL, (one, other))
-            raise NotRead(f"`{sign}` of a {shown(one.type)} is not followed")
+            raise UnsupportedShader(f"`{sign}` of a {type_text(one.type)} is not followed")
         kinds = [scalar_of(item.type) for item in (one, other)]
         scalar: Type = next((kind for kind in (DOUBLE, FLOAT, UINT, INT) if kind in kinds), BOOL)
         size = max(size_of(one.type), size_of(other.type))
         if BOOL in kinds and sign not in ("==", "!="):
-            raise NotRead(f"`{sign}` of a bool is not followed")
+            raise UnsupportedShader(f"`{sign}` of a bool is not followed")
         if sign in ("<<", ">>"):
             scalar = kinds[0]
         one, other = (self.as_type(item, vector(scalar, size_of(item.type))) for item in (one, other))
@@ -292,7 +292,7 @@ class Values:
             return self.result(142, wide.type, wide.id, narrow.id)
         one, other = (self.splat(item, size) if size_of(item.type) == 1 else item for item in (one, other))
         if size_of(one.type) != size_of(other.type):
-            raise NotRead(f"`{sign}` of vectors of different sizes")
+            raise UnsupportedShader(f"`{sign}` of vectors of different sizes")
         if sign in _COMPARES:
             number = SIGNS[sign][column(scalar)] if scalar != BOOL else LOGICAL_EQUAL if sign == "==" else LOGICAL_NOT_EQUAL
             value = self.result(number, vector(BOOL, size), one.id, other.id)
@@ -300,7 +300,7 @@ class Values:
         kind = vector(scalar, size)
         return self.result(SIGNS[sign][column(scalar)], kind, one.id, other.id)
 
-    def alike(self, one: Value, other: Value) -> tuple[Value, Value]:
+    def common_type(self, one: Value, other: Value) -> tuple[Value, Value]:
         """Two values made of one type."""
         if one.type == other.type or not size_of(one.type):
             return one, other
@@ -314,7 +314,7 @@ def column(scalar: Type) -> int:
     return 2 if scalar in (FLOAT, DOUBLE) else 1 if scalar == UINT else 0
 
 
-def like(scalar: Type, number: int) -> float | bool:
+def literal_of(scalar: Type, number: int) -> float | bool:
     return bool(number) if scalar == BOOL else float(number) if scalar in (FLOAT, DOUBLE) else number
 
 
@@ -331,6 +331,6 @@ def _of_matrix(sign: str, one: Type, other: Type) -> Type:
     return one if one[0] == "mat" else other
 
 
-def shown(kind: Type) -> str:
+def type_text(kind: Type) -> str:
     """A type in words."""
     return f"{kind[1][0] if isinstance(kind[1], tuple) else kind[1]} {kind[0]}" if len(kind) > 1 else str(kind[0])

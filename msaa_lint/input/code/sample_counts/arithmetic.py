@@ -38,7 +38,7 @@ def arithmetic(operator: str, left: int, right: int) -> int | None:
 
 _TOKENS = re.compile(r"\s*(\d\w*|&&|\|\||[<>=!]=|<<|>>|[-+*/%<>!()&|^])")
 _LEVELS = (("||",), ("&&",), ("|",), ("^",), ("&",), ("==", "!="), ("<", ">", "<=", ">="), ("<<", ">>"), ("+", "-"), ("*", "/"))
-MOST_TOKENS = 60
+MAX_TOKENS = 60
 """Of a condition of the preprocessor."""
 
 
@@ -49,7 +49,7 @@ def condition_holds(text: str) -> bool | None:
     text = text.rstrip()
     while at < len(text):
         match = _TOKENS.match(text, at)
-        if match is None or len(tokens) > MOST_TOKENS:
+        if match is None or len(tokens) > MAX_TOKENS:
             return None
         tokens.append(match[1])
         at = match.end()

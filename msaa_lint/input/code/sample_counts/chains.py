@@ -7,7 +7,7 @@ from msaa_lint.core.text.span import Span
 
 from .masks import Mask
 
-MOST_TESTS = 64
+MAX_TESTS = 64
 """Tests of one chain; no mask has more than seven bits."""
 
 

@@ -16,8 +16,8 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.parsing import SyntaxNode
 
 from .chains import Chain
-from .masks import Known, Mask
-from .reading import Found, Owner, Reading
+from .masks import Bindings, Mask
+from .reading import Choice, ChoiceReader, Owner
 from .uses import Uses
 
 if TYPE_CHECKING:
@@ -33,30 +33,30 @@ def choices(root: SyntaxNode, code: Code) -> list[tuple[str, Span, Node]]:
     """The choices of a sample count that a syntax tree of C or C++ holds: what each is called, where it stands, and its entry."""
     if RELEVANT.search(code.text) is None:
         return []
-    functions, outside = _parts(root)
+    functions, outside = _functions_and_statements(root)
     relevant = [node for node in functions if RELEVANT.search(code.text, node.start_byte, node.end_byte)]
-    before = Reading(code.text)
-    for reading in (before, Reading(code.text)):
+    before = ChoiceReader(code.text)
+    for reading in (before, ChoiceReader(code.text)):
         if reading is not before:
             # What functions return and members hold is known by now.
             reading.expressions.members |= before.expressions.members
             reading.expressions.returns |= before.expressions.returns
-        known: Known = {}
+        bindings: Bindings = {}
         chains: dict[str, Chain] = {}
         for node in outside:
-            reading.statement(node, known, NOBODY, chains, 0)
+            reading.statement(node, bindings, NOBODY, chains, 0)
         for target, chain in chains.items():
             reading.finish(target, chain, NOBODY)
         for node in relevant:
             reading.function(node)
-    uses = Uses(root, reading.expressions) if reading.found else None
-    entries = [(item.name, item.at, _entry(item, uses)) for item in reading.found if uses is not None]
-    covered = {item.mask.at for item in reading.found}
+    uses = Uses(root, reading.expressions) if reading.choices else None
+    entries = [(item.name, item.at, _entry(item, uses)) for item in reading.choices if uses is not None]
+    covered = {item.mask.at for item in reading.choices}
     entries += [(name, mask.at, _alone(mask)) for at, (name, mask) in reading.combined.items() if at not in covered]
     return _named(entries)
 
 
-def _parts(root: SyntaxNode) -> tuple[list[SyntaxNode], list[SyntaxNode]]:
+def _functions_and_statements(root: SyntaxNode) -> tuple[list[SyntaxNode], list[SyntaxNode]]:
     """The functions of a file, and the statements outside of them all."""
     functions: list[SyntaxNode] = []
     outside: list[SyntaxNode] = []
@@ -74,7 +74,7 @@ def _parts(root: SyntaxNode) -> tuple[list[SyntaxNode], list[SyntaxNode]]:
     return functions, outside
 
 
-def _entry(choice: Found, uses: Uses) -> Node:
+def _entry(choice: Choice, uses: Uses) -> Node:
     """A choice as an entry of the section."""
     members = list(_of_mask(choice.mask))
     cap = uses.cap(choice.name)
@@ -96,7 +96,7 @@ def _entry(choice: Found, uses: Uses) -> Node:
 
 
 def _of_mask(mask: Mask) -> Iterator[tuple[str, Span, Node]]:
-    if mask.known:
+    if mask.bindings:
         at = mask.limits[0][1] if mask.limits else mask.at
         yield "limits", at, sequence([scalar(name, span) for name, span in mask.limits], at)
         yield "combined", mask.at, scalar(mask.combined, mask.at)

@@ -7,53 +7,53 @@ from collections.abc import Iterator
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.parsing import SyntaxNode, span
 
-from .masks import Expressions, Known, Mask, Order, Value
+from .masks import Bindings, Expressions, Mask, Order, Value
 
-MOST_ROUNDS = 16
+MAX_ROUNDS = 16
 """Rounds that are gone through; there are seven counts."""
 
 _TO_THE_END = re.compile(r"size|Size|count|Count|_countof|end\b|ARRAY")
 
 
-def rounds(node: SyntaxNode, expressions: Expressions, known: Known) -> Iterator[Known]:
+def loop_iterations(node: SyntaxNode, expressions: Expressions, bindings: Bindings) -> Iterator[Bindings]:
     """What is known in each round of a loop over counts; none where its bounds are not known."""
     if node.type == "for_range_loop":
-        order = expressions.value(node.child_by_field_name("right"), known)
-        name = expressions.name(_declared(node.child_by_field_name("declarator")))
-        for count in order.counts[:MOST_ROUNDS] if isinstance(order, Order) and name else ():
-            yield {**known, name: count}
+        order = expressions.value(node.child_by_field_name("right"), bindings)
+        name = expressions.name(_declared_name(node.child_by_field_name("declarator")))
+        for count in order.counts[:MAX_ROUNDS] if isinstance(order, Order) and name else ():
+            yield {**bindings, name: count}
         return
-    start = _started(node, expressions, known)
+    start = _loop_start(node, expressions, bindings)
     update, condition = node.child_by_field_name("update"), node.child_by_field_name("condition")
     if start is None or update is None:
         return
     name, value = start
-    for _ in range(MOST_ROUNDS):
-        inner = {**known, name: value}
+    for _ in range(MAX_ROUNDS):
+        inner = {**bindings, name: value}
         holds = expressions.value(condition, inner) if condition is not None else 1
-        if holds == 0 or not (isinstance(holds, int) or (condition is not None and _TO_THE_END.search(expressions.of(condition)))):
+        if holds == 0 or not (isinstance(holds, int) or (condition is not None and _TO_THE_END.search(expressions.text_of(condition)))):
             return
         yield inner
-        step = _stepped(update, expressions, inner)
+        step = _loop_step(update, expressions, inner)
         if step is None or step[0] != name or step[1] < 0:
             return
         value = step[1]
 
 
-def waits(node: SyntaxNode, expressions: Expressions, known: Known) -> tuple[str, list[tuple[Mask, int, Span]]] | None:
+def halving_loop(node: SyntaxNode, expressions: Expressions, bindings: Bindings) -> tuple[str, list[tuple[Mask, int, Span]]] | None:
     """`while (!(counts & c)) c >>= 1;`: the variable, and the counts that are asked, one after the other."""
     condition, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
     update = node.child_by_field_name("update") if node.type == "for_statement" else _only(body)
     if condition is None or update is None or (node.type == "for_statement" and _only(body) is not None):
         return None
-    start = _started(node, expressions, known) if node.type == "for_statement" else None
+    start = _loop_start(node, expressions, bindings) if node.type == "for_statement" else None
     name = start[0] if start is not None else expressions.name(_target(update))
-    value = start[1] if start is not None else known.get(name)
+    value = start[1] if start is not None else bindings.get(name)
     tests: list[tuple[Mask, int, Span]] = []
-    for _ in range(MOST_ROUNDS):
+    for _ in range(MAX_ROUNDS):
         if not isinstance(value, int):
             return None
-        inner = {**known, name: value}
+        inner = {**bindings, name: value}
         tests_bit = False
         for part in _conjuncts(condition):
             negated = _negated(part, expressions)
@@ -67,7 +67,7 @@ def waits(node: SyntaxNode, expressions: Expressions, known: Known) -> tuple[str
                 return (name, tests) if tests else None
             if not isinstance(holds, int):
                 return None
-        step = _stepped(update, expressions, inner)
+        step = _loop_step(update, expressions, inner)
         if not tests_bit or step is None or step[0] != name:
             break
         if step[1] < 1:
@@ -76,20 +76,20 @@ def waits(node: SyntaxNode, expressions: Expressions, known: Known) -> tuple[str
     return (name, tests) if tests else None
 
 
-def _declared(node: SyntaxNode | None) -> SyntaxNode | None:
+def _declared_name(node: SyntaxNode | None) -> SyntaxNode | None:
     while node is not None and node.type in ("reference_declarator", "pointer_declarator"):
         node = node.named_children[-1] if node.named_child_count else None
     return node
 
 
-def _started(node: SyntaxNode, expressions: Expressions, known: Known) -> tuple[str, int] | None:
+def _loop_start(node: SyntaxNode, expressions: Expressions, bindings: Bindings) -> tuple[str, int] | None:
     """The variable of a `for` and what it begins with."""
     first = node.child_by_field_name("initializer")
     declarator = first.child_by_field_name("declarator") if first is not None and first.type == "declaration" else first
     if declarator is None or declarator.type not in ("init_declarator", "assignment_expression"):
         return None
     target, source = ("declarator", "value") if declarator.type == "init_declarator" else ("left", "right")
-    value: Value | None = expressions.value(declarator.child_by_field_name(source), known)
+    value: Value | None = expressions.value(declarator.child_by_field_name(source), bindings)
     name = expressions.name(declarator.child_by_field_name(target))
     return (name, value) if isinstance(value, int) and name else None
 
@@ -98,17 +98,17 @@ def _target(node: SyntaxNode) -> SyntaxNode | None:
     return node.child_by_field_name("left" if node.type == "assignment_expression" else "argument")
 
 
-def _stepped(node: SyntaxNode, expressions: Expressions, known: Known) -> tuple[str, int] | None:
+def _loop_step(node: SyntaxNode, expressions: Expressions, bindings: Bindings) -> tuple[str, int] | None:
     """The variable that a step changes, and what it is then."""
     name = expressions.name(_target(node))
-    value = known.get(name)
+    value = bindings.get(name)
     sign = node.child_by_field_name("operator")
-    operator = expressions.of(sign) if sign is not None else ""
+    operator = expressions.text_of(sign) if sign is not None else ""
     if not isinstance(value, int):
         return None
     if node.type == "update_expression":
         return name, value + (1 if operator == "++" else -1)
-    step = expressions.value(node.child_by_field_name("right"), known) if node.type == "assignment_expression" else None
+    step = expressions.value(node.child_by_field_name("right"), bindings) if node.type == "assignment_expression" else None
     if not isinstance(step, int):
         return None
     if operator == "=":
@@ -132,7 +132,7 @@ def _only(body: SyntaxNode | None) -> SyntaxNode | None:
 def _conjuncts(node: SyntaxNode) -> list[SyntaxNode]:
     stack = [node]
     nodes: list[SyntaxNode] = []
-    while stack and len(nodes) < MOST_ROUNDS:
+    while stack and len(nodes) < MAX_ROUNDS:
         inner = stack.pop()
         if inner.type in ("condition_clause", "parenthesized_expression"):
             stack += inner.named_children
@@ -145,9 +145,11 @@ def _conjuncts(node: SyntaxNode) -> list[SyntaxNode]:
 
 def _negated(node: SyntaxNode, expressions: Expressions) -> SyntaxNode | None:
     """What a condition asks not to hold."""
-    if node.type == "unary_expression" and expressions.of(node)[:1] == "!":
+    if node.type == "unary_expression" and expressions.text_of(node)[:1] == "!":
         inner = node.child_by_field_name("argument")
-    elif node.type == "binary_expression" and expressions.of(node.children[1]) == "==" and expressions.value(node.children[2], {}) == 0:
+    elif (
+        node.type == "binary_expression" and expressions.text_of(node.children[1]) == "==" and expressions.value(node.children[2], {}) == 0
+    ):
         inner = node.child_by_field_name("left")
     else:
         return None

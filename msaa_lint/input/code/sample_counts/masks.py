@@ -9,7 +9,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.parsing import SyntaxNode, span
 
 from .arithmetic import arithmetic, whole
-from .statements import DEEPEST, unwrapped
+from .statements import MAX_DEPTH, unwrapped
 
 LIMITS = frozenset({
     "framebufferColorSampleCounts", "framebufferDepthSampleCounts", "framebufferStencilSampleCounts",
@@ -39,13 +39,13 @@ _POWERS = frozenset({"pow", "exp2", "ldexp"})
 
 class Mask(NamedTuple):
     """A mask of counts: the limits that it is taken from, each where it stands; how they are combined, and where; the counts that it may
-    have. `known` says that those limits are all."""
+    have. `bindings` says that those limits are all."""
 
     limits: tuple[tuple[str, Span], ...]
     combined: str
     at: Span
     allowed: int = EVERY
-    known: bool = True
+    bindings: bool = True
 
     @property
     def bit(self) -> int | None:
@@ -67,11 +67,11 @@ class Order(NamedTuple):
 
 
 Value = Mask | Highest | Order | int
-Known = dict[str, Value | None]
+Bindings = dict[str, Value | None]
 """What names stand for; None where that is not known."""
 
 
-def united(masks: Iterable[Mask], how: str, at: Span) -> Mask:
+def combine(masks: Iterable[Mask], how: str, at: Span) -> Mask:
     """Several masks combined."""
     every = list(masks)
     limits: dict[str, Span] = {}
@@ -83,7 +83,7 @@ def united(masks: Iterable[Mask], how: str, at: Span) -> Mask:
         allowed = allowed & mask.allowed if how == "AND" else allowed | mask.allowed
         if RANK.index(mask.combined) > RANK.index(worst):
             worst, worst_at = mask.combined, mask.at
-    return Mask(tuple(limits.items()), worst, worst_at, allowed, all(mask.known for mask in every))
+    return Mask(tuple(limits.items()), worst, worst_at, allowed, all(mask.bindings for mask in every))
 
 
 class Expressions:
@@ -91,65 +91,65 @@ class Expressions:
 
     def __init__(self, text: str) -> None:
         self.text = text
-        self.returns: Known = {}
-        self.members: Known = {}
+        self.returns: Bindings = {}
+        self.members: Bindings = {}
 
-    def of(self, node: SyntaxNode) -> str:
+    def text_of(self, node: SyntaxNode) -> str:
         return self.text[node.start_byte : node.end_byte]
 
     def name(self, node: SyntaxNode | None) -> str:
         """The last part of a name, without its object, scope or template arguments."""
         while node is not None and node.type in ("field_expression", "template_function", "qualified_identifier", "template_method"):
             node = node.child_by_field_name("field") or node.child_by_field_name("name")
-        return self.of(node) if node is not None and node.end_byte - node.start_byte < 200 else ""
+        return self.text_of(node) if node is not None and node.end_byte - node.start_byte < 200 else ""
 
-    def value(self, node: SyntaxNode | None, known: Known, depth: int = 0) -> Value | None:
+    def value(self, node: SyntaxNode | None, bindings: Bindings, depth: int = 0) -> Value | None:
         """What an expression gives; None where that is not known."""
-        if node is None or depth > DEEPEST:
+        if node is None or depth > MAX_DEPTH:
             return None
         kind, deeper = node.type, depth + 1
         if kind == "number_literal":
-            return whole(self.of(node))
+            return whole(self.text_of(node))
         if kind in ("identifier", "qualified_identifier", "field_expression", "field_identifier"):
-            return self._named(node, known)
+            return self._named(node, bindings)
         inner = unwrapped(node)
         if inner is not None and inner != node:
-            return self.value(inner, known, deeper)
+            return self.value(inner, bindings, deeper)
         if kind == "assignment_expression":
-            return self.value(node.child_by_field_name("right"), known, deeper)
+            return self.value(node.child_by_field_name("right"), bindings, deeper)
         if kind == "binary_expression":
-            return self._binary(node, known, deeper)
+            return self._binary(node, bindings, deeper)
         if kind == "unary_expression":
-            return self._unary(node, known, deeper)
+            return self._unary(node, bindings, deeper)
         if kind == "conditional_expression":
-            return self._choice(node, known, deeper)
+            return self._choice(node, bindings, deeper)
         if kind == "subscript_expression":
-            return self._item(node, known, deeper)
+            return self._item(node, bindings, deeper)
         if kind in ("initializer_list", "compound_literal_expression"):
-            return self._list(node, known, deeper)
-        return self._call(node, known, deeper) if kind == "call_expression" else None
+            return self._list(node, bindings, deeper)
+        return self._call(node, bindings, deeper) if kind == "call_expression" else None
 
-    def _named(self, node: SyntaxNode, known: Known) -> Value | None:
-        text = self.of(node)
+    def _named(self, node: SyntaxNode, bindings: Bindings) -> Value | None:
+        text = self.text_of(node)
         if len(text) < 60:
             match = _ENUMERANT.fullmatch(text) or _HPP.fullmatch(text)
-            if match is not None and int(match[1]) in COUNTS and text not in known:
+            if match is not None and int(match[1]) in COUNTS and text not in bindings:
                 return int(match[1])
         name = self.name(node)
-        if name in known and node.type != "field_expression":
-            return known[name]
+        if name in bindings and node.type != "field_expression":
+            return bindings[name]
         if name in LIMITS:
             at = span(node)
             return Mask(((name, at),), "NONE", at)
-        value = known[name] if name in known else self.members.get(name)
+        value = bindings[name] if name in bindings else self.members.get(name)
         if value is None and name == "sampleCounts" and node.type == "field_expression":
-            return Mask((), "NONE", span(node), known=False)
+            return Mask((), "NONE", span(node), bindings=False)
         return value
 
-    def _binary(self, node: SyntaxNode, known: Known, depth: int) -> Value | None:
+    def _binary(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
         sign = node.child_by_field_name("operator")
-        operator = self.of(sign) if sign is not None else ""
-        left, right = (self.value(node.child_by_field_name(side), known, depth) for side in ("left", "right"))
+        operator = self.text_of(sign) if sign is not None else ""
+        left, right = (self.value(node.child_by_field_name(side), bindings, depth) for side in ("left", "right"))
         if sign is None or left is None or right is None:
             return None
         if isinstance(left, int) and isinstance(right, int):
@@ -157,14 +157,14 @@ class Expressions:
         at = span(sign)
         if isinstance(left, Mask) and isinstance(right, Mask):
             if operator in ("&", "bitand"):
-                return united((left, right), "AND", at)
+                return combine((left, right), "AND", at)
             if operator in ("|", "bitor"):
-                return united((left, right), "OR", at)
+                return combine((left, right), "OR", at)
             if operator in ("&&", "and", "||", "or"):
                 if operator in ("&&", "and") and left.bit is not None and left.bit == right.bit:
-                    return united((left, right), "AND", at)
+                    return combine((left, right), "AND", at)
                 how = "LOGICAL_AND" if operator in ("&&", "and") else "LOGICAL_OR"
-                return united((left, right), how, at) if left.bit is None and right.bit is None else None
+                return combine((left, right), how, at) if left.bit is None and right.bit is None else None
             return None
         if isinstance(left, int) and isinstance(right, Mask) and operator in ("&", "bitand", "==", "!="):
             left, right = right, left
@@ -173,75 +173,75 @@ class Expressions:
                 return left._replace(allowed=left.allowed & right)
             same = (operator in ("!=", ">", "not_eq") and right == 0) or (operator == "==" and left.bit == right)
             return left if same else None
-        return _of_highest(operator, left, right)
+        return _highest_bit_arithmetic(operator, left, right)
 
-    def _unary(self, node: SyntaxNode, known: Known, depth: int) -> Value | None:
+    def _unary(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
         inner = node.child_by_field_name("argument")
-        operator = self.of(node)[:1]
-        if operator == "!" and inner is not None and inner.type == "unary_expression" and self.of(inner)[:1] == "!":
-            return self.value(inner.child_by_field_name("argument"), known, depth)
-        value = self.value(inner, known, depth)
+        operator = self.text_of(node)[:1]
+        if operator == "!" and inner is not None and inner.type == "unary_expression" and self.text_of(inner)[:1] == "!":
+            return self.value(inner.child_by_field_name("argument"), bindings, depth)
+        value = self.value(inner, bindings, depth)
         if operator == "!" and isinstance(value, int):
             return int(not value)
         return EVERY & ~value if operator == "~" and isinstance(value, int) else None
 
-    def compared(self, node: SyntaxNode | None, known: Known, depth: int = 0) -> tuple[Mask, Mask, bool, Span] | None:
+    def comparison(self, node: SyntaxNode | None, bindings: Bindings, depth: int = 0) -> tuple[Mask, Mask, bool, Span] | None:
         """Two masks that a condition compares as numbers: both, whether it holds where the first is less, and where it does so."""
         node = unwrapped(node)
         if node is None or node.type != "binary_expression":
             return None
         sign = node.child_by_field_name("operator")
-        operator = self.of(sign) if sign is not None else ""
+        operator = self.text_of(sign) if sign is not None else ""
         if operator not in ("<", ">", "<=", ">="):
             return None
-        left, right = (self.value(node.child_by_field_name(side), known, depth + 1) for side in ("left", "right"))
+        left, right = (self.value(node.child_by_field_name(side), bindings, depth + 1) for side in ("left", "right"))
         if not (isinstance(left, Mask) and isinstance(right, Mask)):
             return None
         return left, right, operator[0] == "<", span(node)
 
-    def lesser(self, compared: tuple[Mask, Mask, bool, Span], then: Value | None, other: Value | None) -> Mask | None:
+    def minimum(self, comparison: tuple[Mask, Mask, bool, Span], then: Value | None, other: Value | None) -> Mask | None:
         """The lesser or the greater of two masks, by what is taken where the one or the other is less."""
-        left, right, less, at = compared
+        left, right, less, at = comparison
         if not (isinstance(then, Mask) and isinstance(other, Mask)):
             return None
         names = [[name for name, _ in mask.limits] for mask in (left, right, then, other)]
         if names[0] == names[1] or not (names[2:] == names[:2] or names[2:] == names[1::-1]):
             return None
-        return united((left, right), "MIN" if (names[2] == names[0]) == less else "MAX", at)
+        return combine((left, right), "MIN" if (names[2] == names[0]) == less else "MAX", at)
 
-    def _choice(self, node: SyntaxNode, known: Known, depth: int) -> Value | None:
-        then, other = (self.value(node.child_by_field_name(side), known, depth) for side in ("consequence", "alternative"))
+    def _choice(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
+        then, other = (self.value(node.child_by_field_name(side), bindings, depth) for side in ("consequence", "alternative"))
         if not (isinstance(then, Mask) and isinstance(other, Mask)):
             return None
-        compared = self.compared(node.child_by_field_name("condition"), known, depth)
-        if compared is not None:
-            return self.lesser(compared, then, other)
+        comparison = self.comparison(node.child_by_field_name("condition"), bindings, depth)
+        if comparison is not None:
+            return self.minimum(comparison, then, other)
         more = then if len(then.limits) >= len(other.limits) else other
-        both = united((then, other), more.combined, more.at)
+        both = combine((then, other), more.combined, more.at)
         return both._replace(allowed=then.allowed | other.allowed)
 
-    def _item(self, node: SyntaxNode, known: Known, depth: int) -> Value | None:
+    def _item(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
         list_node = node.child_by_field_name("indices") or node.child_by_field_name("index")
         if list_node is not None and list_node.type == "subscript_argument_list":
             list_node = list_node.named_children[0] if list_node.named_child_count else None
-        order, index = self.value(node.child_by_field_name("argument"), known, depth), self.value(list_node, known, depth)
+        order, index = self.value(node.child_by_field_name("argument"), bindings, depth), self.value(list_node, bindings, depth)
         if isinstance(order, Order) and isinstance(index, int) and 0 <= index < len(order.counts):
             return order.counts[index]
         return None
 
-    def _list(self, node: SyntaxNode, known: Known, depth: int) -> Value | None:
+    def _list(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
         if node.type == "compound_literal_expression":
-            return self.value(node.child_by_field_name("value"), known, depth)
+            return self.value(node.child_by_field_name("value"), bindings, depth)
         items = [child for child in node.named_children if child.type != "comment"]
         if len(items) > 64:
             return None
-        values = [self.value(item, known, depth) for item in items]
+        values = [self.value(item, bindings, depth) for item in items]
         if len(values) == 1 and not isinstance(values[0], int):
             return values[0]
         counts = tuple(value for value in values if isinstance(value, int))
         return Order(counts) if counts and len(counts) == len(values) else None
 
-    def _call(self, node: SyntaxNode, known: Known, depth: int) -> Value | None:
+    def _call(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
         function, list_node = node.child_by_field_name("function"), node.child_by_field_name("arguments")
         name = self.name(function)
         arguments = [child for child in list_node.named_children if child.type != "comment"] if list_node is not None else []
@@ -249,13 +249,13 @@ class Expressions:
             arguments = [child for child in arguments[0].named_children if child.type != "comment"]
         if function is None or len(arguments) > 8:
             return None
-        values = [self.value(item, known, depth) for item in arguments]
+        values = [self.value(item, bindings, depth) for item in arguments]
         if len(arguments) == 1 and (name in _CASTS or _TYPE.search(name) is not None):
             return values[0]
         if name in _LESSER or name in _GREATER:
             masks = [value for value in values if isinstance(value, Mask)]
             at = span(function)
-            return united(masks, "MIN" if name in _LESSER else "MAX", at) if len(masks) == len(values) > 1 else None
+            return combine(masks, "MIN" if name in _LESSER else "MAX", at) if len(masks) == len(values) > 1 else None
         if name in _POWERS and isinstance(values[-1] if values else None, Highest) and values[:-1] in ([], [2], [1]):
             highest = values[-1]
             return highest._replace(form="COUNT") if isinstance(highest, Highest) and highest.form == "INDEX" else None
@@ -272,7 +272,7 @@ class Expressions:
 _FORMS = ((_FLOORS, "COUNT"), (_ZEROS, "ZEROS"), (_HIGHEST - {"floor"}, "INDEX"), (frozenset({"bit_width"}), "WIDTH"))
 
 
-def _of_highest(operator: str, left: Value, right: Value) -> Value | None:
+def _highest_bit_arithmetic(operator: str, left: Value, right: Value) -> Value | None:
     """Arithmetic on the place of a mask's highest bit."""
     if isinstance(right, Highest) and isinstance(left, int):
         if operator == "<<" and left == 1 and right.form == "INDEX":

@@ -11,12 +11,12 @@ from typing import NamedTuple
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.parsing import SyntaxNode, span
 
-from .chains import MOST_TESTS, Chain, Test, greatest
-from .loops import rounds, waits
-from .masks import COUNTS, Expressions, Highest, Known, Mask, Value, united
+from .chains import MAX_TESTS, Chain, Test, greatest
+from .loops import halving_loop, loop_iterations
+from .masks import COUNTS, Bindings, Expressions, Highest, Mask, Value, combine
 from .statements import links, statements, unwrapped
 
-DEEPEST = 40
+MAX_DEPTH = 40
 """Levels of blocks that are read."""
 
 RETURN = ""
@@ -34,7 +34,7 @@ class Owner(NamedTuple):
     returns: str
 
 
-class Found(NamedTuple):
+class Choice(NamedTuple):
     """A choice: who makes it and where, the mask, the tests, the greatest count that it gives (None: not known), and what holds it."""
 
     name: str
@@ -45,12 +45,12 @@ class Found(NamedTuple):
     returned: bool
 
 
-class Reading:
+class ChoiceReader:
     """The functions of a file while they are read."""
 
     def __init__(self, text: str) -> None:
         self.expressions = Expressions(text)
-        self.found: list[Found] = []
+        self.choices: list[Choice] = []
         self.combined: dict[Span, tuple[str, Mask]] = {}
         """Masks that are combined in a way that is none, by the place of it: what holds them."""
 
@@ -61,7 +61,7 @@ class Reading:
             declarator = declarator.child_by_field_name("declarator") or next(
                 (c for c in declarator.named_children if c.type.endswith("declarator")), None
             )
-        body, of = node.child_by_field_name("body"), self.expressions.of
+        body, of = node.child_by_field_name("body"), self.expressions.text_of
         name = declarator.child_by_field_name("declarator") if declarator is not None else None
         if declarator is None or name is None or body is None:
             return
@@ -69,59 +69,59 @@ class Reading:
         owner = Owner(self.expressions.name(name), span(name), of(kind) if kind is not None else "")
         self.block(body, self.parameters(declarator), owner, 0)
 
-    def parameters(self, declarator: SyntaxNode) -> Known:
+    def parameters(self, declarator: SyntaxNode) -> Bindings:
         """Parameters whose type says that they are masks."""
-        known: Known = {}
+        bindings: Bindings = {}
         list_node = declarator.child_by_field_name("parameters")
         for child in list_node.named_children if list_node is not None else ():
             kind, name = child.child_by_field_name("type"), child.child_by_field_name("declarator")
             if kind is not None and name is not None and name.type == "identifier":
-                mask = _MASK_TYPE.search(self.expressions.of(kind)) is not None
-                known[self.expressions.of(name)] = Mask((), "NONE", span(name), known=False) if mask else None
-        return known
+                mask = _MASK_TYPE.search(self.expressions.text_of(kind)) is not None
+                bindings[self.expressions.text_of(name)] = Mask((), "NONE", span(name), bindings=False) if mask else None
+        return bindings
 
-    def block(self, node: SyntaxNode, known: Known, owner: Owner, depth: int) -> None:
+    def block(self, node: SyntaxNode, bindings: Bindings, owner: Owner, depth: int) -> None:
         """Statements, one after the other."""
         chains: dict[str, Chain] = {}
-        if depth < DEEPEST:
+        if depth < MAX_DEPTH:
             for child in statements(node):
-                self.statement(child, known, owner, chains, depth + 1)
+                self.statement(child, bindings, owner, chains, depth + 1)
         for target, chain in chains.items():
             self.finish(target, chain, owner)
 
-    def statement(self, node: SyntaxNode, known: Known, owner: Owner, chains: dict[str, Chain], depth: int) -> None:
+    def statement(self, node: SyntaxNode, bindings: Bindings, owner: Owner, chains: dict[str, Chain], depth: int) -> None:
         kind = node.type
         if kind == "if_statement":
-            self.branches(node, known, owner, chains, depth)
+            self.branches(node, bindings, owner, chains, depth)
         elif kind in ("for_statement", "for_range_loop", "while_statement"):
             body = node.child_by_field_name("body")
-            if not self.loop(node, known, chains) and body is not None:
-                self.block(body, dict(known), owner, depth)
+            if not self.loop(node, bindings, chains) and body is not None:
+                self.block(body, dict(bindings), owner, depth)
         elif kind in ("compound_statement", "switch_statement", "try_statement", "do_statement", "else_clause", "labeled_statement"):
             inner = node if kind in ("compound_statement", "else_clause") else node.child_by_field_name("body")
             if inner is not None and kind != "switch_statement":
-                self.block(inner, known, owner, depth)
+                self.block(inner, bindings, owner, depth)
         elif kind in ("declaration", "expression_statement", "return_statement", "field_declaration", "init_declarator"):
-            self.plain(node, known, owner, chains)
-            self.lambdas(node, known, owner, depth)
+            self.plain(node, bindings, owner, chains)
+            self.lambdas(node, bindings, owner, depth)
 
-    def plain(self, node: SyntaxNode, known: Known, owner: Owner, chains: dict[str, Chain]) -> None:
+    def plain(self, node: SyntaxNode, bindings: Bindings, owner: Owner, chains: dict[str, Chain]) -> None:
         """A declaration, an assignment, a return."""
-        of = self.expressions.of
+        of = self.expressions.text_of
         if node.type == "return_statement":
             match = next((child for child in node.named_children if child.type != "comment"), None)
-            self.given(RETURN, match, owner.returns, known, owner, chains)
+            self.assign(RETURN, match, owner.returns, bindings, owner, chains)
         elif node.type == "expression_statement":
             child = node.named_children[0] if node.named_child_count else None
             if child is not None and child.type == "assignment_expression":
                 target, sign = child.child_by_field_name("left"), child.child_by_field_name("operator")
                 name = self.expressions.name(target)
                 masking = sign is not None and of(sign) == "&="
-                value = self.expressions.value(child.child_by_field_name("right"), known)
+                value = self.expressions.value(child.child_by_field_name("right"), bindings)
                 if masking and name:
-                    known[name] = _masked(known.get(name, self.expressions.members.get(name)), value, span(sign or child))
+                    bindings[name] = _apply_mask(bindings.get(name, self.expressions.members.get(name)), value, span(sign or child))
                 elif sign is not None and of(sign) == "=":
-                    self.given(name, child.child_by_field_name("right"), "", known, owner, chains)
+                    self.assign(name, child.child_by_field_name("right"), "", bindings, owner, chains)
         else:
             kind = node.child_by_field_name("type")
             type_node = of(kind) if kind is not None else ""
@@ -133,16 +133,16 @@ class Reading:
                     target = inner if inner is not None else next(iter(target.named_children), None)
                 name = self.expressions.name(target)
                 if name and value_node is not None:
-                    known[name] = None
-                    self.given(name, value_node, type_node, known, owner, chains)
+                    bindings[name] = None
+                    self.assign(name, value_node, type_node, bindings, owner, chains)
                 elif name:
-                    known[name] = Mask((), "NONE", span(child), known=False) if _MASK_TYPE.search(type_node) else None
+                    bindings[name] = Mask((), "NONE", span(child), bindings=False) if _MASK_TYPE.search(type_node) else None
 
-    def given(self, target: str, node: SyntaxNode | None, typed: str, known: Known, owner: Owner, chains: dict[str, Chain]) -> None:
+    def assign(self, target: str, node: SyntaxNode | None, typed: str, bindings: Bindings, owner: Owner, chains: dict[str, Chain]) -> None:
         """What an expression gives to a variable, or returns."""
-        value = self.expressions.value(node, known)
+        value = self.expressions.value(node, bindings)
         if value is None and node is not None and _MASK_TYPE.search(typed) and target:
-            value = Mask((), "NONE", span(node), known=False)
+            value = Mask((), "NONE", span(node), bindings=False)
         if isinstance(value, Mask):
             logical = value.combined.startswith("LOGICAL") and not re.search(r"SampleCount|int|VkFlags", typed)
             if value.combined not in ("NONE", "AND", "OR") and not logical:
@@ -150,115 +150,124 @@ class Reading:
         if isinstance(value, Highest) and value.form == "COUNT":
             at = owner.at if target == RETURN and owner.at is not None else span(node) if node is not None else value.mask.at
             most = 1 << (value.mask.allowed.bit_length() - 1) if value.mask.allowed else None
-            self.found.append(Found(target or owner.name, at, value.mask, (), most, target == RETURN))
+            self.choices.append(Choice(target or owner.name, at, value.mask, (), most, target == RETURN))
         elif target == RETURN and owner.name:
             returns = self.expressions.returns
             returns[owner.name] = value if isinstance(value, Mask) and returns.get(owner.name, value) == value else None
         elif target:
-            if target not in known:
+            if target not in bindings:
                 members = self.expressions.members
                 members[target] = value if members.get(target, value) == value else None
-            known[target] = value
-        self.conditional(target, node, known, chains)
+            bindings[target] = value
+        self.conditional(target, node, bindings, chains)
 
-    def conditional(self, target: str, node: SyntaxNode | None, known: Known, chains: dict[str, Chain]) -> None:
+    def conditional(self, target: str, node: SyntaxNode | None, bindings: Bindings, chains: dict[str, Chain]) -> None:
         """A chain of conditional expressions."""
         tests: list[Test] = []
-        for _ in range(MOST_TESTS):
+        for _ in range(MAX_TESTS):
             node = unwrapped(node)
             if node is None or node.type != "conditional_expression":
                 break
             test, then = node.child_by_field_name("condition"), node.child_by_field_name("consequence")
-            mask, count = self.expressions.value(test, known), self.expressions.value(then, known)
+            mask, count = self.expressions.value(test, bindings), self.expressions.value(then, bindings)
             if test is None or not isinstance(mask, Mask) or mask.bit is None or not isinstance(count, int) or count not in COUNTS:
                 break
-            tests.append(Test(mask, mask.bit, count, span(test), 0, True, _SPELLED.search(self.expressions.of(node)[:4000]) is not None))
+            tests.append(
+                Test(mask, mask.bit, count, span(test), 0, True, _SPELLED.search(self.expressions.text_of(node)[:4000]) is not None)
+            )
             node = node.child_by_field_name("alternative")
         if tests and (node is None or node.type != "conditional_expression"):
             chain = chains.setdefault(target, Chain())
             chain.groups += 1
             chain.tests += tests
 
-    def lambdas(self, node: SyntaxNode, known: Known, owner: Owner, depth: int) -> None:
+    def lambdas(self, node: SyntaxNode, bindings: Bindings, owner: Owner, depth: int) -> None:
         """Functions within an expression."""
         stack = [(node, "")]
         while stack:
             expression, name = stack.pop()
             if expression.type == "lambda_expression":
                 body, declarator = expression.child_by_field_name("body"), expression.child_by_field_name("declarator")
-                inner = {**known, **(self.parameters(declarator) if declarator is not None else {})}
+                inner = {**bindings, **(self.parameters(declarator) if declarator is not None else {})}
                 declared = expression.parent.child_by_field_name("declarator") if expression.parent is not None else None
                 at = span(declared) if declared is not None else None
-                lambda_owner = Owner(self.expressions.name(declared), at, self.expressions.of(declarator) if declarator is not None else "")
-                if body is not None and depth < DEEPEST:
+                lambda_owner = Owner(
+                    self.expressions.name(declared), at, self.expressions.text_of(declarator) if declarator is not None else ""
+                )
+                if body is not None and depth < MAX_DEPTH:
                     self.block(body, inner, lambda_owner, depth + 1)
                 continue
             stack += [(child, name) for child in expression.named_children]
 
-    def branches(self, node: SyntaxNode, known: Known, owner: Owner, chains: dict[str, Chain], depth: int) -> None:
+    def branches(self, node: SyntaxNode, bindings: Bindings, owner: Owner, chains: dict[str, Chain], depth: int) -> None:
         """An `if` with its `else if`s: tests of a chain, and the blocks behind them."""
-        self.tested(node, known, chains)
+        self.read_tests(node, bindings, chains)
         for condition, then in links(node):
             if condition is None or then.type != "else_clause":
-                self.compared(condition, then, node, known, owner)
-            self.block(then, known, owner, depth)
+                self.comparison(condition, then, node, bindings, owner)
+            self.block(then, bindings, owner, depth)
 
-    def compared(self, condition: SyntaxNode | None, then: SyntaxNode, node: SyntaxNode, known: Known, owner: Owner) -> None:
+    def comparison(self, condition: SyntaxNode | None, then: SyntaxNode, node: SyntaxNode, bindings: Bindings, owner: Owner) -> None:
         """`if (a < b) counts = a; else counts = b;`, and the same with returns."""
-        compared = self.expressions.compared(condition, known) if condition is not None else None
+        comparison = self.expressions.comparison(condition, bindings) if condition is not None else None
         other = node.child_by_field_name("alternative")
-        if compared is None:
+        if comparison is None:
             return
-        first, second = self.assigned(then), self.assigned(other) if other is not None else self.assigned(node.next_named_sibling)
+        first, second = (
+            self.assignment_of(then),
+            self.assignment_of(other) if other is not None else self.assignment_of(node.next_named_sibling),
+        )
         if first is None or second is None or first[0] != second[0]:
             return
-        lesser = self.expressions.lesser(compared, self.expressions.value(first[1], known), self.expressions.value(second[1], known))
-        if lesser is not None:
-            self.combined.setdefault(lesser.at, (first[0] or owner.name, lesser))
+        minimum = self.expressions.minimum(
+            comparison, self.expressions.value(first[1], bindings), self.expressions.value(second[1], bindings)
+        )
+        if minimum is not None:
+            self.combined.setdefault(minimum.at, (first[0] or owner.name, minimum))
 
-    def assigned(self, node: SyntaxNode | None) -> "tuple[str, SyntaxNode] | None":
+    def assignment_of(self, node: SyntaxNode | None) -> "tuple[str, SyntaxNode] | None":
         """What a branch gives to what: the target and the expression."""
         for child in statements(node) if node is not None else ():
             if child.type == "return_statement" and child.named_child_count:
                 return RETURN, child.named_children[0]
             inner = child.named_children[0] if child.type == "expression_statement" and child.named_child_count else None
             value = inner.child_by_field_name("right") if inner is not None and inner.type == "assignment_expression" else None
-            if inner is not None and value is not None and _plainly(inner, self.expressions):
+            if inner is not None and value is not None and _is_plain_assignment(inner, self.expressions):
                 return self.expressions.name(inner.child_by_field_name("left")), value
         return None
 
-    def tested(self, node: SyntaxNode, known: Known, chains: dict[str, Chain]) -> bool:
+    def read_tests(self, node: SyntaxNode, bindings: Bindings, chains: dict[str, Chain]) -> bool:
         """The tests of an `if`; whether it gives a count at all."""
         gave = False
         touched: set[str] = set()
         for condition, then in links(node):
-            assignment = self.assigned(then)
+            assignment = self.assignment_of(then)
             if condition is None or assignment is None:
                 continue
             target, expression = assignment
-            count, mask = self.expressions.value(expression, known), self.expressions.value(condition, known)
+            count, mask = self.expressions.value(expression, bindings), self.expressions.value(condition, bindings)
             if not isinstance(count, int) or count not in COUNTS:
                 if isinstance(mask, Mask) and mask.bit is not None and target in chains:
                     chains[target].pure = False
                 continue
             chain = chains.setdefault(target, Chain())
             gave = True
-            if isinstance(mask, Mask) and mask.bit is not None and len(chain.tests) < MOST_TESTS:
+            if isinstance(mask, Mask) and mask.bit is not None and len(chain.tests) < MAX_TESTS:
                 if target not in touched:
                     chain.groups += 1
                 touched.add(target)
                 leaves = target == RETURN or any(c.type in ("break_statement", "return_statement") for c in statements(then))
-                spelled = _SPELLED.search(self.expressions.of(then)[:4000]) is not None
+                spelled = _SPELLED.search(self.expressions.text_of(then)[:4000]) is not None
                 at = span(unwrapped(condition) or condition)
                 chain.tests.append(Test(mask, mask.bit, count, at, chain.groups, leaves, spelled))
             elif count > 1:
                 chain.pure = False
         return gave
 
-    def loop(self, node: SyntaxNode, known: Known, chains: dict[str, Chain]) -> bool:
+    def loop(self, node: SyntaxNode, bindings: Bindings, chains: dict[str, Chain]) -> bool:
         """A loop over counts that are known, gone through; whether it is one."""
         is_loop = False
-        waited = waits(node, self.expressions, known)
+        waited = halving_loop(node, self.expressions, bindings)
         if waited is not None:
             name, tests = waited
             chain = chains.setdefault(name, Chain())
@@ -266,11 +275,11 @@ class Reading:
             chain.tests += [Test(mask, mask.bit or 1, count, at, chain.groups, True, True) for mask, count, at in tests]
             return True
         body = node.child_by_field_name("body")
-        spelled = _SPELLED.search(self.expressions.of(node)[:4000]) is not None
-        for inner in rounds(node, self.expressions, known):
+        spelled = _SPELLED.search(self.expressions.text_of(node)[:4000]) is not None
+        for inner in loop_iterations(node, self.expressions, bindings):
             for child in statements(body) if body is not None else ():
                 before = {name: len(chain.tests) for name, chain in chains.items()}
-                is_loop |= child.type == "if_statement" and self.tested(child, inner, chains)
+                is_loop |= child.type == "if_statement" and self.read_tests(child, inner, chains)
                 for name, chain in chains.items():
                     new = chain.tests[before.get(name, 0) :]
                     chain.tests[before.get(name, 0) :] = [test._replace(spelled=spelled) for test in new]
@@ -279,7 +288,7 @@ class Reading:
     def finish(self, target: str, chain: Chain, owner: Owner) -> None:
         """A chain of a block that has ended."""
         tests = chain.ordered()
-        if not tests or not (tests[0].mask.known or all(test.spelled for test in tests)):
+        if not tests or not (tests[0].mask.bindings or all(test.spelled for test in tests)):
             return
         mask = tests[0].mask
         if len({(tuple(name for name, _ in test.mask.limits), test.mask.combined) for test in tests}) > 1:
@@ -288,17 +297,17 @@ class Reading:
         at = owner.at if target == RETURN and owner.at is not None else tests[0].at
         # The greatest of a mask that comes from elsewhere is the device's only if that is the device's.
         most = greatest(tests) if chain.pure and mask.limits else None
-        self.found.append(Found(target or owner.name or "samples", at, mask, tuple(tests), most, target == RETURN))
+        self.choices.append(Choice(target or owner.name or "samples", at, mask, tuple(tests), most, target == RETURN))
 
 
-def _masked(value: Value | None, other: Value | None, at: Span) -> Value | None:
+def _apply_mask(value: Value | None, other: Value | None, at: Span) -> Value | None:
     """What `&=` leaves of a mask."""
     if isinstance(value, Mask) and isinstance(other, Mask):
-        return united((value, other), "AND", at)
+        return combine((value, other), "AND", at)
     return value._replace(allowed=value.allowed & other) if isinstance(value, Mask) and isinstance(other, int) else None
 
 
-def _plainly(node: SyntaxNode, expressions: Expressions) -> bool:
+def _is_plain_assignment(node: SyntaxNode, expressions: Expressions) -> bool:
     """Whether an assignment is one by `=`."""
     sign = node.child_by_field_name("operator")
-    return sign is None or expressions.of(sign) == "="
+    return sign is None or expressions.text_of(sign) == "="

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 from msaa_lint.input.code.parsing import SyntaxNode
 
-DEEPEST = 60
+MAX_DEPTH = 60
 """Levels of an expression that are read."""
 
-MOST_LINKS = 64
+MAX_LINKS = 64
 """Conditions of one chain of `if` and `else if` that are read."""
 
 _SPLICED = ("preproc_if", "preproc_ifdef", "preproc_else", "preproc_elif", "ERROR")
@@ -17,7 +17,7 @@ _SPLICED = ("preproc_if", "preproc_ifdef", "preproc_else", "preproc_elif", "ERRO
 
 def unwrapped(node: SyntaxNode | None) -> SyntaxNode | None:
     """An expression without the parentheses and C casts around it."""
-    for _ in range(DEEPEST):
+    for _ in range(MAX_DEPTH):
         if node is None:
             return None
         if node.type in ("parenthesized_expression", "condition_clause", "cast_expression") and node.named_child_count:
@@ -46,7 +46,7 @@ def statements(node: SyntaxNode) -> Iterator[SyntaxNode]:
 def links(node: SyntaxNode) -> Iterator[tuple[SyntaxNode | None, SyntaxNode]]:
     """The conditions of an `if` and its `else if`s, each with what stands behind it; None for a last `else`."""
     current: SyntaxNode | None = node
-    for _ in range(MOST_LINKS):
+    for _ in range(MAX_LINKS):
         if current is None:
             return
         condition, then = current.child_by_field_name("condition"), current.child_by_field_name("consequence")

@@ -10,16 +10,16 @@ from msaa_lint.input.code.parsing import SyntaxNode, span
 
 from .masks import COUNTS, Expressions
 
-MOST_USES = 200
+MAX_USES = 200
 """Uses of one name that are looked at; of one that is used more often nothing is said."""
 
-MOST_STEPS = 300_000
+MAX_STEPS = 300_000
 """Nodes of a file that are looked at for formats."""
 
-MOST_MEMBERS = 2000
+MAX_MEMBERS = 2000
 """Uses of a member that are looked through for those of one structure."""
 
-MOST_NAMES = 12
+MAX_NAMES = 12
 """Names that a count goes by."""
 
 _CAPS = frozenset({"min", "MIN", "Min", "clamp", "Clamp", "CLAMP", "qMin", "qBound", "SDL_min"})
@@ -36,14 +36,14 @@ class Uses:
         self.expressions = expressions
         self._named: dict[str, list[SyntaxNode]] = {}
         self._functions: dict[str, SyntaxNode] = {}
-        self._left = MOST_STEPS
+        self._left = MAX_STEPS
         self._used: dict[str, list[SyntaxNode]] = {}
         self._held: dict[str, list[str]] = {}
         stack = [root]
         while stack:
             node = stack.pop()
             if node.type in ("identifier", "field_identifier"):
-                self._named.setdefault(expressions.of(node), []).append(node)
+                self._named.setdefault(expressions.text_of(node), []).append(node)
             elif node.type == "function_definition":
                 declarator = node.child_by_field_name("declarator")
                 while declarator is not None and declarator.type != "function_declarator":
@@ -58,13 +58,13 @@ class Uses:
             return self._held[name]
         holders = self._held[name] = [name]
         for holder in holders:
-            for node in self._uses(holder)[:MOST_USES]:
-                receiver = _given_to(node)
+            for node in self._uses(holder)[:MAX_USES]:
+                receiver = _receiver(node)
                 target = self.expressions.name(receiver)
                 if receiver is not None and target in _SAMPLES:
                     # Many structures have such a member, those that describe an image among them.
-                    target = "" if receiver.type == "field_expression" and self._beside(node) else self.expressions.of(receiver)
-                if target and target not in holders and len(holders) < MOST_NAMES:
+                    target = "" if receiver.type == "field_expression" and self._beside(node) else self.expressions.text_of(receiver)
+                if target and target not in holders and len(holders) < MAX_NAMES:
                     holders.append(target)
         return holders
 
@@ -75,8 +75,8 @@ class Uses:
         short = re.split(r"->|\.", name)[-1]
         uses = self._named.get(short, [])
         if short != name:
-            near = uses if len(uses) <= MOST_MEMBERS else []
-            uses = [item for item in near if item.parent is not None and self.expressions.of(item.parent) == name]
+            near = uses if len(uses) <= MAX_MEMBERS else []
+            uses = [item for item in near if item.parent is not None and self.expressions.text_of(item.parent) == name]
         elif name in _SAMPLES:
             uses = [item for item in uses if item.type == "identifier"]
         self._used[name] = uses
@@ -87,7 +87,7 @@ class Uses:
         caps: list[int] = []
         for holder in self.holders(name):
             uses = self._uses(holder)
-            if len(uses) > MOST_USES:
+            if len(uses) > MAX_USES:
                 return 0
             for node in uses:
                 limit = self._capped(node)
@@ -97,7 +97,7 @@ class Uses:
 
     def _capped(self, node: SyntaxNode) -> int | None:
         """What a use of a count says of its cap, as `cap`."""
-        value, parent = _whole(node)
+        value, parent = _enclosing_use(node)
         if parent is None:
             return None
         if parent.type == "argument_list" and parent.parent is not None:
@@ -109,7 +109,7 @@ class Uses:
             return counts[0] if len(counts) == len(others) == 1 and called in _CAPS else 0
         if parent.type == "binary_expression":
             sign = parent.child_by_field_name("operator")
-            operator = self.expressions.of(sign) if sign is not None else ""
+            operator = self.expressions.text_of(sign) if sign is not None else ""
             other = parent.child_by_field_name("right" if parent.child_by_field_name("left") == value else "left")
             if operator in ("<", ">", "<=", ">="):
                 return None if self.expressions.value(other, {}) in (0, 1) else 0
@@ -119,14 +119,14 @@ class Uses:
         """The formats with depth or stencil of images that get the count, and where each is named, as far as that is seen."""
         formats: dict[str, Span] = {}
         for holder in self.holders(name):
-            for node in self._uses(holder)[:MOST_USES]:
+            for node in self._uses(holder)[:MAX_USES]:
                 for expression in self._beside(node):
                     self._formats(expression, formats, 0, set())
         return formats
 
     def _beside(self, node: SyntaxNode) -> list[SyntaxNode]:
         """What may be the format where a count is an image's: the other arguments of a call, the member `format` of the same structure."""
-        value, parent = _whole(node)
+        value, parent = _enclosing_use(node)
         if parent is None:
             return []
         if parent.type == "argument_list":
@@ -136,15 +136,15 @@ class Uses:
             if left is None or left.type != "field_expression" or self.expressions.name(left) != "samples":
                 return []
             structure = left.child_by_field_name("argument")
-            name = self.expressions.of(structure) if structure is not None else ""
+            name = self.expressions.text_of(structure) if structure is not None else ""
             if len(self._member(parent, name, "samples")) > 1:
                 # The structure is used for several images: which format goes with the count is not seen.
                 return []
             return self._member(parent, name, "format")
         if parent.type == "initializer_pair" and parent.parent is not None:
             members = [child for child in parent.parent.named_children if child.type == "initializer_pair"]
-            if self.expressions.of(parent).lstrip(". ").startswith("samples"):
-                return [child for child in members if self.expressions.of(child).lstrip(". ").startswith("format")]
+            if self.expressions.text_of(parent).lstrip(". ").startswith("samples"):
+                return [child for child in members if self.expressions.text_of(child).lstrip(". ").startswith("format")]
         return []
 
     def _member(self, node: SyntaxNode, structure: str, member: str) -> list[SyntaxNode]:
@@ -153,13 +153,13 @@ class Uses:
         while around is not None and around.type not in ("function_definition", "lambda_expression", "translation_unit"):
             around = around.parent
         values = []
-        for use in self._named.get(member, ())[:MOST_USES]:
+        for use in self._named.get(member, ())[:MAX_USES]:
             field = use.parent
             assignment = field.parent if field is not None else None
             inside = around is not None and around.start_byte <= use.start_byte < around.end_byte
             if inside and field is not None and assignment is not None and assignment.type == "assignment_expression":
                 of, right = field.child_by_field_name("argument"), assignment.child_by_field_name("right")
-                same = of is not None and self.expressions.of(of) == structure
+                same = of is not None and self.expressions.text_of(of) == structure
                 if same and right is not None and assignment.child_by_field_name("left") == field:
                     values.append(right)
         return values
@@ -173,7 +173,7 @@ class Uses:
             if inner.type == "binary_expression" or inner.type in ("case_statement", "lambda_expression"):
                 continue
             if inner.type in ("identifier", "field_identifier", "qualified_identifier"):
-                name = _format(self.expressions.of(inner))
+                name = _format(self.expressions.text_of(inner))
                 if name is not None:
                     form = format_of(name)
                     if form is not None and not {"depth", "stencil"}.isdisjoint(form.aspects):
@@ -182,7 +182,7 @@ class Uses:
                 short = self.expressions.name(inner)
                 if depth < 3 and short not in names and ("ormat" in short or short in self._functions):
                     names.add(short)
-                    self._left -= min(len(self._named.get(short, ())), MOST_USES)
+                    self._left -= min(len(self._named.get(short, ())), MAX_USES)
                     for source in self._sources(short, inner):
                         self._formats(source, formats, depth + 1, names)
                 if inner.type == "qualified_identifier":
@@ -197,7 +197,7 @@ class Uses:
             body = self._functions[name].child_by_field_name("body")
             return [body] if body is not None else []
         sources = []
-        for node in self._named.get(name, ())[:MOST_USES]:
+        for node in self._named.get(name, ())[:MAX_USES]:
             holder: SyntaxNode | None = node.parent
             field = node
             while holder is not None and holder.type in _DECLARING:
@@ -210,7 +210,7 @@ class Uses:
         return sources
 
 
-def _whole(node: SyntaxNode) -> tuple[SyntaxNode, SyntaxNode | None]:
+def _enclosing_use(node: SyntaxNode) -> tuple[SyntaxNode, SyntaxNode | None]:
     """A name with its object, call, parentheses and casts around it, and what that stands in."""
     for _ in range(12):
         parent = node.parent
@@ -238,9 +238,9 @@ def _is_cast(node: SyntaxNode) -> bool:
     return node.type == "call_expression" and name is not None and name.text in (b"static_cast", b"reinterpret_cast", b"uint32_t", b"int")
 
 
-def _given_to(node: SyntaxNode) -> SyntaxNode | None:
+def _receiver(node: SyntaxNode) -> SyntaxNode | None:
     """What is given the value of a use."""
-    value, parent = _whole(node)
+    value, parent = _enclosing_use(node)
     if parent is not None and parent.type == "init_declarator" and parent.child_by_field_name("value") == value:
         return parent.child_by_field_name("declarator")
     if parent is not None and parent.type == "assignment_expression" and parent.child_by_field_name("right") == value:

@@ -7,7 +7,7 @@ from typing import Any
 
 from .terms import BINARY, CALL, LITERAL, MEMBER, NAME, NOT, OTHER, SET, Term
 
-MOST_TERMS = 2000
+MAX_TERMS = 2000
 """So many terms of a branch are looked at for signs of multisampling."""
 
 ALWAYS_OFFERED = (1, 2, 4)
@@ -26,8 +26,8 @@ def by_words(condition: Term) -> bool | None:
     turned = False
     while condition[0] == NOT:
         condition, turned = condition[1], not turned
-    way = _by_words(condition)
-    return None if way is None else way != turned
+    path = _by_words(condition)
+    return None if path is None else path != turned
 
 
 def _by_words(condition: Term) -> bool | None:
@@ -53,14 +53,14 @@ def _by_words(condition: Term) -> bool | None:
 
 def by_branches(then: Any, otherwise: Any) -> bool | None:
     """What a condition is in a world with multisampling, by what it guards: only one of its branches speaks of multisampling."""
-    one, other = speaks(then), speaks(otherwise)
+    one, other = mentions_multisampling(then), mentions_multisampling(otherwise)
     return one if one != other else None
 
 
-def speaks(term: Any) -> bool:
+def mentions_multisampling(term: Any) -> bool:
     """Whether a branch sets up multisampling."""
     stack = [term]
-    left = MOST_TERMS
+    left = MAX_TERMS
     while stack and left:
         left -= 1
         inner = stack.pop()

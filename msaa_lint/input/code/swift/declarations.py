@@ -14,7 +14,7 @@ def unit(root: SyntaxNode, syntax: Syntax) -> Unit:
     outside: list[SyntaxNode] = []
     stack: list[tuple[SyntaxNode, str]] = [(root, "")]
     while stack:
-        node, within = stack.pop()
+        node, type_name = stack.pop()
         inner: list[tuple[SyntaxNode, str]] = []
         for child in node.named_children:
             if child.type == "class_declaration":
@@ -23,11 +23,11 @@ def unit(root: SyntaxNode, syntax: Syntax) -> Unit:
                 if body is not None:
                     inner.append((body, declared.name))
             elif child.type == "ERROR":
-                inner.append((child, within))
+                inner.append((child, type_name))
             elif child.type == "statements":
                 outside.extend(child.named_children)
-            elif within or child.type in ("function_declaration", "init_declaration"):
-                _member(child, types[within], syntax)
+            elif type_name or child.type in ("function_declaration", "init_declaration"):
+                _member(child, types[type_name], syntax)
             else:
                 outside.append(child)
         stack.extend(reversed(inner))
@@ -38,11 +38,11 @@ def unit(root: SyntaxNode, syntax: Syntax) -> Unit:
 def _type(node: SyntaxNode, syntax: Syntax, types: dict[str, Type]) -> Type:
     """The type that a declaration or an extension is of."""
     name = node.child_by_field_name("name")
-    written = syntax.of(name).partition("<")[0].rpartition(".")[2] if name is not None else "?"
+    written = syntax.text_of(name).partition("<")[0].rpartition(".")[2] if name is not None else "?"
     declaring_type = types.setdefault(written, Type(written, {}, {}, {}, {}, set()))
     for child in node.named_children:
         if child.type == "inheritance_specifier":
-            declaring_type.inherits.add(syntax.of(child)[:100])
+            declaring_type.inherits.add(syntax.text_of(child)[:100])
     return declaring_type
 
 
@@ -60,8 +60,8 @@ def _member(node: SyntaxNode, declaring_type: Type, syntax: Syntax) -> None:
 def _property(node: SyntaxNode, declaring_type: Type, syntax: Syntax) -> None:
     terms: list[Term] = []
     syntax.declared(node, 0, terms)
-    binding = next((syntax.of(child) for child in node.named_children if child.type == "value_binding_pattern"), "let")
-    modifiers = " ".join(syntax.of(child) for child in node.named_children if child.type == "modifiers").split()
+    binding = next((syntax.text_of(child) for child in node.named_children if child.type == "value_binding_pattern"), "let")
+    modifiers = " ".join(syntax.text_of(child) for child in node.named_children if child.type == "modifiers").split()
     open_ = "private" not in modifiers and "fileprivate" not in modifiers
     for term in terms:
         if term[0] == LET:
@@ -91,7 +91,7 @@ def _cases(node: SyntaxNode, declaring_type: Type, syntax: Syntax) -> None:
     for index, child in enumerate(node.children):
         field = node.field_name_for_child(index)
         if field == "name":
-            name = syntax.of(child)
+            name = syntax.text_of(child)
             declaring_type.cases[name] = None
         elif field == "raw_value":
             declaring_type.cases[name] = syntax.expression(child)

@@ -15,15 +15,15 @@ from msaa_lint.input.code.parsing import Code, Read, tree
 
 from .declarations import unit
 from .evaluate import evaluate
-from .frame_state import Frame
-from .machine import Machine
-from .run import body_of, call, call_closure, enter, labelled, run
+from .execution import bind_parameters, call, call_closure, run_body, run_statements, with_labels
+from .frame_state import CallFrame
+from .interpreter import Interpreter
 from .syntax import Syntax
 from .terms import Function, Type
-from .tree_writer import Writer
-from .values import Aggregate, Texture, Value, joined
+from .tree_writer import DescriptionWriter
+from .values import Aggregate, Texture, Value, join
 
-MOST_TUPLES = 20
+MAX_TUPLES = 20
 """Functions that give labelled tuples, where those that take them are looked for."""
 
 _SPEAKS = re.compile(r"MTL|[aA]ttachment|[sS]ampleCount")
@@ -36,100 +36,100 @@ def trees(code: Code) -> list[Read]:
     """The frame that a Swift file, or the fragments of a page, have to do with: one tree with the section `metal`, or none."""
     if not _SPEAKS.search(code.text):
         return []
-    machine = gone_through(code)
-    writer = Writer(machine, defaults=not code.fragments)
+    interpreter = interpret(code)
+    writer = DescriptionWriter(interpreter, defaults=not code.fragments)
     node: Node | None = writer.tree(Span(0, len(code.text)))
     if node is None:
         return []
     return [Read(node, tuple((what, at, value) for what, (at, value) in writer.textures.assumed.items()))]
 
 
-def gone_through(code: Code) -> Machine:
+def interpret(code: Code) -> Interpreter:
     """A file after it was gone through twice."""
     syntax = Syntax(code.text)
     parsed = tree(code)
-    machine = Machine(code.text, unit(parsed.root_node, syntax), syntax)
-    machine.evaluate, machine.call, machine.call_closure = evaluate, call, call_closure
+    interpreter = Interpreter(code.text, unit(parsed.root_node, syntax), syntax)
+    interpreter.evaluate, interpreter.call, interpreter.call_closure = evaluate, call, call_closure
     apple_import = _APPLE_ONLY.search(code.text)
     if apple_import is not None and not _OTHERS_TOO.search(code.text):
-        machine.imports = Span(apple_import.start(), apple_import.end())
+        interpreter.imports = Span(apple_import.start(), apple_import.end())
     mentioned = {match[2] or match[3] for match in _CALLED.finditer(code.text) if not match[1]}
-    functions = [item for type_ in machine.unit.types.values() for named in type_.functions.values() for item in named]
+    functions = [item for type_ in interpreter.unit.types.values() for named in type_.functions.values() for item in named]
     functions.sort(key=lambda function: (function.name != "init", function.at.start))
     for turn in range(2):
         if turn:
-            machine.end()
-        machine.begin()
-        _begin(machine)
-        called = frozenset(machine.called)
+            interpreter.end()
+        interpreter.begin()
+        _begin(interpreter)
+        evaluate_call = frozenset(interpreter.called_functions)
         for function in functions:
-            if function.name == "init" or not (function.at.start in called if turn else function.name in mentioned):
-                _root(machine, function)
+            if function.name == "init" or not (function.at.start in evaluate_call if turn else function.name in mentioned):
+                _root(interpreter, function)
         for function in functions:
-            if function.at.start not in machine.inlined:
-                _root(machine, function)
-        for declaring_type in machine.unit.types.values():
+            if function.at.start not in interpreter.inlined:
+                _root(interpreter, function)
+        for declaring_type in interpreter.unit.types.values():
             for function in declaring_type.computed.values():
-                if function.at.start not in machine.inlined:
-                    _root(machine, function)
-    machine.end()
-    return machine
+                if function.at.start not in interpreter.inlined:
+                    _root(interpreter, function)
+    interpreter.end()
+    return interpreter
 
 
-def _begin(machine: Machine) -> None:
+def _begin(interpreter: Interpreter) -> None:
     """What stands outside of functions, and the values that properties begin with."""
-    machine.root += 1
-    top = Frame("", "", 0, 0)
-    _guarded(machine, lambda: run(machine, machine.unit.outside, top))
+    interpreter.root += 1
+    top = CallFrame("", "", 0, 0)
+    _guarded(interpreter, lambda: run_statements(interpreter, interpreter.unit.outside, top))
     for name, value in list(top.locals.items()):
-        machine.set_property("", name, value, Span(0, 0))
-    for type_ in machine.unit.types.values():
-        _guarded(machine, lambda type_=type_: _members(machine, type_))
+        interpreter.set_property("", name, value, Span(0, 0))
+    for type_ in interpreter.unit.types.values():
+        _guarded(interpreter, lambda type_=type_: _members(interpreter, type_))
 
 
-def _members(machine: Machine, type_: Type) -> None:
-    frame = Frame(type_.name, "", 0, 0)
+def _members(interpreter: Interpreter, type_: Type) -> None:
+    frame = CallFrame(type_.name, "", 0, 0)
     for name, member in type_.members.items():
         if member.value is not None and type_.name:
-            machine.set_property(type_.name, name, evaluate(machine, member.value, frame), member.value[-1])
+            interpreter.set_property(type_.name, name, evaluate(interpreter, member.value, frame), member.value[-1])
 
 
-def _root(machine: Machine, function: Function) -> None:
+def _root(interpreter: Interpreter, function: Function) -> None:
     """Goes through a function that nothing in the file calls, or that is called on objects whose type is not known."""
-    machine.inlined.add(function.at.start)
-    machine.root += 1
-    machine.unsure = 0
-    frame = Frame(function.within, function.name, 0, function.at.start, me=machine.me(function.within))
-    _guarded(machine, lambda: _entered(machine, function, frame))
+    interpreter.inlined.add(function.at.start)
+    interpreter.root += 1
+    interpreter.undecided_depth = 0
+    frame = CallFrame(function.type_name, function.name, 0, function.at.start, self_value=interpreter.self_value(function.type_name))
+    _guarded(interpreter, lambda: _entered(interpreter, function, frame))
 
 
-def _entered(machine: Machine, function: Function, frame: Frame) -> None:
+def _entered(interpreter: Interpreter, function: Function, frame: CallFrame) -> None:
     arguments: dict[str, Value] = {}
-    for call_arguments in machine.handed.get(function.at.start, ()):
+    for call_arguments in interpreter.call_arguments.get(function.at.start, ()):
         for name, value in call_arguments.items():
-            arguments[name] = value if name not in arguments else joined(arguments[name], value, name)
+            arguments[name] = value if name not in arguments else join(arguments[name], value, name)
     if not arguments:
-        arguments = _of_one_tuple(machine, function)
-    enter(machine, function, arguments, frame)
-    gives = labelled(machine, function, body_of(machine, machine.body(function), frame))
+        arguments = _of_one_tuple(interpreter, function)
+    bind_parameters(interpreter, function, arguments, frame)
+    gives = with_labels(interpreter, function, run_body(interpreter, interpreter.body(function), frame))
     for item in gives.items.values() if isinstance(gives, Aggregate) else (gives,):
         if isinstance(item, Texture):
             item.open = True
 
 
-def _of_one_tuple(machine: Machine, function: Function) -> dict[str, Value]:
+def _of_one_tuple(interpreter: Interpreter, function: Function) -> dict[str, Value]:
     """The textures that a function is meant to take: those of a tuple of the file with the same labels, two at least."""
     textures = [parameter.name for parameter in function.parameters if parameter.type == "MTLTexture"]
-    if len(textures) < 2 or len(machine.tuples) > MOST_TUPLES:
+    if len(textures) < 2 or len(interpreter.tuples) > MAX_TUPLES:
         return {}
-    tuples = [items for items in machine.tuples.values() if all(name in items for name in textures)]
+    tuples = [items for items in interpreter.tuples.values() if all(name in items for name in textures)]
     return {name: tuples[0][name] for name in textures} if len(tuples) == 1 else {}
 
 
-def _guarded(machine: Machine, goes: object) -> None:
+def _guarded(interpreter: Interpreter, goes: object) -> None:
     """Goes through a part of a file; one that goes deeper than Python does is left where it was."""
     assert callable(goes)
     try:
         goes()
     except RecursionError:
-        machine.incomplete.add(machine.root)
+        interpreter.incomplete.add(interpreter.root)

@@ -6,7 +6,7 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import scalar, words
 from msaa_lint.core.text.span import Span
 
-from .values import Field, Known
+from .values import Constant, Field
 
 Entry = tuple[str, Span, Node]
 
@@ -23,13 +23,13 @@ class Names:
         self.taken: set[str] = set()
         self.numbers: dict[str, int] = {}
 
-    def give(self, items: list[tuple[object, str, str]]) -> None:
+    def set_field(self, items: list[tuple[object, str, str]]) -> None:
         """Names things by what they are called and what they are in."""
         often: dict[str, int] = {}
         for _, name, _ in items:
             often[name] = often.get(name, 0) + 1
-        for item, name, within in items:
-            unique = f"{within}.{name}" if often[name] > 1 and within else name
+        for item, name, type_name in items:
+            unique = f"{type_name}.{name}" if often[name] > 1 and type_name else name
             while unique in self.taken:
                 number = self.numbers[unique] = self.numbers.get(unique, 1) + 1
                 candidate = f"{unique} {number}"
@@ -41,19 +41,19 @@ class Names:
 
 def type_of(fields: dict[str, Field]) -> object:
     field = fields.get("textureType")
-    return field.value.value if field is not None and isinstance(field.value, Known) else None
+    return field.value.value if field is not None and isinstance(field.value, Constant) else None
 
 
 def word(name: str, field: Field, allowed: frozenset[str]) -> list[Entry]:
     """A member that holds one of these words."""
-    if isinstance(field.value, Known) and isinstance(field.value.value, str) and field.value.value in allowed:
+    if isinstance(field.value, Constant) and isinstance(field.value.value, str) and field.value.value in allowed:
         return [(name, field.key, scalar(field.value.value, field.at))]
     return []
 
 
 def plain(name: str, field: Field) -> list[Entry]:
     """A member that holds a number above 0, a truth value or a word."""
-    value = field.value.value if isinstance(field.value, Known) else None
+    value = field.value.value if isinstance(field.value, Constant) else None
     if isinstance(value, str) and value.isidentifier():
         return [(name, field.key, scalar(value, field.at))]
     if isinstance(value, bool) or (isinstance(value, int) and 0 < value < 1 << 31):
@@ -63,7 +63,7 @@ def plain(name: str, field: Field) -> list[Entry]:
 
 def usage(field: Field) -> list[Entry]:
     """The usage that is stated; `unknown` is 0, and alone allows everything."""
-    value = field.value.value if isinstance(field.value, Known) else None
+    value = field.value.value if isinstance(field.value, Constant) else None
     usages = (value,) if isinstance(value, str) else value if isinstance(value, tuple) else ()
     named = [word for word in dict.fromkeys(usages) if word != "unknown"]
     if not named or not _USAGES.issuperset(named):

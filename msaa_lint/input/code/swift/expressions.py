@@ -9,7 +9,7 @@ from msaa_lint.input.code.parsing import SyntaxNode, span
 
 from .terms import BINARY, CALL, CHOICE, CLOSURE, DO, IF, INDEX, LIST, LITERAL, MEMBER, NAME, NOT, OTHER, TUPLE, Term
 
-DEEPEST = 40
+MAX_DEPTH = 40
 """How deep expressions and statements nest that are read."""
 
 _NUMBER = re.compile(r"0[xX][0-9a-fA-F_]{1,16}|0[bB][01_]{1,64}|0[oO][0-7_]{1,22}|[0-9][0-9_]{0,18}")
@@ -26,11 +26,11 @@ class Expressions:
     def __init__(self, text: str) -> None:
         self.text = text
 
-    def of(self, node: SyntaxNode) -> str:
+    def text_of(self, node: SyntaxNode) -> str:
         return self.text[node.start_byte : node.end_byte]
 
     def other(self, node: SyntaxNode) -> Term:
-        return OTHER, self.of(node)[:200], span(node)
+        return OTHER, self.text_of(node)[:200], span(node)
 
     # Expressions
 
@@ -39,10 +39,10 @@ class Expressions:
         if node is None:
             return OTHER, "", Span(0, 0)
         kind = node.type
-        if depth > DEEPEST:
+        if depth > MAX_DEPTH:
             return self.other(node)
         if kind in ("simple_identifier", "self_expression", "type_identifier", "super_expression"):
-            return NAME, self.of(node), span(node)
+            return NAME, self.text_of(node), span(node)
         if kind == "navigation_expression":
             return self.member(node, depth)
         if kind == "prefix_expression":
@@ -75,7 +75,7 @@ class Expressions:
         return self.literal(node)
 
     def literal(self, node: SyntaxNode) -> Term:
-        kind, written = node.type, self.of(node)
+        kind, written = node.type, self.text_of(node)
         if kind == "boolean_literal":
             return LITERAL, written == "true", span(node)
         if kind in ("nil_literal", "nil"):
@@ -97,15 +97,20 @@ class Expressions:
         name = suffix.child_by_field_name("suffix") if suffix is not None else None
         if name is None:
             return self.other(node)
-        return MEMBER, self.expression(node.child_by_field_name("target"), depth + 1), self.of(name), Span(node.start_byte, name.end_byte)
+        return (
+            MEMBER,
+            self.expression(node.child_by_field_name("target"), depth + 1),
+            self.text_of(name),
+            Span(node.start_byte, name.end_byte),
+        )
 
     def prefixed(self, node: SyntaxNode, depth: int) -> Term:
         sign, target = node.child_by_field_name("operation"), node.child_by_field_name("target")
         if sign is None or target is None:
             return self.other(node)
-        written = self.of(sign)
+        written = self.text_of(sign)
         if written == ".":
-            return MEMBER, None, self.of(target), span(node)
+            return MEMBER, None, self.text_of(target), span(node)
         if written == "!":
             return NOT, self.expression(target, depth + 1), span(node)
         return self.expression(target, depth + 1) if written in ("&", "+") else self.other(node)
@@ -131,13 +136,13 @@ class Expressions:
 
     def argument(self, node: SyntaxNode, depth: int) -> tuple[str, Term]:
         label = node.child_by_field_name("name")
-        return self.of(label) if label is not None else "", self.expression(node.child_by_field_name("value"), depth + 1)
+        return self.text_of(label) if label is not None else "", self.expression(node.child_by_field_name("value"), depth + 1)
 
     def binary(self, node: SyntaxNode, depth: int) -> Term:
         left, sign, right = (node.child_by_field_name(field) for field in ("lhs", "op", "rhs"))
         if left is None or sign is None or right is None:
             return self.other(node)
-        return BINARY, self.of(sign), self.expression(left, depth + 1), self.expression(right, depth + 1), span(node)
+        return BINARY, self.text_of(sign), self.expression(left, depth + 1), self.expression(right, depth + 1), span(node)
 
     def grouped(self, node: SyntaxNode, depth: int) -> Term:
         items: list[tuple[str, Term]] = []
@@ -145,7 +150,7 @@ class Expressions:
         for index, child in enumerate(node.children):
             field = node.field_name_for_child(index)
             if field == "name":
-                label = self.of(child)
+                label = self.text_of(child)
             elif field == "value":
                 items.append((label, self.expression(child, depth + 1)))
                 label = ""
@@ -160,7 +165,7 @@ class Expressions:
             for parameters in kind.named_children:
                 for child in parameters.named_children if parameters.type == "lambda_function_type_parameters" else ():
                     name = child.child_by_field_name("name")
-                    names.append(self.of(name) if name is not None else "")
+                    names.append(self.text_of(name) if name is not None else "")
         return CLOSURE, tuple(names), self.statements(block(node), depth + 1), span(node)
 
     def choice(self, node: SyntaxNode, depth: int) -> Term:

@@ -6,38 +6,40 @@ from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
 
-from .values import Field, Object, Value
+from .values import Field, MetalObject, Value
 
 
-class Frame:
+class CallFrame:
     """A run of a function: its variables, those of what it is written in, whose `self` it has, how deep in calls, by which way."""
 
-    __slots__ = ("around", "depth", "function", "locals", "me", "rank", "returned", "way", "within")
+    __slots__ = ("depth", "enclosing", "function", "locals", "path", "rank", "returned", "self_value", "type_name")
 
-    def __init__(self, within: str, function: str, rank: int, way: int, around: Frame | None = None, me: Value | None = None) -> None:
-        self.within = within
+    def __init__(
+        self, type_name: str, function: str, rank: int, path: int, enclosing: CallFrame | None = None, self_value: Value | None = None
+    ) -> None:
+        self.type_name = type_name
         self.function = function
         self.rank = rank
-        self.way = way
-        self.around = around
-        self.me = me
+        self.path = path
+        self.enclosing = enclosing
+        self.self_value = self_value
         self.depth = 0
         self.locals: dict[str, Value] = {}
         self.returned: list[Value] = []
 
     @property
-    def whose(self) -> str:
+    def function_name(self) -> str:
         """The function that it runs, as names in it are told from others."""
-        return f"{self.within}.{self.function}".lstrip(".")
+        return f"{self.type_name}.{self.function}".lstrip(".")
 
-    def find(self, name: str) -> tuple[Frame, Value] | None:
+    def find(self, name: str) -> tuple[CallFrame, Value] | None:
         """The variable of that name, and the run that has it."""
-        frame: Frame | None = self
+        frame: CallFrame | None = self
         while frame is not None:
             value = frame.locals.get(name)
             if value is not None:
                 return frame, value
-            frame = frame.around
+            frame = frame.enclosing
         return None
 
 
@@ -56,7 +58,7 @@ class Pass:
 
     __slots__ = ("at", "attachments", "complete", "descriptor")
 
-    def __init__(self, descriptor: Object, at: Span, attachments: dict[str, dict[str, Field]], complete: bool) -> None:
+    def __init__(self, descriptor: MetalObject, at: Span, attachments: dict[str, dict[str, Field]], complete: bool) -> None:
         self.descriptor = descriptor
         self.at = at
         self.attachments = attachments
@@ -66,13 +68,13 @@ class Pass:
 class Pipeline:
     """A pipeline as it is made: its descriptor, its name, what it was given."""
 
-    __slots__ = ("at", "colors", "descriptor", "fields", "name", "passes", "within")
+    __slots__ = ("at", "colors", "descriptor", "fields", "name", "passes", "type_name")
 
-    def __init__(self, descriptor: Object, at: Span, fields: dict[str, Field], colors: dict[str, dict[str, Field]]) -> None:
+    def __init__(self, descriptor: MetalObject, at: Span, fields: dict[str, Field], colors: dict[str, dict[str, Field]]) -> None:
         self.descriptor = descriptor
         self.at = at
         self.fields = fields
         self.colors = colors
         self.name = descriptor.name
-        self.within = ""
+        self.type_name = ""
         self.passes: list[Pass] = []

@@ -6,25 +6,25 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 
 from .frame_state import Encoded, Pass
-from .machine import Machine
+from .interpreter import Interpreter
 from .textures import Textures
-from .values import Field, Known, Texture
+from .values import Constant, Field, Texture
 
 
-def commands(machine: Machine, textures: Textures, passes: list[Pass], names: dict[int, str]) -> Node | None:
+def commands(interpreter: Interpreter, textures: Textures, passes: list[Pass], names: dict[int, str]) -> Node | None:
     """What a frame does, where one function encodes all passes and shows the drawable, and nothing of it is hidden."""
-    encodings = [item for item in machine.encoded if item.kind == "pass"]
+    encodings = [item for item in interpreter.encoded if item.kind == "pass"]
     roots = {encoding.by for encoding in encodings}
-    if len(roots) != 1 or len(encodings) != len(passes) or roots & machine.incomplete:
+    if len(roots) != 1 or len(encodings) != len(passes) or roots & interpreter.incomplete:
         return None
-    steps = [item for item in machine.encoded if item.by in roots]
+    steps = [item for item in interpreter.encoded if item.by in roots]
     if not all(item.sure for item in steps) or not any(entry.kind == "present" for entry in steps):
         return None
     if {id(encoding.what[0]) for encoding in encodings} != set(names):
         return None
     attached = {id(field.value) for render_pass in passes for fields in render_pass.attachments.values() for field in fields.values()}
-    hidden = attached & machine.escaped or any(id(item) in attached and _read_elsewhere(item) for item in textures.all.values())
-    if hidden or len(steps) != len(machine.encoded):
+    hidden = attached & interpreter.escaped or any(id(item) in attached and _read_elsewhere(item) for item in textures.all.values())
+    if hidden or len(steps) != len(interpreter.encoded):
         return None
     reads: dict[int, list[Encoded]] = {}
     for step in steps:
@@ -50,7 +50,7 @@ def _read_elsewhere(texture: Texture) -> bool:
 
 
 def _drawn_only(usage: Field | None) -> bool:
-    return usage is not None and usage.value in (Known("renderTarget"), Known(("renderTarget",)))
+    return usage is not None and usage.value in (Constant("renderTarget"), Constant(("renderTarget",)))
 
 
 def _command(textures: Textures, step: Encoded) -> Node:

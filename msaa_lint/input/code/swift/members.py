@@ -5,15 +5,15 @@ from __future__ import annotations
 from msaa_lint.core.text.span import Span
 
 from .configurations import last_name
-from .frame_state import Frame
-from .machine import Machine
+from .frame_state import CallFrame
+from .interpreter import Interpreter
 from .terms import MEMBER, NAME, Term
-from .values import NIL, UNKNOWN, Aggregate, Field, Known, Object, Symbol, Texture, Value
+from .values import NIL, UNKNOWN, Aggregate, Constant, Field, MetalObject, Symbol, Texture, Value
 
 ANY = "color?"
 """The colour attachment whose index is not known."""
 
-MOST_COLORS = 8
+MAX_COLORS = 8
 
 _ATTACHMENTS = ("depthAttachment", "stencilAttachment")
 _OF_PIPELINES = frozenset({"pixelFormat", "isBlendingEnabled", "blendingEnabled", "writeMask", "blendingState"})
@@ -32,135 +32,135 @@ _PASSES = ("currentRenderPassDescriptor", "currentMTL4RenderPassDescriptor")
 _STORAGE = {f"storageMode{mode.capitalize()}": mode for mode in ("shared", "managed", "private", "memoryless")}
 
 
-def member_of(machine: Machine, value: Value, name: str, at: Span, frame: Frame) -> Value | None:
+def member_of(interpreter: Interpreter, value: Value, name: str, at: Span, frame: CallFrame) -> Value | None:
     """What a member of a value holds; None where it is no value that is followed."""
-    if isinstance(value, Object):
-        return _of_object(machine, value, name, at, frame)
+    if isinstance(value, MetalObject):
+        return _of_object(interpreter, value, name, at, frame)
     if isinstance(value, Texture):
         fields = value.made[-1] if value.made else {}
         return fields[name].value if name in fields else None
     if isinstance(value, Aggregate):
         return value.items.get(name, UNKNOWN)
     if name in _PASSES:
-        return view_pass(machine, at, frame)
+        return view_pass(interpreter, at, frame)
     if name == "currentDrawable":
-        return machine.made("drawable", "drawable", at, 0, False)
+        return interpreter.object_at("drawable", "drawable", at, 0, False)
     return None
 
 
-def _of_object(machine: Machine, metal_object: Object, name: str, at: Span, frame: Frame) -> Value | None:
+def _of_object(interpreter: Interpreter, metal_object: MetalObject, name: str, at: Span, frame: CallFrame) -> Value | None:
     kind = metal_object.kind
     if kind in ("pass", "pipeline"):
         if name == "colorAttachments":
-            return slots_of(machine, metal_object, at)
+            return attachment_slots(interpreter, metal_object, at)
         if name in _ATTACHMENTS:
-            return slot(machine, metal_object, name, at)
+            return attachment_slot(interpreter, metal_object, name, at)
     elif kind == "view":
         if name in _PASSES:
-            return view_pass(machine, at, frame)
+            return view_pass(interpreter, at, frame)
         if name == "currentDrawable":
-            return machine.made("drawable", "drawable", at, 0, False)
+            return interpreter.object_at("drawable", "drawable", at, 0, False)
         if name == "multisampleColorTexture":
-            return view_texture(machine, metal_object, name, at)
+            return view_texture(interpreter, metal_object, name, at)
         if name == "depthStencilTexture":
-            return view_texture(machine, metal_object, name, at)
+            return view_texture(interpreter, metal_object, name, at)
         if name == "layer":
-            return machine.made("layer", "layer", at, 0, False)
+            return interpreter.object_at("layer", "layer", at, 0, False)
     elif kind == "drawable" and name == "texture":
-        return drawable(machine, at)
-    field = machine.has(metal_object, name)
+        return drawable(interpreter, at)
+    field = interpreter.field(metal_object, name)
     if field is None:
         return None
     return field.value if field.value is not UNKNOWN else Symbol(name, f"{metal_object.kind} {metal_object.name}")
 
 
-def slots_of(machine: Machine, metal_object: Object, at: Span) -> Object:
+def attachment_slots(interpreter: Interpreter, metal_object: MetalObject, at: Span) -> MetalObject:
     """A descriptor's array of colour attachments."""
     key = ("slots", id(metal_object))
-    slots = machine.objects.get(key)
+    slots = interpreter.objects.get(key)
     if slots is None:
-        slots = machine.objects[key] = Object("slots", "", at, True)
+        slots = interpreter.objects[key] = MetalObject("slots", "", at, True)
         slots.of = metal_object
     return slots
 
 
-def slot(machine: Machine, metal_object: Object, name: str, at: Span) -> Value:
+def attachment_slot(interpreter: Interpreter, metal_object: MetalObject, name: str, at: Span) -> Value:
     """An attachment of a descriptor, there from its beginning."""
-    field = machine.has(metal_object, name)
+    field = interpreter.field(metal_object, name)
     if field is not None:
         return field.value
     key = ("attachment", id(metal_object), name)
-    attachment = machine.objects.get(key)
+    attachment = interpreter.objects.get(key)
     if attachment is None:
-        attachment = machine.objects[key] = Object("attachment", name, at, True)
+        attachment = interpreter.objects[key] = MetalObject("attachment", name, at, True)
         attachment.of = metal_object
     elif attachment.fields:
-        machine.renew(attachment)
-    metal_object.fields[name] = Field(attachment, at, at, machine.root)
+        interpreter.reset(attachment)
+    metal_object.fields[name] = Field(attachment, at, at, interpreter.root)
     return attachment
 
 
-def index_of(machine: Machine, value: Value, index: Value, at: Span) -> Value | None:
+def index_of(interpreter: Interpreter, value: Value, index: Value, at: Span) -> Value | None:
     """What an index into a value gives; None where it is no value that is followed."""
-    if isinstance(value, Object) and value.kind == "slots":
-        return slot(machine, value.of, color_slot(index), at)
-    if isinstance(value, Aggregate) and isinstance(index, Known):
+    if isinstance(value, MetalObject) and value.kind == "slots":
+        return attachment_slot(interpreter, value.of, color_slot(index), at)
+    if isinstance(value, Aggregate) and isinstance(index, Constant):
         return value.items.get(str(index.value), UNKNOWN)
     return None
 
 
 def color_slot(index: Value) -> str:
-    if isinstance(index, Known) and type(index.value) is int and 0 <= index.value < MOST_COLORS:
+    if isinstance(index, Constant) and type(index.value) is int and 0 <= index.value < MAX_COLORS:
         return f"color{index.value}"
     return ANY
 
 
-def set_index(machine: Machine, owner: Value, index: Value, value: Value, key: Span, at: Span) -> bool:
+def set_index(interpreter: Interpreter, owner: Value, index: Value, value: Value, key: Span, at: Span) -> bool:
     """Sets an attachment as a whole; whether the value was one that is followed."""
-    if not isinstance(owner, Object) or owner.kind != "slots":
+    if not isinstance(owner, MetalObject) or owner.kind != "slots":
         return False
-    machine.give(owner.of, color_slot(index), value if isinstance(value, Object) else UNKNOWN, key, at)
+    interpreter.set_field(owner.of, color_slot(index), value if isinstance(value, MetalObject) else UNKNOWN, key, at)
     return True
 
 
-def set_member(machine: Machine, owner: Value, name: str, value: Value, key: Span, at: Span) -> bool:
+def set_member(interpreter: Interpreter, owner: Value, name: str, value: Value, key: Span, at: Span) -> bool:
     """Sets a member; whether its owner is followed."""
     if isinstance(owner, Aggregate):
-        machine.journal.write(owner.items, name, value)
+        interpreter.undo_log.write(owner.items, name, value)
         return True
-    if not isinstance(owner, Object):
+    if not isinstance(owner, MetalObject):
         return False
     if owner.kind == "attachment":
         if name in ("texture", "resolveTexture"):
-            value = as_texture(machine, value, at)
+            value = as_texture(interpreter, value, at)
             if isinstance(value, Texture) and not value.name:
-                machine.name(value, name, owner.of.name if isinstance(owner.of, Object) else "", 1 << 29)
-        elif name in _OF_PIPELINES and isinstance(owner.of, Object) and not owner.of.complete:
+                interpreter.name_value(value, name, owner.of.name if isinstance(owner.of, MetalObject) else "", 1 << 29)
+        elif name in _OF_PIPELINES and isinstance(owner.of, MetalObject) and not owner.of.complete:
             owner.of.kind = "pipeline"
     elif name == "resourceOptions":
-        words = value.value if isinstance(value, Known) else ()
+        words = value.value if isinstance(value, Constant) else ()
         modes = [_STORAGE[word] for word in (words if isinstance(words, tuple) else (str(words),)) if word in _STORAGE]
-        name, value = "storageMode", Known(modes[0]) if modes else UNKNOWN
-    elif name in _ATTACHMENTS and owner.kind == "pass" and not isinstance(value, Object):
+        name, value = "storageMode", Constant(modes[0]) if modes else UNKNOWN
+    elif name in _ATTACHMENTS and owner.kind == "pass" and not isinstance(value, MetalObject):
         value = UNKNOWN
     if name in _KEPT:
-        machine.give(owner, name, value, key, at)
+        interpreter.set_field(owner, name, value, key, at)
     return True
 
 
-def as_texture(machine: Machine, value: Value, at: Span) -> Value:
+def as_texture(interpreter: Interpreter, value: Value, at: Span) -> Value:
     """The texture that a value is, one of which only the name is known at least."""
     if isinstance(value, Texture) or value == NIL:
         return value
     if isinstance(value, Symbol):
-        return machine.opaque(value.text, value.whose, at)
+        return interpreter.named_texture(value.text, value.function_name, at)
     return UNKNOWN
 
 
 _TEXTURE_MEMBERS = frozenset({"textureType", "usage", "storageMode", "sampleCount"})
 
 
-def adopted(machine: Machine, symbol: Symbol, term: Term, member: str, frame: Frame) -> Value:
+def adopt_descriptor(interpreter: Interpreter, symbol: Symbol, term: Term, member: str, frame: CallFrame) -> Value:
     """The object that code builds up which is begun elsewhere, told by its name and the member that is set."""
     if term[0] != NAME and not (term[0] == MEMBER and term[1] is not None and term[1][:2] == (NAME, "self")):
         return symbol
@@ -174,64 +174,66 @@ def adopted(machine: Machine, symbol: Symbol, term: Term, member: str, frame: Fr
         kind = "pipeline" if "pipeline" in low or "pso" in low else "pass"
     if not kind:
         return symbol
-    metal_object = machine.made(kind, last_name(term), term[-1], symbol, False)
-    machine.name(metal_object, last_name(term), frame.whose, frame.rank)
-    _hold(machine, term, metal_object, frame)
+    metal_object = interpreter.object_at(kind, last_name(term), term[-1], symbol, False)
+    interpreter.name_value(metal_object, last_name(term), frame.function_name, frame.rank)
+    _hold(interpreter, term, metal_object, frame)
     return metal_object
 
 
-def _hold(machine: Machine, term: Term, metal_object: Object, frame: Frame) -> None:
+def _hold(interpreter: Interpreter, term: Term, metal_object: MetalObject, frame: CallFrame) -> None:
     name = last_name(term)
     if term[0] == NAME and frame.find(name) is not None:
-        machine.journal.write(frame.locals, name, metal_object)
+        interpreter.undo_log.write(frame.locals, name, metal_object)
     else:
-        machine.set_property(frame.within, name, metal_object, term[-1])
+        interpreter.set_property(frame.type_name, name, metal_object, term[-1])
 
 
 # What MTKView makes
 
 
-def drawable(machine: Machine, at: Span) -> Texture:
+def drawable(interpreter: Interpreter, at: Span) -> Texture:
     """The texture of the drawable of the file."""
-    texture = machine.textures.get(("drawable",))
+    texture = interpreter.textures.get(("drawable",))
     if texture is None:
-        texture = machine.textures["drawable",] = Texture("drawable", "", at)
+        texture = interpreter.textures["drawable",] = Texture("drawable", "", at)
         texture.drawable = True
     return texture
 
 
-def view_texture(machine: Machine, view: Object, name: str, at: Span) -> Texture:
+def view_texture(interpreter: Interpreter, view: MetalObject, name: str, at: Span) -> Texture:
     """A texture that the view makes and keeps."""
-    texture = machine.textures.get((name, "view"))
+    texture = interpreter.textures.get((name, "view"))
     if texture is None:
-        texture = machine.textures[name, "view"] = Texture(name, "", at)
+        texture = interpreter.textures[name, "view"] = Texture(name, "", at)
         texture.owner = view
     return texture
 
 
-def view_pass(machine: Machine, at: Span, frame: Frame) -> Object:
+def view_pass(interpreter: Interpreter, at: Span, frame: CallFrame) -> MetalObject:
     """The descriptor that MTKView makes for its drawable: with multisampling it clears the multisampled texture and resolves it into the
     drawable's; depth and stencil are cleared and not stored (Apple's documentation of currentRenderPassDescriptor)."""
-    descriptor = machine.made("pass", "", at, frame.way, True)
-    view = machine.made("view", "view", at, 0, False)
+    descriptor = interpreter.object_at("pass", "", at, frame.path, True)
+    view = interpreter.object_at("view", "view", at, 0, False)
     descriptor.of = view
-    count = machine.every.get((id(view), "sampleCount"), machine.given.get((id(view), "sampleCount")))
-    several = isinstance(count, Known) and type(count.value) is int and count.value > 1
-    if not several or len(machine.views) > 1:
+    count = interpreter.new_member_values.get((id(view), "sampleCount"), interpreter.member_values.get((id(view), "sampleCount")))
+    several = isinstance(count, Constant) and type(count.value) is int and count.value > 1
+    if not several or len(interpreter.views) > 1:
         descriptor.complete = False
         return descriptor
-    color = slot(machine, descriptor, "color0", at)
-    if isinstance(color, Object):
-        machine.give(color, "texture", view_texture(machine, view, "multisampleColorTexture", at), at, at)
-        machine.give(color, "resolveTexture", drawable(machine, at), at, at)
-        machine.give(color, "loadAction", Known("clear"), at, at)
-        machine.give(color, "storeAction", Known("multisampleResolve"), at, at)
-    kind = machine.every.get((id(view), "depthStencilPixelFormat"), machine.given.get((id(view), "depthStencilPixelFormat")))
-    written = kind.value if isinstance(kind, Known) and isinstance(kind.value, str) else ""
+    color = attachment_slot(interpreter, descriptor, "color0", at)
+    if isinstance(color, MetalObject):
+        interpreter.set_field(color, "texture", view_texture(interpreter, view, "multisampleColorTexture", at), at, at)
+        interpreter.set_field(color, "resolveTexture", drawable(interpreter, at), at, at)
+        interpreter.set_field(color, "loadAction", Constant("clear"), at, at)
+        interpreter.set_field(color, "storeAction", Constant("multisampleResolve"), at, at)
+    kind = interpreter.new_member_values.get(
+        (id(view), "depthStencilPixelFormat"), interpreter.member_values.get((id(view), "depthStencilPixelFormat"))
+    )
+    written = kind.value if isinstance(kind, Constant) and isinstance(kind.value, str) else ""
     for name, words in (("depthAttachment", ("depth",)), ("stencilAttachment", ("stencil",))):
-        attachment = slot(machine, descriptor, name, at) if any(word in written for word in words) else None
-        if isinstance(attachment, Object):
-            machine.give(attachment, "texture", view_texture(machine, view, "depthStencilTexture", at), at, at)
-            machine.give(attachment, "loadAction", Known("clear"), at, at)
-            machine.give(attachment, "storeAction", Known("dontCare"), at, at)
+        attachment = attachment_slot(interpreter, descriptor, name, at) if any(word in written for word in words) else None
+        if isinstance(attachment, MetalObject):
+            interpreter.set_field(attachment, "texture", view_texture(interpreter, view, "depthStencilTexture", at), at, at)
+            interpreter.set_field(attachment, "loadAction", Constant("clear"), at, at)
+            interpreter.set_field(attachment, "storeAction", Constant("dontCare"), at, at)
     return descriptor

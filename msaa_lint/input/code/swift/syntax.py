@@ -7,10 +7,10 @@ import re
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.parsing import SyntaxNode, span
 
-from .expressions import DEEPEST, Expressions, block
+from .expressions import MAX_DEPTH, Expressions, block
 from .terms import BIND, BLOCK, CALL, CASES, DO, FUNC, GUARD, IF, LEAVE, LET, LOOP, NAME, OTHER, RETURN, SET, Function, Parameter, Term
 
-MOST_ARMS = 50
+MAX_ARMS = 50
 """Of one chain of else-ifs."""
 
 _LABELS = re.compile(r"[(,]\s*([A-Za-z_]\w*)\s*:")
@@ -25,7 +25,7 @@ class Syntax(Expressions):
 
     def statements(self, nodes: list[SyntaxNode], depth: int = 0) -> tuple[Term, ...]:
         """The terms of statements; `#if` is put together from its directives."""
-        if depth > DEEPEST:
+        if depth > MAX_DEPTH:
             return ()
         terms: list[Term] = []
         open_: list[_Open] = []
@@ -40,12 +40,12 @@ class Syntax(Expressions):
 
     def directive(self, node: SyntaxNode, terms: list[Term], open_: list[_Open]) -> list[Term]:
         """What statements after a directive are added to."""
-        written = self.of(node)
+        written = self.text_of(node)
         arm: list[Term] = []
-        if written.startswith("#if") and len(open_) < DEEPEST:
+        if written.startswith("#if") and len(open_) < MAX_DEPTH:
             open_.append((terms, span(node), [(written[3:].strip(), arm)]))
             return arm
-        if written.startswith("#else") and open_ and len(open_[-1][2]) < MOST_ARMS:
+        if written.startswith("#else") and open_ and len(open_[-1][2]) < MAX_ARMS:
             open_[-1][2].append((written.removeprefix("#elseif").strip() if written.startswith("#elseif") else "", arm))
             return arm
         if written.startswith("#endif") and open_:
@@ -62,11 +62,11 @@ class Syntax(Expressions):
             inner = target.named_children[0] if target is not None and target.named_children else None
             sign, value = node.child_by_field_name("operator"), node.child_by_field_name("result")
             if inner is not None and sign is not None:
-                terms.append((SET, self.of(sign), self.expression(inner, depth), self.expression(value, depth), span(node)))
-        elif kind == "infix_expression" and node.child_count == 3 and self.of(node.children[1]).endswith("="):
+                terms.append((SET, self.text_of(sign), self.expression(inner, depth), self.expression(value, depth), span(node)))
+        elif kind == "infix_expression" and node.child_count == 3 and self.text_of(node.children[1]).endswith("="):
             # The grammar knows `+=` as an assignment, `<<=` and its like only as operators of somebody's own.
             target, sign, value = node.children
-            terms.append((SET, self.of(sign), self.expression(target, depth), self.expression(value, depth), span(node)))
+            terms.append((SET, self.text_of(sign), self.expression(target, depth), self.expression(value, depth), span(node)))
         elif kind == "if_statement":
             terms.append(self.branches(node, depth))
         elif kind == "guard_statement":
@@ -87,7 +87,7 @@ class Syntax(Expressions):
         elif kind == "function_declaration":
             terms.append((FUNC, self.function(node, ""), span(node)))
         elif kind == "ERROR":
-            if depth < DEEPEST:
+            if depth < MAX_DEPTH:
                 terms.extend(self.statements(node.named_children, depth + 20))
         elif not kind.endswith(("declaration", "comment")):
             term = self.expression(node, depth)
@@ -98,7 +98,7 @@ class Syntax(Expressions):
         """An `if` with all its else-ifs."""
         arms: list[tuple[tuple[Term, ...], tuple[Term, ...], Span]] = []
         otherwise: tuple[Term, ...] = ()
-        while len(arms) < MOST_ARMS:
+        while len(arms) < MAX_ARMS:
             conditions, bodies = self.conditions(node, depth)
             arms.append((conditions, bodies[0] if bodies else (), span(node)))
             next_node = node.children[-1]
@@ -141,7 +141,7 @@ class Syntax(Expressions):
     def _bind(self, terms: list[Term], name: SyntaxNode | None, value: SyntaxNode | None, depth: int) -> None:
         if name is not None:
             place = Span(name.start_byte, value.end_byte if value is not None else name.end_byte)
-            terms.append((BIND, self.of(name), self.expression(value, depth) if value is not None else None, place))
+            terms.append((BIND, self.text_of(name), self.expression(value, depth) if value is not None else None, place))
 
     def declared(self, node: SyntaxNode, depth: int, terms: list[Term]) -> None:
         """`let` and `var`, each of its names."""
@@ -155,7 +155,7 @@ class Syntax(Expressions):
                     terms.append((LET, names, kind, value, span(node)))
                 names, kind, value = self.names(child), "", None
             elif child.type == "type_annotation":
-                kind = self.of(child).lstrip(": ").rstrip("?! ")
+                kind = self.text_of(child).lstrip(": ").rstrip("?! ")
             elif field == "value":
                 value = self.expression(child, depth)
         if names:
@@ -165,10 +165,10 @@ class Syntax(Expressions):
         """The names that a pattern binds; empty ones are passed over."""
         bound = node.child_by_field_name("bound_identifier")
         if bound is not None:
-            return (self.of(bound),)
-        return tuple(self.of(child) for child in node.named_children if child.type in ("pattern", "simple_identifier")) or ("",)
+            return (self.text_of(bound),)
+        return tuple(self.text_of(child) for child in node.named_children if child.type in ("pattern", "simple_identifier")) or ("",)
 
-    def function(self, node: SyntaxNode, within: str) -> Function:
+    def function(self, node: SyntaxNode, type_name: str) -> Function:
         """A function or an initialiser, its body unread."""
         name = node.child_by_field_name("name")
         parameters: list[Parameter] = []
@@ -180,22 +180,24 @@ class Syntax(Expressions):
                 default = next_node if next_node is not None and node.field_name_for_child(index + 2) == "default_value" else None
                 parameters.append(self.parameter(child, default))
             elif child.type == "tuple_type":
-                gives = tuple(_LABELS.findall(self.of(child)[:2000]))
-        return Function(self.of(name) if name else "", within, tuple(parameters), gives, node.child_by_field_name("body"), span(node))
+                gives = tuple(_LABELS.findall(self.text_of(child)[:2000]))
+        return Function(
+            self.text_of(name) if name else "", type_name, tuple(parameters), gives, node.child_by_field_name("body"), span(node)
+        )
 
     def parameter(self, node: SyntaxNode, default: SyntaxNode | None) -> Parameter:
         label, name = node.child_by_field_name("external_name"), node.child_by_field_name("name")
-        written = self.of(name) if name is not None else ""
-        kind = self.of(node).partition(":")[2].strip().removeprefix("inout ").rstrip("?! ")
-        outer = self.of(label) if label is not None else written
+        written = self.text_of(name) if name is not None else ""
+        kind = self.text_of(node).partition(":")[2].strip().removeprefix("inout ").rstrip("?! ")
+        outer = self.text_of(label) if label is not None else written
         return Parameter("" if outer == "_" else outer, written, kind, self.expression(default) if default is not None else None)
 
 
 def _closed(terms: list[Term], open_: list[_Open]) -> list[Term]:
     """Ends the innermost `#if`: the list around it, with what it says."""
-    around, place, arms = open_.pop()
+    enclosing, place, arms = open_.pop()
     otherwise: tuple[Term, ...] = ()
     for text, arm in reversed(arms):
         otherwise = ((IF, ((OTHER, "#if " + text, place),), tuple(arm), otherwise, place),) if text else tuple(arm)
-    around.extend(otherwise)
-    return around
+    enclosing.extend(otherwise)
+    return enclosing

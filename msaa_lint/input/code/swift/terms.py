@@ -52,11 +52,13 @@ class Parameter(NamedTuple):
 
 
 class Function(NamedTuple):
-    """A function, an initialiser (`init`), a computed property or an observer. `within` is the type that it belongs to, or empty; `gives`
-    the labels of the tuple that it returns; `body` is read when it is asked for."""
+    """A function, an initializer (`init`), a computed property or an observer.
+
+    `type_name` is the type that declares it, or empty; `gives` are the labels of the tuple that it returns; `body` is parsed on demand.
+    """
 
     name: str
-    within: str
+    type_name: str
     parameters: tuple[Parameter, ...]
     gives: tuple[str, ...]
     body: SyntaxNode | None

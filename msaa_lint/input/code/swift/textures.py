@@ -6,8 +6,8 @@ from msaa_lint.core.text.node_builder import scalar
 from msaa_lint.core.text.span import Span
 
 from .entries import COUNTS, Entry, Names, plain, type_of, usage, word
-from .machine import Machine
-from .values import MULTISAMPLED_TYPES, Field, Known, Object, Symbol, Texture, joined_fields
+from .interpreter import Interpreter
+from .values import MULTISAMPLED_TYPES, Constant, Field, MetalObject, Symbol, Texture, join_fields
 
 ASSUMED_COUNT = 4
 """The only count above 1 that every device has (Apple's documentation of supportsTextureSampleCount)."""
@@ -19,8 +19,8 @@ class Textures:
     """The textures of a file. `assumed` has what is not known: where it stands, what it is taken for; `symbols` the counts that values are
     taken for; `attached` the textures that a pass draws to, `resolved` those that it resolves, `alike` those beside others."""
 
-    def __init__(self, machine: Machine, defaults: bool) -> None:
-        self.machine = machine
+    def __init__(self, interpreter: Interpreter, defaults: bool) -> None:
+        self.interpreter = interpreter
         self.defaults = defaults
         self.all: dict[int, Texture] = {}
         self.names = Names()
@@ -42,38 +42,38 @@ class Textures:
 
     def fields(self, texture: Texture) -> dict[str, Field]:
         """What a texture is made with: what agrees each time, and of those with several samples where it ever has several."""
-        agreed = self.given.get(id(texture))
-        if agreed is None:
+        join_all = self.given.get(id(texture))
+        if join_all is None:
             several = [fields for fields in texture.made if type_of(fields) in MULTISAMPLED_TYPES]
-            agreed = {}
+            join_all = {}
             for index, texture_fields in enumerate(several or texture.made):
-                agreed = texture_fields if index == 0 else joined_fields(agreed, texture_fields)
-            self.given[id(texture)] = agreed
-        return agreed
+                join_all = texture_fields if index == 0 else join_fields(join_all, texture_fields)
+            self.given[id(texture)] = join_all
+        return join_all
 
-    def draw(self, textures: list[Texture]) -> None:
+    def add_pass(self, textures: list[Texture]) -> None:
         """Notes the textures of a pass, which all have the same sample count: what is known of one is known of the others."""
-        counts = {self.stated(texture) for texture in textures} - {None}
+        counts = {self.stated_count(texture) for texture in textures} - {None}
         self.attached.update(map(id, textures))
         if len(counts) == 1:
             (count,) = counts
             for texture in textures:
-                if count is not None and count > 1 and self.stated(texture) is None:
+                if count is not None and count > 1 and self.stated_count(texture) is None:
                     self.alike.setdefault(id(texture), count)
 
-    def stated(self, texture: Texture) -> int | None:
+    def stated_count(self, texture: Texture) -> int | None:
         """The sample count that the file states."""
-        fields = self.fields(texture) if texture.owner is None else self.machine.snapshot(texture.owner)
+        fields = self.fields(texture) if texture.owner is None else self.interpreter.snapshot(texture.owner)
         count = fields.get("sampleCount")
-        value = count.value.value if count is not None and isinstance(count.value, Known) else None
+        value = count.value.value if count is not None and isinstance(count.value, Constant) else None
         return value if type(value) is int and value in COUNTS else None
 
     def members(self, texture: Texture) -> list[Entry]:
         """The members of a texture."""
         if texture.drawable:
-            return [("drawable", texture.at, scalar(True, texture.at)), *self.shown()]
+            return [("drawable", texture.at, scalar(True, texture.at)), *self.drawable_format()]
         if texture.owner is not None:
-            return self.of_view(texture, texture.owner)
+            return self.view_members(texture, texture.owner)
         fields = self.fields(texture)
         entries: list[Entry] = []
         for name in ("pixelFormat", "width", "height", "mipmapLevelCount", "arrayLength"):
@@ -83,14 +83,14 @@ class Textures:
         if "usage" in fields:
             entries.extend(usage(fields["usage"]))
         # Of a texture that no pass of the file has, passes elsewhere may ask what only memory can give.
-        if "storageMode" in fields and (id(texture) in self.attached or fields["storageMode"].value == Known("memoryless")):
+        if "storageMode" in fields and (id(texture) in self.attached or fields["storageMode"].value == Constant("memoryless")):
             entries.extend(word("storageMode", fields["storageMode"], _STORAGE))
         return entries
 
     def count(self, texture: Texture, fields: dict[str, Field]) -> list[Entry]:
         """The texture's type and its sample count, which is assumed where it is above 1 and not known."""
         kind, count = fields.get("textureType"), fields.get("sampleCount")
-        number = count.value.value if count is not None and isinstance(count.value, Known) else None
+        number = count.value.value if count is not None and isinstance(count.value, Constant) else None
         if kind is not None and kind.default and count is not None and not count.default:
             kind = kind._replace(key=count.key, at=count.at)
         if count is not None and count.default and kind is not None and not kind.default:
@@ -99,7 +99,7 @@ class Textures:
         several = type_of(fields) in MULTISAMPLED_TYPES
         if several and count is not None and count.default and not self.defaults:
             count, number = None, None
-        if kind is not None and isinstance(kind.value, Known) and isinstance(kind.value.value, str) and (number is not None or several):
+        if kind is not None and isinstance(kind.value, Constant) and isinstance(kind.value.value, str) and (number is not None or several):
             entries.append(("textureType", kind.key, scalar(kind.value.value, kind.at)))
         if type(number) is int and number in COUNTS and count is not None:
             entries.append(("sampleCount", count.key, scalar(number, count.at)))
@@ -118,22 +118,22 @@ class Textures:
         if isinstance(count.value, Symbol):
             self.symbols.setdefault(count.value, value)
         if id(texture) not in self.alike:
-            self.assume(f"`{self.machine.text[count.at.start : count.at.end]}`", count.at, str(value))
+            self.assume(f"`{self.interpreter.text[count.at.start : count.at.end]}`", count.at, str(value))
         return "sampleCount", count.key, scalar(value, count.at)
 
-    def shown(self) -> list[Entry]:
+    def drawable_format(self) -> list[Entry]:
         """The pixel format of the drawable, as the layer or the view is given it."""
         fields = [
             field
-            for item in self.machine.objects.values()
+            for item in self.interpreter.objects.values()
             for name in {"layer": ("pixelFormat",), "view": ("colorPixelFormat",)}.get(item.kind, ())
-            if (field := self.machine.has(item, name)) is not None
+            if (field := self.interpreter.field(item, name)) is not None
         ]
         return plain("pixelFormat", fields[0]) if fields and all(entry.value == fields[0].value for entry in fields) else []
 
-    def of_view(self, texture: Texture, view: Object) -> list[Entry]:
+    def view_members(self, texture: Texture, view: MetalObject) -> list[Entry]:
         """What is known of a texture that MTKView makes."""
-        fields = self.machine.snapshot(view)
+        fields = self.interpreter.snapshot(view)
         entries: list[Entry] = []
         pixels = fields.get("colorPixelFormat" if texture.name == "multisampleColorTexture" else "depthStencilPixelFormat")
         if pixels is not None:
@@ -141,7 +141,7 @@ class Textures:
         count = fields.get("sampleCount")
         if count is None:
             return entries
-        if isinstance(count.value, Known) and count.value.value in COUNTS and count.value.value != 1:
+        if isinstance(count.value, Constant) and count.value.value in COUNTS and count.value.value != 1:
             entries.append(("textureType", count.key, scalar("type2DMultisample", count.at)))
             entries.append(("sampleCount", count.key, scalar(count.value.value, count.at)))
         return entries

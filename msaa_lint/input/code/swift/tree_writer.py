@@ -9,10 +9,10 @@ from msaa_lint.core.text.span import Span
 from .entries import COUNTS, Entry, Names, plain, word
 from .frame_state import Pass, Pipeline
 from .frames import commands
-from .machine import Machine
+from .interpreter import Interpreter
 from .metal import pass_of, pipeline_of
 from .textures import Textures
-from .values import Among, Field, Known, Symbol, Texture, Value
+from .values import Constant, Field, OneOf, Symbol, Texture, Value
 
 RESOLVING = ("multisampleResolve", "storeAndMultisampleResolve")
 _LOADS = frozenset({"load", "clear", "dontCare"})
@@ -27,34 +27,36 @@ _DEFAULTS = {"color": ("dontCare", "store"), "depth": ("clear", "dontCare"), "st
 _SWITCHES = ("isAlphaToCoverageEnabled", "alphaToCoverageEnabled", "isAlphaToOneEnabled", "alphaToOneEnabled", "isRasterizationEnabled")
 
 
-class Writer:
+class DescriptionWriter:
     """Writes the tree of one file."""
 
-    def __init__(self, machine: Machine, defaults: bool) -> None:
-        self.machine = machine
+    def __init__(self, interpreter: Interpreter, defaults: bool) -> None:
+        self.interpreter = interpreter
         self.defaults = defaults
-        self.textures = Textures(machine, defaults)
-        self.perhaps_loaded: set[int] = set()
+        self.textures = Textures(interpreter, defaults)
+        self.maybe_loaded: set[int] = set()
 
     def tree(self, whole: Span) -> Node | None:
         """The tree; None where the file has nothing of Metal's multisampling."""
         passes = [(render_pass, written) for render_pass in self.passes() if (written := self.used(render_pass))]
-        machine = self.machine
-        for texture in machine.textures.values():
+        interpreter = self.interpreter
+        for texture in interpreter.textures.values():
             if texture.made:
                 self.textures.add(texture)
         mentioned = set(self.textures.attached)
-        for step in machine.encoded:
+        for step in interpreter.encoded:
             for item in step.what:
                 if isinstance(item, Texture):
                     self.textures.add(item)
                     mentioned.add(id(item))
-        descriptors = {id(pipeline.descriptor) for pipeline in machine.pipelines.values()}
-        built = [entry for entry in machine.objects.values() if entry.kind == "pipeline" and entry.fields and id(entry) not in descriptors]
-        pipelines = [*machine.pipelines.values(), *(pipeline_of(machine, entry, entry.at, entry.within) for entry in built)]
-        self.textures.names.give([(item, item.name or "texture", item.within) for item in self.textures.all.values()])
+        descriptors = {id(pipeline.descriptor) for pipeline in interpreter.pipelines.values()}
+        built = [
+            entry for entry in interpreter.objects.values() if entry.kind == "pipeline" and entry.fields and id(entry) not in descriptors
+        ]
+        pipelines = [*interpreter.pipelines.values(), *(pipeline_of(interpreter, entry, entry.at, entry.type_name) for entry in built)]
+        self.textures.names.set_field([(item, item.name or "texture", item.type_name) for item in self.textures.all.values()])
         pass_names = Names()
-        pass_names.give([(entry, entry.descriptor.name or "renderPass", entry.descriptor.within) for entry, _ in passes])
+        pass_names.set_field([(entry, entry.descriptor.name or "renderPass", entry.descriptor.type_name) for entry, _ in passes])
         textures = [
             (self.textures.name(texture), texture.at, mapping(members, texture.at))
             for texture in self.textures.all.values()
@@ -69,7 +71,7 @@ class Writer:
             if entries:
                 place = entries[0][1]
                 sections.append((name, place, mapping(entries, place)))
-        steps = commands(machine, self.textures, [entry for entry, _ in passes], pass_names.of)
+        steps = commands(interpreter, self.textures, [entry for entry, _ in passes], pass_names.of)
         if steps is not None:
             sections.append(("commands", steps.span, steps))
         if not sections:
@@ -81,19 +83,22 @@ class Writer:
 
     def passes(self) -> list[Pass]:
         """Every pass that is encoded, and every descriptor that is only built up; of one that is encoded alike twice, one."""
-        machine = self.machine
+        interpreter = self.interpreter
         render_passes: list[Pass] = []
         values_by_descriptor: dict[int, list[dict[str, dict[str, Value]]]] = {}
-        for render_pass in machine.passes.values():
-            values = {slot: {name: field.value for name, field in fields.items()} for slot, fields in render_pass.attachments.items()}
+        for render_pass in interpreter.passes.values():
+            values = {
+                attachment_slot: {name: field.value for name, field in fields.items()}
+                for attachment_slot, fields in render_pass.attachments.items()
+            }
             before = values_by_descriptor.setdefault(id(render_pass.descriptor), [])
             same = next((index for index, one in enumerate(before[:8]) if one == values), None)
             before.append(values)
             if same is None:
                 render_passes.append(render_pass)
-        for item in machine.objects.values():
-            if item.kind == "pass" and id(item) not in values_by_descriptor and item.fields and id(item) not in machine.superseded:
-                unencoded = pass_of(machine, item, item.at)
+        for item in interpreter.objects.values():
+            if item.kind == "pass" and id(item) not in values_by_descriptor and item.fields and id(item) not in interpreter.superseded:
+                unencoded = pass_of(interpreter, item, item.at)
                 unencoded.complete = False
                 render_passes.append(unencoded)
         return sorted(render_passes, key=lambda render_pass: render_pass.at.start)
@@ -107,8 +112,8 @@ class Writer:
             texture, resolve, store = fields.get("texture"), fields.get("resolveTexture"), fields.get("storeAction")
             if texture is None or not isinstance(texture.value, Texture):
                 continue
-            action = store.value.value if store is not None and isinstance(store.value, Known) else None
-            if resolve is not None and not isinstance(resolve.value, (Texture, Known)):
+            action = store.value.value if store is not None and isinstance(store.value, Constant) else None
+            if resolve is not None and not isinstance(resolve.value, (Texture, Constant)):
                 continue
             # Other code may give it what it resolves to.
             if resolve is None and (
@@ -119,14 +124,14 @@ class Writer:
             self.textures.add(texture.value)
             drawn.append(texture.value)
             load = fields.get("loadAction")
-            if load is not None and isinstance(load.value, Among) and "load" in load.value.names:
-                self.perhaps_loaded.add(id(texture.value))
+            if load is not None and isinstance(load.value, OneOf) and "load" in load.value.names:
+                self.maybe_loaded.add(id(texture.value))
             if resolve is not None and isinstance(resolve.value, Texture):
                 self.textures.add(resolve.value)
                 self.textures.attached.add(id(resolve.value))
                 if action in RESOLVING:
                     self.textures.resolved.setdefault(id(texture.value), texture.at)
-        self.textures.draw(drawn)
+        self.textures.add_pass(drawn)
         return used
 
     def render_pass(self, render_pass: Pass, used: dict[str, dict[str, Field]]) -> Node:
@@ -143,19 +148,19 @@ class Writer:
             entries.insert(0, ("colorAttachments", colors[0][1], mapping(colors, colors[0][1])))
         return mapping(entries, render_pass.descriptor.at)
 
-    def attachment(self, render_pass: Pass, slot: str, fields: dict[str, Field]) -> list[Entry]:
+    def attachment(self, render_pass: Pass, attachment_slot: str, fields: dict[str, Field]) -> list[Entry]:
         entries: list[Entry] = []
         for name in ("texture", "resolveTexture"):
             field = fields.get(name)
             if field is not None and isinstance(field.value, Texture):
                 entries.append((name, field.key, scalar(self.textures.name(field.value), field.at)))
-        kind = "color" if slot.startswith("color") else slot.removesuffix("Attachment")
+        kind = "color" if attachment_slot.startswith("color") else attachment_slot.removesuffix("Attachment")
         for index, (name, allowed) in enumerate((("loadAction", _LOADS), ("storeAction", _STORES))):
             field = fields.get(name)
             if field is not None:
                 # What is stored for a load that only some frames do has its reader.
-                stores = field.value in (Known("store"), Known("storeAndMultisampleResolve"))
-                if not (stores and id(fields["texture"].value) in self.perhaps_loaded):
+                stores = field.value in (Constant("store"), Constant("storeAndMultisampleResolve"))
+                if not (stores and id(fields["texture"].value) in self.maybe_loaded):
                     entries.extend(word(name, field, allowed))
             elif render_pass.complete and self.defaults:
                 place = fields.get("resolveTexture", fields["texture"]).key
@@ -170,7 +175,7 @@ class Writer:
 
     def pipelines(self, pipelines: list[Pipeline], passes: dict[int, str]) -> list[Entry]:
         names = Names()
-        names.give([(pipeline, pipeline.name or pipeline.descriptor.name or "pipeline", pipeline.within) for pipeline in pipelines])
+        names.set_field([(pipeline, pipeline.name or pipeline.descriptor.name or "pipeline", pipeline.type_name) for pipeline in pipelines])
         entries = [(names.of[id(pipeline)], pipeline.descriptor.at, self.pipeline(pipeline, passes)) for pipeline in pipelines]
         return [entry for entry in entries if entry[2].value]
 
@@ -185,7 +190,7 @@ class Writer:
             if field is None:
                 continue
             counted = True
-            if isinstance(field.value, Known) and field.value.value in COUNTS:
+            if isinstance(field.value, Constant) and field.value.value in COUNTS:
                 entries.append((name, field.key, scalar(field.value.value, field.at)))
             elif isinstance(field.value, Symbol) and field.value in self.textures.symbols:
                 entries.append((name, field.key, scalar(self.textures.symbols[field.value], field.at)))
@@ -196,11 +201,11 @@ class Writer:
             if name in pipeline.fields:
                 entries.extend(plain(name, pipeline.fields[name]))
         colors: list[Entry] = []
-        for slot in sorted(pipeline.colors):
-            fields = pipeline.colors[slot]
+        for attachment_slot in sorted(pipeline.colors):
+            fields = pipeline.colors[attachment_slot]
             members = [entry for name in ("pixelFormat", "isBlendingEnabled") if name in fields for entry in plain(name, fields[name])]
             if members:
-                colors.append((slot.removeprefix("color"), members[0][1], mapping(members, members[0][1])))
+                colors.append((attachment_slot.removeprefix("color"), members[0][1], mapping(members, members[0][1])))
         if colors:
             entries.append(("colorAttachments", colors[0][1], mapping(colors, colors[0][1])))
         return mapping(entries, pipeline.descriptor.at)
@@ -208,30 +213,30 @@ class Writer:
     # The frame
 
     def device(self) -> list[Entry]:
-        machine = self.machine
+        interpreter = self.interpreter
         entries: list[Entry] = []
-        if machine.family is not None:
-            name, place = machine.family
+        if interpreter.family is not None:
+            name, place = interpreter.family
             entries.append(("family", place, scalar(name, place)))
         else:
             family_at = self.family()
             if family_at is not None:
                 self.textures.assume("the GPU's family", family_at, "apple3, which iOS 13 needs")
                 entries.append(("family", family_at, scalar("apple3", family_at)))
-        most = max(machine.offered, default=0)
+        most = max(interpreter.offered_counts, default=0)
         if most in COUNTS and most > 4:
-            place = machine.offered[most]
+            place = interpreter.offered_counts[most]
             entries.append(("supportedSampleCounts", place, sequence([scalar(count, place) for count in (1, 2, 4, most)], place)))
         return entries
 
     def family(self) -> Span | None:
         """Where the file shows that it is for Apple's own GPUs."""
-        place = self.machine.imports
+        place = self.interpreter.imports
         if place is not None:
             return place
         for texture in self.textures.all.values():
             for fields in texture.made:
                 mode = fields.get("storageMode")
-                if mode is not None and mode.value == Known("memoryless"):
+                if mode is not None and mode.value == Constant("memoryless"):
                     return mode.at
         return None

@@ -11,7 +11,7 @@ from .terms import Function, Term
 Scalar = str | bool | int | float | None | tuple[str, ...]
 
 
-class Known(NamedTuple):
+class Constant(NamedTuple):
     """A value that is known: an enumerant's name, a number, None for nil, the names in an option set."""
 
     value: Scalar
@@ -21,28 +21,28 @@ class Symbol(NamedTuple):
     """A value that only the run knows: what it is called, and whose it is."""
 
     text: str
-    whose: str
+    function_name: str
 
 
-class Among(NamedTuple):
+class OneOf(NamedTuple):
     """A value that is not known: one of these enumerants, or something else."""
 
     names: frozenset[str]
 
 
-class Object:
+class MetalObject:
     """An object that code builds up or hands on: a descriptor, an attachment, a view, a drawable, an encoder.
 
     `fields` has what it was given, each with its places and the function that gave it; `complete` says that its beginning is seen, so
     that what it was never given has Metal's default; `loose` that code which is not read may have changed it.
     """
 
-    __slots__ = ("at", "complete", "fields", "kind", "loose", "name", "of", "within")
+    __slots__ = ("at", "complete", "fields", "kind", "loose", "name", "of", "type_name")
 
     def __init__(self, kind: str, name: str, at: Span, complete: bool) -> None:
         self.kind = kind
         self.name = name
-        self.within = ""
+        self.type_name = ""
         self.at = at
         self.complete = complete
         self.loose = False
@@ -54,27 +54,27 @@ class Texture:
     """A texture: what it is made with, each time that the code makes it; `rank` is the depth of the calls in which it got its name. One
     that is `open` other files may read."""
 
-    __slots__ = ("at", "drawable", "key", "made", "name", "open", "owner", "rank", "within")
+    __slots__ = ("at", "drawable", "key", "made", "name", "open", "owner", "rank", "type_name")
 
-    def __init__(self, name: str, within: str, at: Span) -> None:
+    def __init__(self, name: str, type_name: str, at: Span) -> None:
         self.name = name
-        self.within = within
+        self.type_name = type_name
         self.at = at
         self.rank = 1 << 30
         self.key: tuple[object, ...] = ()
         self.drawable = False
         self.open = False
-        self.owner: Object | None = None
+        self.owner: MetalObject | None = None
         self.made: list[dict[str, Field]] = []
 
     @property
     def multisampled(self) -> bool:
         """Whether it is seen to be made with several samples."""
         types = [fields["textureType"].value for fields in self.made if "textureType" in fields]
-        return any(isinstance(type_, Known) and type_.value in MULTISAMPLED_TYPES for type_ in types)
+        return any(isinstance(type_, Constant) and type_.value in MULTISAMPLED_TYPES for type_ in types)
 
 
-MOST_ITEMS = 32
+MAX_ITEMS = 32
 """Items of a tuple or a structure that are followed."""
 
 
@@ -104,9 +104,9 @@ class Unknown:
 
 
 UNKNOWN = Unknown()
-NIL = Known(None)
+NIL = Constant(None)
 
-Value = Known | Symbol | Among | Object | Texture | Aggregate | Code | Instance | Unknown
+Value = Constant | Symbol | OneOf | MetalObject | Texture | Aggregate | Code | Instance | Unknown
 
 
 class Field(NamedTuple):
@@ -123,10 +123,10 @@ MULTISAMPLED_TYPES = frozenset({"type2DMultisample", "type2DMultisampleArray"})
 
 
 def _is_known(field: Field | None) -> bool:
-    return field is not None and isinstance(field.value, Known)
+    return field is not None and isinstance(field.value, Constant)
 
 
-def joined(first: Value, second: Value, name: str = "", optional: bool = False) -> Value:
+def join(first: Value, second: Value, name: str = "", optional: bool = False) -> Value:
     """What a variable holds that has one of two values.
 
     Where a sample count or a texture type is one thing with multisampling and another without, it is what it is with. An `optional` that is
@@ -136,7 +136,7 @@ def joined(first: Value, second: Value, name: str = "", optional: bool = False) 
         return first
     if optional and NIL in (first, second):
         return second if first == NIL else first
-    if isinstance(first, Known) and isinstance(second, Known):
+    if isinstance(first, Constant) and isinstance(second, Constant):
         low = name.lower()
         if "sample" in low or "msaa" in low:
             if first.value == 1 and type(second.value) is int:
@@ -149,27 +149,27 @@ def joined(first: Value, second: Value, name: str = "", optional: bool = False) 
             return second
     if isinstance(first, Texture) and isinstance(second, Texture) and first.multisampled != second.multisampled:
         return first if first.multisampled else second
-    if isinstance(first, Symbol) and second == Known(1):
+    if isinstance(first, Symbol) and second == Constant(1):
         return first
-    if isinstance(second, Symbol) and first == Known(1):
+    if isinstance(second, Symbol) and first == Constant(1):
         return second
     if isinstance(first, Aggregate) and isinstance(second, Aggregate) and first.items.keys() == second.items.keys():
-        return Aggregate({label: joined(value, second.items[label], label) for label, value in first.items.items()})
+        return Aggregate({label: join(value, second.items[label], label) for label, value in first.items.items()})
     names = _names(first) | _names(second)
-    return Among(names) if 0 < len(names) <= MOST_NAMES else UNKNOWN
+    return OneOf(names) if 0 < len(names) <= MAX_NAMES else UNKNOWN
 
 
-MOST_NAMES = 8
+MAX_NAMES = 8
 """Of enumerants that a value may be."""
 
 
 def _names(value: Value) -> frozenset[str]:
-    if isinstance(value, Among):
+    if isinstance(value, OneOf):
         return value.names
-    return frozenset((value.value,)) if isinstance(value, Known) and isinstance(value.value, str) else frozenset()
+    return frozenset((value.value,)) if isinstance(value, Constant) and isinstance(value.value, str) else frozenset()
 
 
-def joined_fields(first: dict[str, Field], second: dict[str, Field]) -> dict[str, Field]:
+def join_fields(first: dict[str, Field], second: dict[str, Field]) -> dict[str, Field]:
     """What an object has been given that was given the one or the other."""
     fields: dict[str, Field] = {}
     for name in {**first, **second}:
@@ -177,9 +177,9 @@ def joined_fields(first: dict[str, Field], second: dict[str, Field]) -> dict[str
         if one is None or other is None:
             known = one or other
             assert known is not None
-            fields[name] = known._replace(value=joined(known.value, UNKNOWN))
+            fields[name] = known._replace(value=join(known.value, UNKNOWN))
         else:
-            value = joined(one.value, other.value, name)
+            value = join(one.value, other.value, name)
             fields[name] = (other if value == other.value else one)._replace(value=value)
     return fields
 
@@ -188,7 +188,7 @@ Writes = dict[tuple[int, str], tuple[dict[str, Any], Any]]
 """By the variables and the name: what a branch left there."""
 
 
-class Journal:
+class UndoLog:
     """Writes to variables and members that can be taken back, so that both branches of a condition start alike and are then joined.
 
     Every write costs the same, however much there is.
@@ -207,7 +207,7 @@ class Journal:
     def mark(self) -> int:
         return len(self.writes)
 
-    def back(self, mark: int) -> Writes:
+    def undo(self, mark: int) -> Writes:
         """Takes back what was written since the mark; gives what it was, by place."""
         last: Writes = {}
         while len(self.writes) > mark:
@@ -230,9 +230,9 @@ class Journal:
             elif isinstance(one, Field) or isinstance(other, Field):
                 self.write(where, name, _field(one, other, name))
             else:
-                self.write(where, name, joined(one or NIL, other or NIL, name, optional=True))
+                self.write(where, name, join(one or NIL, other or NIL, name, optional=True))
 
-    def again(self, writes: Writes) -> None:
+    def redo(self, writes: Writes) -> None:
         """Writes what one branch left."""
         for (_, name), (where, value) in writes.items():
             self.write(where, name, value)
@@ -242,6 +242,6 @@ def _field(one: Field | None, other: Field | None, name: str) -> Field:
     if one is None or other is None:
         known = one or other
         assert known is not None
-        return known._replace(value=joined(known.value, UNKNOWN))
-    value = joined(one.value, other.value, name)
+        return known._replace(value=join(known.value, UNKNOWN))
+    value = join(one.value, other.value, name)
     return (other if value == other.value else one)._replace(value=value)

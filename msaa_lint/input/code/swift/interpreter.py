@@ -8,12 +8,12 @@ from typing import Any
 
 from msaa_lint.core.text.span import Span
 
-from .frame_state import Encoded, Frame, Pass, Pipeline
+from .frame_state import CallFrame, Encoded, Pass, Pipeline
 from .syntax import Syntax
 from .terms import Function, Term, Type, Unit
-from .values import NIL, UNKNOWN, Aggregate, Code, Field, Instance, Journal, Object, Symbol, Texture, Value, joined
+from .values import NIL, UNKNOWN, Aggregate, Code, Field, Instance, MetalObject, Symbol, Texture, UndoLog, Value, join
 
-MOST_STEPS_PER_LINE = 20
+MAX_STEPS_PER_LINE = 20
 """Statements that are gone through for each line of the file: functions that call each other often cost no more."""
 
 OBJECTS = {
@@ -44,7 +44,7 @@ def _not_followed(*_: Any) -> Value:
     return UNKNOWN
 
 
-class Machine:
+class Interpreter:
     """All that is known of a file while it is gone through, twice: the second time with what the first found of every property."""
 
     def __init__(self, text: str, unit: Unit, syntax: Syntax) -> None:
@@ -55,34 +55,34 @@ class Machine:
         for type_ in unit.types.values():
             for name, named in type_.functions.items():
                 self.functions.setdefault(name, []).extend(named)
-        self.journal = Journal()
-        self.worlds: dict[str, bool] = {}
-        self.objects: dict[tuple[object, ...], Object] = {}
+        self.undo_log = UndoLog()
+        self.decisions: dict[str, bool] = {}
+        self.objects: dict[tuple[object, ...], MetalObject] = {}
         self.textures: dict[tuple[object, ...], Texture] = {}
         self.same: dict[tuple[object, ...], tuple[object, ...]] = {}
         self.ways: dict[tuple[int, int], int] = {}
-        self.gathered: dict[tuple[str, str], Value] = {}
-        self.given: dict[tuple[int, str], Value] = {}
-        self.arguments: dict[int, list[dict[str, Value]]] = {}
+        self.property_values: dict[tuple[str, str], Value] = {}
+        self.member_values: dict[tuple[int, str], Value] = {}
+        self.new_call_arguments: dict[int, list[dict[str, Value]]] = {}
         self.tuples: dict[int, dict[str, Value]] = {}
-        self.handed: dict[int, list[dict[str, Value]]] = {}
+        self.call_arguments: dict[int, list[dict[str, Value]]] = {}
         self.views: set[int] = set()
-        self.called: set[int] = set()
-        self.offered: dict[int, Span] = {}
+        self.called_functions: set[int] = set()
+        self.offered_counts: dict[int, Span] = {}
         self.family: tuple[str, Span] | None = None
         self.imports: Span | None = None
         self.bodies: dict[int, tuple[Term, ...]] = {}
         self.steps = 0
-        self.evaluate: Callable[[Machine, Term, Frame], Value] = _not_followed
-        self.call: Callable[[Machine, Function, dict[str, Value], Frame, Span, Value | None], Value] = _not_followed
-        self.call_closure: Callable[[Machine, Code, tuple[Value, ...] | dict[str, Value], Frame, Span], Value] = _not_followed
+        self.evaluate: Callable[[Interpreter, Term, CallFrame], Value] = _not_followed
+        self.call: Callable[[Interpreter, Function, dict[str, Value], CallFrame, Span, Value | None], Value] = _not_followed
+        self.call_closure: Callable[[Interpreter, Code, tuple[Value, ...] | dict[str, Value], CallFrame, Span], Value] = _not_followed
         self.begin()
 
     def begin(self) -> None:
         """Begins to go through the file."""
-        self.now: dict[str, dict[str, Field]] = {}
-        self.all: dict[tuple[str, str], Value] = {}
-        self.every: dict[tuple[int, str], Value] = {}
+        self.current_properties: dict[str, dict[str, Field]] = {}
+        self.new_property_values: dict[tuple[str, str], Value] = {}
+        self.new_member_values: dict[tuple[int, str], Value] = {}
         self.passes: dict[tuple[object, ...], Pass] = {}
         self.pipelines: dict[tuple[object, ...], Pipeline] = {}
         self.encoded: list[Encoded] = []
@@ -91,44 +91,48 @@ class Machine:
         self.incomplete: set[int] = set()
         self.superseded: set[int] = set()
         self.root = 0
-        self.unsure = 0
-        self.steps = MOST_STEPS_PER_LINE * (self.text.count("\n") + 50)
+        self.undecided_depth = 0
+        self.steps = MAX_STEPS_PER_LINE * (self.text.count("\n") + 50)
         for texture in self.textures.values():
             texture.rank = 1 << 30
             texture.made = []
         for metal_object in self.objects.values():
             metal_object.fields = {}
             metal_object.loose = False
-        self.journal.writes.clear()
+        self.undo_log.writes.clear()
 
     def end(self) -> None:
         """Keeps what was found of properties and members for the next time."""
-        self.gathered, self.given, self.handed = self.all, self.every, self.arguments
-        self.arguments = {}
+        self.property_values, self.member_values, self.call_arguments = (
+            self.new_property_values,
+            self.new_member_values,
+            self.new_call_arguments,
+        )
+        self.new_call_arguments = {}
 
     def type_of(self, name: str) -> Type | None:
         return self.unit.types.get(name)
 
-    def way(self, frame: Frame, site: int) -> int:
+    def call_path(self, frame: CallFrame, site: int) -> int:
         """A number for the way of calls that leads to a place."""
-        return self.ways.setdefault((frame.way, site), len(self.ways) + 1)
+        return self.ways.setdefault((frame.path, site), len(self.ways) + 1)
 
     # Objects
 
-    def made(self, kind: str, name: str, at: Span, way: object, complete: bool) -> Object:
+    def object_at(self, kind: str, name: str, at: Span, path: object, complete: bool) -> MetalObject:
         """The object that a place makes; it begins anew there."""
-        key = (kind,) if kind in SHARED else (kind, at.start, at.end, way)
+        key = (kind,) if kind in SHARED else (kind, at.start, at.end, path)
         metal_object = self.objects.get(key)
         if metal_object is None:
-            metal_object = self.objects[key] = Object(kind, name, at, complete)
+            metal_object = self.objects[key] = MetalObject(kind, name, at, complete)
         return metal_object
 
-    def renew(self, item: Object) -> None:
+    def reset(self, item: MetalObject) -> None:
         """An object begins anew, where the code that makes it is gone through again."""
         for name in list(item.fields):
-            self.journal.write(item.fields, name, None)
+            self.undo_log.write(item.fields, name, None)
 
-    def typed(self, kind: str, name: str, at: Span, way: object) -> Value | None:
+    def typed_object(self, kind: str, name: str, at: Span, path: object) -> Value | None:
         """The object that a variable of a type holds whose value is not seen."""
         plain = _PLAIN.match(kind)
         if plain is None:
@@ -140,110 +144,110 @@ class Machine:
         type_ = self.unit.types.get(written)
         if object_kind is None and type_ is not None and type_.members and not type_.cases:
             return Instance(written)
-        return self.made(object_kind, name, at, (way, name), False) if object_kind is not None else None
+        return self.object_at(object_kind, name, at, (path, name), False) if object_kind is not None else None
 
     def is_view(self, name: str) -> bool:
         """Whether a type of the file is an MTKView."""
         type_ = self.unit.types.get(name)
         return type_ is not None and any(supertype == "MTKView" for supertype in type_.inherits)
 
-    def me(self, within: str) -> Value | None:
+    def self_value(self, type_name: str) -> Value | None:
         """What `self` is in a type's functions, where that is one of Metal's objects."""
-        if within in OBJECTS or self.is_view(within):
-            kind = OBJECTS.get(within, "view")
-            return self.made(kind, kind, Span(0, 0), within, False) if kind in SHARED else None
+        if type_name in OBJECTS or self.is_view(type_name):
+            kind = OBJECTS.get(type_name, "view")
+            return self.object_at(kind, kind, Span(0, 0), type_name, False) if kind in SHARED else None
         return None
 
-    def give(self, item: Object, name: str, value: Value, key: Span, at: Span) -> None:
+    def set_field(self, item: MetalObject, name: str, value: Value, key: Span, at: Span) -> None:
         """An object's member is set."""
-        self.journal.write(item.fields, name, Field(value, key, at, self.root))
+        self.undo_log.write(item.fields, name, Field(value, key, at, self.root))
         place = (id(item), name)
-        before = self.every.get(place)
-        self.every[place] = value if before is None else joined(before, value, name)
+        before = self.new_member_values.get(place)
+        self.new_member_values[place] = value if before is None else join(before, value, name)
 
-    def has(self, item: Object, name: str) -> Field | None:
+    def field(self, item: MetalObject, name: str) -> Field | None:
         """What an object's member holds: what this function set, else what agrees with all functions that set it."""
         field = item.fields.get(name)
         if field is None or field.by == self.root:
             return field
-        agreed = self.given.get((id(item), name), field.value)
-        return field if agreed == field.value else field._replace(value=agreed)
+        join_all = self.member_values.get((id(item), name), field.value)
+        return field if join_all == field.value else field._replace(value=join_all)
 
-    def snapshot(self, item: Object) -> dict[str, Field]:
+    def snapshot(self, item: MetalObject) -> dict[str, Field]:
         """All that an object holds now."""
-        return {name: field for name in item.fields if (field := self.has(item, name)) is not None}
+        return {name: field for name in item.fields if (field := self.field(item, name)) is not None}
 
-    def loosen(self, item: Object) -> None:
+    def invalidate(self, item: MetalObject) -> None:
         """Code that is not read may change an object: a texture's descriptor holds what it is given afterwards."""
         item.loose = True
         if item.kind == "texture":
             for name, field in list(item.fields.items()):
-                self.journal.write(item.fields, name, field._replace(value=UNKNOWN))
+                self.undo_log.write(item.fields, name, field._replace(value=UNKNOWN))
 
     # Properties
 
-    def set_property(self, within: str, name: str, value: Value, at: Span) -> None:
-        self.name(value, "" if name.endswith("[]") else name, within, -1)
+    def set_property(self, type_name: str, name: str, value: Value, at: Span) -> None:
+        self.name_value(value, "" if name.endswith("[]") else name, type_name, -1)
         if isinstance(value, Texture):
-            type_ = self.unit.types.get(within)
+            type_ = self.unit.types.get(type_name)
             member = type_.members.get(name.removesuffix("[]")) if type_ is not None else None
             value.open = value.open or member is None or member.open
-        self.hold_property(within, name, value, at)
+        self.hold_property(type_name, name, value, at)
 
-    def hold_property(self, within: str, name: str, value: Value, at: Span) -> None:
+    def hold_property(self, type_name: str, name: str, value: Value, at: Span) -> None:
         """A property is set, and what it holds keeps its name."""
-        self.journal.write(self.now.setdefault(within, {}), name, Field(value, at, at, self.root))
-        place = (within, name)
-        before = self.all.get(place)
-        if isinstance(before, Texture) and isinstance(value, Texture) and before is not value and _made_for(before, value, within, name):
+        self.undo_log.write(self.current_properties.setdefault(type_name, {}), name, Field(value, at, at, self.root))
+        place = (type_name, name)
+        before = self.new_property_values.get(place)
+        if isinstance(before, Texture) and isinstance(value, Texture) and before is not value and _made_for(before, value, type_name, name):
             self.same.setdefault(value.key, before.key)
             return
-        self.all[place] = value if before is None else joined(before, value, name, optional=True)
+        self.new_property_values[place] = value if before is None else join(before, value, name, optional=True)
 
-    def property(self, within: str, name: str) -> Value | None:
+    def property(self, type_name: str, name: str) -> Value | None:
         """What a property holds; None where nothing in the file sets it."""
-        field = self.now.get(within, {}).get(name)
+        field = self.current_properties.get(type_name, {}).get(name)
         if field is not None and field.by == self.root:
             return field.value
-        value = self.gathered.get((within, name))
+        value = self.property_values.get((type_name, name))
         if value is None:
             return field.value if field is not None else None
         return value
 
     # Names
 
-    def variable(self, frame: Frame, name: str, value: Value) -> None:
+    def variable(self, frame: CallFrame, name: str, value: Value) -> None:
         """A variable is declared."""
         if not name or name == "_":
             return
         if value is UNKNOWN:
-            value = Symbol(name, frame.whose)
-        self.name(value, name, frame.whose, frame.rank)
-        self.journal.write(frame.locals, name, value)
+            value = Symbol(name, frame.function_name)
+        self.name_value(value, name, frame.function_name, frame.rank)
+        self.undo_log.write(frame.locals, name, value)
 
-    def name(self, value: Value, name: str, within: str, rank: int) -> None:
+    def name_value(self, value: Value, name: str, type_name: str, rank: int) -> None:
         """What holds a value gives it its name; a property's outdoes a variable's, and a caller's a called function's."""
         if isinstance(value, Texture):
             if rank < value.rank and name and not value.drawable and value.owner is None:
-                value.name, value.within, value.rank = name, within, rank
+                value.name, value.type_name, value.rank = name, type_name, rank
         elif isinstance(value, Aggregate):
             for label, item in value.items.items():
                 if isinstance(item, Texture) and not item.name and not label.isdigit():
-                    self.name(item, label, within, 1 << 29)
-        elif isinstance(value, Object) and name:
+                    self.name_value(item, label, type_name, 1 << 29)
+        elif isinstance(value, MetalObject) and name:
             if value.kind == "state":
                 pipeline = value.of
                 if isinstance(pipeline, Pipeline):
-                    pipeline.name, pipeline.within = name, within
+                    pipeline.name, pipeline.type_name = name, type_name
             elif not value.name:
-                value.name, value.within = name, within
+                value.name, value.type_name = name, type_name
 
-    def opaque(self, text: str, whose: str, at: Span) -> Texture:
+    def named_texture(self, text: str, function_name: str, at: Span) -> Texture:
         """A texture of which only the name is known."""
-        key = ("named", whose, text)
+        key = ("named", function_name, text)
         texture = self.textures.get(key)
         if texture is None:
-            texture = self.textures[key] = Texture(text, whose, at)
+            texture = self.textures[key] = Texture(text, function_name, at)
         return texture
 
     def body(self, function: Function) -> tuple[Term, ...]:
@@ -257,15 +261,15 @@ class Machine:
         return statements
 
 
-def _made_for(first: Texture, second: Texture, within: str, name: str) -> bool:
+def _made_for(first: Texture, second: Texture, type_name: str, name: str) -> bool:
     """Whether two textures are made for one property: the same one, made again."""
-    named = all((item.name, item.within) == (name, within) for item in (first, second))
+    named = all((item.name, item.type_name) == (name, type_name) for item in (first, second))
     return named and first.multisampled == second.multisampled
 
 
-def agreed(values: list[Value]) -> Value:
+def join_all(values: list[Value]) -> Value:
     """What a function returns, of all that it may."""
     agreed_value: Value | None = None
     for value in values:
-        agreed_value = value if agreed_value is None else joined(agreed_value, value, optional=True)
+        agreed_value = value if agreed_value is None else join(agreed_value, value, optional=True)
     return NIL if agreed_value is None else agreed_value
