@@ -1,4 +1,4 @@
-"""What findings cost: exact prices, and the laws that prices keep."""
+"""Prices of findings: exact values and general properties."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ def lint(text: str) -> FileResult:
     return ENGINE.lint(text.encode(), "frame.yaml", LintOptions(as_written, prices=True))
 
 
-def prices(linted: FileResult) -> dict[str, Price | None]:
-    return {f"{found.code} {found.subject}": found.price for found in linted.findings}
+def prices(result: FileResult) -> dict[str, Price | None]:
+    return {f"{found.code} {found.subject}": found.price for found in result.findings}
 
 
-def together(linted: FileResult, some: list[Finding] | None = None) -> Price | None:
-    return linted.combined_price(linted.findings if some is None else some) if linted.combined_price is not None else None
+def together(result: FileResult, some: list[Finding] | None = None) -> Price | None:
+    return result.combined_price(result.findings if some is None else some) if result.combined_price is not None else None
 
 
 ATTACHED = """
@@ -56,7 +56,7 @@ renderPasses:
 """
 
 
-def test_a_store_costs_its_bytes_and_their_power() -> None:
+def test_price_of_a_store() -> None:
     """2168 * 1080 * 4 B * 4 samples * 60 Hz."""
     stored = 2168 * 1080 * 4 * 4 * 60 / 1e6
     assert round(stored, 2) == 2247.78
@@ -65,24 +65,24 @@ def test_a_store_costs_its_bytes_and_their_power() -> None:
     assert found["MSAA203 renderPasses.scene.attachments.depth"] == pytest.approx(Price(0.0, stored, 0.0, stored / 10))
 
 
-def test_independent_findings_cost_their_sum() -> None:
-    linted = lint(ATTACHED)
-    both = [found for found in linted.findings if found.code in ("MSAA201", "MSAA203")]
-    assert together(linted, both) == pytest.approx(tuple(map(sum, zip(*(found.price or () for found in both), strict=True))))
+def test_independent_prices_add_up() -> None:
+    result = lint(ATTACHED)
+    both = [found for found in result.findings if found.code in ("MSAA201", "MSAA203")]
+    assert together(result, both) == pytest.approx(tuple(map(sum, zip(*(found.price or () for found in both), strict=True))))
 
 
-def test_rate_that_is_not_stated_is_taken_for_sixty_and_said() -> None:
+def test_assumed_frame_rate_is_noted() -> None:
     (found,) = [f for f in lint(ATTACHED.replace(", fps: 60", "")).findings if f.code == "MSAA201"]
     assert found.price is not None and round(found.price.write_mb_per_s, 2) == 2247.78
     assert "the cost assumes 60 frames per second" in found.notes
     assert not any("the cost assumes" in note for f in lint(ATTACHED).findings for note in f.notes)
 
 
-def test_without_a_size_nothing_has_a_price() -> None:
+def test_no_price_without_a_size() -> None:
     assert set(prices(lint(ATTACHED.replace("frame: {width: 2168, height: 1080, fps: 60}", ""))).values()) == {None}
 
 
-def test_a_fix_that_saves_nothing_costs_nothing() -> None:
+def test_fix_that_saves_nothing_has_price_zero() -> None:
     text = (
         ATTACHED
         + """
@@ -96,17 +96,17 @@ pipelines:
     assert prices(lint(text))["MSAA502 pipelines.p"] == Price(0.0, 0.0, 0.0, 0.0)
 
 
-def test_prices_are_not_worked_out_unless_asked_for() -> None:
-    linted = ENGINE.lint(ATTACHED.encode(), "frame.yaml", LintOptions(as_written))
-    assert linted.combined_price is None
-    assert {found.price for found in linted.findings} == {None}
+def test_prices_are_only_computed_on_request() -> None:
+    result = ENGINE.lint(ATTACHED.encode(), "frame.yaml", LintOptions(as_written))
+    assert result.combined_price is None
+    assert {found.price for found in result.findings} == {None}
 
 
-def test_each_document_of_a_stream_has_its_own_prices() -> None:
-    linted = lint(ATTACHED + "---\n" + ATTACHED.replace("fps: 60", "fps: 30"))
-    costs = [found.price.write_mb_per_s for found in linted.findings if found.code == "MSAA201" and found.price is not None]
+def test_prices_of_a_stream() -> None:
+    result = lint(ATTACHED + "---\n" + ATTACHED.replace("fps: 60", "fps: 30"))
+    costs = [found.price.write_mb_per_s for found in result.findings if found.code == "MSAA201" and found.price is not None]
     assert costs == pytest.approx([2247.7824, 1123.8912])
-    whole = together(linted)
+    whole = together(result)
     assert whole is not None and whole.write_mb_per_s == pytest.approx(3 * 2247.7824)
 
 
@@ -117,7 +117,7 @@ STENCIL_OPS = {"stencilLoadOp": ["CLEAR", "LOAD", "DONT_CARE"], "stencilStoreOp"
 
 @st.composite
 def frames(draw: st.DrawFn) -> str:
-    """Frames with the mistakes that cost: passes over shared images, resolves inside and outside of passes, readers."""
+    """Frames with mistakes that have a price: passes that share images, resolves inside and outside of passes, readers."""
     device = draw(st.sampled_from(["mali-g76", "nvidia", None]))
     images: dict[str, Any] = {}
     for name in ("color_a", "color_b", "depth"):
@@ -163,9 +163,9 @@ def frames(draw: st.DrawFn) -> str:
     return json.dumps(description)
 
 
-def assert_at_most_the_sum(linted: FileResult) -> None:
-    whole = together(linted)
-    parts = [found.price for found in linted.findings if found.price is not None]
+def assert_at_most_the_sum(result: FileResult) -> None:
+    whole = together(result)
+    parts = [found.price for found in result.findings if found.price is not None]
     assert (whole is None) == (not parts)
     if whole is not None:
         # What a fix costs instead of saving (memory that an image takes again, say) is shared as well, where two findings ask for it.
@@ -175,23 +175,23 @@ def assert_at_most_the_sum(linted: FileResult) -> None:
 
 @examples(3)
 @given(frames())
-def test_together_they_cost_at_most_the_sum(text: str) -> None:
+def test_combined_price_is_at_most_the_sum(text: str) -> None:
     assert_at_most_the_sum(lint(text))
 
 
 @examples(2)
 @given(frames())
-def test_one_by_itself_costs_what_it_does_together_with_nothing(text: str) -> None:
-    """The price of one is worked out on a part of the frame, what several cost on the whole."""
-    linted = lint(text)
-    for found in linted.findings:
-        assert together(linted, [found]) == (pytest.approx(found.price, abs=1e-5) if found.price is not None else None)
+def test_combined_price_of_one_finding_is_its_price(text: str) -> None:
+    """The price of one finding is computed on a part of the frame, that of several on the whole."""
+    result = lint(text)
+    for found in result.findings:
+        assert together(result, [found]) == (pytest.approx(found.price, abs=1e-5) if found.price is not None else None)
 
 
 @examples(2)
 @given(frames(), frames())
-def test_two_frames_side_by_side_cost_what_they_do_apart(one: str, other: str) -> None:
-    """Fixes that have nothing to do with each other are independent: what they save is the sum."""
+def test_prices_of_independent_documents_add_up(one: str, other: str) -> None:
+    """The fixes are independent, so their savings add up."""
     first, second = together(lint(one)), together(lint(other))
     both = together(lint(f"{one}\n---\n{other}"))
     none = Price(0.0, 0.0, 0.0, 0.0)
@@ -199,13 +199,13 @@ def test_two_frames_side_by_side_cost_what_they_do_apart(one: str, other: str) -
 
 
 @pytest.mark.parametrize("text", [path.read_text() for path in EXAMPLES], ids=[path.stem for path in EXAMPLES])
-def test_examples_together_cost_at_most_the_sum(text: str) -> None:
+def test_combined_price_of_examples_is_at_most_the_sum(text: str) -> None:
     assert_at_most_the_sum(lint(text))
 
 
 @pytest.mark.parametrize("example", all_examples(), ids=str)
-def test_pages_have_prices_where_a_size_is_given(example: Any) -> None:
-    """Every finding of every page can be priced or has no fix; with a frame, none raises and all keep the law."""
+def test_findings_of_rule_pages_can_be_priced(example: Any) -> None:
+    """Pricing raises for no finding of a page, and the combined price is at most the sum."""
     text = example.text
     if example.language == "yaml" and "\nframe:" not in f"\n{text}" and "\n---" not in text:
         text = f"frame: {{width: 1920, height: 1080, fps: 60}}\n{text}"
@@ -215,8 +215,8 @@ def test_pages_have_prices_where_a_size_is_given(example: Any) -> None:
 KHRONOS = ROOT / "examples" / "khronos-msaa"
 
 
-def test_separate_resolve_costs_what_the_khronos_sample_measured() -> None:
-    """C - B of its counters: 2169.8 MiB/s read and 2282.0 MiB/s written, 4.668 GB/s; by arithmetic 2 * 2247.78 MB/s, 450 mW."""
+def test_separate_resolve_matches_the_khronos_measurement() -> None:
+    """Its counters differ by 2169.8 MiB/s read and 2282.0 MiB/s written, 4.668 GB/s; the model gives 2 * 2247.78 MB/s, 450 mW."""
     (found,) = [f for f in lint((KHRONOS / "color-separate.msaa.yaml").read_text()).findings if f.code == "MSAA301"]
     assert found.price is not None
     assert found.price == pytest.approx(Price(2247.7824, 2247.7824, 2168 * 1080 * 4 * 4 / 2**20, 449.55648))
@@ -225,23 +225,23 @@ def test_separate_resolve_costs_what_the_khronos_sample_measured() -> None:
     assert found.price.write_mb_per_s == pytest.approx(measured[1], rel=0.07)
 
 
-def test_stored_and_resolved_costs_two_stores_and_their_memory() -> None:
-    linted = lint((KHRONOS / "stored-and-resolved.msaa.yaml").read_text())
+def test_price_of_storing_and_resolving() -> None:
+    result = lint((KHRONOS / "stored-and-resolved.msaa.yaml").read_text())
     memory = 2 * 2168 * 1080 * 4 * 4 / 2**20
-    assert together(linted) == pytest.approx(Price(0.0, 2 * 2247.7824, memory, 449.55648))
+    assert together(result) == pytest.approx(Price(0.0, 2 * 2247.7824, memory, 449.55648))
 
 
-def test_records_are_as_they_were() -> None:
-    """Pricing changes records for a moment: what is found after it is what was found before."""
-    linted = lint(ATTACHED)
-    again = together(linted)
-    assert again == together(linted)
-    assert [found._replace(price=None) for found in linted.findings] == [
+def test_pricing_restores_records() -> None:
+    """Pricing applies changes to records temporarily; linting gives the same findings before and after."""
+    result = lint(ATTACHED)
+    again = together(result)
+    assert again == together(result)
+    assert [found._replace(price=None) for found in result.findings] == [
         found._replace(price=None) for found in ENGINE.lint(ATTACHED.encode(), "frame.yaml", LintOptions(as_written)).findings
     ]
 
 
-def test_of_two_values_for_a_member_the_first_counts() -> None:
+def test_merged_keeps_the_first_of_two_values() -> None:
     class Stand:
         pass
 

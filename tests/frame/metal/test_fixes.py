@@ -17,7 +17,7 @@ from msaa_lint.linter.fixes.text_edits import TextEditor
 from msaa_lint.linter.rules.rule_file import FixSpec, Setting
 from tests.command import run
 from tests.frame.metal.frames import ARTICLE, BEST, document
-from tests.linter.fixes.judging import fixed, kinds, lint
+from tests.linter.fixes.linting import fix_findings, kinds, lint
 
 SPELLINGS = {
     "store": "MTLStoreActionStore",
@@ -45,23 +45,23 @@ def test_all_fixes_make_the_article_the_best_practice(tmp_path: Path) -> None:
 def test_words_are_spelled_as_they_were(form: str, after: str) -> None:
     text = respelled(ARTICLE, form)
     assert text != ARTICLE
-    done = fixed(text, True)
+    done = fix_findings(text, True)
     assert done.result.findings == []
     assert f"storeAction: {after}}}" in done.text
     assert ("usage: [MTLTextureUsageRenderTarget], storageMode: MTLStorageModeMemoryless" if form == "MTL" else
             "usage: [.renderTarget], storageMode: .memoryless") in done.text  # fmt: skip
-    assert fixed(text.replace(", storageMode: .private", ""), True).text.count("storageMode") <= 2
+    assert fix_findings(text.replace(", storageMode: .private", ""), True).text.count("storageMode") <= 2
 
 
 @pytest.mark.parametrize("unsafe", [False, True])
 @pytest.mark.parametrize("text", [ARTICLE, BEST, respelled(ARTICLE, "MTL"), respelled(ARTICLE, "."), ARTICLE.replace("\n", "\r\n")])
 def test_what_is_mended_is_gone_and_nothing_came(text: str, unsafe: bool) -> None:
-    before, done = lint(text), fixed(text, unsafe)
+    before, done = lint(text), fix_findings(text, unsafe)
     after = lint(done.text)
     assert not kinds(after) - kinds(before)
     assert {found.rule for found in done.fixed_findings} == {rule for rule, _ in kinds(before) - kinds(after)}
     assert not [found for found in after.findings if found.fatal or (found.fix is not None and (found.fix.safe or unsafe))]
-    again = fixed(done.text, unsafe)
+    again = fix_findings(done.text, unsafe)
     assert (again.text, again.fixed_findings) == (done.text, ())
 
 

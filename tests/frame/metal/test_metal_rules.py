@@ -7,7 +7,7 @@ import re
 import pytest
 
 from msaa_lint.linter.rules.registry import load
-from tests.linter.fixes.judging import fixed, lint
+from tests.linter.fixes.linting import fix_findings, lint
 
 RULES = {rule.name: rule for rule in load().rules}
 
@@ -169,7 +169,7 @@ def test_a_deferred_frame_on_the_tile_has_no_finding() -> None:
 def test_fixes_of_a_pass_leave_nothing_to_find(storage: str, action: str) -> None:
     """Rules about one attachment do not undo each other's fixes."""
     text = frame(f"resolveTexture: drawable, loadAction: clear, storeAction: {action}", storage=storage)
-    done = fixed(text, True)
+    done = fix_findings(text, True)
     assert done.result.findings == []
     assert re.search(r"storeAction: multisampleResolve}.*storeAction: dontCare}", done.text, re.DOTALL)
 

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.frame.metal.names import ENUMS
-from tests.linter.fixes.judging import fixed, kinds, lint
+from tests.linter.fixes.linting import fix_findings, kinds, lint
 from tests.strength import examples
 
 FORMATS = {"a": "rgba8Unorm", "b": "rgba8Unorm", "c": "depth32Float_stencil8", "d": "depth32Float_stencil8"}
@@ -83,10 +83,10 @@ def test_they_are_judged_and_fixed(seed: int, unsafe: bool) -> None:
     text = json.dumps(Frames(seed).frame(), indent=1)
     before = lint(text)
     assert not [found for found in before.findings if found.fatal]
-    done = fixed(text, unsafe)
+    done = fix_findings(text, unsafe)
     after = lint(done.text)
     assert not kinds(after) - kinds(before)
     assert after.findings == done.result.findings
-    assert fixed(done.text, unsafe).text == done.text
+    assert fix_findings(done.text, unsafe).text == done.text
     for found in after.findings:
         assert "unknown" not in found.message.replace("storeAction unknown", ""), found

@@ -1,4 +1,4 @@
-"""Changes of records: made while they are looked at, taken back exactly."""
+"""Planned changes, and changes applied to records and taken back."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from msaa_lint.linter.fixes.changes import Change, NoFix, StructuralChange, appl
 from msaa_lint.linter.fixes.context import FixContext
 from msaa_lint.linter.fixes.planning import plan
 from msaa_lint.linter.rules.rule_file import FixSpec, Setting
-from tests.linter.fixes.judging import lint, meaning
+from tests.linter.fixes.linting import lint, meaning
 
 TEXT = """\
 images:
@@ -40,7 +40,7 @@ DOCUMENT = JUDGED.document
 
 
 def planned(spec: FixSpec, kind: str, path: str) -> Any:
-    """The changes of a fix, or why there are none."""
+    """The changes of a fix, or the reason why there are none."""
     from msaa_lint.frame.facts.subjects import subjects
 
     subject = next(each for each in subjects(DOCUMENT) if (each.kind, each.path) == (kind, path))
@@ -93,20 +93,20 @@ COLOR = "renderPasses.main.attachments.color"
         ),
     ],
 )
-def test_facts_are_changed_where_they_are_stated(action: str, fact: str, value: Any, kind: str, path: str, expected: Any) -> None:
+def test_plan_changes_the_members_that_state_a_fact(action: str, fact: str, value: Any, kind: str, path: str, expected: Any) -> None:
     assert planned(spec(action, fact, value), kind, path) == expected
 
 
 @given(st.lists(st.sampled_from(["set", "unset", "add", "remove"]), max_size=6), st.booleans())
-def test_what_was_comes_back_exactly(actions: list[str], fails: bool) -> None:
+def test_applied_restores_previous_values(actions: list[str], fails: bool) -> None:
     image = DOCUMENT.description.images["ms"]
     before = meaning(LINTED)
-    made = [
+    changes = [
         Change(image, "usage", action, "SAMPLED") if action in ("add", "remove") else Change(image, "samples", action, 8)
         for action in actions
     ]
     try:
-        with applied(made):
+        with applied(changes):
             if actions and actions[-1] == "set":
                 assert image.samples == 8
             if fails:
@@ -116,7 +116,7 @@ def test_what_was_comes_back_exactly(actions: list[str], fails: bool) -> None:
     assert meaning(LINTED) == before
 
 
-def test_structures_are_not_changed_in_place() -> None:
+def test_applied_rejects_structural_changes() -> None:
     before = meaning(LINTED)
     image = DOCUMENT.description.images["ms"]
     with (

@@ -1,4 +1,4 @@
-"""`msaa-lint check --fix`, `--unsafe-fixes` and `--diff` as a process."""
+"""`msaa-lint check --fix`, `--unsafe-fixes` and `--diff`."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from tests.command import run
-from tests.linter.fixes.test_laws import EXAMPLES
-from tests.linter.fixes.test_rounds import MENDED, STORED
+from tests.linter.fixes.test_fixer import FIXED, STORED
+from tests.linter.fixes.test_properties import EXAMPLES
 from tests.pages import all_examples
 
 UNSAFE = STORED.replace("storeOp: STORE}\n    subpasses", "storeOp: DONT_CARE}\n    subpasses").replace("LOAD", "DONT_CARE")
@@ -26,10 +26,10 @@ def text(folder: Path, name: str = "frame.msaa.yaml") -> str:
     return (folder / name).read_bytes().decode()
 
 
-def test_fix_writes_and_reports_what_is_left(folder: Path) -> None:
+def test_fix_writes_the_file_and_reports_the_rest(folder: Path) -> None:
     (folder / "frame.msaa.yaml").write_text(STORED.replace("samples: 4", "samples: 8"), encoding="utf-8")
     done = run(folder, "check", ".", "--fix")
-    assert text(folder) == MENDED.replace("samples: 4", "samples: 8")
+    assert text(folder) == FIXED.replace("samples: 4", "samples: 8")
     assert [line.split("[")[1].split("]")[0] for line in done.stdout.splitlines() if "[" in line] == [
         "sample-count-above-four",
         "sample-count-not-portable",
@@ -39,11 +39,11 @@ def test_fix_writes_and_reports_what_is_left(folder: Path) -> None:
     assert [each.name for each in folder.iterdir()] == ["frame.msaa.yaml"]
 
 
-def test_when_all_is_fixed_it_ends_with_0(folder: Path) -> None:
+def test_exit_code_is_0_if_everything_is_fixed(folder: Path) -> None:
     done = run(folder, "check", ".", "--fix")
     assert (done.returncode, done.stderr) == (0, "msaa-lint: 3 fixed, 0 remaining\n")
     again = run(folder, "check", ".", "--fix")
-    assert (again.returncode, again.stderr, text(folder)) == (0, "msaa-lint: 0 fixed, 0 remaining\n", MENDED)
+    assert (again.returncode, again.stderr, text(folder)) == (0, "msaa-lint: 0 fixed, 0 remaining\n", FIXED)
 
 
 DIFF = """\
@@ -81,28 +81,28 @@ def test_diff_can_be_applied(folder: Path) -> None:
     done = run(folder, "check", "frame.msaa.yaml", "--diff")
     (folder / "d.patch").write_bytes(done.stdout.encode())
     subprocess.run(["git", "apply", "d.patch"], cwd=folder, check=True)
-    assert (folder / "frame.msaa.yaml").read_bytes() == MENDED.replace("\n", "\r\n").rstrip("\r\n").encode()
+    assert (folder / "frame.msaa.yaml").read_bytes() == FIXED.replace("\n", "\r\n").rstrip("\r\n").encode()
 
 
-def test_diff_is_coloured_where_colour_is_on(folder: Path) -> None:
+def test_diff_in_color(folder: Path) -> None:
     done = run(folder, "check", ".", "--diff", "--color", "always")
     assert "\x1b[32m+      output: {image: out, loadOp: DONT_CARE, storeOp: STORE}\x1b[0m\n" in done.stdout
 
 
-def test_diff_leaves_files_of_other_outputs(folder: Path) -> None:
+def test_diff_beside_other_outputs(folder: Path) -> None:
     done = run(folder, "check", ".", "--diff", "--output", "json=found.json", "--output", "concise")
     assert done.stdout == DIFF
     assert len(json.loads(text(folder, "found.json"))["findings"]) == 3
 
 
-def test_unsafe_fixes_are_asked_for(folder: Path) -> None:
+def test_unsafe_fixes_need_the_option(folder: Path) -> None:
     (folder / "frame.msaa.yaml").write_text(UNSAFE, encoding="utf-8")
     done = run(folder, "check", ".", "--fix")
     assert done.stderr == "msaa-lint: 2 fixed, 1 remaining, 1 of them with an unsafe fix (--unsafe-fixes)\n"
     assert "storeOp: DONT_CARE}\n    subpasses" in text(folder)
     done = run(folder, "check", ".", "--fix", "--unsafe-fixes")
     assert done.stderr == "msaa-lint: 1 fixed, 0 remaining\n"
-    assert text(folder) == MENDED
+    assert text(folder) == FIXED
 
 
 def test_unsafe_fixes_alone_change_nothing(folder: Path) -> None:
@@ -110,13 +110,13 @@ def test_unsafe_fixes_alone_change_nothing(folder: Path) -> None:
     assert text(folder) == STORED
 
 
-def test_standard_input_is_mended_on_standard_output(folder: Path) -> None:
+def test_fixed_standard_input_is_printed(folder: Path) -> None:
     done = run(folder, "check", "-", "--fix", stdin=UNSAFE.encode())
     assert done.stdout == UNSAFE.replace("CLEAR, storeOp: STORE", "CLEAR, storeOp: DONT_CARE")
     assert "<stdin>:8:" in done.stderr
     assert "2 fixed, 1 remaining" in done.stderr
     assert done.returncode == 1
-    assert run(folder, "check", "-", "--fix", stdin=MENDED.encode()).stdout == MENDED
+    assert run(folder, "check", "-", "--fix", stdin=FIXED.encode()).stdout == FIXED
     assert run(folder, "check", "-", "--diff", "--stdin-filename", "frame.msaa.yaml", stdin=STORED.encode()).stdout == DIFF
     broken = run(folder, "check", "-", "--fix", stdin=b"a: [")
     assert (broken.stdout, broken.returncode) == ("a: [", 2)
@@ -129,36 +129,36 @@ def test_standard_input_is_mended_on_standard_output(folder: Path) -> None:
 )
 @pytest.mark.parametrize("ending", ["\n", "\r\n", "\r"])
 @pytest.mark.parametrize("last", [True, False])
-def test_encoding_and_line_ends_stay(folder: Path, mark: bytes, encoding: str, ending: str, last: bool) -> None:
+def test_encoding_and_line_breaks_stay(folder: Path, mark: bytes, encoding: str, ending: str, last: bool) -> None:
     def encoded(plain: str) -> bytes:
         return mark + (f"# é ☃ 𝄞\n{plain}" if last else f"# é ☃ 𝄞\n{plain}".rstrip("\n")).replace("\n", ending).encode(encoding)
 
     (folder / "frame.msaa.yaml").write_bytes(encoded(STORED))
     assert run(folder, "check", ".", "--fix").stderr == "msaa-lint: 3 fixed, 0 remaining\n"
-    assert (folder / "frame.msaa.yaml").read_bytes() == encoded(MENDED)
+    assert (folder / "frame.msaa.yaml").read_bytes() == encoded(FIXED)
 
 
-def test_a_read_only_file_is_said_and_the_others_are_fixed(folder: Path) -> None:
+def test_read_only_file_is_reported_and_others_are_fixed(folder: Path) -> None:
     (folder / "other.msaa.yaml").write_text(STORED, encoding="utf-8")
     (folder / "frame.msaa.yaml").chmod(0o444)
     done = run(folder, "check", ".", "--fix")
     assert done.returncode == 2
     assert "the fixed text cannot be written: the file is read-only" in done.stdout
-    assert (text(folder), text(folder, "other.msaa.yaml")) == (STORED, MENDED)
+    assert (text(folder), text(folder, "other.msaa.yaml")) == (STORED, FIXED)
     assert "frame.msaa.yaml:7:" in done.stdout
     assert done.stderr.startswith("msaa-lint: 3 fixed, 3 remaining")
 
 
-def test_a_link_stays_a_link(folder: Path) -> None:
+def test_symbolic_link_stays_a_link(folder: Path) -> None:
     (folder / "deep").mkdir()
     (folder / "frame.msaa.yaml").rename(folder / "deep" / "real.yaml")
     (folder / "frame.msaa.yaml").symlink_to(Path("deep") / "real.yaml")
     run(folder, "check", "frame.msaa.yaml", "--fix")
     assert (folder / "frame.msaa.yaml").is_symlink()
-    assert text(folder, "deep/real.yaml") == MENDED
+    assert text(folder, "deep/real.yaml") == FIXED
 
 
-def test_what_is_not_shown_is_not_fixed(folder: Path) -> None:
+def test_hidden_findings_are_not_fixed(folder: Path) -> None:
     for arguments in (["--ignore", "MSAA2", "--ignore", "MSAA4"], ["--min-severity", "error"]):
         run(folder, "check", ".", "--fix", *arguments)
         assert text(folder) == STORED
@@ -167,7 +167,7 @@ def test_what_is_not_shown_is_not_fixed(folder: Path) -> None:
     assert (done.returncode, text(folder)) == (0, STORED)
 
 
-def test_what_cannot_be_fixed_says_why(folder: Path) -> None:
+def test_reason_of_a_failed_fix_is_reported(folder: Path) -> None:
     color = "{image: ms, loadOp: CLEAR, storeOp: STORE}"
     shared = STORED.replace(color, f"&c {color}\n      normals: {{<<: *c, image: kept}}")
     shared = shared.replace("images:\n", "images:\n  kept: {format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT, SAMPLED]}\n")
@@ -178,7 +178,7 @@ def test_what_cannot_be_fixed_says_why(folder: Path) -> None:
     assert reason in done.stderr
 
 
-def test_json_tells_the_edits(folder: Path) -> None:
+def test_json_has_the_edits(folder: Path) -> None:
     findings = json.loads(run(folder, "check", ".", "--output", "json").stdout)["findings"]
     assert [found["fixable"] for found in findings] == [True] * 3
     sarif = json.loads(run(folder, "check", ".", "--output", "sarif").stdout)
@@ -188,8 +188,8 @@ def test_json_tells_the_edits(folder: Path) -> None:
 
 
 @pytest.mark.parametrize("unsafe", [[], ["--unsafe-fixes"]])
-def test_every_example_at_once(tmp_path: Path, unsafe: list[str]) -> None:
-    """Through the command: fewer findings, none new, the same once more."""
+def test_all_examples_in_one_run(tmp_path: Path, unsafe: list[str]) -> None:
+    """Fixing leaves fewer findings and adds none, and fixing again changes nothing."""
     for number, example in enumerate(each for each in all_examples() if each.kind == "bad"):
         (tmp_path / f"{number:03}-{example.rule}.msaa.yaml").write_text(example.text, encoding="utf-8")
     for path in EXAMPLES:

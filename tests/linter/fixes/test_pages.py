@@ -1,4 +1,4 @@
-"""The fixes that pages state: what can be changed, with which values; what the catalogue's own do."""
+"""The fixes in rule pages: their checks, and what those of the built-in rules do."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from msaa_lint.linter.fixes.fact_sources import FACT_SOURCES, ONLY_VALUES
 from msaa_lint.linter.fixes.fix_checks import problems
 from msaa_lint.linter.fixes.metal import METAL_ACTIONS, METAL_FACT_SOURCES
 from msaa_lint.linter.rules.registry import load
-from tests.linter.fixes.judging import fixed, lint
+from tests.linter.fixes.linting import fix_findings, lint
 from tests.marked import unmarked
 from tests.pages import RULES, examples
 
@@ -32,7 +32,7 @@ Nothing is stored.
 
 
 def loaded(folder: Path, fix: str) -> tuple[list[tuple[str, str]], list[str]]:
-    """What is wrong with a page that has a fix, each with the text that it points at; and the marked texts."""
+    """The problems of a page with a fix, each with the text that it points at; and the marked texts."""
     text, spans = unmarked(PAGE.format(fix=fix).rstrip("\n"))
     path = folder / "no-store.md"
     path.write_text(f"{text}\n", encoding="utf-8")
@@ -74,15 +74,15 @@ def loaded(folder: Path, fix: str) -> tuple[list[tuple[str, str]], list[str]]:
         ('fix: {title: "{image.sample}", safety: safe, set: {aspect.store: NONE}}', "there is no fact image.sample of aspect"),
     ],
 )
-def test_what_is_wrong_with_a_fix_and_where(tmp_path: Path, fix: str, message: str) -> None:
+def test_problems_of_fixes_and_their_places(tmp_path: Path, fix: str, message: str) -> None:
     (found, *_), marked = loaded(tmp_path, fix)
     assert found[0].startswith(message)
     if marked:
         assert found[1] == marked[0]
 
 
-def test_cases_may_change_the_fix(tmp_path: Path) -> None:
-    """By its safety alone, by another one, by none."""
+def test_cases_change_the_fix(tmp_path: Path) -> None:
+    """A case may change the safety, replace the fix, or remove it."""
     fix = """fix: {title: "store {aspect.name}: DONT_CARE", safety: safe, set: {aspect.store: DONT_CARE}}
 cases:
   - {when: image.samples == 2, fix: {safety: unsafe}}
@@ -104,46 +104,46 @@ cases:
     ]
 
 
-def test_the_facts_that_can_be_changed_are_facts() -> None:
+def test_fact_sources_are_of_known_facts() -> None:
     assert set(FACT_SOURCES) <= set(FACTS)
     assert set(ONLY_VALUES) <= set(FACT_SOURCES)
 
 
-def test_the_catalogue() -> None:
+def test_built_in_rules() -> None:
     rules = load().rules
     assert [each for rule in rules for each in problems(rule)] == []
-    assert {mend.do for rule in rules for mend in rule.fix_specs if mend.do} == {*ACTIONS, *METAL_ACTIONS}
-    changed = {setting.fact for rule in rules for mend in rule.fix_specs for setting in (*mend.set, *mend.add, *mend.remove)}
+    assert {spec.do for rule in rules for spec in rule.fix_specs if spec.do} == {*ACTIONS, *METAL_ACTIONS}
+    changed = {setting.fact for rule in rules for spec in rule.fix_specs for setting in (*spec.set, *spec.add, *spec.remove)}
     assert changed <= {*FACT_SOURCES, *METAL_FACT_SOURCES}
     for rule in rules:
         assert {fact.name for fact in SUBJECTS[rule.subject]}
 
 
 @pytest.mark.parametrize("rule", [rule for rule in load().rules if rule.fix_specs], ids=lambda rule: rule.name)
-def test_a_fixed_example_is_what_the_fix_writes(rule: object) -> None:
-    """The page shows a bad example and, below it, exactly what this rule's fix makes of it."""
+def test_fixed_examples_are_what_the_fix_writes(rule: object) -> None:
+    """The fixed example of a page is exactly what the rule's fix makes of a bad one."""
     from msaa_lint.core.text.edits import apply
     from msaa_lint.linter.fixes.changes import NoFix
     from msaa_lint.linter.fixes.document_fixes import DocumentFixes
 
     name = getattr(rule, "name", "")
     results = []
-    wanted = [example for example in examples(RULES / f"{name}.md") if example.kind == "fixed"]
+    expected = [example for example in examples(RULES / f"{name}.md") if example.kind == "fixed"]
     for example in examples(RULES / f"{name}.md"):
         if example.kind != "bad":
             continue
         text = "".join(line for line in example.text.splitlines(keepends=True) if not line.startswith("#") or "^" not in line)
-        linted = lint(text)
-        assert linted.source is not None
-        fixes = DocumentFixes(linted.documents[0])
+        result = lint(text)
+        assert result.source is not None
+        fixes = DocumentFixes(result.documents[0])
         edits: set[Edit] = set()
-        for finding in linted.findings:
+        for finding in result.findings:
             if finding.rule == name and fixes.covers(finding):
                 with suppress(NoFix):
                     edits.update(fixes.edits(fixes.changes(finding)))
         results.append(apply(text, edits))
-    assert wanted
-    assert {example.text for example in wanted} <= set(results)
+    assert expected
+    assert {example.text for example in expected} <= set(results)
 
 
 @pytest.mark.parametrize(
@@ -171,10 +171,10 @@ def test_a_fixed_example_is_what_the_fix_writes(rule: object) -> None:
         ),
     ],
 )
-def test_a_resolve_stays_outside_where_there_is_a_doubt(old: str, new: str, reason: str) -> None:
+def test_resolve_outside_a_pass_stays_if_in_doubt(old: str, new: str, reason: str) -> None:
     text = RESOLVED.replace(old, new, 1)
     assert text != RESOLVED
-    done = fixed(text, True)
+    done = fix_findings(text, True)
     assert [(each.finding.rule, each.reason) for each in done.failed_fixes if each.finding.code == "MSAA301"] == [
         ("resolve-outside-pass", reason)
     ]
@@ -226,7 +226,7 @@ commands:
 """
 
 
-def test_a_resolve_moves_into_a_pass_with_a_framebuffer() -> None:
+def test_resolve_moves_into_a_pass_with_a_framebuffer() -> None:
     from msaa_lint.linter.fixes.fixer import fix_text
 
     done = fix_text(lint(RESOLVED), lint, True, lambda found: found.code == "MSAA301")
@@ -234,11 +234,11 @@ def test_a_resolve_moves_into_a_pass_with_a_framebuffer() -> None:
     assert done.text == INSIDE
 
 
-def test_of_samples_that_are_read_again_the_store_stays() -> None:
+def test_store_of_samples_with_other_readers_stays() -> None:
     text = RESOLVED.replace("  - present", "  - readImage: {image: ms, stage: FRAGMENT, access: SHADER_READ}\n  - present").replace(
         "TRANSFER_SRC]", "TRANSFER_SRC, SAMPLED]"
     )
-    done = fixed(text, True)
+    done = fix_findings(text, True)
     assert "resolve-outside-pass" in {found.rule for found in done.fixed_findings}
     assert "loadOp: CLEAR, storeOp: STORE, initialLayout: UNDEFINED, finalLayout: TRANSFER_SRC_OPTIMAL}" in done.text
     assert "usage: [COLOR_ATTACHMENT, SAMPLED]" in done.text

@@ -1,4 +1,4 @@
-"""Descriptions read, judged and fixed, as the tests of fixes need them."""
+"""Lints and fixes descriptions for the tests of fixes."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ ENGINE = Engine(load())
 
 
 def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
-    """Severities without configuration."""
+    """The severities without a configuration."""
     return "note" if rule.vendors and vendor not in rule.vendors else suggested
 
 
@@ -30,7 +30,7 @@ def lint(text: str) -> FileResult:
     return ENGINE.lint(text.encode(), str(RULES / "frame.yaml"), LintOptions(as_written))
 
 
-def fixed(text: str, unsafe: bool = False) -> FixResult:
+def fix_findings(text: str, unsafe: bool = False) -> FixResult:
     return fix_text(lint(text), lint, unsafe)
 
 
@@ -39,18 +39,18 @@ def comments_of(text: str) -> list[str]:
     return [comment.text for comment in comments(source, parse(source, Limits()).documents)]
 
 
-def kinds(linted: FileResult) -> Counter[tuple[str, str]]:
-    """The findings by rule and subject, indices aside."""
-    return Counter((found.rule, re.sub(r"\[\d+\]", "", found.subject)) for found in linted.findings)
+def kinds(result: FileResult) -> Counter[tuple[str, str]]:
+    """How many findings there are by rule and subject, without indices."""
+    return Counter((found.rule, re.sub(r"\[\d+\]", "", found.subject)) for found in result.findings)
 
 
 def rules(findings: tuple[Finding, ...] | list[Finding]) -> list[str]:
     return sorted(found.rule for found in findings)
 
 
-def meaning(linted: FileResult) -> list[object]:
-    """What the documents of a text state, their places and spellings aside."""
-    return [_meaning(judged.document.description) for judged in linted.documents]
+def meaning(result: FileResult) -> list[object]:
+    """What the documents of a text state, without places and spellings."""
+    return [_meaning(document.document.description) for document in result.documents]
 
 
 def _meaning(value: object) -> object:

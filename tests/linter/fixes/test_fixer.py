@@ -1,4 +1,4 @@
-"""Which fixes are made together, which one after another, and which not at all."""
+"""Which fixes are applied together, which one after another, and which not at all."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 from msaa_lint.core.finding import Finding, Fix
 from msaa_lint.core.text.span import Edit, Span
 from msaa_lint.linter.fixes.fixer import MAX_TRIALS, _Fix, _joined, _without_overlaps
-from tests.linter.fixes.judging import fixed, lint, rules
+from tests.linter.fixes.linting import fix_findings, lint, rules
 
 STORED = """\
 images:
@@ -23,7 +23,7 @@ renderPasses:
     subpasses:
       - {colorAttachments: [color], resolveAttachments: [output]}
 """
-MENDED = STORED.replace("CLEAR, storeOp: STORE", "CLEAR, storeOp: DONT_CARE").replace("LOAD", "DONT_CARE")
+FIXED = STORED.replace("CLEAR, storeOp: STORE", "CLEAR, storeOp: DONT_CARE").replace("LOAD", "DONT_CARE")
 
 
 PASS = """\
@@ -34,41 +34,41 @@ renderPasses:
 """
 
 
-def test_one_edit_mends_two_findings() -> None:
-    done = fixed(STORED)
+def test_one_edit_fixes_two_findings() -> None:
+    done = fix_findings(STORED)
     assert rules(done.fixed_findings) == ["multisampled-attachment-stored", "resolve-target-loaded", "transient-needs-memory"]
-    assert done.text == MENDED
+    assert done.text == FIXED
     assert done.result.findings == []
 
 
-def test_wishes_are_respected() -> None:
+def test_only_selected_findings_are_fixed() -> None:
     from msaa_lint.linter.fixes.fixer import fix_text
 
     done = fix_text(lint(STORED), lint, False, lambda found: found.code == "MSAA205")
     assert rules(done.fixed_findings) == ["resolve-target-loaded"]
 
 
-def test_a_suppressed_finding_stays() -> None:
+def test_suppressed_finding_stays() -> None:
     text = STORED.replace(
         "storeOp: STORE}\n      output", "storeOp: STORE}  # msaa-lint: ignore[MSAA201, MSAA403] a viewer reads it\n      output"
     )
-    done = fixed(text)
+    done = fix_findings(text)
     assert rules(done.fixed_findings) == ["resolve-target-loaded"]
     assert done.text == text.replace("loadOp: LOAD", "loadOp: DONT_CARE")
 
 
-def test_a_suppression_that_a_fix_makes_unused_goes() -> None:
-    """Stored by mistake and loaded as well: with the store goes what the comment silenced."""
+def test_suppression_that_a_fix_leaves_unused_is_removed() -> None:
+    """The fix of the store also removes the finding that the comment suppresses."""
     text = STORED.replace(
         "storeOp: STORE}\n      output", "storeOp: STORE}  # msaa-lint: ignore[transient-needs-memory] once\n      output"
     )
-    done = fixed(text)
+    done = fix_findings(text)
     assert rules(done.fixed_findings) == ["multisampled-attachment-stored", "resolve-target-loaded", "unused-suppression"]
-    assert done.text == MENDED
+    assert done.text == FIXED
 
 
-def test_fixes_that_overlap_take_turns() -> None:
-    """Both put a member at the end of the same mapping."""
+def test_overlapping_fixes_are_applied_in_turn() -> None:
+    """Both insert a member at the end of the same mapping."""
     text = """\
 renderPasses:
   main:
@@ -78,13 +78,13 @@ renderPasses:
       - srcSubpass: EXTERNAL
         dstSubpass: 0
 """
-    done = fixed(text)
+    done = fix_findings(text)
     assert rules(done.fixed_findings) == ["reused-attachment-unsynchronised"]
     added = "        srcStageMask: [COLOR_ATTACHMENT_OUTPUT]\n        srcAccessMask: [COLOR_ATTACHMENT_WRITE]\n"
     assert done.text == text + added
 
 
-def test_what_brings_another_finding_is_not_made() -> None:
+def test_fix_that_introduces_a_finding_is_not_applied() -> None:
     text = """\
 renderPasses:
   main:
@@ -93,55 +93,55 @@ renderPasses:
 pipelines:
   glass: {renderPass: main, multisampleState: {rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 4}}
 """
-    done = fixed(text, True)
+    done = fix_findings(text, True)
     assert (done.text, done.fixed_findings) == (text, ())
     (failed,) = done.failed_fixes
     assert failed.finding.code == "MSAA510"
     assert failed.reason.startswith("it would introduce sample-shading-everywhere: `glass` runs")
 
 
-def test_one_that_fails_does_not_keep_the_others() -> None:
+def test_failed_fix_does_not_prevent_others() -> None:
     bad = "    g{0}: {{renderPass: main, multisampleState: {{rasterizationSamples: 4, sampleShadingEnable: {1}, minSampleShading: 4}}}}\n"
     text = PASS + "pipelines:\n" + "".join(bad.format(n, "true" if n == 5 else "false") for n in range(9))
-    done = fixed(text, True)
+    done = fix_findings(text, True)
     assert len(done.fixed_findings) == 8
     assert [each.finding.subject for each in done.failed_fixes] == ["pipelines.g5"]
     assert done.text.count("minSampleShading: 1.0") == 8
 
 
-def test_documents_of_a_stream() -> None:
+def test_all_documents_of_a_stream_are_fixed() -> None:
     text = f"{STORED}---\n# two\n{STORED}...\n"
-    done = fixed(text)
+    done = fix_findings(text)
     assert len(done.fixed_findings) == 6
-    assert done.text == f"{MENDED}---\n# two\n{MENDED}...\n"
+    assert done.text == f"{FIXED}---\n# two\n{FIXED}...\n"
 
 
 @pytest.mark.parametrize("text", ["", "a: [", "images: {a: {smaples: 4}}", "\x00", "images: null"])
-def test_what_cannot_be_read_is_not_touched(text: str) -> None:
-    assert fixed(text, True).text == text
+def test_unreadable_text_is_not_changed(text: str) -> None:
+    assert fix_findings(text, True).text == text
 
 
-def test_a_broken_document_does_not_keep_the_others() -> None:
-    done = fixed(f"{STORED}---\nimages: {{a: {{smaples: 4}}}}\n")
+def test_document_with_errors_does_not_prevent_fixes_of_others() -> None:
+    done = fix_findings(f"{STORED}---\nimages: {{a: {{smaples: 4}}}}\n")
     assert len(done.fixed_findings) == 3
 
 
-def test_thousands_of_fixes_take_no_quadratic_time() -> None:
+def test_thousands_of_fixes_are_applied_in_time() -> None:
     lines = "".join(f"      c{n}: {{format: R8_UNORM, samples: 4, loadOp: CLEAR, storeOp: STORE}}\n" for n in range(1000))
     references = ", ".join(f"c{n}" for n in range(1000))
     text = f"renderPasses:\n  main:\n    attachments:\n{lines}      out: {{format: R8_UNORM, samples: 1, loadOp: DONT_CARE}}\n"
     text += f"    subpasses:\n      - {{colorAttachments: [{references}], resolveAttachments: [{', '.join(['out'] * 1000)}]}}\n"
     start = time.monotonic()
-    done = fixed(text, True)
+    done = fix_findings(text, True)
     assert len(done.fixed_findings) == 1000
     assert time.monotonic() - start < 30
 
 
-def test_thousands_of_fixes_that_fail_are_given_up() -> None:
+def test_many_failing_fixes_are_given_up() -> None:
     each = "  g{0}: {{renderPass: main, multisampleState: {{rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 4}}}}\n"
     text = PASS + "pipelines:\n" + "".join(each.format(n) for n in range(200))
     start = time.monotonic()
-    done = fixed(text, True)
+    done = fix_findings(text, True)
     assert done.fixed_findings == ()
     assert len(done.failed_fixes) == 200
     assert done.failed_fixes[-1].reason == "too many fixes of this input failed"
@@ -149,13 +149,13 @@ def test_thousands_of_fixes_that_fail_are_given_up() -> None:
     assert MAX_TRIALS == 60
 
 
-def made(*edits: tuple[int, int, str]) -> _Fix:
+def fix(*edits: tuple[int, int, str]) -> _Fix:
     found = Finding("MSAA201", "x", "note", "high", "", "f", Span(0, 0), fix=Fix("", True))
     return _Fix((found,), tuple(Edit(Span(start, end), text) for start, end, text in edits))
 
 
-def test_fixes_with_an_edit_in_common_are_one() -> None:
-    one, two, three = made((0, 1, "a")), made((5, 6, "b"), (8, 8, "c")), made((0, 1, "a"), (8, 8, "c"))
+def test_fixes_that_share_an_edit_are_joined() -> None:
+    one, two, three = fix((0, 1, "a")), fix((5, 6, "b"), (8, 8, "c")), fix((0, 1, "a"), (8, 8, "c"))
     (joined,) = _joined([one, two, three])
     assert len(joined.findings) == 3
     assert joined.edits == ((Span(0, 1), "a"), (Span(5, 6), "b"), (Span(8, 8), "c"))
@@ -177,10 +177,10 @@ def test_fixes_with_an_edit_in_common_are_one() -> None:
 )
 def test_overlaps(taken: tuple[int, int, str], other: tuple[int, int, str], apart: bool) -> None:
     for one, two in ((taken, other), (other, taken)):
-        assert len(_without_overlaps([made(one), made(two)])) == (2 if apart else 1)
+        assert len(_without_overlaps([fix(one), fix(two)])) == (2 if apart else 1)
 
 
-def test_what_a_refused_fix_stood_in_the_way_of_is_made() -> None:
+def test_fix_that_a_failed_one_blocked_is_applied() -> None:
     from msaa_lint.core.text.source import Source
     from msaa_lint.linter.fixes.fixer import fix_text
     from msaa_lint.linter.results import FileResult
@@ -188,7 +188,7 @@ def test_what_a_refused_fix_stood_in_the_way_of_is_made() -> None:
     def finding(code: str, severity: str, fix: Fix | None = None) -> Finding:
         return Finding(code, code.lower(), severity, "high", "", "f", Span(0, 1), code, fix=fix)
 
-    def judged(text: str) -> FileResult:
+    def lint_letters(text: str) -> FileResult:
         found = []
         if text[0] == "a":
             found.append(finding("MSAA1", "error", Fix("both", True, (Edit(Span(0, 2), "cd"),))))
@@ -198,7 +198,7 @@ def test_what_a_refused_fix_stood_in_the_way_of_is_made() -> None:
             found.append(finding("MSAA3", "warning"))
         return FileResult("f", Source("f", text), found, [], [])
 
-    done = fix_text(judged("ab"), judged, False, lambda _: True)
+    done = fix_text(lint_letters("ab"), lint_letters, False, lambda _: True)
     assert done.text == "aB"
     assert rules(done.fixed_findings) == ["msaa2"]
     assert [(each.finding.code, each.reason) for each in done.failed_fixes] == [("MSAA1", "it would introduce msaa3: ")]

@@ -1,4 +1,4 @@
-"""Descriptions written in random ways that mean the same: block and flow, quotes, names, indentation, comments, line ends, JSON."""
+"""Random texts of a description: block and flow style, quotes, names, indentation, comments, line breaks, JSON."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ METAL = {
     "depthResolveFilter": "MTLMultisampleDepthResolveFilter",
     "pixelFormat": "MTLPixelFormat",
 }
-"""Members of a frame in Metal's words."""
+"""Members of Metal structures and their enums."""
 
 
 def data_of(text: str) -> Any:
@@ -48,14 +48,14 @@ def data_of(text: str) -> Any:
 
 
 def plain(node: Node) -> Any:
-    """What a node holds."""
+    """The plain data of a node."""
     if node.kind == "mapping":
         return {key: plain(value) for key, value in node.value.items()}
     return [plain(item) for item in node.value] if node.kind == "sequence" else node.value
 
 
 def written(data: Any, random: Random, shared: float = 0.0) -> str:
-    """A description, written in one of many ways; `shared` is how likely what stood before is named by an alias or merged."""
+    """A random text of a description; `shared` is the probability of an alias or a merge of an earlier value."""
     writer = _Json(random) if random.random() < 0.25 and not shared else _Yaml(random, shared)
     text = writer.document(data)
     if random.random() < 0.3:
@@ -71,7 +71,7 @@ class _Spelled:
         self.dotted = random.random() < 0.3
 
     def metals(self, enum: str, value: Any) -> Any:
-        """Metal's words as Objective-C has them, or with a dot."""
+        """Metal enumerants with their Objective-C names, with a dot, or bare."""
         names = [value] if isinstance(value, str) else value
         like = objective_c(enum, metal.ENUMS[enum][0]) if self.long else "." if self.dotted else ""
         words = [metal.spelled(enum, name, like) for name in names]
@@ -81,7 +81,7 @@ class _Spelled:
         return self.random.random() < share
 
     def respelled(self, key: str, value: Any) -> Any:
-        """A member's value in the document's spelling."""
+        """A member's value as the document spells it."""
         if key in METAL and isinstance(value, (str, list)):
             names = [value] if isinstance(value, str) else value
             if all(isinstance(name, str) and name in metal.ENUMS[METAL[key]] for name in names) and names:
@@ -127,7 +127,7 @@ def _scalar(data: Any, quote: str) -> str:
 
 
 def _mergeable(data: Any) -> bool:
-    """Whether the order of its members says nothing, and its values are plain."""
+    """Whether data is a structure without nested structures, in which the order of members does not matter."""
     return isinstance(data, dict) and bool({"format", "loadOp"} & set(data)) and not any(isinstance(each, dict) for each in data.values())
 
 
@@ -162,7 +162,7 @@ class _Yaml(_Spelled):
         return _scalar(data, quote)
 
     def sharing(self, data: Any, made: Callable[[Any], str]) -> str:
-        """A value: an alias of an equal one before it, a merge of one that it has all members of, or itself, perhaps with an anchor."""
+        """The value, perhaps with an anchor; or an alias of an equal earlier one, or a merge of one that it extends."""
         if not self.likely(self.shared):
             return made(data)
         same = json.dumps(data)

@@ -1,4 +1,4 @@
-"""The exact edits of texts."""
+"""The exact edits that changes make in texts."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from msaa_lint.linter.fixes.context import FixContext
 from msaa_lint.linter.fixes.layout import CollectionEditor
 from msaa_lint.linter.fixes.text_edits import TextEditor
 from msaa_lint.linter.fixes.text_scanner import TextScanner
-from tests.linter.fixes.judging import fixed, lint, rules
+from tests.linter.fixes.linting import fix_findings, lint, rules
 from tests.paths import ROOT
 
 DATA = ROOT / "tests" / "data"
 
 
 def changed(text: str, *changes: tuple[str, str, str, object]) -> str:
-    """A text with changes made: the path of a record, a member, an action, a value; or the reason why not."""
-    (judged,) = lint(text).documents
-    made = [Change(_record(judged.document.description, path), member, action, value) for path, member, action, value in changes]
+    """A text after changes, each the path of a record, a member, an action and a value; or the reason why not."""
+    (document,) = lint(text).documents
+    made = [Change(_record(document.document.description, path), member, action, value) for path, member, action, value in changes]
     try:
-        return apply(text, TextEditor(judged.document).edits(made))
+        return apply(text, TextEditor(document.document).edits(made))
     except NoFix as error:
         return f"refused: {error}"
 
@@ -144,19 +144,19 @@ def test_edits(before: str, change: tuple[str, str, str, object], after: str) ->
     assert changed(before, change) == after
 
 
-def test_what_comes_stands_where_something_went() -> None:
+def test_added_flag_replaces_a_removed_one() -> None:
     assert changed("images: {a: {usage: [SAMPLED, STORAGE]}}", REMOVE, ADD) == "images: {a: {usage: [TRANSIENT_ATTACHMENT, STORAGE]}}"
     assert changed("images: {a: {usage: SAMPLED | STORAGE}}", REMOVE, ADD) == "images: {a: {usage: TRANSIENT_ATTACHMENT | STORAGE}}"
 
 
-def test_several_flags_go_at_once() -> None:
+def test_several_flags_are_removed_at_once() -> None:
     gone = [("images.a", "usage", "remove", name) for name in ("SAMPLED", "STORAGE")]
     assert changed("images: {a: {usage: [TRANSFER_SRC, SAMPLED,  STORAGE]}}", *gone) == "images: {a: {usage: [TRANSFER_SRC]}}"
     assert changed("images: {a: {usage: [SAMPLED,  TRANSFER_SRC, STORAGE]}}", *gone) == "images: {a: {usage: [TRANSFER_SRC]}}"
     assert changed("images: {a: {usage: [SAMPLED, STORAGE]}}", *gone) == "refused: no entry would remain"
 
 
-def test_several_members_come_at_once() -> None:
+def test_several_members_are_added_at_once() -> None:
     both = (("images.a", "tiling", "set", "OPTIMAL"), ("images.a", "samples", "set", 4))
     assert changed("images: {a: {usage: []}}", *both) == "images: {a: {usage: [], samples: 4, tiling: OPTIMAL}}"
     assert changed("images:\n  a:\n    usage: []\n", *both) == "images:\n  a:\n    usage: []\n    samples: 4\n    tiling: OPTIMAL\n"
@@ -193,16 +193,16 @@ def test_anchors(attachments: str, change: tuple[str, str, str, object], after: 
     assert changed(before, change) == expected
 
 
-def test_a_shared_text_is_edited_where_all_want_the_same() -> None:
+def test_shared_text_is_edited_if_all_request_the_same() -> None:
     before = "renderPasses: {p: {attachments: {a: &b {storeOp: STORE}, b: *b, c: {<<: *b}}}}"
-    wanted = [(f"renderPasses.p.attachments.{name}", "storeOp", "set", "DONT_CARE") for name in "abc"]
-    assert changed(before, *wanted) == before.replace("STORE", "DONT_CARE")
-    assert changed(before, *wanted[:2]) == "refused: an anchor shares this `storeOp` with other structures"
+    stores = [(f"renderPasses.p.attachments.{name}", "storeOp", "set", "DONT_CARE") for name in "abc"]
+    assert changed(before, *stores) == before.replace("STORE", "DONT_CARE")
+    assert changed(before, *stores[:2]) == "refused: an anchor shares this `storeOp` with other structures"
     values = "renderPasses: {p: {attachments: {a: {storeOp: &s STORE}, b: {storeOp: *s}}}}"
-    assert changed(values, *wanted[:2]) == values.replace("STORE", "DONT_CARE")
+    assert changed(values, *stores[:2]) == values.replace("STORE", "DONT_CARE")
 
 
-def test_a_pass_that_is_an_alias_is_the_same_text() -> None:
+def test_pass_given_by_an_alias() -> None:
     before = "renderPasses: {p: &p {attachments: {a: {storeOp: STORE}}}, q: *p}"
     assert changed(before, STORE).startswith("refused")
     both = [(f"renderPasses.{name}.attachments.a", "storeOp", "set", "DONT_CARE") for name in "pq"]
@@ -230,24 +230,24 @@ commands:
 """
 
 
-def test_a_finding_that_stands_for_two_is_mended_for_both() -> None:
-    done = fixed(ALIASED)
+def test_finding_of_two_passes_is_fixed_for_both() -> None:
+    done = fix_findings(ALIASED)
     assert rules(done.fixed_findings) == ["multisampled-attachment-stored"]
     assert done.text == ALIASED.replace("CLEAR, storeOp: STORE", "CLEAR, storeOp: DONT_CARE")
 
 
-def test_a_store_that_one_of_two_needs_stays() -> None:
-    """In the frame as it is told, pass two loads what pass one stored; its own store nobody reads."""
+def test_shared_store_that_one_pass_needs_stays() -> None:
+    """Pass two loads what pass one stores; nothing reads its own store."""
     read = ALIASED.replace("  two: {attachments: *two,", "  two: {attachments: {color: {<<: *color, loadOp: LOAD}, output: {image: out}},")
-    done = fixed(read)
+    done = fix_findings(read)
     assert rules(done.fixed_findings) == ["multisampled-attachment-stored"]
     assert done.text == read.replace("{<<: *color, loadOp: LOAD}", "{<<: *color, loadOp: LOAD, storeOp: DONT_CARE}")
 
 
 def test_vulkan_sc_json() -> None:
     text = (DATA / "vulkan_sc_renderpass2.json").read_text(encoding="utf-8")
-    assert fixed(text).text == text
-    done = fixed(text, True)
+    assert fix_findings(text).text == text
+    done = fix_findings(text, True)
     assert rules(done.fixed_findings) == ["depth-averaged", "load-from-undefined"]
     lines = zip(text.splitlines(keepends=True), done.text.splitlines(keepends=True), strict=True)
     assert [(one.strip(), other.strip()) for one, other in lines if one != other] == [
@@ -256,9 +256,9 @@ def test_vulkan_sc_json() -> None:
     ]
 
 
-def test_a_dumped_pointer_that_goes_is_null() -> None:
+def test_removed_pointer_of_a_dump_is_null() -> None:
     text = (DATA / "vulkan_sc_renderpass.json").read_text(encoding="utf-8")
-    done = fixed(text, True)
+    done = fix_findings(text, True)
     assert rules(done.fixed_findings) == ["multisampled-attachment-stored", "sample-mask-drops-samples", "sample-shading-ineffective"]
     assert '"sampleShadingEnable" : "VK_FALSE",' in done.text
     assert "0x7" not in done.text
@@ -269,11 +269,11 @@ def test_a_dumped_pointer_that_goes_is_null() -> None:
     ("written", "after"),
     [("0", "1"), ('"0"', '"1"'), ('"VK_ATTACHMENT_STORE_OP_STORE"', '"VK_ATTACHMENT_STORE_OP_DONT_CARE"'), ('"STORE"', '"DONT_CARE"')],
 )
-def test_a_dumped_enumerant_may_be_a_number(written: str, after: str) -> None:
+def test_numeric_enumerants_of_a_dump(written: str, after: str) -> None:
     text = json.dumps({"GraphicsPipelineState": {"Renderpass": {"pAttachments": [{"storeOp": "X", "samples": 4}]}}}).replace('"X"', written)
-    (judged,) = lint(text).documents
-    record = judged.document.description.renderPasses["Renderpass"].attachments[0]
-    edits = TextEditor(judged.document).edits([Change(record, "storeOp", "set", "DONT_CARE")])
+    (document,) = lint(text).documents
+    record = document.document.description.renderPasses["Renderpass"].attachments[0]
+    edits = TextEditor(document.document).edits([Change(record, "storeOp", "set", "DONT_CARE")])
     assert apply(text, edits) == text.replace(written, after, 1)
 
 
@@ -285,7 +285,7 @@ def test_a_dumped_enumerant_may_be_a_number(written: str, after: str) -> None:
         ('"VK_IMAGE_USAGE_SAMPLED_BIT"', '"VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT"'),
     ],
 )
-def test_dumped_flags(mask: str, after: str) -> None:
+def test_flags_of_a_dump(mask: str, after: str) -> None:
     from msaa_lint.core.text.span import Span
     from msaa_lint.frame.description.bind import Binder
     from msaa_lint.frame.description.document import Document
@@ -299,7 +299,7 @@ def test_dumped_flags(mask: str, after: str) -> None:
     assert apply(text, edits) == text.replace(mask, after, 1)
 
 
-def test_of_several_items_with_comments_none_goes() -> None:
+def test_items_with_comments_between_are_not_removed() -> None:
     text = "[a, # 1\n b, c]"
     (root,) = parse(Source("", text), Limits()).documents
     with pytest.raises(NoFix):
@@ -310,16 +310,16 @@ def test_of_several_items_with_comments_none_goes() -> None:
     assert apply(clean, edits) == "[a , d]"
 
 
-def test_a_frame_is_joined_once_for_all_fixes() -> None:
-    (judged,) = lint(ALIASED).documents
-    mending = FixContext(judged.document)
-    assert mending.frame is mending.frame
+def test_context_builds_the_frame_once() -> None:
+    (document,) = lint(ALIASED).documents
+    context = FixContext(document.document)
+    assert context.frame is context.frame
 
 
 @pytest.mark.parametrize("comment", ["", "      # to be read\n"])
 @pytest.mark.parametrize("line", ["\n", "\r\n"])
-def test_what_goes_in_at_the_end_of_a_line_that_goes_stands_on_the_line_before(line: str, comment: str) -> None:
-    """The last item of a list that ends its structure is taken away, and a member is put behind that list."""
+def test_insertion_after_a_removed_line(line: str, comment: str) -> None:
+    """The last item of a list that ends a structure is removed, and a member is inserted after that list."""
     before = f"""\
 device: apple-a15
 metal:
@@ -336,7 +336,7 @@ metal:
       colorAttachments: [{{texture: color, resolveTexture: drawable, loadAction: clear, storeAction: multisampleResolve}}]
   commands: [{{renderPass: main}}, {{present: drawable}}]
 """
-    done = fixed(before.replace("\n", line), unsafe=True)
+    done = fix_findings(before.replace("\n", line), unsafe=True)
     assert [found.rule for found in done.fixed_findings] == ["metal-usage-blocks-memoryless"]
     moved = before.replace("      - shaderRead\n", "").replace("- renderTarget\n", "- renderTarget\n      storageMode: memoryless\n")
     assert done.text.replace(line, "\n").replace("# to be read", "").split() == moved.replace("# to be read", "").split()
