@@ -13,11 +13,11 @@ from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import BeginRenderPass, Command, Description, RenderPass
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.devices import DeviceProfile
+from msaa_lint.frame.facts.commands import named_images
 from msaa_lint.frame.facts.frame import Frame, Pass
 
 from .fixes.changes import Change, NoFix, StructuralChange, applied
 from .fixes.document_fixes import DocumentFixes
-from .fixes.image_references import command_images
 from .results import CombinedPrice
 from .rules.rule_runner import Key, finding_key
 
@@ -188,7 +188,7 @@ def _restricted(description: Description, part: Part, images: set[str]) -> tuple
     attachments = [attachment for record in restricted.renderPasses.values() for attachment in record.attachments]
     names = images | part.images
     names.update(attachment.image for attachment in attachments if attachment is not None and attachment.image is not None)
-    names.update(name for command in restricted.commands or () if command is not None for _, name in command_images(command))
+    names.update(name for command in restricted.commands or () if command is not None for name in named_images(command))
     names.update(name for framebuffer in description.framebuffers.values() for name in framebuffer.attachments if name is not None)
     restricted.images = {name: image for name, image in description.images.items() if name in names}
     return restricted, names
@@ -200,7 +200,7 @@ def _concerns(command: Command, part: Part, render_passes: dict[str, RenderPass]
         return body.renderPass in render_passes
     if command.kind == "beginRendering":
         return isinstance(body, Record) and body.path in part.passes
-    return any(name in part.images for _, name in command_images(command))
+    return any(name in part.images for name in named_images(command))
 
 
 def _difference(before: FrameCost, after: FrameCost) -> Price | None:

@@ -10,6 +10,7 @@ from typing import TypeVar
 
 from msaa_lint.frame.description.models import BeginRendering, BeginRenderPass, Command, Image
 from msaa_lint.frame.description.record import Record
+from msaa_lint.frame.facts.commands import accesses
 from msaa_lint.frame.facts.frame import Attachment, Frame, Pass, Resolve, Target
 
 Kind = TypeVar("Kind", bound=Record)
@@ -96,25 +97,16 @@ def users(frame: Frame) -> dict[int, list[Attachment]]:
     return found
 
 
-_MEMBERS = ("image", "srcImage", "dstImage")
-
-
 def mentioned(frame: Frame) -> set[str]:
-    """The images that commands outside of begin and end name."""
-    return {
-        name
-        for each in frame.commands
-        if not isinstance(each.body, BeginRendering)
-        for member in _MEMBERS
-        if isinstance(name := getattr(each.body, member, None), str)
-    }
+    """The images that commands outside of passes' begins and barriers name."""
+    return {name for command in frame.commands for name, _ in accesses(command)}
 
 
 def renamed(found: Command, names: dict[str, str]) -> Command:
     """A command with other images in place of some."""
     body = found.body
-    stated = {m: names[n] for m in _MEMBERS if isinstance(n := getattr(body, m, None), str) and n in names}
-    if not stated or not isinstance(body, Record) or isinstance(body, BeginRendering):
+    stated = {access.member: names[name] for name, access in accesses(found) if name in names}
+    if not stated or not isinstance(body, Record):
         return found
     made, inner = copied(found), copied(body)
     for member, name in stated.items():

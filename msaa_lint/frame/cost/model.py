@@ -6,6 +6,7 @@ from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.devices.tiles import TileUse
 from msaa_lint.frame.facts.frame import Frame, Pass
 from msaa_lint.frame.facts.subpass import tile_targets
+from msaa_lint.frame.facts.walk import Walk
 
 from .amounts import Amount, FrameCost, ImageMemory, Line, PassCost, Terms
 from .memory import images_memory
@@ -13,8 +14,6 @@ from .power import ASSUMED_FPS, MOST, Rates, rates
 from .shading import pass_shading
 from .sizes import Area, Sizes
 from .traffic import MOVING, Lines, command_lines, pass_lines
-
-_ENDS = ("endRenderPass", "endRendering")
 
 
 def frame_cost(frame: Frame, device: DeviceProfile | None, terms: Terms | None = None) -> FrameCost:
@@ -81,29 +80,29 @@ Entry = tuple[str, str, str, Pass | None, Area | None, Lines]
 def _entries(frame: Frame, device: DeviceProfile | None, sizes: Sizes, reckoned: Rates) -> tuple[list[Entry], list[str]]:
     """The passes and commands of a frame, with their lines, in the order in which they first come; and the passes that never do."""
     entries: dict[int, Entry] = {}
-    for each in frame.passes if not frame.has_commands else ():
-        entries[id(each)] = _of_pass(each, device, sizes)
-    begins = {position: each for each in frame.passes for position in each.begun}
-    within: Pass | None = None
-    attached: set[str] = set()
-    for position, command in enumerate(frame.commands):
-        if position in begins:
-            within = begins[position]
-            if id(within) not in entries:
-                entries[id(within)] = _of_pass(within, device, sizes)
-            attached = {target.name for attachment in within.attachments for target in attachment.targets if target.image is not None}
-        elif command.kind in _ENDS:
-            within, attached = None, set()
-        elif command.kind in MOVING:
+    for render_pass in frame.passes if not frame.has_commands else ():
+        entries[id(render_pass)] = _of_pass(render_pass, device, sizes)
+    for step in Walk(frame).steps:
+        command, render_pass_here = step.command, step.run.render_pass if step.run is not None else None
+        if step.begins and render_pass_here is not None:
+            if id(render_pass_here) not in entries:
+                entries[id(render_pass_here)] = _of_pass(render_pass_here, device, sizes)
+        elif command.kind not in MOVING:
+            continue
+        elif render_pass_here is None:
+            lines = Lines(device)
+            entries[id(command)] = (command.kind, command.path, "command", None, None, lines)
+            command_lines(lines, command, frame, sizes)
+        elif getattr(command.body, "image", None) not in _attached(render_pass_here):
             # What a pass has attached it reads on the tile.
-            if within is None:
-                lines = Lines(device)
-                entries[id(command)] = (command.kind, command.path, "command", None, None, lines)
-                command_lines(lines, command, frame, sizes)
-            elif getattr(command.body, "image", None) not in attached:
-                command_lines(entries[id(within)][5], command, frame, sizes)
+            command_lines(entries[id(render_pass_here)][5], command, frame, sizes)
     never = [f"`{each.name}`: no command begins it" for each in frame.passes if frame.has_commands and not each.begun]
     return list(entries.values()), never
+
+
+def _attached(render_pass: Pass) -> set[str]:
+    """The images of a pass's attachments."""
+    return {target.name for attachment in render_pass.attachments for target in attachment.targets if target.image is not None}
 
 
 def _of_pass(each: Pass, device: DeviceProfile | None, sizes: Sizes) -> Entry:

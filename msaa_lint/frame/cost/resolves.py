@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from msaa_lint.frame.description.models import AttachmentDescription, Command, Image, TwoImages
 from msaa_lint.frame.facts.frame import RENDERING, Aspect, Attachment, Frame, Pass, Resolve, Target
+from msaa_lint.frame.facts.readers import Readers
 from msaa_lint.frame.facts.timeline import Timeline
 
 from .frame_edits import Order, blank, command, copied, image_of, mentioned, record, recorded, resolved, suspended, users
@@ -21,13 +22,13 @@ def inline(frame: Frame) -> None:
     """
     if frame.has_commands:
         _move_commands(frame)
-    timeline = Timeline(frame)
+    readers = Readers(Timeline(frame))
     sources: dict[int, Target] = {}
     for within in frame.passes:
         for found in resolved(within):
             source = found.source
             assert source is not None
-            source.aspects = [_unread(timeline, within, source, aspect) for aspect in source.aspects]
+            source.aspects = [_unread(readers, within, source, aspect) for aspect in source.aspects]
             sources.update((id(target), target) for target in source.targets)
     named, using = mentioned(frame), users(frame)
     for key, target in sources.items():
@@ -51,8 +52,8 @@ def _move_commands(frame: Frame) -> None:
     record(frame, kept)
 
 
-def _unread(timeline: Timeline, within: Pass, source: Attachment, aspect: Aspect) -> Aspect:
-    stays = aspect.store == "STORE" and timeline.read_later(within, source, aspect) is not True
+def _unread(readers: Readers, within: Pass, source: Attachment, aspect: Aspect) -> Aspect:
+    stays = aspect.store == "STORE" and readers.read_later(within, source, aspect) is not True
     return aspect._replace(store="DONT_CARE") if stays else aspect
 
 

@@ -10,6 +10,17 @@ from __future__ import annotations
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.models import BeginRendering, Command, ReadImage
 from msaa_lint.frame.devices import DeviceProfile
+from msaa_lint.frame.facts.commands import (
+    CLEAR,
+    COMMAND_READS,
+    COMMANDS,
+    COPY_READ,
+    COPY_WRITE,
+    READ,
+    RESOLVE_READ,
+    RESOLVE_WRITE,
+    WRITE,
+)
 from msaa_lint.frame.facts.frame import RENDERING, Attachment, Frame, Pass, Target
 from msaa_lint.frame.vulkan.formats import Format
 
@@ -17,10 +28,18 @@ from .amounts import Line
 from .compression import ratio
 from .sizes import Area, Sizes, views_of
 
-_COPIES = {"copyImage": "copy", "blitImage": "copy", "resolveImage": "resolve command"}
-_ONE_IMAGE = {"clearColorImage": "clear", "clearDepthStencilImage": "clear", "writeImage": "write", "readImage": "read"}
-MOVING = frozenset({*_COPIES, *_ONE_IMAGE, "copyImageToBuffer", "copyBufferToImage"})
+_ACTIONS = {
+    READ: "read", WRITE: "write", CLEAR: "clear", COPY_READ: "copy", COPY_WRITE: "copy", RESOLVE_READ: "resolve command",
+    RESOLVE_WRITE: "resolve command",
+}  # fmt: skip
+MOVING = frozenset(COMMANDS) - {"present"}
 """The commands outside of begin and end that move texels. A present moves none: scanning out is the display's."""
+
+
+_NO_IMAGE = {
+    **dict.fromkeys(("copyImage", "blitImage", "resolveImage"), "an image: it is not stated"),
+    **dict.fromkeys(("copyImageToBuffer", "copyBufferToImage"), "the image: it is not stated"),
+}
 
 
 def aspect_bytes(format: Format, aspect: str) -> int | None:
@@ -58,22 +77,22 @@ class Lines:
 
 def pass_lines(each: Pass, area: Area, device: DeviceProfile | None) -> Lines:
     """What a pass loads, stores and resolves, all the times that a frame begins it."""
-    made = Lines(device)
+    lines = Lines(device)
     if not area.sized:
-        made.missing("its size: no framebuffer, image or frame states it")
+        lines.missing("its size: no framebuffer, image or frame states it")
     if area.times == 0 or area.width is None:
-        return made
+        return lines
     flags = each.record.flags if isinstance(each.record, BeginRendering) else ()
     suspends = "SUSPENDING" in flags
     for attachment in each.attachments:
         if attachment.used:
-            _attachment(made, each, attachment, area, suspends)
+            _attachment(lines, each, attachment, area, suspends)
     if each.kind == RENDERING and not suspends:
-        _rendering_resolves(made, each, area)
-    return made
+        _rendering_resolves(lines, each, area)
+    return lines
 
 
-def _attachment(made: Lines, each: Pass, attachment: Attachment, area: Area, suspends: bool) -> None:
+def _attachment(lines: Lines, each: Pass, attachment: Attachment, area: Area, suspends: bool) -> None:
     target = attachment.targets[0] if attachment.targets else None
     image = target.name if target is not None and target.image is not None else ""
     pixels = _pixels(each, attachment, area)
@@ -85,42 +104,42 @@ def _attachment(made: Lines, each: Pass, attachment: Attachment, area: Area, sus
         if aspect.load == "LOAD":
             causes.append(("load", "read", record.place(aspect.load_member)))
         elif aspect.load is None:
-            made.missing(f"whether `{attachment.title}` is loaded: {aspect.load_member} is not stated")
+            lines.missing(f"whether `{attachment.title}` is loaded: {aspect.load_member} is not stated")
         if aspect.store == "STORE" and not suspends:
             causes.append(("resolve" if name in over else "store", "write", record.place(aspect.store_member)))
         elif aspect.store is None:
-            made.missing(f"whether `{attachment.title}` is stored: {aspect.store_member} is not stated")
+            lines.missing(f"whether `{attachment.title}` is stored: {aspect.store_member} is not stated")
         if attachment.input:
-            if made.device is None or made.device.tiler is None:
-                made.assumed["input attachments are read on the tile"] = None
-            elif made.device.tiler is False:
+            if lines.device is None or lines.device.tiler is None:
+                lines.assumed["input attachments are read on the tile"] = None
+            elif lines.device.tiler is False:
                 causes.append(("input", "read", record.head))
         if not causes:
             continue
         texel = aspect_bytes(attachment.format, name) if attachment.format is not None else None
         if texel is None or samples is None:
-            made.missing(f"`{attachment.title}`: its {'format' if texel is None else 'sample count'} is not known")
+            lines.missing(f"`{attachment.title}`: its {'format' if texel is None else 'sample count'} is not known")
             continue
         for action, direction, place in causes:
-            made.add(attachment.name, image, name, samples, samples, action, direction, pixels * texel * samples, place)
+            lines.add(attachment.name, image, name, samples, samples, action, direction, pixels * texel * samples, place)
 
 
-def _rendering_resolves(made: Lines, each: Pass, area: Area) -> None:
+def _rendering_resolves(lines: Lines, each: Pass, area: Area) -> None:
     """The resolves at the end of a dynamic rendering: each writes one sample."""
     for resolve in each.subpasses[0].resolves:
         target, source = resolve.target_image, resolve.source
         if resolve.mode == "NONE" or target is None or source is None:
             continue
         if resolve.mode is None:
-            made.missing(f"whether `{source.title}` is resolved: resolveMode is not stated")
+            lines.missing(f"whether `{source.title}` is resolved: resolveMode is not stated")
             continue
         format = target.format or source.format
         texel = aspect_bytes(format, resolve.aspect) if format is not None else None
         if texel is None:
-            made.missing(f"`{target.title}`: its format is not known")
+            lines.missing(f"`{target.title}`: its format is not known")
             continue
         size = _pixels(each, source, area) * texel
-        made.add(target.name, target.name, resolve.aspect, 1, 1, "resolve", "write", size, resolve.target_at)
+        lines.add(target.name, target.name, resolve.aspect, 1, 1, "resolve", "write", size, resolve.target_at)
 
 
 def _pixels(each: Pass, attachment: Attachment, area: Area) -> int:
@@ -128,30 +147,28 @@ def _pixels(each: Pass, attachment: Attachment, area: Area) -> int:
     return area.pixels * views if views else area.layered
 
 
-def command_lines(made: Lines, command: Command, frame: Frame, sizes: Sizes) -> None:
+def command_lines(lines: Lines, command: Command, frame: Frame, sizes: Sizes) -> None:
     """What a command outside of load and store operations moves: whole images, their first mip level, every layer."""
-    body = command.body
-    if command.kind in _COPIES:
-        source, target = frame.target(getattr(body, "srcImage", None)), frame.target(getattr(body, "dstImage", None))
-        _copy(made, command, source, target, sizes)
-    elif command.kind in ("copyImageToBuffer", "copyBufferToImage"):
-        outward = command.kind == "copyImageToBuffer"
-        moved = frame.target(getattr(body, "srcImage" if outward else "dstImage", None))
-        if moved is None:
-            made.missing("the image: it is not stated")
-        else:
-            _move(made, command, moved, "copy", "read" if outward else "write", sizes)
-            for line in made.found[:]:
-                opposite = "write" if outward else "read"
-                made.found.append(line._replace(attachment="buffer", image="", direction=opposite, corrected=_plain(line)))
-    else:
-        moved = frame.target(getattr(body, "image", None))
-        if moved is None:
-            made.missing(f"what {command.kind} names: the image is not stated")
-        elif isinstance(body, ReadImage):
-            _read(made, command, body, moved, sizes)
-        else:
-            _move(made, command, moved, _ONE_IMAGE[command.kind], "write", sizes)
+    body, accesses = command.body, COMMANDS[command.kind]
+    images = [image for access in accesses if (image := frame.target(getattr(body, access.member, None))) is not None]
+    if len(images) < len(accesses):
+        lines.missing(_NO_IMAGE.get(command.kind, f"what {command.kind} names: the image is not stated"))
+        return
+    if isinstance(body, ReadImage):
+        _read(lines, command, body, images[0], sizes)
+        return
+    # A copy and a resolve take as many texels from one image as they put into the other; a blit scales.
+    blocks = [texels(image, sizes) for image in images] if command.kind in ("copyImage", "resolveImage") else []
+    common = min((count for count in blocks if count is not None), default=None) if None not in blocks else None
+    start = len(lines.found)
+    for image, access in zip(images, accesses, strict=True):
+        direction = "read" if access.effect in COMMAND_READS else "write"
+        samples = 1 if access.effect == RESOLVE_WRITE else None
+        _move(lines, command, image, _ACTIONS[access.effect], direction, sizes, common, samples)
+    if command.kind in ("copyImageToBuffer", "copyBufferToImage"):
+        for line in lines.found[start:]:
+            opposite = "write" if line.direction == "read" else "read"
+            lines.found.append(line._replace(attachment="buffer", image="", direction=opposite, corrected=_plain(line)))
 
 
 def _plain(line: Line) -> float | None:
@@ -159,30 +176,11 @@ def _plain(line: Line) -> float | None:
     return None if line.corrected is None else float(line.bytes)
 
 
-def _copy(made: Lines, command: Command, source: Target | None, target: Target | None, sizes: Sizes) -> None:
-    action = _COPIES[command.kind]
-    if source is None or target is None:
-        made.missing("an image: it is not stated")
-        return
-    if command.kind == "blitImage":
-        _move(made, command, source, action, "read", sizes)
-        _move(made, command, target, action, "write", sizes)
-        return
-    # A copy and a resolve take as many texels from one image as they put into the other.
-    common = _common(texels(source, sizes), texels(target, sizes))
-    _move(made, command, source, action, "read", sizes, common)
-    _move(made, command, target, action, "write", sizes, common, 1 if command.kind == "resolveImage" else None)
-
-
-def _common(one: int | None, other: int | None) -> int | None:
-    return min(one, other) if one is not None and other is not None else None
-
-
-def _read(made: Lines, command: Command, body: ReadImage, image: Target, sizes: Sizes) -> None:
+def _read(lines: Lines, command: Command, body: ReadImage, image: Target, sizes: Sizes) -> None:
     """A shader reads every texel once: of depth and stencil together depth, of several samples what `samples` states, else all."""
     if image.samples is not None and image.samples > 1 and body.samples is None:
-        made.assumed[f"the reader of `{image.name}` fetches all {image.samples} samples"] = None
-    _move(made, command, image, "read", "read", sizes, None, 1 if body.samples == 1 else None)
+        lines.assumed[f"the reader of `{image.name}` fetches all {image.samples} samples"] = None
+    _move(lines, command, image, "read", "read", sizes, None, 1 if body.samples == 1 else None)
 
 
 def texels(image: Target, sizes: Sizes) -> int | None:
@@ -196,7 +194,7 @@ def texels(image: Target, sizes: Sizes) -> int | None:
 
 
 def _move(
-    made: Lines,
+    lines: Lines,
     command: Command,
     image: Target,
     action: str,
@@ -210,10 +208,10 @@ def _move(
     blocks = texels(image, sizes) if blocks is None else blocks
     if format is None or kept is None or blocks is None:
         lacking = "format" if format is None else "sample count" if kept is None else "size"
-        made.missing(f"`{image.title}`: its {lacking} is not known")
+        lines.missing(f"`{image.title}`: its {lacking} is not known")
         return
     aspects = format.aspects[:1] if action == "read" else format.aspects
     moved = kept if samples is None else samples
     for aspect in aspects:
         size = blocks * (aspect_bytes(format, aspect) or 0) * moved
-        made.add(image.name, image.name, aspect, moved, kept, action, direction, size, command.head)
+        lines.add(image.name, image.name, aspect, moved, kept, action, direction, size, command.head)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from msaa_lint.frame.description.models import AttachmentDescription, BeginRendering
+from msaa_lint.frame.description.models import AttachmentDescription
 
 from .facts import Facts
-from .frame import RENDERING, Aspect, Attachment, Pass, Resolve
-from .timeline import Timeline
+from .frame import Aspect, Attachment, Pass, Resolve
+from .readers import Readers
+from .walk import flags_of
 
 
 def pass_facts(each: Pass) -> Facts:
@@ -16,8 +17,7 @@ def pass_facts(each: Pass) -> Facts:
     facts.put("pass.name", each.name)
     facts.put("pass.partial_area", each.partial_area)
     facts.put("pass.custom_resolve", each.custom_resolve)
-    suspends = each.kind == RENDERING and isinstance(each.record, BeginRendering) and "SUSPENDING" in each.record.flags
-    facts.put("pass.suspends", suspends)
+    facts.put("pass.suspends", "SUSPENDING" in flags_of(each))
     return facts
 
 
@@ -56,8 +56,8 @@ def resolves_at(each: Pass) -> dict[int, list[Resolve]]:
     return found
 
 
-def aspect_facts(each: Pass, attachment: Attachment, aspect: Aspect, own: list[Resolve], timeline: Timeline) -> Facts:
-    """What is known of one aspect: its operations, who resolves it (`own` are the attachment's resolves), who reads it later."""
+def aspect_facts(each: Pass, attachment: Attachment, aspect: Aspect, resolves: list[Resolve], readers: Readers) -> Facts:
+    """What is known of one aspect: its operations, who resolves it (`resolves` are the attachment's), who reads it later."""
     facts = Facts()
     record = attachment.record
     facts.put("aspect.name", aspect.name, record.head)
@@ -70,26 +70,26 @@ def aspect_facts(each: Pass, attachment: Attachment, aspect: Aspect, own: list[R
         separate = aspect.name == "stencil" and record.stencilInitialLayout is not None
         layout = record.stencilInitialLayout if separate else record.initialLayout
         facts.put("aspect.initial_layout", layout, record.place("stencilInitialLayout" if separate else "initialLayout"))
-    resolves = [r for r in own if r.source is attachment and r.aspect == aspect.name]
-    modes = [resolve.mode for resolve in resolves]
+    from_it = [r for r in resolves if r.source is attachment and r.aspect == aspect.name]
+    modes = [resolve.mode for resolve in from_it]
     resolved: bool | None = any(mode not in (None, "NONE") for mode in modes)
     if not resolved and None in modes:
         resolved = None
-    facts.put("aspect.resolved", resolved, next((r.target_at for r in resolves if r.mode not in (None, "NONE")), None))
+    facts.put("aspect.resolved", resolved, next((r.target_at for r in from_it if r.mode not in (None, "NONE")), None))
     over: set[str] = set().union(*attachment.resolve.values())
     overwritten = True if aspect.name in over else None if "?" in over or (over and aspect.name is None) else False
-    onto = [r for r in own if r.target is attachment and r.aspect == aspect.name and r.mode != "NONE"]
+    onto = [r for r in resolves if r.target is attachment and r.aspect == aspect.name and r.mode != "NONE"]
     facts.put("aspect.resolved_over", overwritten, onto[0].target_at if onto else None)
     at = {subpass for subpass, aspects in attachment.resolve.items() if aspect.name in aspects}
     # A resolve comes at the end of its subpass: the same subpass reads what was there before.
     before = bool(at) and (any(s <= min(at) for s in attachment.input) or any(s < min(at) for s in attachment.depth_stencil))
     facts.put("aspect.read_before_resolve", before)
     facts.put("aspect.read_after_resolve", bool(at) and any(s > min(at) for s in attachment.input | attachment.depth_stencil))
-    read_later = timeline.read_later(each, attachment, aspect)
+    read_later = readers.read_later(each, attachment, aspect)
     facts.put("aspect.read_later", read_later)
     facts.put("aspect.readers_known", read_later is not None)
-    store = timeline.stored_before(each, attachment, aspect)
-    facts.put("aspect.stored_by", store.by.name if store is not None and store.by is not None else None, store.at if store else None)
+    store = readers.stored_before(each, attachment, aspect)
+    facts.put("aspect.stored_by", store.render_pass.name if store else None, store.place if store else None)
     costly = [op for op, costs in (("LOAD", aspect.load == "LOAD"), ("STORE", stored and read_later is False)) if costs]
     facts.put("aspect.costly_operations", costly, record.place(aspect.load_member if "LOAD" in costly else aspect.store_member))
     return facts

@@ -9,12 +9,15 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from typing import NamedTuple
 
-from msaa_lint.frame.description.models import Command, ImageBarrier, PipelineBarrier, ReadImage, RenderPass, SubpassDependency
+from msaa_lint.frame.description.models import ImageBarrier, PipelineBarrier, ReadImage, RenderPass, SubpassDependency
 from msaa_lint.frame.description.record import Record
 
-from .events import COPY, DRAW, INPUT, LOAD, READ, READS, TAKE, Begun, Event, Events, Spot
+from .commands import COPY_READ, READ, RESOLVE_READ
+from .event_search import EventSearch, reads
 from .facts import Facts
-from .frame import Frame, Resolve
+from .frame import Resolve
+from .timeline import DRAW, INPUT, LOAD, Event, EventRef
+from .walk import PassRun
 
 _ALL = frozenset({"ALL_COMMANDS"})
 _RESOLVES = frozenset({"COLOR_ATTACHMENT_OUTPUT", "ALL_GRAPHICS", "ALL_COMMANDS", "BOTTOM_OF_PIPE"})
@@ -52,7 +55,7 @@ class Wait(NamedTuple):
 
     time: int
     record: SubpassDependency | PipelineBarrier
-    run: Begun | None = None
+    run: PassRun | None = None
 
 
 class Between(NamedTuple):
@@ -69,13 +72,12 @@ class Between(NamedTuple):
 class Waits:
     """The waits of a frame, in order."""
 
-    def __init__(self, frame: Frame, events: Events) -> None:
-        self.frame = frame
-        self.events = events
+    def __init__(self, search: EventSearch) -> None:
+        self.search = search
         self._every: list[Wait] = []
-        for run in events.runs:
+        for run in search.timeline.walk.runs if search.timeline.ordered else ():
             self._every += _of_run(run)
-        for position, command in enumerate(frame.commands):
+        for position, command in enumerate(search.frame.commands):
             if isinstance(command.body, PipelineBarrier):
                 self._every.append(Wait(2 * position, command.body))
         self._every.sort(key=lambda wait: wait.time)
@@ -83,7 +85,7 @@ class Waits:
 
     def put(self, facts: Facts, resolve: Resolve) -> None:
         """Adds what is known of the waits between a resolve and the first reader of what it wrote."""
-        found = [self._between(resolve, spot) for spot in self.events.written.get(id(resolve), ())]
+        found = [self._between(resolve, ref) for ref in self.search.resolved_at(resolve)]
         known = [each for each in found if each is not None]
         facts.put("resolve.stage", "TRANSFER" if resolve.kind == "command" else "COLOR_ATTACHMENT_OUTPUT")
         between = next((each for each in known if not each.waits), known[0] if known else None)
@@ -93,19 +95,19 @@ class Waits:
             facts.put("resolve.read_in_pass", between.in_pass)
             facts.put("resolve.read_next_frame", between.later)
 
-    def _between(self, resolve: Resolve, spot: Spot) -> Between | None:
+    def _between(self, resolve: Resolve, ref: EventRef) -> Between | None:
         """None where nothing is known to read it, or nothing is stated that is meant for the reader."""
-        own = self.events.of[spot.image][spot.at]
-        event, later = self.events.use_of(spot)
-        if event is None or event.kind not in READS or (own.aspect == "color" and event.kind == DRAW):
+        own = self.search.event(ref)
+        event, later = self.search.first_use(ref)
+        if event is None or not reads(event) or (own.aspect == "color" and event.kind == DRAW):
             return None
         wanted = _stages(event)
         in_pass = event.run is not None and event.run is own.run and not later
-        if wanted is None or not (in_pass or self.frame.has_commands):
+        if wanted is None or not (in_pass or self.search.frame.has_commands):
             return None
         waits = self._within(own.time, event.time, later)
-        self.events.left -= len(waits)
-        if self.events.left < 0:
+        self.search.steps_left -= len(waits)
+        if self.search.steps_left < 0:
             return None
         meant: Wait | None = None
         stages: dict[str, None] = {}
@@ -113,7 +115,7 @@ class Waits:
         reached = wanted
         for wait in reversed(waits):
             source, target = wait.record.srcStageMask, wait.record.dstStageMask
-            concerns = _concerns(wait, resolve, spot.image, own, event)
+            concerns = _concerns(wait, resolve, ref.image, own, event)
             if concerns is False:
                 continue
             if source is None or target is None or not wait.record.states("srcStageMask"):
@@ -135,16 +137,16 @@ class Waits:
         return [*self._every[first:], *self._every[:last]] if later else self._every[first:last]
 
 
-def _of_run(run: Begun) -> list[Wait]:
+def _of_run(run: PassRun) -> list[Wait]:
     """The dependencies of a pass, where they take effect."""
-    record = run.within.record
+    record = run.render_pass.record
     found = []
     for dependency in record.dependencies if isinstance(record, RenderPass) else ():
         into = dependency.dstSubpass
         if into == "EXTERNAL":
-            found.append(Wait(run.ends[-1], dependency, run))
+            found.append(Wait(run.end_time, dependency, run))
         elif isinstance(into, int) and into < len(run.starts):
-            found.append(Wait(run.starts[into] if into else run.starts[0] - 1, dependency, run))
+            found.append(Wait(run.starts[into] if into else run.begin_time, dependency, run))
     return found
 
 
@@ -157,7 +159,7 @@ def _concerns(wait: Wait, resolve: Resolve, image: str, own: Event, reader: Even
     if wait.run is own.run and record.srcSubpass == resolve.subpass and own.run is not None:
         leads = record.dstSubpass == "EXTERNAL" or (reader.run is own.run and reader.time == wait.time)
         return True if leads and _of_aspect(record, resolve) else None
-    into = wait.run is not None and wait.run.starts[0] - 1 <= reader.time <= wait.run.ends[-1] and record.srcSubpass == "EXTERNAL"
+    into = wait.run is not None and wait.run.begin_time <= reader.time <= wait.run.end_time and record.srcSubpass == "EXTERNAL"
     return True if into and _of_aspect(record, resolve) else None
 
 
@@ -177,14 +179,14 @@ def _of_aspect(record: SubpassDependency | PipelineBarrier, resolve: Resolve) ->
 
 def _stages(event: Event) -> frozenset[str] | None:
     """The stages in which an event reads; None where nothing waits for it that a frame states."""
-    if event.kind == READ and isinstance(event.of, Command) and isinstance(event.of.body, ReadImage):
-        stage = event.of.body.stage
+    if event.kind == READ and event.command is not None and isinstance(event.command.body, ReadImage):
+        stage = event.command.body.stage
         if stage is None:
             return _ALL
         return frozenset({"RAY_TRACING_SHADER_KHR" if stage in _RAYS else _SHADERS.get(stage, stage)})
     if event.kind == INPUT:
         return frozenset({"FRAGMENT_SHADER"})
-    if event.kind in (COPY, TAKE):
+    if event.kind in (COPY_READ, RESOLVE_READ):
         return _TRANSFERS
     if event.kind in (LOAD, DRAW):
         return frozenset({"COLOR_ATTACHMENT_OUTPUT"}) if event.aspect in ("color", None) else _DEPTH_STAGES

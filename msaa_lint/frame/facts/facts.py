@@ -5,6 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.frame.description.models import Pipeline, SubpassDependency
+
+from .frame import Aspect, Attachment, Pass, PassSubpass, Resolve, Target
 
 Value = bool | int | float | str | list[str] | list[int]
 
@@ -30,18 +33,25 @@ class Facts:
 
 
 class Subject(NamedTuple):
-    """What a rule judges: an image, an attachment, one aspect of it, a pass, a subpass, a resolve, a pipeline, a dependency, a read.
+    """What a rule judges: `kind` is a key of `table.SUBJECTS`.
 
-    `of` is what it is made from: a Target, an Attachment, (Attachment, Aspect), a Pass, a PassSubpass, a Resolve, (Pipeline, the
-    PassSubpass that it draws in or None), the record of a dependency, (the position of a read's command, the Target) or the Pipeline that
-    reads an input attachment.
+    The other members are the parts of the frame that the subject stands for: an aspect has its `attachment` as well, a pipeline the
+    `subpass` that it draws in, the read of an image the `position` of the command, the read of an input attachment the `pipeline`.
     """
 
     kind: str
     path: str
     head: Span
     facts: Facts
-    of: object = None
+    image: Target | None = None
+    attachment: Attachment | None = None
+    aspect: Aspect | None = None
+    render_pass: Pass | None = None
+    subpass: PassSubpass | None = None
+    resolve: Resolve | None = None
+    pipeline: Pipeline | None = None
+    dependency: SubpassDependency | None = None
+    position: int | None = None
 
 
 def known(*values: bool | None) -> bool | None:

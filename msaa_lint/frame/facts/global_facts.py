@@ -65,7 +65,7 @@ def described(device: Device) -> DeviceProfile:
     )
 
 
-def surroundings(description: Description, device: DeviceProfile | None) -> Facts:
+def global_facts(description: Description, device: DeviceProfile | None) -> Facts:
     """The facts that every subject shares."""
     facts = Facts()
     size = description.frame

@@ -9,7 +9,7 @@ from msaa_lint.frame.devices.shares import sample_count_share
 
 from .facts import Facts
 from .frame import RENDER_PASS, Attachment, Frame, Target
-from .timeline import READING_USAGES, Timeline
+from .readers import READING_USAGES, READS, Readers
 
 BESIDE_TRANSIENT = frozenset({"TRANSIENT_ATTACHMENT", "COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT", "INPUT_ATTACHMENT"})
 """VUID-VkImageCreateInfo-usage-00963."""
@@ -59,7 +59,7 @@ class Bindings:
                 self.reads.setdefault(command.body.image, []).append(command.body)
 
 
-def image_facts(target: Target, bindings: Bindings, frame: Frame, timeline: Timeline, device: DeviceProfile | None) -> Facts:
+def image_facts(target: Target, bindings: Bindings, frame: Frame, readers: Readers, device: DeviceProfile | None) -> Facts:
     """What is known of an image by itself, and by what the frame does with it."""
     facts = Facts()
     image, record = target.image, target.record
@@ -117,7 +117,7 @@ def image_facts(target: Target, bindings: Bindings, frame: Frame, timeline: Time
     blockers = _compression_blockers(image, device)
     if blockers or None not in (image.usage, image.sharingMode, image.tiling):
         _put_first(facts, "image.compression_blockers", blockers)
-    facts.put("image.read", _read(target, bindings, frame, timeline))
+    facts.put("image.read", _read(target, bindings, frame, readers))
     reads = bindings.reads.get(target.name, [])
     averages = next((body.place("resolves") for body in reads if body.resolves == "AVERAGE"), None)
     facts.put("image.averaged_by_reader", _averaged(reads, frame), averages)
@@ -201,7 +201,7 @@ def _loaded(bound: list[Attachment], frame: Frame) -> bool | None:
     return None if None in ops else False
 
 
-def _read(target: Target, bindings: Bindings, frame: Frame, timeline: Timeline) -> bool | None:
+def _read(target: Target, bindings: Bindings, frame: Frame, readers: Readers) -> bool | None:
     """Whether its samples are read: by commands where the description records them, else as its usage allows.
 
     Commands say nothing of an image that none of them touches.
@@ -210,11 +210,11 @@ def _read(target: Target, bindings: Bindings, frame: Frame, timeline: Timeline) 
     assert image is not None
     if any(attachment.input for attachment in bindings.attachments.get(id(image), ())):
         return True
-    if not timeline.followed:
+    if not readers.timeline.followed:
         return None
-    uses = timeline.uses.get(target.name, [])
+    uses = readers.uses(target.name)
     if frame.has_commands and (uses or id(image) in bindings.begun):
-        return any(use.kind == "read" and use.aspect is None for use in uses)
+        return any(effect == READS and event.aspect is None for event, effect in uses)
     return None if image.usage is None else not READING_USAGES.isdisjoint(image.usage)
 
 

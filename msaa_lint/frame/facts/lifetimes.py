@@ -1,173 +1,182 @@
-"""Facts of what becomes of an aspect's contents: whether a store is for anybody, whether a load finds anything, what came just before it.
+"""Facts of an aspect's contents over time: whether anything reads what is stored, whether a load finds anything, what came before.
 
-All instances of a pass are looked at: every time that a frame begins it, with every framebuffer.
+Every run of a pass counts, with every framebuffer.
 """
 
 from __future__ import annotations
 
 from msaa_lint.frame.description.models import Command, ReadImage
 
+from .commands import CLEAR, COMMAND_READS, COPY_WRITE, RESOLVE_WRITE, WRITE
+from .contents import READS, AspectEvents, Contents, is_known
 from .facts import Facts
 from .frame import Aspect, Attachment, Pass, Target
-from .moment import BEGUN, CLEARED, COPIED, DISCARDED, ELSEWHERE, LOADED, READ, STORED, UNKNOWN, WRITTEN, Line, Moment
-from .moments import Moments, flags_of
-from .timeline import READING_USAGES
+from .readers import READING_USAGES
+from .timeline import BEGIN, DISCARD, LOAD, STORE, Event, plain
+from .walk import flags_of
 
 _WRITING_USAGES = frozenset({"TRANSFER_DST", "STORAGE"})
 
+Bound = list[tuple[Target, AspectEvents]]
+"""The images of an attachment, each with what happens to the aspect."""
 
-def lifetime_facts(facts: Facts, each: Pass, attachment: Attachment, aspect: Aspect, moments: Moments) -> None:
+
+def lifetime_facts(facts: Facts, render_pass: Pass, attachment: Attachment, aspect: Aspect, contents: Contents) -> None:
     """Adds what the frame says of an aspect's contents before and after the pass."""
-    lines: list[tuple[Target, Line]] = []
+    bound: Bound = []
     if attachment.used and aspect.name is not None:
-        lines = [(target, moments.line(target.name, aspect.name)) for target in attachment.targets if target.image is not None]
-        _store(facts, each, attachment, aspect, lines, moments)
-        _undefined(facts, attachment, aspect, lines, moments)
-    if moments.writes and lines:
-        _commands_before(facts, attachment, lines, moments)
+        bound = [(target, contents.of(target.name, aspect.name)) for target in attachment.targets if target.image is not None]
+        _put_store(facts, render_pass, attachment, aspect, bound, contents)
+        _put_undefined(facts, attachment, aspect, bound, contents)
+    if contents.timeline.writes and bound:
+        _put_commands_before(facts, attachment, bound)
     else:
         facts.put("aspect.copied_before", False)
 
 
-def _store(facts: Facts, each: Pass, attachment: Attachment, aspect: Aspect, lines: list[tuple[Target, Line]], moments: Moments) -> None:
+def _put_store(facts: Facts, render_pass: Pass, attachment: Attachment, aspect: Aspect, bound: Bound, contents: Contents) -> None:
     """Whether anything reads what the pass stores, before it is overwritten or the frame comes round."""
-    if aspect.store in ("DONT_CARE", "NONE") or "SUSPENDING" in flags_of(each):
+    if aspect.store in ("DONT_CARE", "NONE") or "SUSPENDING" in flags_of(render_pass):
         facts.put("aspect.store_wasted", False)
         return
     wasted: list[bool | None] = []
     certain = True
-    ended: Moment | None = None
-    for target, line in lines:
-        if line.of(attachment, UNKNOWN):
+    first_end: Event | None = None
+    for target, line in bound:
+        if line.has_unknown(attachment):
             wasted.append(None)
-        for index in line.of(attachment, STORED):
-            decisive = line.decisive(index)
-            end = line.moments[decisive] if decisive is not None else None
-            if end is not None and end.kind in (READ, LOADED, UNKNOWN, ELSEWHERE):
-                wasted.append(False if end.kind in (READ, LOADED) else None)
+        for index in line.of(attachment, STORE):
+            decisive = line.next_decisive(index)
+            end = line.events[decisive] if decisive is not None else None
+            if end is not None and (not is_known(end) or end.kind in READS):
+                wasted.append(False if is_known(end) else None)
                 continue
-            within = decisive is not None and line.within_frame(index, decisive)
-            sure = _unread_outside(target, attachment, aspect, within, moments)
-            wasted.append(True if sure is not None else None)
-            certain = certain and sure is True
-            ended = ended or end
+            same_frame = decisive is not None and line.same_frame(index, decisive)
+            unread = _unread_outside(target, attachment, aspect, same_frame, contents)
+            wasted.append(True if unread is not None else None)
+            certain = certain and unread is True
+            first_end = first_end or end
     answer = None if not wasted or None in wasted else True
     if False in wasted:
         answer = False
     facts.put("aspect.store_wasted", answer)
     if answer:
         facts.put("aspect.waste_certain", certain)
-        if ended is not None:
-            facts.put("aspect.overwritten_by", ended.name, ended.at)
+        if first_end is not None:
+            facts.put("aspect.overwritten_by", first_end.name, first_end.place)
 
 
-def _unread_outside(target: Target, attachment: Attachment, aspect: Aspect, within: bool, moments: Moments) -> bool | None:
+def _unread_outside(target: Target, attachment: Attachment, aspect: Aspect, same_frame: bool, contents: Contents) -> bool | None:
     """Whether nothing that is not described reads what is left in an image: True by its usage, or as the commands leave no time for it;
     False where only the commands of a whole frame speak for it; None where something may.
 
-    `within`: it is overwritten in the frame that stored it. Images that change places from frame to frame, a history and what becomes it,
-    look in one frame like one that nobody reads and one that nobody writes.
+    `same_frame`: it is overwritten in the frame that stored it. Images that change places from frame to frame, a history and what becomes
+    it, look in one frame like one that nothing reads and one that nothing writes.
     """
     image = target.image
     assert image is not None
-    commands = moments.frame.has_commands
-    if commands and within:
+    commands, presents = contents.frame.has_commands, contents.timeline.presents
+    if commands and same_frame:
         return True
-    if moments.read_when_idle(target.name) or image.presentable:
+    if contents.read_when_idle(target.name) or image.presentable:
         return None
     # Its own pass reads an input attachment before it stores it; others of the frame are described.
     reading = READING_USAGES - {"INPUT_ATTACHMENT"} if attachment.input else READING_USAGES
     unread = image.usage is not None and reading.isdisjoint(image.usage)
     # A picture that is stored last may be what the frame is for.
-    shown = aspect.name == "color" and image.presentable is None and not (within or moments.presents)
+    shown = aspect.name == "color" and image.presentable is None and not (same_frame or presents)
     if unread and not shown:
         return True
-    return False if commands and moments.presents and not moments.has_twin(target) else None
+    return False if commands and presents and not contents.has_twin(target) else None
 
 
-def _undefined(facts: Facts, attachment: Attachment, aspect: Aspect, lines: list[tuple[Target, Line]], moments: Moments) -> None:
+def _put_undefined(facts: Facts, attachment: Attachment, aspect: Aspect, bound: Bound, contents: Contents) -> None:
     """Whether the pass loads contents that were thrown away, or something reads what it throws away."""
-    loads = _loaded(attachment, lines, moments)
+    loads = _discard_before_load(attachment, bound, contents)
     if loads is not None:
+        discard, same_frame = loads
         facts.put("aspect.reads_undefined", True, attachment.record.place(aspect.load_member))
         facts.put("aspect.loads_discarded", True)
-        facts.put("aspect.discarded_by", loads[0].name, loads[0].at)
-        facts.put("aspect.undefined_within_frame", loads[1])
+        facts.put("aspect.discarded_by", discard.name, discard.place)
+        facts.put("aspect.undefined_within_frame", same_frame)
         return
-    reader = _reader_of_nothing(attachment, lines, moments)
+    reader = _reader_of_discarded(attachment, bound, contents)
     facts.put("aspect.reads_undefined", reader is not None)
     facts.put("aspect.loads_discarded", False)
     if reader is not None:
+        event, same_frame = reader
         facts.places["aspect.reads_undefined"] = attachment.record.place(aspect.store_member)
-        facts.put("aspect.discard_reader", reader[0].name, reader[0].at)
-        facts.put("aspect.undefined_within_frame", reader[1])
+        facts.put("aspect.discard_reader", event.name, event.place)
+        facts.put("aspect.undefined_within_frame", same_frame)
 
 
-def _loaded(attachment: Attachment, lines: list[tuple[Target, Line]], moments: Moments) -> tuple[Moment, bool] | None:
+def _discard_before_load(attachment: Attachment, bound: Bound, contents: Contents) -> tuple[Event, bool] | None:
     """What threw away the contents that an attachment loads, in some frame, and whether in the same one."""
-    found: tuple[Moment, bool] | None = None
-    for target, line in lines:
-        for index in line.of(attachment, LOADED):
-            before = line.written(index)
-            if before is None or line.moments[before].kind != DISCARDED or not line.moments[before].whole:
+    found: tuple[Event, bool] | None = None
+    for target, line in bound:
+        for index in line.of(attachment, LOAD):
+            before = line.last_write(index)
+            event = line.events[before] if before is not None else None
+            if before is None or event is None or event.kind != DISCARD or not is_known(event) or not event.whole:
                 continue
-            within = line.within_frame(before, index)
-            if (found is None or within) and _unwritten_outside(target, within, moments):
-                found = line.moments[before], within
-                if within:
+            same_frame = line.same_frame(before, index)
+            if (found is None or same_frame) and _unwritten_outside(target, same_frame, contents):
+                found = event, same_frame
+                if same_frame:
                     return found
     return found
 
 
-def _reader_of_nothing(attachment: Attachment, lines: list[tuple[Target, Line]], moments: Moments) -> tuple[Moment, bool] | None:
+def _reader_of_discarded(attachment: Attachment, bound: Bound, contents: Contents) -> tuple[Event, bool] | None:
     """The command that reads what an attachment throws away, in some frame, and whether in the same one."""
-    for target, line in lines:
+    for target, line in bound:
         # A command does not say whether it reads depth or stencil.
-        one = target.format is not None and len(target.format.aspects) == 1
-        for index in line.of(attachment, DISCARDED) if one else ():
-            after = (index + 1) % len(line.moments)
-            within = line.within_frame(index, after)
-            if line.moments[index].whole and _certainly_reads(line, after) and _unwritten_outside(target, within, moments):
-                return line.moments[after], within
+        one_aspect = target.format is not None and len(target.format.aspects) == 1
+        for index in line.of(attachment, DISCARD) if one_aspect else ():
+            after = (index + 1) % len(line.events)
+            same_frame = line.same_frame(index, after)
+            if line.events[index].whole and _certainly_reads(line, after) and _unwritten_outside(target, same_frame, contents):
+                return line.events[after], same_frame
     return None
 
 
-def _certainly_reads(line: Line, index: int) -> bool:
+def _certainly_reads(line: AspectEvents, index: int) -> bool:
     """Whether a command reads, and not only may: a shader whose access is not stated, or that writes the image next, need not."""
-    moment = line.moments[index]
-    if moment.kind != READ or not isinstance(moment.of, Command):
+    event = line.events[index]
+    if event.kind not in COMMAND_READS or event.command is None:
         return False
-    if not isinstance(moment.of.body, ReadImage):
+    if not isinstance(event.command.body, ReadImage):
         return True
-    return moment.of.body.access is not None and line.moments[(index + 1) % len(line.moments)].kind != WRITTEN
+    return event.command.body.access is not None and line.events[(index + 1) % len(line.events)].kind != WRITE
 
 
-def _unwritten_outside(target: Target, within: bool, moments: Moments) -> bool:
-    """Whether nothing that is not described can have written to an image between two moments."""
-    if moments.frame.has_commands and (within or moments.presents):
+def _unwritten_outside(target: Target, same_frame: bool, contents: Contents) -> bool:
+    """Whether nothing that is not described can have written to an image between two events."""
+    commands = contents.frame.has_commands
+    if commands and (same_frame or contents.timeline.presents):
         return True
     image = target.image
     assert image is not None
-    return image.usage is not None and _WRITING_USAGES.isdisjoint(image.usage) and (within or moments.frame.has_commands)
+    return image.usage is not None and _WRITING_USAGES.isdisjoint(image.usage) and (same_frame or commands)
 
 
-def _commands_before(facts: Facts, attachment: Attachment, lines: list[tuple[Target, Line]], moments: Moments) -> None:
-    """The clear before every time that the pass begins with the image, the copy before some time that it loads it."""
-    cleared: list[Moment | None] = []
-    copied: Moment | None = None
-    for target, line in lines:
-        if line.of(attachment, UNKNOWN):
-            cleared.append(None)
-        for index in (*line.of(attachment, LOADED), *line.of(attachment, BEGUN)):
-            before, own = line.moments[line.before(index)], line.moments[index]
-            cleared.append(before if before.kind == CLEARED and before.whole and own.whole else None)
-            if own.kind == LOADED and before.kind == COPIED and moments.plain(target.name):
-                copied = copied or before
-    first = cleared[0] if cleared and None not in cleared else None
+def _put_commands_before(facts: Facts, attachment: Attachment, bound: Bound) -> None:
+    """The clear before every run of the pass with the image, the copy before some run that loads it."""
+    clears: list[Event | None] = []
+    copy: Event | None = None
+    for target, line in bound:
+        if line.has_unknown(attachment):
+            clears.append(None)
+        for index in (*line.of(attachment, LOAD), *line.of(attachment, BEGIN)):
+            before, begin = line.before(index), line.events[index]
+            clears.append(before if before.kind == CLEAR and before.whole and begin.whole else None)
+            if begin.kind == LOAD and before.command is not None and before.kind in (COPY_WRITE, RESOLVE_WRITE) and plain(target):
+                copy = copy or before
+    first = clears[0] if clears and None not in clears else None
     if first is not None and facts.values.get("aspect.cleared_by_command") is False:
-        facts.put("aspect.cleared_by_command", True, first.at)
-        facts.put("aspect.clear_command", first.name, first.at)
-    facts.put("aspect.copied_before", copied is not None)
-    if copied is not None and isinstance(copied.of, Command):
-        facts.put("aspect.copy_command", copied.name, copied.at)
-        facts.put("aspect.copy_source", getattr(copied.of.body, "srcImage", None))
+        facts.put("aspect.cleared_by_command", True, first.place)
+        facts.put("aspect.clear_command", first.name, first.place)
+    facts.put("aspect.copied_before", copy is not None)
+    if copy is not None and isinstance(copy.command, Command):
+        facts.put("aspect.copy_command", copy.name, copy.place)
+        facts.put("aspect.copy_source", getattr(copy.command.body, "srcImage", None))

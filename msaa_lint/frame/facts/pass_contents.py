@@ -10,11 +10,12 @@ from typing import NamedTuple
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.models import BeginRenderPass, ClearAttachment, ClearAttachments, Draw, Pipeline, ReadImage, Rect
 
+from .contents import Contents, is_known
 from .facts import Facts, known
 from .frame import RENDER_PASS, Aspect, Attachment, Frame, Pass, PassSubpass
-from .moment import ELSEWHERE, LOADED, UNKNOWN
-from .moments import ENDS, Moments, flags_of
 from .pass_begin import MAX_USES, targets_at
+from .timeline import LOAD
+from .walk import Walk, flags_of
 
 _DYNAMIC_MASKS = frozenset({"COLOR_WRITE_MASK_EXT", "COLOR_WRITE_ENABLE_EXT"})
 _DYNAMIC_SAMPLES = frozenset({"SAMPLE_MASK_EXT", "ALPHA_TO_COVERAGE_ENABLE_EXT"})
@@ -64,38 +65,29 @@ class Instance:
         return bool(self.draws or self.clears)
 
 
-Recorded = dict[str, list[Instance]]
+PassContents = dict[str, list[Instance]]
 """By the path of a pass: what is recorded each time that it is begun."""
 
 
-def recorded(frame: Frame) -> Recorded:
+def pass_contents(walk: Walk) -> PassContents:
     """What the commands record in passes; renderings of which a part is recorded elsewhere are left out."""
-    found: Recorded = {}
-    begins = {position: each for each in frame.passes for position in each.begun}
-    within: Pass | None = None
-    current: Instance | None = None
-    subpass = 0
-    for position, command in enumerate(frame.commands):
-        body = command.body
-        if position in begins:
-            within, subpass, current = begins[position], 0, None
-            if _IN_PARTS.isdisjoint(flags_of(within)):
-                current = Instance(position)
-                found.setdefault(within.path, []).append(current)
-        elif current is None or within is None:
+    frame = walk.frame
+    found: PassContents = {}
+    for run in walk.recorded_runs:
+        if run.position is None or not _IN_PARTS.isdisjoint(flags_of(run.render_pass)):
             continue
-        elif command.kind in ENDS:
-            current = None
-        elif command.kind == "nextSubpass":
-            subpass += 1
-        elif isinstance(body, Draw):
-            _draw(current, body, within, subpass, frame)
-        elif isinstance(body, ClearAttachments):
-            current.clears += [Clear(subpass, current.draws, cleared, body.rects) for cleared in body.attachments]
-        elif isinstance(body, ReadImage) and body.image is not None:
-            current.read.add(body.image)
-            read = frame.target(body.image)
-            current.reads_samples = current.reads_samples or read is None or read.samples != 1
+        instance = Instance(run.position)
+        found.setdefault(run.render_pass.path, []).append(instance)
+        for subpass, command in run.commands:
+            body = command.body
+            if isinstance(body, Draw):
+                _draw(instance, body, run.render_pass, subpass, frame)
+            elif isinstance(body, ClearAttachments):
+                instance.clears += [Clear(subpass, instance.draws, cleared, body.rects) for cleared in body.attachments]
+            elif isinstance(body, ReadImage) and body.image is not None:
+                instance.read.add(body.image)
+                read = frame.target(body.image)
+                instance.reads_samples = instance.reads_samples or read is None or read.samples != 1
     return {each.path: found[each.path] for each in frame.passes if each.path in found and _work(each, found[each.path]) <= MAX_USES}
 
 
@@ -285,15 +277,16 @@ def _whole_mask(mask: tuple[int, ...], samples: int | None) -> bool:
     return not mask or (samples is not None and samples <= 32 and mask[0] & ((1 << samples) - 1) == (1 << samples) - 1)
 
 
-def screen_facts(facts: Facts, subpass: PassSubpass, instances: list[Instance], moments: Moments) -> None:
+def screen_facts(facts: Facts, subpass: PassSubpass, instances: list[Instance], contents: Contents) -> None:
     """Adds whether all that a subpass draws is the whole picture, with nothing before it that had an edge."""
     whole = bool(instances) and all(each.full_screen.get(subpass.index) is True and not each.reads_samples for each in instances)
-    whole = whole and moments.followed and not subpass.within.custom_resolve
+    whole = whole and contents.timeline.ordered and not subpass.within.custom_resolve
     reads = whole and all(each.read for each in instances)
     for attachment in (a for a in subpass.color if a is not None) if whole else ():
         alone = attachment.color | attachment.depth_stencil | attachment.input == {subpass.index}
         fresh = all(aspect.load == "DONT_CARE" or (aspect.load == "CLEAR" and reads) for aspect in attachment.aspects)
-        lines = [moments.line(target.name, "color") for target in attachment.targets if target.image is not None]
-        whole = whole and alone and fresh and all(line.kinds.isdisjoint((LOADED, UNKNOWN, ELSEWHERE)) for line in lines)
+        lines = [contents.of(target.name, "color") for target in attachment.targets if target.image is not None]
+        known_writes = all(is_known(event) and event.kind != LOAD for line in lines for event in line.events)
+        whole = whole and alone and fresh and known_writes
     at = instances[0].drawn_at.get(subpass.index) if instances else None
     facts.put("subpass.full_screen", whole and any(attachment is not None for attachment in subpass.color), at)

@@ -14,6 +14,7 @@ from msaa_lint.frame.vulkan.formats import Format, format_of
 from .facts import Facts
 from .frame import Frame, Pass, PassSubpass
 from .subpass import samples_of
+from .walk import Walk
 
 SAMPLES_DYNAMIC = "RASTERIZATION_SAMPLES_EXT"
 
@@ -107,24 +108,20 @@ def _rasterization_samples(pipeline: Pipeline, draws: Sequence[Draw]) -> tuple[i
     return draws[0].samples, draws[0].samples_at or at
 
 
-def draws_of(frame: Frame) -> dict[str, list[Draw]]:
+def draws_of(walk: Walk) -> dict[str, list[Draw]]:
     """The recorded draws by the names of their pipelines."""
-    pipelines = frame.description.pipelines
-    begins = {position: each for each in frame.passes for position in each.begun}
+    pipelines = walk.frame.description.pipelines
     draws: dict[str, list[Draw]] = {}
-    current: PassSubpass | None = None
     samples: int | None = None
     at: Span | None = None
-    for position, command in enumerate(frame.commands):
-        if position in begins:
-            current = begins[position].subpasses[0] if begins[position].subpasses else None
-        elif command.kind in ("endRendering", "endRenderPass"):
-            current = None
-        elif command.kind == "setRasterizationSamples" and isinstance(command.body, int):
+    for step in walk.steps:
+        command = step.command
+        if command.kind == "setRasterizationSamples" and isinstance(command.body, int):
             samples, at = command.body, command.head
         elif isinstance(command.body, DrawCommand) and command.body.pipeline in pipelines:
             name = command.body.pipeline
-            draws.setdefault(name, []).append(Draw(current, samples, at))
+            subpasses = step.run.render_pass.subpasses if step.run is not None else []
+            draws.setdefault(name, []).append(Draw(subpasses[0] if subpasses else None, samples, at))
             # What was set before ends where a pipeline is bound whose count is static.
             if SAMPLES_DYNAMIC not in pipelines[name].dynamicState:
                 samples, at = None, None

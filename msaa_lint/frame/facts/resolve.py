@@ -2,22 +2,15 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
-
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.devices.shares import resolve_mode_share
 from msaa_lint.frame.vulkan.formats import Format
 
 from .facts import Facts
-from .frame import RENDERING, Frame, Pass, Resolve, Target
-from .pass_begin import MAX_USES, covers, targets_at, uses_at_most
+from .frame import Resolve, Target
+from .pass_begin import covers, targets_at
+from .readers import Readers
 from .timeline import Timeline
-
-Writers = dict[str, list[tuple[int, Pass | None]]]
-"""By image: the positions of the commands that write to it, and the pass that draws there; None where something else writes."""
-
-_WRITE = {"copyImage": "dstImage", "writeImage": "image", "clearColorImage": "image", "clearDepthStencilImage": "image"}
-# Of the commands that write to a multisampled image; blits and copies from buffers cannot.
 
 
 def resolve_facts(resolve: Resolve, device: DeviceProfile | None) -> Facts:
@@ -48,71 +41,38 @@ def resolve_facts(resolve: Resolve, device: DeviceProfile | None) -> Facts:
     return facts
 
 
-def writers_of(frame: Frame) -> Writers:
-    """Who writes to which images, in the order of the commands."""
-    writers: Writers = {}
-    if uses_at_most(frame) > MAX_USES:
-        return writers
-    if not frame.document.ordered:
-        return _only_writers(frame)
-    begins = {position: each for each in frame.passes for position in each.begun}
-    for position, command in enumerate(frame.commands):
-        if position in begins:
-            each = begins[position]
-            for name in {t.name for a in each.attachments if a.drawn for t in targets_at(frame, a, position)}:
-                writers.setdefault(name, []).append((position, each))
-        written = getattr(command.body, _WRITE.get(command.kind, "-"), None)
-        if isinstance(written, str):
-            writers.setdefault(written, []).append((position, None))
-    return writers
-
-
-def _only_writers(frame: Frame) -> Writers:
-    """Where the order is not known: of the images that one pass alone draws to, that pass, before all else."""
-    drawn: dict[str, list[Pass]] = {}
-    for each in frame.passes:
-        for name in {t.name for a in each.attachments if a.drawn for t in targets_at(frame, a, None)}:
-            drawn.setdefault(name, []).append(each)
-    return {name: [(-1, passes[0])] for name, passes in drawn.items() if len(passes) == 1}
-
-
-def command_facts(facts: Facts, resolve: Resolve, position: int, frame: Frame, writers: Writers) -> None:
+def command_facts(facts: Facts, resolve: Resolve, position: int, timeline: Timeline) -> None:
     """What the frame says of a vkCmdResolveImage: whether the pass before it, round the loop, could have resolved."""
-    source, target = resolve.source_image, resolve.target_image
-    written = writers.get(source.name, []) if source is not None else []
-    if source is None or not written:
+    source, target, frame = resolve.source_image, resolve.target_image, timeline.frame
+    writer = timeline.last_writer(source, position) if source is not None else None
+    if source is None or writer is None:
         return
-    at, within = written[bisect_left(written, position, key=lambda writer: writer[0]) - 1]
-    if within is None:
+    begin, render_pass = writer
+    if render_pass is None:
         facts.put("resolve.pass_could_resolve", False)
         return
-    facts.put("resolve.writer", within.name, within.record.head)
-    drawn = [a for a in within.attachments if source in targets_at(frame, a, at)]
-    modes = [r.mode for s in within.subpasses for r in s.resolves if r.source in drawn and r.mode != "NONE"]
-    could = None if modes == [None] or not covers(frame, within, at, source) or _sizes_differ(source, target) else not modes
-    facts.put("resolve.pass_could_resolve", could)
+    facts.put("resolve.writer", render_pass.name, render_pass.record.head)
+    drawn = [a for a in render_pass.attachments if source in targets_at(frame, a, begin)]
+    modes = [r.mode for s in render_pass.subpasses for r in s.resolves if r.source in drawn and r.mode != "NONE"]
+    unknown = modes == [None] or not covers(frame, render_pass, begin, source) or _sizes_differ(source, target)
+    facts.put("resolve.pass_could_resolve", None if unknown else not modes)
 
 
-def read_in_vain(frame: Frame, writers: Writers, timeline: Timeline) -> set[str]:
+def read_in_vain(readers: Readers) -> set[str]:
     """The images that nothing but resolve commands reads, each after a pass that resolved it itself, or threw it away."""
+    timeline, frame = readers.timeline, readers.frame
     in_vain: dict[str, int] = {}
-    for position, resolve in frame.resolve_commands:
+    for position, resolve in frame.resolve_commands if timeline.followed else ():
         source = resolve.source_image
-        written = writers.get(source.name, []) if source is not None else []
-        if source is None or not written:
+        begin, render_pass = (timeline.last_writer(source, position) if source is not None else None) or (0, None)
+        if source is None or render_pass is None:
             continue
-        at, within = written[bisect_left(written, position, key=lambda writer: writer[0]) - 1]
-        drawn = [a for a in within.attachments if source in targets_at(frame, a, at)] if within is not None else []
-        resolved = within is not None and any(
-            r.source in drawn and r.mode not in (None, "NONE") for s in within.subpasses for r in s.resolves
-        )
+        drawn = [a for a in render_pass.attachments if source in targets_at(frame, a, begin)]
+        resolved = any(r.source in drawn and r.mode not in (None, "NONE") for s in render_pass.subpasses for r in s.resolves)
         lost = bool(drawn) and all(aspect.store in ("DONT_CARE", "NONE") for a in drawn for aspect in a.aspects)
         if resolved or lost:
             in_vain[source.name] = in_vain.get(source.name, 0) + 1
-    if not timeline.followed:
-        return set()
-    reads = {name: [use for use in timeline.uses.get(name, []) if use.kind == "read"] for name in in_vain}
-    return {name for name, count in in_vain.items() if len(reads[name]) == count}
+    return {name for name, count in in_vain.items() if len(readers.reads(name)) == count}
 
 
 def _sizes_differ(source: Target, target: Target | None) -> bool:
@@ -213,6 +173,3 @@ def _pair_supported(resolve: Resolve, pair: Resolve, device: DeviceProfile | Non
     else:
         answer = device.independent_resolve
     return None if device.minimum and not answer else answer
-
-
-__all__ = ["RENDERING", "command_facts", "formats_match", "resolve_facts", "writers_of"]

@@ -2,58 +2,65 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.models import Command, ImageBarrier, PipelineBarrier
+from msaa_lint.frame.description.models import Command
 from msaa_lint.frame.devices import DeviceProfile
 
 from .barriers import Waits
-from .events import CLEAR, COPY, DRAW, PRESENT, READS, RESOLVE, STORE, TAKE, UNKNOWN, WRITE, Event, Events, Spot
+from .commands import COPY_READ, COPY_WRITE, PRESENT, RESOLVE_READ, RESOLVE_WRITE, WRITE, image_of, naming_records
+from .event_search import ENDS, EventSearch, ends_contents, every_time, is_unknown, reads
 from .facts import Facts, known
 from .frame import Frame, Resolve, Target
-from .timeline import READING_USAGES, Timeline
+from .readers import READING_USAGES, Readers
+from .timeline import DRAW, STORE, Event, EventRef
 
 SAME, DIFFERENT, NOT_STATED = "SAME", "DIFFERENT", "NOT_STATED"
 
 _COPIES = ("copyImage", "blitImage")
 
 
-class Results:
-    """The results of a frame's resolves. What happens to the images is laid out when it is first asked."""
+class ResolveUses:
+    """What becomes of the results of a frame's resolves."""
 
-    def __init__(self, frame: Frame, timeline: Timeline, device: DeviceProfile | None = None) -> None:
-        self.frame = frame
-        self.timeline = timeline
+    def __init__(self, search: EventSearch, readers: Readers, device: DeviceProfile | None = None) -> None:
+        self.search = search
+        self.frame: Frame = search.frame
+        self.readers = readers
         self.device = device
-        self._events: Events | None = None
-        self._again: dict[int, _Again] | None = None
-        self._waits: Waits | None = None
-        self._presented: set[str] = set()
-        self._barred: set[str] | None = None
 
-    @property
-    def events(self) -> Events:
-        if self._events is None:
-            self._events = Events(self.frame)
-            self._presented = {name for name, target in self.frame.targets.items() if target.image and target.image.presentable}
-            self._presented.update(name for name, events in self._events.of.items() if any(event.kind == PRESENT for event in events))
-        return self._events
+    @cached_property
+    def _presented(self) -> set[str]:
+        stated = {name for name, target in self.frame.targets.items() if target.image and target.image.presentable}
+        return stated | {name for name, events in self.search.of.items() if any(event.kind == PRESENT for event in events)}
+
+    @cached_property
+    def _waits(self) -> Waits:
+        return Waits(self.search)
+
+    @cached_property
+    def _barred(self) -> set[str]:
+        """The images that barriers name."""
+        return {name for command in self.frame.commands if command.kind == "pipelineBarrier" for _, name in naming_records(command)}
+
+    @cached_property
+    def _repetitions(self) -> dict[int, _Repetition]:
+        return _repetitions(self)
 
     def put(self, facts: Facts, resolve: Resolve) -> None:
         """Adds what is known of what becomes of a resolve. Of one that resolves nothing, or may not, nothing is."""
         if resolve.mode in (None, "NONE") and resolve.kind != "command":
             return
-        self._read(facts, resolve)
-        self._copied(facts, resolve)
-        self._repeated(facts, resolve)
-        if self._waits is None:
-            self._waits = Waits(self.frame, self.events)
+        self._put_read(facts, resolve)
+        self._put_copied(facts, resolve)
+        self._put_repeated(facts, resolve)
         self._waits.put(facts, resolve)
 
     # Whether anything reads it.
 
-    def _read(self, facts: Facts, resolve: Resolve) -> None:
+    def _put_read(self, facts: Facts, resolve: Resolve) -> None:
         target = resolve.target
         kept: bool | None = True
         if target is not None:
@@ -85,80 +92,74 @@ class Results:
             if any(index > resolve.subpass for index in used) or target.input:
                 return True
             aspect = next((aspect for aspect in target.aspects if aspect.name in (resolve.aspect, None)), None)
-            return self.timeline.read_later(within, target, aspect) if aspect is not None else None
-        answers = [self._read_at(spot) for spot in self.events.written.get(id(resolve), ())]
+            return self.readers.read_later(within, target, aspect) if aspect is not None else None
+        answers = [self._read_at(ref) for ref in self.search.resolved_at(resolve)]
         return True if True in answers else None if not answers or None in answers else False
 
-    def _read_at(self, spot: Spot) -> bool | None:
+    def _read_at(self, ref: EventRef) -> bool | None:
         """Whether something reads what is written at a place, as far as commands say."""
-        event, _ = self.events.use_of(spot)
+        event, _ = self.search.first_use(ref)
         if event is None:
-            return None if self.events.left < 0 else False
-        return None if event.kind == UNKNOWN else event.kind in READS
+            return None if self.search.steps_left < 0 else False
+        return None if is_unknown(event) else reads(event)
 
     # Whether it is only copied on.
 
-    def _copied(self, facts: Facts, resolve: Resolve) -> None:
-        found = [self._copy_of(spot) for spot in self._spots(resolve)] if resolve.aspect == "color" and self.frame.has_commands else []
-        copies = [each for each in found if each is not None]
-        facts.put("resolve.only_copied", bool(copies) and len(copies) == len(found))
-        if not copies or len(copies) < len(found):
+    def _put_copied(self, facts: Facts, resolve: Resolve) -> None:
+        written = self.search.resolved_at(resolve) if resolve.aspect == "color" and self.frame.has_commands else []
+        copies = [copy for copy in map(self._copy_of, written) if copy is not None]
+        facts.put("resolve.only_copied", bool(copies) and len(copies) == len(written))
+        if not copies or len(copies) < len(written):
             return
         command, source, target = copies[0]
         facts.put("resolve.copied_by", command.kind, command.head)
         facts.put("resolve.copied_to", target.title, command.head)
         facts.put("resolve.copied_from", source.title)
         facts.put("resolve.copy_fits", _fits(source, target))
-        if self._barred is None:
-            self._barred = _barred(self.frame)
         facts.put("resolve.copy_barred", not self._barred.isdisjoint((source.name, target.name)))
 
-    def _spots(self, resolve: Resolve) -> list[Spot]:
-        return self.events.written.get(id(resolve), [])
-
-    def _copy_of(self, spot: Spot) -> tuple[Command, Target, Target] | None:
+    def _copy_of(self, ref: EventRef) -> tuple[Command, Target, Target] | None:
         """The command that copies what is written at a place to a presentable image, the image and that one, if nothing else uses it."""
-        events = self.events
-        at = events.of[spot.image][spot.at]
-        if not at.whole or spot.image in self._presented:
+        written = self.search.event(ref)
+        if not every_time(written) or ref.image in self._presented:
             return None
         copy: Command | None = None
-        for event, later in events.after(spot, at.aspect):
+        for event, next_frame in self.search.after(ref, written.aspect):
             if event.kind == STORE:
                 continue
-            if event.kind == UNKNOWN or (copy is None and (later or event.kind != COPY)):
+            if is_unknown(event) or (copy is None and (next_frame or event.kind != COPY_READ)):
                 return None
-            if copy is None and isinstance(event.of, Command):
-                copy = event.of
-            elif event.kind in READS:
+            if copy is None:
+                copy = event.command
+            elif reads(event):
                 return None
-            elif event.whole and event.kind in (CLEAR, RESOLVE):
+            elif ends_contents(event):
                 break
-        if copy is None or copy.kind not in _COPIES or events.left < 0:
+        if copy is None or copy.kind not in _COPIES or self.search.steps_left < 0:
             return None
-        source, target = self.frame.target(spot.image), self.frame.target(getattr(copy.body, "dstImage", None))
+        source, target = self.frame.target(ref.image), self.frame.target(image_of(copy, COPY_WRITE))
         if source is None or target is None or target.name not in self._presented or not self._fills(target, copy):
             return None
         return copy, source, target
 
     def _fills(self, target: Target, copy: Command) -> bool:
         """Whether a presentable image is written by one copy alone, before anything is drawn over it, each time until it is presented."""
-        events = self.events.of.get(target.name, [])
-        self.events.left -= len(events)
-        own = next((index for index, event in enumerate(events) if event.kind == WRITE and event.of is copy), None)
-        if self.events.left < 0 or own is None or target.image is None or (target.image.arrayLayers or 1) > 1:
+        events = self.search.of.get(target.name, [])
+        self.search.steps_left -= len(events)
+        write = next((index for index, event in enumerate(events) if event.kind == COPY_WRITE and event.command is copy), None)
+        if self.search.steps_left < 0 or write is None or target.image is None or (target.image.arrayLayers or 1) > 1:
             return False
         for step in range(1, len(events)):
-            event = events[own - step]
+            event = events[write - step]
             if event.kind == PRESENT:
                 break
             # A clear by command leaves a border, where the copy is smaller.
-            if event.kind != CLEAR or (isinstance(event.of, Command) and event.of.kind != "pipelineBarrier"):
+            if event.kind not in ENDS or (event.command is not None and event.command.kind != "pipelineBarrier"):
                 return False
-        for event in events[own + 1 :]:
+        for event in events[write + 1 :]:
             if event.kind == PRESENT:
                 break
-            if event.kind in (CLEAR, RESOLVE, UNKNOWN) or (event.kind == WRITE and isinstance(event.of, Command)):
+            if event.kind in (*ENDS, RESOLVE_WRITE, COPY_WRITE, WRITE) or is_unknown(event):
                 return False
         return True
 
@@ -166,43 +167,41 @@ class Results:
 
     def unread(self, resolve: Resolve, taken: Event) -> bool | None:
         """Whether nothing reads what a resolve wrote, the time that it took the samples so."""
-        answers = [self._unread_at(s) for s in self._spots(resolve) if self.events.of[s.image][s.at].run is taken.run]
+        written = self.search.resolved_at(resolve)
+        answers = [self._unread_at(ref) for ref in written if self.search.event(ref).run is taken.run]
         return False if False in answers else None if not answers or None in answers else True
 
-    def _unread_at(self, spot: Spot) -> bool | None:
-        own = self.events.of[spot.image][spot.at]
-        event, later = self.events.use_of(spot)
-        if event is None and self.events.left < 0:
+    def _unread_at(self, ref: EventRef) -> bool | None:
+        written = self.search.event(ref)
+        event, next_frame = self.search.first_use(ref)
+        if event is None and self.search.steps_left < 0:
             return None
-        if event is not None and event.run is own.run and own.run is not None and not later:
+        if event is not None and event.run is written.run and written.run is not None and not next_frame:
             # What the pass throws away itself is another mistake.
-            return None if event.kind == UNKNOWN else event.kind == RESOLVE
-        target = self.frame.target(spot.image)
+            return None if is_unknown(event) else event.kind == RESOLVE_WRITE
+        target = self.frame.target(ref.image)
         image = target.image if target is not None else None
         if event is None and image is not None and image.presentable:
             return False
-        if event is not None and (event.kind in READS or event.kind == UNKNOWN):
-            return None if event.kind == UNKNOWN else False
+        if event is not None and (reads(event) or is_unknown(event)):
+            return None if is_unknown(event) else False
         if self.frame.has_commands:
             return True
         # Without commands a usage that allows reading is taken as used.
         usage = image.usage if image is not None else None
         return None if usage is None else READING_USAGES.isdisjoint(usage)
 
-    def _repeated(self, facts: Facts, resolve: Resolve) -> None:
-        if self._again is None:
-            self._again = _again(self)
-        found = self._again.get(id(resolve))
-        repeats, drawn = (found.repeats, found.drawn_on) if found is not None else (False, False)
-        facts.put("resolve.repeats", repeats, found.first_at if found is not None and repeats else None)
-        facts.put("resolve.resolved_anew", drawn, found.next_at if found is not None and drawn else None)
-        if found is not None:
+    def _put_repeated(self, facts: Facts, resolve: Resolve) -> None:
+        found = self._repetitions.get(id(resolve), _Repetition())
+        facts.put("resolve.repeats", found.repeats, found.first_at if found.repeats else None)
+        facts.put("resolve.resolved_anew", found.drawn_on, found.next_at if found.drawn_on else None)
+        if id(resolve) in self._repetitions:
             facts.put("resolve.again_by_command", found.by_command)
             facts.put("resolve.again_to_same_target", found.same_target)
             facts.put("resolve.again_on_tile", known(found.one_pass, found.same_target))
 
 
-class _Again(NamedTuple):
+class _Repetition(NamedTuple):
     """What other resolves of the same samples make of one. None where that is not known."""
 
     repeats: bool | None = False
@@ -225,54 +224,49 @@ class _Since:
         self.taken = taken
         self.drawn = self.ended = self.unknown = False
 
-    def happens(self, event: Event) -> None:
-        self.drawn |= event.kind in (DRAW, WRITE)
-        self.ended |= event.kind in (CLEAR, RESOLVE)
-        self.unknown |= event.kind == UNKNOWN
+    def add(self, event: Event) -> None:
+        self.drawn |= event.kind in (DRAW, COPY_WRITE, WRITE)
+        self.ended |= event.kind in ENDS or (event.kind == RESOLVE_WRITE and event.certain)
+        self.unknown |= is_unknown(event)
 
 
-def _again(results: Results) -> dict[int, _Again]:
+def _repetitions(uses: ResolveUses) -> dict[int, _Repetition]:
     """By the identity of a resolve: what the next and the last resolve of the same samples in the frame make of it."""
-    found: dict[int, _Again] = {}
-    for events in results.events.of.values():
+    found: dict[int, _Repetition] = {}
+    for events in uses.search.of.values():
         since: dict[str, _Since] = {}
         for event in events:
-            if event.kind != TAKE or not isinstance(event.of, Resolve):
+            resolve = event.source
+            if event.kind != RESOLVE_READ or not event.certain or not isinstance(resolve, Resolve):
                 for aspect, state in since.items():
                     if event.aspect in (None, aspect):
-                        state.happens(event)
+                        state.add(event)
                 continue
-            before = since.get(event.of.aspect)
+            before = since.get(resolve.aspect)
             if before is not None and not before.ended:
-                _pair(results, before, event, found)
-            since[event.of.aspect] = _Since(event)
+                _pair(uses, before, event, found)
+            since[resolve.aspect] = _Since(event)
     return found
 
 
-def _pair(results: Results, since: _Since, event: Event, found: dict[int, _Again]) -> None:
-    first, second = since.taken.of, event.of
+def _pair(uses: ResolveUses, since: _Since, event: Event, found: dict[int, _Repetition]) -> None:
+    first, second = since.taken.source, event.source
     assert isinstance(first, Resolve) and isinstance(second, Resolve)
     # Of a part each, they may be of different parts; by different modes they are different pictures.
-    if not (since.taken.whole and event.whole) or first.mode is None or first.mode != second.mode:
+    if not (every_time(since.taken) and every_time(event)) or first.mode is None or first.mode != second.mode:
         return
+    same = first.target_image is second.target_image if None not in (first.target_image, second.target_image) else None
     by_command = "command" in (first.kind, second.kind)
     one_pass = event.run is not None and event.run is since.taken.run
-    same = first.target_image is second.target_image if None not in (first.target_image, second.target_image) else None
     if not since.drawn:
-        answer = None if since.unknown else True
-        known_of = found.get(id(second), _Again())._replace(repeats=answer, first_at=first.target_at)
-        found[id(second)] = known_of._replace(by_command=by_command, same_target=same, one_pass=one_pass)
+        repeats = None if since.unknown else True
+        repetition = found.get(id(second), _Repetition())._replace(repeats=repeats, first_at=first.target_at)
+        found[id(second)] = repetition._replace(by_command=by_command, same_target=same, one_pass=one_pass)
         return
-    unread = None if since.unknown else results.unread(first, since.taken)
+    unread = None if since.unknown else uses.unread(first, since.taken)
     if unread is not False:
-        known_of = found.get(id(first), _Again())._replace(drawn_on=unread, next_at=second.target_at)
-        found[id(first)] = known_of._replace(by_command=by_command, same_target=same, one_pass=one_pass)
-
-
-def _barred(frame: Frame) -> set[str]:
-    """The images that barriers name."""
-    named = (each for command in frame.commands if isinstance(command.body, PipelineBarrier) for each in command.body.images)
-    return {name for each in named if (name := each.image if isinstance(each, ImageBarrier) else each) is not None}
+        repetition = found.get(id(first), _Repetition())._replace(drawn_on=unread, next_at=second.target_at)
+        found[id(first)] = repetition._replace(by_command=by_command, same_target=same, one_pass=one_pass)
 
 
 def _fits(source: Target, target: Target) -> str:

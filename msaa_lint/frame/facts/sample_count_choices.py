@@ -31,7 +31,7 @@ def choices(description: Description, around: Facts) -> Iterator[Subject]:
         facts.put("choice.at_most", _at_most(record), record.place("atMost", "chosen"))
         _retested(facts, record)
         _asked(facts, record)
-        yield Subject("choice", record.path, record.head, facts, record)
+        yield Subject("choice", record.path, record.head, facts)
 
 
 def _at_most(record: SampleCountChoice) -> int | None:

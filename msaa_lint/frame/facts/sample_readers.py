@@ -2,35 +2,35 @@
 
 from __future__ import annotations
 
-from msaa_lint.frame.description.models import Command, ReadImage
+from msaa_lint.frame.description.models import ReadImage
 
-from .events import CLEAR, READ, READS, UNKNOWN, Events
+from .event_search import ENDS, EventSearch, every_time, is_unknown, reads
 from .frame import Aspect, Attachment
 
 ONE, ALL, NOT_STATED, OTHER = "ONE", "ALL", "NOT_STATED", "OTHER"
 
 
-def fetched(attachment: Attachment, aspect: Aspect, events: Events) -> str | None:
+def samples_fetched(attachment: Attachment, aspect: Aspect, search: EventSearch) -> str | None:
     """What the readers of a stored aspect are until it is overwritten, round the loop.
 
     ONE: shaders alone, stated to fetch one sample; ALL: shaders alone, of which one fetches every sample; NOT_STATED: shaders alone, of
-    which one does not say; OTHER: something else as well, or nothing. None where that is not known.
+    which one does not say; OTHER: something else as well, or nothing. None where that is unknown.
     """
     if attachment.input:
         return OTHER
-    found: list[ReadImage] = []
-    for spot in events.stored.get((id(attachment), aspect.name), ()):
-        for event, _ in events.after(spot, aspect.name):
-            if event.kind == UNKNOWN:
+    bodies: list[ReadImage] = []
+    for ref in search.stored_at(attachment, aspect.name):
+        for event, _ in search.after(ref, aspect.name):
+            if is_unknown(event):
                 return None
-            if event.kind == READ and isinstance(event.of, Command) and isinstance(event.of.body, ReadImage):
-                found.append(event.of.body)
-            elif event.kind in READS:
+            if event.command is not None and isinstance(event.command.body, ReadImage):
+                bodies.append(event.command.body)
+            elif reads(event):
                 return OTHER
-            elif event.whole and event.kind == CLEAR:
+            elif every_time(event) and event.kind in ENDS:
                 break
-    if events.left < 0 or not events.frame.has_commands:
+    if search.steps_left < 0 or not search.frame.has_commands:
         return None
     # What is done with several samples says that they are fetched.
-    answers = {ALL if body.samples == "ALL" or body.resolves is not None else ONE if body.samples == 1 else NOT_STATED for body in found}
-    return next((each for each in (ALL, NOT_STATED, ONE) if each in answers), OTHER)
+    answers = {ALL if body.samples == "ALL" or body.resolves is not None else ONE if body.samples == 1 else NOT_STATED for body in bodies}
+    return next((answer for answer in (ALL, NOT_STATED, ONE) if answer in answers), OTHER)

@@ -10,7 +10,9 @@ from .facts import Facts, Subject
 from .frame import RENDER_PASS, Attachment, Frame, Pass, PassSubpass, Resolve, Target
 from .pass_begin import targets_at
 from .pipeline import discards, subpass_of
-from .resolve import Writers, command_facts, writers_of
+from .resolve import command_facts
+from .timeline import Timeline
+from .walk import Walk
 
 if TYPE_CHECKING:
     from msaa_lint.frame.spirv.reflect import Multisampled, Reflected
@@ -66,8 +68,9 @@ MAX_PAIRS = 20_000
 class Shaders:
     """The fragment shaders of a frame's pipelines, and the images that they read."""
 
-    def __init__(self, frame: Frame, find: Finder | None) -> None:
-        self.frame = frame
+    def __init__(self, timeline: Timeline, find: Finder | None) -> None:
+        self.frame: Frame = timeline.frame
+        self.timeline = timeline
         self._find = find
         self._found: dict[str, Reflected | None] = {}
         self._reads: list[tuple[int, ReadImage, Target, _Part]] = []
@@ -76,8 +79,8 @@ class Shaders:
         """Pipelines that draw where such a read is."""
         self._fetches: dict[int, _Fetching] = {}
         self._reads_of: dict[str, list[tuple[ReadImage, _Part]]] = {}
-        for part in _parts(frame):
-            taken = [(at, body, target) for at, body in part.reads if (target := frame.target(body.image)) and _matters(body, target)]
+        for part in _parts(timeline.walk):
+            taken = [(at, body, target) for at, body in part.reads if (target := self.frame.target(body.image)) and _matters(body, target)]
             self._reads += [(at, body, target, part) for at, body, target in taken]
             for _, body, target in taken:
                 self._reads_of.setdefault(target.name, []).append((body, part))
@@ -137,10 +140,9 @@ class Shaders:
 
     def reads(self, around: Facts) -> Iterator[Subject]:
         """The reads where sample counts matter, each with every shader that is known to do it."""
-        writers = writers_of(self.frame) if self._reads else {}
         for position, body, target, part in self._reads:
             command = self.frame.commands[position]
-            shared = self._stated(position, body, target, part, writers)
+            shared = self._stated(position, body, target, part)
             fetching = self._fetching(body, part)
             if body.resolves is None and fetching.reads:
                 _resolved(shared, body, fetching)
@@ -148,12 +150,12 @@ class Shaders:
                 facts = Facts(around, shared)
                 if read is not None:
                     _fetched(facts, read)
-                yield Subject("read", command.path, command.head, facts, (position, target))
+                yield Subject("read", command.path, command.head, facts, image=target, position=position)
         for pipeline, within in self.frame.pipelines:
             if within is not None and self._has_inputs(within):
                 yield from self._input_reads(around, pipeline, within)
 
-    def _stated(self, position: int, body: ReadImage, target: Target, part: _Part, writers: Writers) -> Facts:
+    def _stated(self, position: int, body: ReadImage, target: Target, part: _Part) -> Facts:
         """What the commands say of a read."""
         facts = Facts()
         facts.put("read.image", target.title, body.place("image"))
@@ -171,7 +173,7 @@ class Shaders:
         # As of a vkCmdResolveImage in its place.
         resolve, found = Resolve("command", "color", body, body.path), Facts()
         resolve.source_image = target
-        command_facts(found, resolve, position, self.frame, writers)
+        command_facts(found, resolve, position, self.timeline)
         facts.put("read.writer", found.values.get("resolve.writer"), found.places.get("resolve.writer"))
         facts.put("read.pass_could_resolve", False if on_tile else found.values.get("resolve.pass_could_resolve"))
         return facts
@@ -228,27 +230,25 @@ class Shaders:
                 facts.put("read.resolves", image.resolves or OTHER, stage.place("module"))
                 facts.put("read.samples", _takes(image, attachment.samples), stage.place("module"))
                 _fetched(facts, Read(pipeline, stage, image))
-                yield Subject("read", stage.path, stage.head, facts, pipeline)
+                yield Subject("read", stage.path, stage.head, facts, pipeline=pipeline)
 
     def _has_inputs(self, within: Pass) -> bool:
         """Whether a pass has input attachments of several samples, or of an unknown count."""
         return within.kind == RENDER_PASS and any(attachment.input and attachment.samples != 1 for attachment in within.attachments)
 
 
-def _parts(frame: Frame) -> Iterator[_Part]:
-    begins = {position: each for each in frame.passes for position in each.begun}
+def _parts(walk: Walk) -> Iterator[_Part]:
     part = _Part(None, 0, [], {})
-    for position, command in enumerate(frame.commands):
-        if position in begins or command.kind in ("endRendering", "endRenderPass"):
+    for step in walk.steps:
+        body = step.command.body
+        if step.begins or step.ends or step.command.kind == "nextSubpass":
             yield part
-            part = _Part(begins.get(position), position, [], {})
-        elif command.kind == "nextSubpass":
-            yield part
-            part = _Part(part.within, part.begun, [], {})
-        elif isinstance(command.body, ReadImage) and command.body.image is not None:
-            part.reads.append((position, command.body))
-        elif isinstance(command.body, Draw):
-            part.drawn[command.body.pipeline] = None
+            run = step.run if not step.ends else None
+            part = _Part(run.render_pass if run is not None else None, run.position or 0 if run is not None else 0, [], {})
+        elif isinstance(body, ReadImage) and body.image is not None:
+            part.reads.append((step.position, body))
+        elif isinstance(body, Draw):
+            part.drawn[body.pipeline] = None
     yield part
 
 

@@ -3,31 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cached_property
 
 from msaa_lint.frame.description.document import Document
+from msaa_lint.frame.description.models import SubpassDependency
 from msaa_lint.frame.devices import DeviceProfile
 
 from .attachment import aspect_facts, attachment_facts, pass_facts, resolves_at
 from .clear_values import clear_value_facts
-from .dependency import external_dependencies, recorded_barriers
+from .contents import Contents
+from .dependency import Barriers, external_dependencies, recorded_barriers
+from .event_search import EventSearch
 from .facts import Facts, Subject
-from .frame import Attachment, Frame
-from .global_facts import profile, surroundings
+from .frame import Aspect, Attachment, Frame, Pass, Target
+from .global_facts import global_facts, profile
 from .image import Bindings, image_facts
 from .lifetimes import lifetime_facts
-from .moments import Moments
-from .pass_contents import recorded, screen_facts, touch_facts
+from .pass_contents import Instance, pass_contents, screen_facts, touch_facts
 from .pipeline import draws_of, pipeline_facts, subpass_of, unshaded
-from .resolve import command_facts, read_in_vain, resolve_facts, writers_of
-from .resolve_uses import Results
+from .readers import Readers
+from .resolve import command_facts, read_in_vain, resolve_facts
+from .resolve_uses import ResolveUses
 from .sample_count_choices import choices
-from .sample_readers import fetched
+from .sample_readers import samples_fetched
 from .shaders import Finder as ShaderFinder
 from .shaders import Shaders
-from .study import UNSTUDIED, Finder, put_study
-from .subpass import pipelines_drawn, subpass_facts
+from .study import UNSTUDIED, Finder, Studied, put_study
+from .subpass import subpass_facts
 from .swapchain_rotation import Turns
 from .timeline import Timeline
+from .walk import Walk
 
 
 def subjects(
@@ -37,94 +42,189 @@ def subjects(
 
     `study` finds the record of the frame's study, `shader` what the module of a shader stage says.
     """
-    device = profile(document.description, default_device)
-    frame = Frame(document)
-    timeline = Timeline(frame)
-    moments = Moments(frame)
-    records = recorded(frame)
-    around = surroundings(document.description, device)
-    images: dict[int, Facts] = {}
-    bindings = Bindings(frame)
-    results, turns = Results(frame, timeline, device), Turns(frame, bindings)
-    shaders = Shaders(frame, shader)
-    targets, efficient = frame.all_targets, around.values["device.max_efficient_samples"]
-    assert isinstance(efficient, int)
-    above = {id(target) for target in targets if target.samples is not None and target.samples > efficient}
-    studied = study(frame) if above and study is not None else UNSTUDIED
-    lowered, metal = document.metal, document.description.metal
-    if lowered is not None:
-        from .metal import action_facts, filter_facts, texture_facts
-    writers = writers_of(frame) if frame.resolve_commands else {}
-    in_vain = read_in_vain(frame, writers, timeline) if writers else set()
-    for target in targets:
-        facts = image_facts(target, bindings, frame, timeline, device)
+    return FrameAnalysis(Frame(document), profile(document.description, default_device), study, shader).subjects()
+
+
+class FrameAnalysis:
+    """What is known of a frame. Each part is worked out when it is first asked for."""
+
+    def __init__(
+        self, frame: Frame, device: DeviceProfile | None = None, study: Finder | None = None, shader: ShaderFinder | None = None
+    ) -> None:
+        self.frame = frame
+        self.device = device
+        self._study = study
+        self._shader = shader
+
+    @cached_property
+    def walk(self) -> Walk:
+        """The commands, and the runs of the passes."""
+        return Walk(self.frame)
+
+    @cached_property
+    def timeline(self) -> Timeline:
+        """What happens to every image."""
+        return Timeline(self.frame, self.walk)
+
+    @cached_property
+    def readers(self) -> Readers:
+        """What reads the images."""
+        return Readers(self.timeline)
+
+    @cached_property
+    def contents(self) -> Contents:
+        """The contents of the images over time."""
+        return Contents(self.timeline)
+
+    @cached_property
+    def search(self) -> EventSearch:
+        """What follows an event."""
+        return EventSearch(self.timeline)
+
+    @cached_property
+    def bindings(self) -> Bindings:
+        """What the images are bound to."""
+        return Bindings(self.frame)
+
+    @cached_property
+    def resolve_uses(self) -> ResolveUses:
+        """What becomes of the results of resolves."""
+        return ResolveUses(self.search, self.readers, self.device)
+
+    @cached_property
+    def shaders(self) -> Shaders:
+        """What fragment shaders say."""
+        return Shaders(self.timeline, self._shader)
+
+    @cached_property
+    def shared(self) -> Facts:
+        """The facts that every subject has."""
+        return global_facts(self.frame.description, self.device)
+
+    @cached_property
+    def _inefficient(self) -> set[int]:
+        """By identity: the images with more samples than the device takes efficiently."""
+        efficient = self.shared.values["device.max_efficient_samples"]
+        assert isinstance(efficient, int)
+        return {id(target) for target in self.frame.all_targets if target.samples is not None and target.samples > efficient}
+
+    @cached_property
+    def _studied(self) -> Studied:
+        return self._study(self.frame) if self._inefficient and self._study is not None else UNSTUDIED
+
+    @cached_property
+    def _image_facts(self) -> dict[int, Facts]:
+        """By the identity of an image's record."""
+        in_vain = read_in_vain(self.readers) if self.frame.resolve_commands else set()
+        turns = Turns(self.frame, self.bindings)
+        return {id(target.record): self._facts_of_image(target, turns, in_vain) for target in self.frame.all_targets}
+
+    def _facts_of_image(self, target: Target, turns: Turns, in_vain: set[str]) -> Facts:
+        facts = image_facts(target, self.bindings, self.frame, self.readers, self.device)
         facts.put("image.read_in_vain", target.name in in_vain)
         turns.put(facts, target)
-        shaders.averaged(facts, target)
-        put_study(facts, target.samples, studied if id(target) in above else UNSTUDIED)
-        if lowered is not None and metal is not None:
-            texture_facts(facts, target, metal, around.values.get("device.lazy_memory"))
-        images[id(target.record)] = facts
-        yield Subject("image", target.path, target.record.head, Facts(around, facts), target)
-    of_subpass: dict[str, Facts] = {}
-    drawn = pipelines_drawn(frame)
-    barriers = recorded_barriers(frame)
-    for each in frame.passes:
-        shared = Facts(around, pass_facts(each))
-        clear_value_facts(shared, each, frame)
-        yield Subject("pass", each.path, each.record.head, shared, each)
-        instances = records.get(each.path, [])
-        resolves = resolves_at(each)
-        known = document.whole or bool(each.subpasses)
-        for attachment in each.attachments:
-            base = Facts(shared, _image_of(attachment, images), attachment_facts(attachment, known))
-            yield Subject("attachment", attachment.record.path, attachment.record.head, base, attachment)
+        self.shaders.averaged(facts, target)
+        put_study(facts, target.samples, self._studied if id(target) in self._inefficient else UNSTUDIED)
+        metal = self.frame.description.metal
+        if self.frame.document.metal is not None and metal is not None:
+            from .metal import texture_facts
+
+            texture_facts(facts, target, metal, self.shared.values.get("device.lazy_memory"))
+        return facts
+
+    def subjects(self) -> Iterator[Subject]:
+        """Every subject, in the order of the document's sections."""
+        for target in self.frame.all_targets:
+            yield Subject("image", target.path, target.record.head, Facts(self.shared, self._image_facts[id(target.record)]), image=target)
+        contents = pass_contents(self.walk)
+        of_subpass: dict[str, Facts] = {}
+        for render_pass in self.frame.passes:
+            instances = contents.get(render_pass.path, [])
+            facts = Facts(self.shared, pass_facts(render_pass))
+            clear_value_facts(facts, render_pass, self.frame)
+            yield Subject("pass", render_pass.path, render_pass.record.head, facts, render_pass=render_pass)
+            yield from self._attachments(render_pass, facts, instances)
+            yield from self._subpasses(render_pass, facts, instances, of_subpass)
+            yield from self._dependencies(render_pass, facts)
+        yield from self._resolve_commands()
+        yield from self._pipelines(of_subpass)
+        yield from self.shaders.reads(self.shared)
+        yield from choices(self.frame.description, self.shared)
+
+    def _attachments(self, render_pass: Pass, shared: Facts, instances: list[Instance]) -> Iterator[Subject]:
+        resolves = resolves_at(render_pass)
+        subpasses_known = self.frame.document.whole or bool(render_pass.subpasses)
+        for attachment in render_pass.attachments:
+            facts = Facts(shared, self._image_of(attachment), attachment_facts(attachment, subpasses_known))
+            record = attachment.record
+            yield Subject("attachment", record.path, record.head, facts, attachment=attachment)
             for aspect in attachment.aspects:
-                facts = Facts(base, aspect_facts(each, attachment, aspect, resolves.get(id(attachment), []), timeline))
-                if aspect.name == "depth" and aspect.store == "STORE" and attachment.samples != 1:
-                    facts.put("aspect.fetched", fetched(attachment, aspect, results.events))
-                touch_facts(facts, each, attachment, aspect, instances, frame)
-                lifetime_facts(facts, each, attachment, aspect, moments)
-                if lowered is not None:
-                    action_facts(facts, attachment, aspect, lowered)
-                yield Subject("aspect", attachment.record.path, attachment.record.head, facts, (attachment, aspect))
-        for subpass in each.subpasses:
-            own = Facts(shared, subpass_facts(subpass, frame, drawn, device))
-            screen_facts(own, subpass, instances, moments)
-            of_subpass[subpass.path] = own
-            yield Subject("subpass", subpass.path, subpass.record.head, own, subpass)
+                of_aspect = aspect_facts(render_pass, attachment, aspect, resolves.get(id(attachment), []), self.readers)
+                of_aspect = Facts(facts, of_aspect)
+                self._put_aspect(of_aspect, render_pass, attachment, aspect, instances)
+                yield Subject("aspect", record.path, record.head, of_aspect, attachment=attachment, aspect=aspect)
+
+    def _put_aspect(self, facts: Facts, render_pass: Pass, attachment: Attachment, aspect: Aspect, instances: list[Instance]) -> None:
+        """Adds what the frame says of an aspect over time."""
+        if aspect.name == "depth" and aspect.store == "STORE" and attachment.samples != 1:
+            facts.put("aspect.fetched", samples_fetched(attachment, aspect, self.search))
+        touch_facts(facts, render_pass, attachment, aspect, instances, self.frame)
+        lifetime_facts(facts, render_pass, attachment, aspect, self.contents)
+        if self.frame.document.metal is not None:
+            from .metal import action_facts
+
+            action_facts(facts, attachment, aspect, self.frame.document.metal)
+
+    def _subpasses(self, render_pass: Pass, shared: Facts, instances: list[Instance], of_subpass: dict[str, Facts]) -> Iterator[Subject]:
+        for subpass in render_pass.subpasses:
+            facts = Facts(shared, subpass_facts(subpass, self.walk, self.device))
+            screen_facts(facts, subpass, instances, self.contents)
+            of_subpass[subpass.path] = facts
+            yield Subject("subpass", subpass.path, subpass.record.head, facts, subpass=subpass)
             for resolve in subpass.resolves:
-                facts = Facts(shared, resolve_facts(resolve, device))
-                results.put(facts, resolve)
-                if lowered is not None:
-                    filter_facts(facts, resolve, lowered)
-                yield Subject("resolve", resolve.path, resolve.record.head, facts, resolve)
-        for record, facts in external_dependencies(each, barriers, frame.has_commands and not frame.commands):
-            yield Subject("dependency", record.path, record.head, Facts(shared, facts), record)
-    for position, resolve in frame.resolve_commands:
-        facts = Facts(around, resolve_facts(resolve, device))
-        command_facts(facts, resolve, position, frame, writers)
-        results.put(facts, resolve)
-        yield Subject("resolve", resolve.path, resolve.record.head, facts, resolve)
-    draws = draws_of(frame) if frame.pipelines else {}
-    without_shading = unshaded(frame)
-    for pipeline, within in frame.pipelines:
-        drawn_in = subpass_of(pipeline, within)
-        base = of_subpass[drawn_in.path] if drawn_in is not None else around
-        facts = pipeline_facts(pipeline, drawn_in, draws.get(pipeline.key, ()), without_shading)
-        shaders.put(facts, pipeline)
-        yield Subject("pipeline", pipeline.path, pipeline.head, Facts(base, facts), (pipeline, drawn_in))
-    yield from shaders.reads(around)
-    yield from choices(document.description, around)
+                of_resolve = Facts(shared, resolve_facts(resolve, self.device))
+                self.resolve_uses.put(of_resolve, resolve)
+                if self.frame.document.metal is not None:
+                    from .metal import filter_facts
 
+                    filter_facts(of_resolve, resolve, self.frame.document.metal)
+                yield Subject("resolve", resolve.path, resolve.record.head, of_resolve, resolve=resolve)
 
-def _image_of(attachment: Attachment, images: dict[int, Facts]) -> Facts:
-    """The facts of an attachment's image; of several that alternate, those on which all agree."""
-    every = [images[id(target.record)] for target in attachment.targets if id(target.record) in images]
-    if len(every) <= 1:
-        return every[0] if every else Facts()
-    common = Facts()
-    for name, value in every[0].values.items():
-        if all(other.values.get(name) == value for other in every[1:]):
-            common.put(name, value, every[0].places.get(name))
-    return common
+    def _dependencies(self, render_pass: Pass, shared: Facts) -> Iterator[Subject]:
+        detached = self.frame.has_commands and not self.frame.commands
+        for record, facts in external_dependencies(render_pass, self._barriers, detached):
+            dependency = record if isinstance(record, SubpassDependency) else None
+            yield Subject("dependency", record.path, record.head, Facts(shared, facts), dependency=dependency)
+
+    @cached_property
+    def _barriers(self) -> Barriers:
+        return recorded_barriers(self.frame)
+
+    def _resolve_commands(self) -> Iterator[Subject]:
+        for position, resolve in self.frame.resolve_commands:
+            facts = Facts(self.shared, resolve_facts(resolve, self.device))
+            command_facts(facts, resolve, position, self.timeline)
+            self.resolve_uses.put(facts, resolve)
+            yield Subject("resolve", resolve.path, resolve.record.head, facts, resolve=resolve)
+
+    def _pipelines(self, of_subpass: dict[str, Facts]) -> Iterator[Subject]:
+        draws = draws_of(self.walk) if self.frame.pipelines else {}
+        without_shading = unshaded(self.frame)
+        for pipeline, render_pass in self.frame.pipelines:
+            subpass = subpass_of(pipeline, render_pass)
+            facts = pipeline_facts(pipeline, subpass, draws.get(pipeline.key, ()), without_shading)
+            self.shaders.put(facts, pipeline)
+            shared = of_subpass[subpass.path] if subpass is not None else self.shared
+            yield Subject("pipeline", pipeline.path, pipeline.head, Facts(shared, facts), pipeline=pipeline, subpass=subpass)
+
+    def _image_of(self, attachment: Attachment) -> Facts:
+        """The facts of an attachment's image; of several that alternate, those on which all agree."""
+        images = self._image_facts
+        every = [images[id(target.record)] for target in attachment.targets if id(target.record) in images]
+        if len(every) <= 1:
+            return every[0] if every else Facts()
+        common = Facts()
+        for name, value in every[0].values.items():
+            if all(other.values.get(name) == value for other in every[1:]):
+                common.put(name, value, every[0].places.get(name))
+        return common

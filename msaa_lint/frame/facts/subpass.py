@@ -9,33 +9,19 @@ from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.vulkan.formats import Format
 
 from .facts import Facts
-from .frame import Attachment, Frame, PassSubpass
+from .frame import Attachment, PassSubpass
 from .global_facts import single_sampled_enabled, single_sampled_offered
-
-Drawn = dict[int, list[Pipeline | None]]
-"""By the position of a vkCmdBeginRendering: the pipelines of the draws in it, None where a draw names none."""
+from .walk import Walk
 
 
-def pipelines_drawn(frame: Frame) -> Drawn:
-    """What the commands draw in each dynamic rendering."""
-    drawn: Drawn = {}
-    within: list[Pipeline | None] = []
-    for position, command in enumerate(frame.commands):
-        if command.kind in ("beginRendering", "beginRenderPass"):
-            within = drawn[position] = []
-        elif isinstance(command.body, Draw):
-            within.append(frame.description.pipelines.get(command.body.pipeline or ""))
-    return drawn
-
-
-def subpass_facts(subpass: PassSubpass, frame: Frame, drawn: Drawn, device: DeviceProfile | None) -> Facts:
+def subpass_facts(subpass: PassSubpass, walk: Walk, device: DeviceProfile | None) -> Facts:
     """What is known of a subpass, or of a dynamic rendering."""
     facts = Facts()
     record = subpass.record
     facts.put("subpass.index", subpass.index, record.head)
     color = [attachment for attachment in subpass.color if attachment is not None]
     # Multisampled rendering to single-sampled attachments gives those private samples of their own.
-    description = frame.description
+    description = walk.frame.description
     private = subpass.single_sampled or single_sampled_enabled(description)
     color_counts, depth_counts = _known_counts(color, private), _known_counts(subpass.depth_stencil, private)
     facts.put("subpass.color_samples", color_counts, record.place("colorAttachments"))
@@ -51,7 +37,7 @@ def subpass_facts(subpass: PassSubpass, frame: Frame, drawn: Drawn, device: Devi
     shared = samples_of(subpass)
     facts.put("subpass.samples", shared, record.place("colorAttachments", "depthStencilAttachment", "depthAttachment", "stencilAttachment"))
     _tile(facts, subpass, device)
-    _pipelines(facts, _own_pipelines(subpass, frame, drawn))
+    _pipelines(facts, _own_pipelines(subpass, walk))
     return facts
 
 
@@ -144,12 +130,13 @@ def _decided(answer: bool, known: bool) -> bool | None:
     return True if answer else False if known else None
 
 
-def _own_pipelines(subpass: PassSubpass, frame: Frame, drawn: Drawn) -> list[Pipeline | None]:
+def _own_pipelines(subpass: PassSubpass, walk: Walk) -> list[Pipeline | None]:
     """The pipelines that draw in it: those made for a subpass, those of the draws in a rendering. None where that is not all of them."""
-    within = subpass.within
+    frame, within = walk.frame, subpass.within
     if isinstance(within.record, BeginRendering):
         elsewhere = any(flag.startswith(("SUSPENDING", "RESUMING", "CONTENTS_SECONDARY")) for flag in within.record.flags)
-        return [] if elsewhere else [pipeline for begun in within.begun for pipeline in drawn.get(begun, [])]
+        draws = (command.body for run in walk.recorded_runs_of(within) for _, command in run.commands) if not elsewhere else ()
+        return [frame.description.pipelines.get(draw.pipeline or "") for draw in draws if isinstance(draw, Draw)]
     if not frame.document.whole:
         return []
     unstated = 0 if len(within.subpasses) == 1 else None

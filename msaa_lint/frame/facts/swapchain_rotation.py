@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from msaa_lint.frame.description.models import BeginRenderPass, Framebuffer, Image
 
+from .commands import accesses
 from .facts import Facts
 from .frame import Frame, Pass, Target
 from .image import Bindings
@@ -84,10 +85,8 @@ class Turns:
                         uses.setdefault(resolve.target_image.name, set()).update(every)
         # Which of a swapchain's images is presented differs from frame to frame.
         for command in (each for each in self.frame.commands if each.kind != "present"):
-            for member in ("image", "srcImage", "dstImage"):
-                name = getattr(command.body, member, None)
-                if isinstance(name, str):
-                    uses.setdefault(name, set()).update(every)
+            for name, _ in accesses(command):
+                uses.setdefault(name, set()).update(every)
         return uses
 
     def _alternating(self, each: Pass) -> list[Framebuffer] | None:

@@ -1,253 +1,331 @@
-"""Who reads what a pass stored: the uses of every image in the order of the frame, the frame being a loop.
+"""What happens to every image of a frame, in order, the frame being a loop.
 
-Where the description records commands, they are the order, and only they read. Where it does not, every pass runs once, in order, and what
-a stated usage allows is taken as done. A pass that the commands never begin is judged by itself.
+Where the description records commands, they are the order. Where it does not, every pass runs once, in order. Who asks what follows or
+precedes an event decides which events matter: see `readers`, `contents` and `resolve_uses`.
 """
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
+from bisect import bisect_left
 from collections.abc import Iterator
+from functools import cached_property
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.models import BeginRendering
+from msaa_lint.frame.description.models import BeginRenderPass, Command, ImageBarrier, PipelineBarrier
 
-from .frame import RENDERING, Aspect, Attachment, Frame, Pass, Resolve, Target
+from .commands import CLEAR, COMMAND_WRITES, RESOLVE_READ, RESOLVE_WRITE, accesses
+from .frame import Attachment, Frame, Pass, Resolve, Target
 from .pass_begin import MAX_USES, covers, one_surface, targets_at, uses_at_most
+from .walk import PassRun, Walk, once_each
 
-READ = "read"
-OVERWRITTEN = "overwritten"
-UNKNOWN = "unknown"
+LOAD = "load"
+BEGIN = "begin"
+"""A load operation that ends what was there: CLEAR or DONT_CARE."""
+RESUME = "resume"
+"""A rendering goes on with what was there."""
+DRAW = "draw"
+INPUT = "input"
+STORE = "store"
+DISCARD = "discard"
+"""What is there ends: a store operation that does not store, a barrier from UNDEFINED."""
+ELSEWHERE = "elsewhere"
+"""A rendering goes on in, or comes from, commands that are not described."""
 
-READING_USAGES = frozenset({"SAMPLED", "STORAGE", "INPUT_ATTACHMENT", "TRANSFER_SRC"})
-_READ_FROM = {
-    "readImage": "image", "present": "image", "resolveImage": "srcImage", "copyImage": "srcImage", "blitImage": "srcImage",
-    "copyImageToBuffer": "srcImage",
-}  # fmt: skip
-_OVERWRITES = {"clearColorImage": "image", "clearDepthStencilImage": "image", "resolveImage": "dstImage"}
-# What these write need not be all of the image, so that it does not end what was there; but who loads next may load what they wrote.
-_WRITES = {**_OVERWRITES, "copyImage": "dstImage", "blitImage": "dstImage", "writeImage": "image"}
+MAX_FRAMES = 12
+"""How many frames are laid out for framebuffers that alternate: what two, three or four together take."""
+
+Frames = tuple[int, frozenset[int]]
+"""Of how many frames, and in which of them."""
+
+SOME_FRAMES: Frames = (0, frozenset())
+"""In some frames, and it is unknown in which."""
 
 
-class Use(NamedTuple):
-    """One use of an image: at which position of the frame, of which aspect (None: of all), and what it does to what was there."""
+class Event(NamedTuple):
+    """One thing that happens to an image.
 
-    position: int
-    aspect: str | None
-    kind: str
-
-
-class Store(NamedTuple):
-    """What was last done to the contents of an image: at which position, to which aspect, and the pass that stored it, with the place.
-
-    `by` is None where something else wrote it, or a pass drew to it and did not store.
+    `kind` is one of this module's, or an effect of `commands`. `aspect` is None where it may be all; `whole` says that it concerns all
+    texels and layers; `certain` is False where what decides whether it happens is not stated. `source` is what does it: an attachment with
+    the `member` that states it, a resolve, a barrier; None for other commands. `frames` are those in which it happens (None: in every one).
     """
 
-    position: int
+    time: int
+    kind: str
     aspect: str | None
-    by: Pass | None
-    at: Span | None
+    whole: bool
+    certain: bool = True
+    source: Attachment | Resolve | ImageBarrier | None = None
+    member: str = ""
+    run: PassRun | None = None
+    command: Command | None = None
+    frames: Frames | None = None
+
+    @property
+    def position(self) -> int:
+        """The position of the command that it belongs to; of what a pass does, of the command at or before it."""
+        return self.time // 2
+
+    @property
+    def place(self) -> Span:
+        """Where it is stated."""
+        if isinstance(self.source, Attachment):
+            return self.source.record.place(self.member)
+        if isinstance(self.source, ImageBarrier):
+            return self.source.place("oldLayout")
+        if self.command is not None:
+            return self.command.head
+        assert self.source is not None
+        return self.source.target_at
+
+    @property
+    def name(self) -> str:
+        """The pass, or the command."""
+        if self.run is not None:
+            return self.run.render_pass.name
+        return self.command.kind if self.command is not None else ""
+
+
+class EventRef(NamedTuple):
+    """A place in the events of an image."""
+
+    image: str
+    number: int
 
 
 class Timeline:
-    """The uses of a frame's images."""
+    """The events of a frame's images. They are laid out when they are first asked for."""
 
-    def __init__(self, frame: Frame) -> None:
+    def __init__(self, frame: Frame, walk: Walk | None = None) -> None:
         self.frame = frame
-        self.uses: dict[str, list[Use]] = {}
-        self.positions: dict[str, list[int]] = {}
-        """Where each pass, by its path, begins."""
-        self.followed: bool
-        """False where there are more uses than are followed: who reads is then unknown."""
-        self._stores: dict[str, list[Store]] = {}
-        self._read: set[tuple[str, str | None]] = set()
-        self._uses_of: dict[tuple[str, str | None], tuple[list[int], list[Use]]] = {}
-        self._stores_of: dict[tuple[str, str | None], tuple[list[int], list[Store]]] = {}
+        self.walk = walk if walk is not None else Walk(frame)
         self.followed = uses_at_most(frame) <= MAX_USES
-        order = self._recorded() if frame.has_commands else self._once_each()
-        for name, use in order if self.followed else ():
-            self.uses.setdefault(name, []).append(use)
-            if use.kind == READ:
-                self._read.add((name, use.aspect))
+        """False where passes use images more often than is followed: nothing is known then."""
+        self.ordered = self.followed and frame.document.ordered
+        """Whether what happens first is known."""
+        self._resolves = dict(frame.resolve_commands)
 
-    def _once_each(self) -> Iterator[tuple[str, Use]]:
-        for position, each in enumerate(self.frame.passes):
-            self.positions[each.path] = [position]
-            self._stored(each, position, None)
-            yield from self._uses(each, position, None)
+    @cached_property
+    def of(self) -> dict[str, list[Event]]:
+        """The events by image, in order. An attachment without an image has those of its path."""
+        found: dict[str, list[Event]] = {}
+        for key, event in self._all() if self.followed else ():
+            found.setdefault(key, []).append(event)
+        for events in found.values():
+            events.sort(key=_time)
+        return found
 
-    def _recorded(self) -> Iterator[tuple[str, Use]]:
-        begins = {position: each for each in self.frame.passes for position in each.begun}
-        for each in self.frame.passes:
-            self.positions[each.path] = each.begun
-            if not each.begun:
-                self._read.update((name, use.aspect) for name, use in self._uses(each, 0, None) if use.kind == READ)
-        for position, command in enumerate(self.frame.commands):
-            if position in begins:
-                self._stored(begins[position], position, position)
-                yield from self._uses(begins[position], position, position)
-            read = getattr(command.body, _READ_FROM.get(command.kind, "-"), None)
-            if isinstance(read, str):
-                yield read, Use(position, None, READ)
-            written = getattr(command.body, _WRITES.get(command.kind, "-"), None)
-            if isinstance(written, str):
-                self._note(written, Store(position, None, None, None))
-                if command.kind in _OVERWRITES and self._whole(written, command.kind):
-                    yield written, Use(position, None, OVERWRITTEN)
+    @cached_property
+    def idle(self) -> dict[str, list[Event]]:
+        """The events of passes that the commands never begin, were they to run."""
+        found: dict[str, list[Event]] = {}
+        never = [each for each in self.frame.passes if not each.begun] if self.frame.has_commands and self.followed else []
+        for run in once_each(never):
+            for key, event in self._run_events(run):
+                found.setdefault(key, []).append(event)
+        return found
 
-    def _whole(self, name: str, command: str) -> bool:
-        """Whether a command that names an image and no part of it is taken to write all of it."""
-        target = self.frame.target(name)
-        if target is None or not one_surface(target.image):
-            return False
-        # Depth and stencil may be cleared apart.
-        return command != "clearDepthStencilImage" or (target.format is not None and len(target.format.aspects) == 1)
+    @cached_property
+    def writes(self) -> bool:
+        """Whether commands outside of passes write to images."""
+        return any(access.effect in COMMAND_WRITES for command in self.frame.commands for _, access in accesses(command))
 
-    def _note(self, name: str, store: Store) -> None:
-        self._stores.setdefault(name, []).append(store)
+    @cached_property
+    def presents(self) -> bool:
+        """Whether the commands go on to where a picture is shown."""
+        return any(command.kind == "present" for command in self.frame.commands)
 
-    def _stored(self, each: Pass, position: int, begin: int | None) -> None:
-        """Notes what a pass leaves in its attachments' images."""
-        for attachment in each.attachments:
-            for aspect in attachment.aspects:
-                stored = aspect.store == "STORE" and attachment.used
-                if stored or attachment.drawn or attachment.resolve:
-                    by, at = (each, attachment.record.place(aspect.store_member)) if stored else (None, None)
-                    for target in targets_at(self.frame, attachment, begin):
-                        self._note(target.name, Store(position, aspect.name, by, at))
-        for resolve in _rendering_resolves(each):
-            if resolve.target_image is not None:
-                self._note(resolve.target_image.name, Store(position, resolve.aspect, each, resolve.target_at))
+    # Who wrote an image last.
 
-    def _uses(self, each: Pass, position: int, begin: int | None) -> Iterator[tuple[str, Use]]:
-        """The uses that a pass makes of its attachments' images, where the command at `begin` begins it."""
-        resumes = "RESUMING" in _flags(each)
-        for attachment in each.attachments:
+    def last_writer(self, image: Target, position: int) -> tuple[int, Pass | None] | None:
+        """What wrote to an image last before a command, round the loop: its position and the pass that draws, None for a command.
+
+        Where the order is unknown: the only pass that draws to the image, before all else.
+        """
+        writers = self._writers.get(image.name, [])
+        return writers[bisect_left(writers, position, key=lambda writer: writer[0]) - 1] if writers else None
+
+    @cached_property
+    def _writers(self) -> dict[str, list[tuple[int, Pass | None]]]:
+        found: dict[str, list[tuple[int, Pass | None]]] = {}
+        for name, events in self.of.items():
+            if not self.frame.document.ordered:
+                passes = {id(e.run.render_pass): e.run.render_pass for e in events if e.kind == DRAW and e.run is not None}
+                if len(passes) == 1:
+                    found[name] = [(-1, render_pass) for render_pass in passes.values()]
+                continue
+            for event in events:
+                if event.kind == DRAW and event.run is not None and event.run.position is not None:
+                    writer: tuple[int, Pass | None] = (event.run.position, event.run.render_pass)
+                elif event.command is not None and event.kind in COMMAND_WRITES:
+                    writer = (event.position, None)
+                else:
+                    continue
+                if not found.get(name) or found[name][-1] != writer:
+                    found.setdefault(name, []).append(writer)
+        return found
+
+    # The events.
+
+    def _all(self) -> Iterator[tuple[str, Event]]:
+        before: PassRun | None = None
+        for run in self.walk.runs:
+            yield from self._seams(before, run, run.begin_time - 1)
+            yield from self._run_events(run)
+            before = run
+        yield from self._seams(before, None, 2 * len(self.frame.commands))
+        for position, command in enumerate(self.frame.commands if self.frame.has_commands else ()):
+            yield from self._command_events(2 * position, command)
+
+    def _seams(self, before: PassRun | None, run: PassRun | None, time: int) -> Iterator[tuple[str, Event]]:
+        """What is not described between two runs: where a rendering suspends and none resumes, or one resumes and none suspended."""
+        suspended = before if before is not None and before.suspends and self.frame.has_commands else None
+        resumes = run is not None and run.resumes and self.frame.has_commands
+        if resumes == (suspended is not None):
+            return
+        unseen = suspended or run
+        assert unseen is not None
+        for attachment in unseen.render_pass.attachments:
+            for target in attachment.targets:
+                for aspect in attachment.aspects:
+                    source = (attachment, aspect.load_member, unseen)
+                    yield key_of(target), Event(time, ELSEWHERE, aspect.name, False, True, *source)
+
+    def _run_events(self, run: PassRun) -> Iterator[tuple[str, Event]]:
+        stores: list[tuple[str, Event]] = []
+        covered: dict[str, bool] = {}
+        for attachment in run.render_pass.attachments:
             if not attachment.used:
                 continue
-            targets = [target for target in targets_at(self.frame, attachment, begin) if target.image is not None]
-            over = {aspect for aspects in attachment.resolve.values() for aspect in aspects}
-            for aspect in attachment.aspects:
-                kind = READ if resumes else _effect(attachment, aspect, over)
-                for target in targets:
-                    # Of images that alternate from frame to frame, each is left as it was in every other frame.
-                    if kind is not None and (kind != OVERWRITTEN or (len(targets) == 1 and covers(self.frame, each, begin, target))):
-                        yield target.name, Use(position, aspect.name, kind)
-        for resolve in _rendering_resolves(each):
-            if resolve.target_image is not None and covers(self.frame, each, begin, resolve.target_image):
-                yield resolve.target_image.name, Use(position, resolve.aspect, OVERWRITTEN)
+            for target, frames in self._images(attachment, run):
+                key = key_of(target)
+                if key not in covered:
+                    covered[key] = covers(self.frame, run.render_pass, run.position, target)
+                whole = covered[key] and frames is not SOME_FRAMES
+                for aspect in attachment.aspects:
+                    begin = (RESUME, True) if run.resumes else _begin(aspect.load)
+                    if begin is not None:
+                        kind, certain = begin
+                        yield (
+                            key,
+                            Event(run.begin_time, kind, aspect.name, whole, certain, attachment, aspect.load_member, run, None, frames),
+                        )
+                    for index in attachment.color | attachment.depth_stencil:
+                        yield key, Event(run.starts[index], DRAW, aspect.name, whole, True, attachment, "", run, None, frames)
+                    end = None if run.suspends else _end(attachment, aspect.load, aspect.store)
+                    if end is not None:
+                        kind, certain = end
+                        event = Event(run.end_time, kind, aspect.name, whole, certain, attachment, aspect.store_member, run, None, frames)
+                        stores.append((key, event))
+                for index in attachment.input:
+                    yield key, Event(run.starts[index], INPUT, None, whole, True, attachment, "", run, None, frames)
+        if not run.suspends:
+            for subpass in run.render_pass.subpasses:
+                for resolve in subpass.resolves:
+                    yield from self._resolve_events(resolve, run)
+        # Store operations come after resolves.
+        yield from stores
 
-    def after(self, target: str, aspect: str | None, position: int) -> str | None:
-        """What first happens to an image after a position, round the loop; None where nothing does.
-
-        Where the order of the passes is not known, what any of them does that spares the contents most.
-        """
-        key = (target, aspect)
-        if key not in self._uses_of:
-            uses = [use for use in self.uses.get(target, []) if _same(use.aspect, aspect)]
-            self._uses_of[key] = ([use.position for use in uses], uses)
-        positions, uses = self._uses_of[key]
-        if uses and not self.frame.document.ordered:
-            kinds = {use.kind for use in uses}
-            return READ if READ in kinds else UNKNOWN if UNKNOWN in kinds else OVERWRITTEN
-        return uses[bisect_right(positions, position) % len(uses)].kind if uses else None
-
-    def stored_before(self, each: Pass, attachment: Attachment, aspect: Aspect) -> Store | None:
-        """Which pass stored what an attachment loads, round the loop; None where none did, or where that differs from time to time."""
-        positions = self.positions.get(each.path, [])
-        if aspect.load != "LOAD" or len(positions) != 1 or attachment.target is None or "RESUMING" in _flags(each):
-            return None
-        key = (attachment.target.name, aspect.name)
-        if key not in self._stores_of:
-            stores = [store for store in self._stores.get(key[0], []) if _same(store.aspect, aspect.name)]
-            self._stores_of[key] = ([store.position for store in stores], stores)
-        before, stores = self._stores_of[key]
-        last = stores[bisect_left(before, positions[0]) - 1] if stores else None
-        return last if last is not None and last.by is not None else None
-
-    def read_later(self, each: Pass, attachment: Attachment, aspect: Aspect) -> bool | None:
-        """Whether anything reads what the pass stored of an aspect; None where the description does not say."""
-        if attachment.input or "SUSPENDING" in _flags(each):
-            # What a suspended rendering draws is stored by the one that resumes and ends it.
-            return True
-        if not self.followed:
-            return None
-        answers = set(self._answers(each, attachment, aspect))
-        if not answers or True in answers:
-            return True if answers else None
-        return None if None in answers else False
-
-    def _answers(self, each: Pass, attachment: Attachment, aspect: Aspect) -> Iterator[bool | None]:
-        if self.frame.has_commands and not each.begun:
-            for target in attachment.targets:
-                yield True if aspect.load == "LOAD" else self._read_as_stated(target, aspect)
+    def _resolve_events(self, resolve: Resolve, run: PassRun) -> Iterator[tuple[str, Event]]:
+        if resolve.mode == "NONE":
             return
-        for position in self.positions.get(each.path, []):
-            begin = position if self.frame.has_commands else None
-            for target in targets_at(self.frame, attachment, begin):
-                if target.image is None:
-                    # Nothing else of the description can name it: only its own load in the next frame shows.
-                    yield True if aspect.load == "LOAD" or self._may_be_loaded(aspect) else None
-                    continue
-                follows = self.after(target.name, aspect.name, position)
-                if follows == READ:
-                    yield True
-                elif follows == UNKNOWN:
-                    yield None
-                elif begin is not None:
-                    yield False
-                else:
-                    yield True if target.image.presentable else _usage_reads(target)
+        time = run.ends[resolve.subpass]
+        ends = ((RESOLVE_READ, resolve.source, resolve.source_image), (RESOLVE_WRITE, resolve.target, resolve.target_image))
+        for kind, attachment, image in ends:
+            images = self._images(attachment, run) if attachment is not None else [(image, None)] if image is not None else []
+            for target, frames in images:
+                whole = frames is not SOME_FRAMES and covers(self.frame, run.render_pass, run.position, target)
+                yield (
+                    key_of(target),
+                    Event(time, kind, resolve.aspect, whole, resolve.mode is not None, resolve, "", run, None, frames),
+                )
 
-    def _may_be_loaded(self, aspect: Aspect) -> bool:
-        """Where the order is not known: whether some pass loads the aspect of a multisampled image that is not known either."""
-        if self.frame.document.ordered:
-            return False
-        return any(
-            a.samples != 1 and any(each.load == "LOAD" and _same(each.name, aspect.name) for each in a.aspects)
-            for within in self.frame.passes
-            for a in within.attachments
-            if a.target is not None and a.target.image is None and a.used
-        )
+    def _images(self, attachment: Attachment, run: PassRun) -> list[tuple[Target, Frames | None]]:
+        """The images of an attachment in a run, each with the frames in which it is the attachment's."""
+        targets = targets_at(self.frame, attachment, run.position)
+        if len(targets) <= 1:
+            return [(target, None) for target in targets]
+        body = self.frame.commands[run.position].body if run.position is not None else None
+        names = body.framebuffer if isinstance(body, BeginRenderPass) else None
+        frames: dict[str, set[int]] = {}
+        if isinstance(names, tuple) and len(names) <= MAX_FRAMES:
+            for number, name in enumerate(names):
+                framebuffer = self.frame.description.framebuffers.get(name)
+                images = framebuffer.attachments if framebuffer is not None else ()
+                image = images[attachment.index] if attachment.index < len(images) else None
+                if image is not None:
+                    frames.setdefault(image, set()).add(number)
+        count = len(names) if isinstance(names, tuple) else 0
+        return [(t, (count, frozenset(frames[t.name])) if t.name in frames else SOME_FRAMES) for t in targets]
 
-    def _read_as_stated(self, target: Target, aspect: Aspect) -> bool | None:
-        """Whether what a pass that is never begun stores has a reader: its usage allows one, or something that is described reads."""
-        if target.image is None:
-            return None
-        aspects = (None, aspect.name) if aspect.name is not None else (None, "color", "depth", "stencil")
-        return True if any((target.name, name) in self._read for name in aspects) else _usage_reads(target)
+    def _command_events(self, time: int, command: Command) -> Iterator[tuple[str, Event]]:
+        resolve = self._resolves.get(time // 2)
+        read: Target | None = None
+        for name, access in accesses(command):
+            target = self.frame.target(name)
+            if target is None:
+                continue
+            whole = False
+            if access.effect == RESOLVE_READ:
+                whole = one_surface(target.image)
+            elif access.effect in (CLEAR, RESOLVE_WRITE):
+                whole = self._writes_all(command, target) and not _sizes_differ(read, target)
+            read = target
+            yield name, Event(time, access.effect, None, whole, True, resolve, "", None, command)
+        body = command.body
+        for barrier in body.images if isinstance(body, PipelineBarrier) else ():
+            target = self.frame.target(barrier.image) if isinstance(barrier, ImageBarrier) and barrier.oldLayout == "UNDEFINED" else None
+            if target is not None and isinstance(barrier, ImageBarrier):
+                yield target.name, Event(time, DISCARD, None, one_surface(target.image), plain(target), barrier, "", None, command)
 
-
-def _same(one: str | None, other: str | None) -> bool:
-    """Whether two aspects are one, or may be: None is all, or an unknown one."""
-    return one is None or other is None or one == other
-
-
-def _flags(each: Pass) -> tuple[str, ...]:
-    return each.record.flags if isinstance(each.record, BeginRendering) else ()
-
-
-def _rendering_resolves(each: Pass) -> list[Resolve]:
-    """The resolves at the end of a rendering; one that is suspended has not ended."""
-    if each.kind != RENDERING or "SUSPENDING" in _flags(each):
-        return []
-    return [resolve for resolve in each.subpasses[0].resolves if resolve.mode not in (None, "NONE")]
-
-
-def _effect(attachment: Attachment, aspect: Aspect, over: set[str]) -> str | None:
-    """What a pass does to what was in an aspect of an image; None where nothing, or nothing that is known to matter."""
-    if aspect.load == "LOAD":
-        return READ
-    if aspect.load in ("CLEAR", "DONT_CARE") or aspect.name in over:
-        return OVERWRITTEN
-    if aspect.load is None:
-        return UNKNOWN if attachment.drawn or attachment.resolve else READ
-    return None
+    @staticmethod
+    def _writes_all(command: Command, target: Target) -> bool:
+        """Whether a clear or a resolve by command, which names no part of an image, writes all of it."""
+        if command.kind == "clearDepthStencilImage":
+            # Depth and stencil may be cleared apart.
+            return plain(target)
+        return one_surface(target.image)
 
 
-def _usage_reads(target: Target) -> bool | None:
-    """What the usage alone says of readers."""
-    if target.image is None or target.image.usage is None:
-        return None
-    return not READING_USAGES.isdisjoint(target.image.usage)
+def key_of(target: Target) -> str:
+    """What events are kept by: the name of an image, the path of an attachment that names none."""
+    return target.name if target.image is not None else target.path
+
+
+def plain(target: Target | None) -> bool:
+    """Whether a command that names an image and no part of it means all of it: one level, layer and aspect."""
+    if target is None or not one_surface(target.image):
+        return False
+    return target.format is not None and len(target.format.aspects) == 1
+
+
+def _sizes_differ(source: Target | None, target: Target) -> bool:
+    """Whether an image is known to differ in size from the one that is written from it."""
+    images = [each.image for each in (source, target) if each is not None]
+    extents = [image.extent for image in images if image is not None and image.extent is not None]
+    return len(extents) == 2 and (extents[0].width, extents[0].height) != (extents[1].width, extents[1].height)
+
+
+def _time(event: Event) -> int:
+    return event.time
+
+
+def _begin(load: str | None) -> tuple[str, bool] | None:
+    """What a load operation does to what was there, and whether that is certain; None where it does nothing."""
+    if load is None:
+        return LOAD, False
+    return {"LOAD": (LOAD, True), "CLEAR": (BEGIN, True), "DONT_CARE": (BEGIN, True)}.get(load)
+
+
+def _end(attachment: Attachment, load: str | None, store: str | None) -> tuple[str, bool] | None:
+    """What a store operation leaves, and whether that is certain; None where it leaves what was in memory, and nothing wrote to it."""
+    if store == "STORE":
+        return STORE, True
+    if store == "DONT_CARE":
+        return DISCARD, True
+    if store is None:
+        return STORE, False
+    # NONE keeps what was in memory: of what the pass overwrote as it began, nothing is left.
+    if load in ("CLEAR", "DONT_CARE"):
+        return DISCARD, True
+    return (STORE, False) if attachment.drawn or attachment.resolve else None

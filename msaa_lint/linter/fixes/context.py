@@ -8,10 +8,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import Document, Lowered
 from msaa_lint.frame.description.models import ClearAttachments, Framebuffer, Metal, PipelineBarrier, SubpassDependency
 from msaa_lint.frame.facts.frame import Attachment, Frame, Pass, Resolve
-from msaa_lint.frame.facts.image import Bindings
-from msaa_lint.frame.facts.resolve import Writers, writers_of
-from msaa_lint.frame.facts.resolve_uses import Results
-from msaa_lint.frame.facts.timeline import Timeline
+from msaa_lint.frame.facts.subjects import FrameAnalysis
 
 from .changes import Change
 from .image_references import CommandUses, ImageReferences, MetalTextureReferences
@@ -30,20 +27,8 @@ class FixContext:
         return Frame(self.document)
 
     @cached_property
-    def bindings(self) -> Bindings:
-        return Bindings(self.frame)
-
-    @cached_property
-    def timeline(self) -> Timeline:
-        return Timeline(self.frame)
-
-    @cached_property
-    def writers(self) -> Writers:
-        return writers_of(self.frame)
-
-    @cached_property
-    def results(self) -> Results:
-        return Results(self.frame, self.timeline)
+    def analysis(self) -> FrameAnalysis:
+        return FrameAnalysis(self.frame)
 
     @cached_property
     def uses(self) -> CommandUses:

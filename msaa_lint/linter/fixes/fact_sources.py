@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
-from msaa_lint.frame.description.models import BeginRenderPass, SubpassDependency
+from msaa_lint.frame.description.models import BeginRenderPass
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.facts import Subject
-from msaa_lint.frame.facts.frame import RENDERING, Pass, Resolve
+from msaa_lint.frame.facts.frame import RENDERING, Resolve
 
 from .changes import NoFix
 from .context import FixContext
@@ -32,7 +32,7 @@ def _samples(subject: Subject, context: FixContext) -> list[Source]:
     """The sample counts of an image and of the attachments that it is bound to, where they are stated."""
     sources: list[Source] = []
     for target in images_of(subject):
-        bound = context.bindings.attachments.get(id(target.record), ())
+        bound = context.analysis.bindings.attachments.get(id(target.record), ())
         records = [target.record, *(attachment.record for attachment in bound)]
         sources += [(record, "samples") for record in records if record.states("samples")]
     if not sources:
@@ -87,14 +87,14 @@ def _first_blend(subject: Subject, _: FixContext) -> list[Source]:
 
 
 def _dependency_member(member: str, subject: Subject, _: FixContext) -> list[Source]:
-    if not isinstance(subject.of, SubpassDependency):
+    if subject.dependency is None:
         raise NoFix("the description does not state the dependency")
-    return [(subject.of, member)]
+    return [(subject.dependency, member)]
 
 
 def _clear_values(subject: Subject, context: FixContext) -> list[Source]:
     """The clear value counts of the commands that begin a render pass."""
-    begun = context.frame.render_pass(subject.of.name) if isinstance(subject.of, Pass) else None
+    begun = context.frame.render_pass(subject.render_pass.name) if subject.render_pass is not None else None
     bodies = [context.frame.commands[position].body for position in begun.begun] if begun is not None else []
     sources: list[Source] = [
         (body, "clearValueCount") for body in bodies if isinstance(body, BeginRenderPass) and body.clearValueCount is not None

@@ -6,51 +6,14 @@ from bisect import bisect_left, bisect_right
 from collections import Counter
 from collections.abc import Iterable, Iterator
 
-from msaa_lint.frame.description.models import Command, ImageBarrier, Metal, MetalCopy
+from msaa_lint.frame.description.models import Command, Metal, MetalCopy
 from msaa_lint.frame.description.record import Record
+from msaa_lint.frame.facts.commands import accesses, naming_records
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.pass_begin import MAX_USES, targets_at, uses_at_most
 
-_TRANSFER_WRITE = {"dstImage": "TRANSFER_DST"}
-_TRANSFER_READ = {"srcImage": "TRANSFER_SRC"}
-_NEEDED_USAGES = {
-    "resolveImage": _TRANSFER_READ | _TRANSFER_WRITE,
-    "copyImage": _TRANSFER_READ | _TRANSFER_WRITE,
-    "blitImage": _TRANSFER_READ | _TRANSFER_WRITE,
-    "copyImageToBuffer": _TRANSFER_READ,
-    "copyBufferToImage": _TRANSFER_WRITE,
-    "clearColorImage": {"image": "TRANSFER_DST"},
-    "clearDepthStencilImage": {"image": "TRANSFER_DST"},
-    "readImage": {"image": "SAMPLED"},
-    "writeImage": {"image": "STORAGE"},
-}
-
 COMMAND_USAGES = frozenset({"TRANSFER_SRC", "TRANSFER_DST", "SAMPLED", "STORAGE"})
 """The usages whose need can be seen from the commands alone."""
-
-_IMAGE_MEMBERS = ("image", "srcImage", "dstImage", "resolveImage")
-
-
-def command_images(command: Command) -> Iterator[tuple[Record, str]]:
-    """The image names in a command, each with the record that states it: the command's own, an attachment's or a barrier's."""
-    body = command.body
-    if not isinstance(body, Record):
-        return
-    attachments = (*getattr(body, "colorAttachments", ()), getattr(body, "depthAttachment", None), getattr(body, "stencilAttachment", None))
-    yield from _named_images((body, *attachments))
-    for image in getattr(body, "images", ()):
-        if isinstance(image, ImageBarrier):
-            yield from _named_images((image,))
-        elif isinstance(image, str):
-            yield body, image
-
-
-def _named_images(records: Iterable[Record | None]) -> Iterator[tuple[Record, str]]:
-    for record in records:
-        for member in _IMAGE_MEMBERS:
-            name = getattr(record, member, None)
-            if record is not None and isinstance(name, str):
-                yield record, name
 
 
 class ImageReferences:
@@ -60,10 +23,11 @@ class ImageReferences:
         self._records: dict[str, list[Record]] = {}
         description = frame.description
         for render_pass in description.renderPasses.values():
-            for record, name in _named_images(render_pass.attachments):
-                self._add(name, record)
+            for attachment in render_pass.attachments:
+                if attachment.image is not None:
+                    self._add(attachment.image, attachment)
         for command in frame.commands:
-            for record, name in command_images(command):
+            for record, name in naming_records(command):
                 self._add(name, record)
         for framebuffer in description.framebuffers.values():
             for image in framebuffer.attachments:
@@ -97,7 +61,7 @@ class CommandUses:
         begins = {position: begun for begun in frame.passes for position in begun.begun}
         for position, command in enumerate(frame.commands if self.complete else ()):
             self.positions[id(command.body)] = position
-            names = {name for _, name in command_images(command)}
+            names = {name for _, name in naming_records(command)}
             if command.kind == "pipelineBarrier":
                 self.in_barriers |= names
             if position in begins:
@@ -129,12 +93,7 @@ class CommandUses:
 
 
 def _needed_usages(command: Command) -> Iterator[tuple[str, str]]:
-    for member, usage in _NEEDED_USAGES.get(command.kind, {}).items():
-        name = getattr(command.body, member, None)
-        if isinstance(name, str):
-            yield name, usage
-            if command.kind == "readImage":
-                yield name, "STORAGE"
+    return ((name, usage) for name, access in accesses(command) for usage in access.usages)
 
 
 class MetalTextureReferences:

@@ -7,7 +7,7 @@ from functools import partial
 from msaa_lint.frame.description.models import MetalTexture
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.facts import Subject
-from msaa_lint.frame.facts.frame import Aspect, Attachment, Resolve
+from msaa_lint.frame.facts.frame import Aspect, Attachment
 from msaa_lint.frame.facts.metal import stated_for
 from msaa_lint.frame.metal.names import KEEPING, MULTISAMPLE_RESOLVES
 
@@ -41,8 +41,8 @@ def _attachment_member(members: tuple[str, ...], subject: Subject, context: FixC
 
 def _attachment_record(subject: Subject, context: FixContext) -> Record:
     """The record of an aspect, or of the source of a resolve."""
-    if isinstance(subject.of, Resolve):
-        source, aspect_name = subject.of.source, subject.of.aspect
+    if subject.resolve is not None:
+        source, aspect_name = subject.resolve.source, subject.resolve.aspect
         record = stated_for(source, aspect_name, context.lowered) if source is not None else None
     else:
         attachment, aspect = aspect_of(subject)

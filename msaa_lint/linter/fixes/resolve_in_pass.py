@@ -7,14 +7,12 @@ uses in between, barriers, several framebuffers, unknown sizes or formats.
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from typing import NamedTuple
 
 from msaa_lint.frame.description.models import Command, Image, ReadImage, RenderPass, Subpass
 from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.frame import RENDERING, Attachment, Pass, Target
 from msaa_lint.frame.facts.pass_begin import targets_at
-from msaa_lint.frame.facts.timeline import READ
 
 from .changes import Change, NoFix
 from .context import FixContext
@@ -98,10 +96,8 @@ def resolve_before_read(subject: Subject, context: FixContext) -> list[Change]:
 def _drawn_samples(source: Target, position: int, context: FixContext) -> DrawnSamples:
     """The last pass before a position that draws to an image, as a plain color attachment."""
     frame = context.frame
-    writers = context.writers.get(source.name, [])
-    last = bisect_left(writers, position, key=lambda writer: writer[0]) - 1
-    begin, rendered = writers[last] if last >= 0 else (0, None)
-    if rendered is None or len(rendered.begun) != 1 or rendered.custom_resolve or _suspends(rendered):
+    begin, rendered = context.analysis.timeline.last_writer(source, position) or (0, None)
+    if rendered is None or begin >= position or len(rendered.begun) != 1 or rendered.custom_resolve or _suspends(rendered):
         raise NoFix("the pass that draws the image does not run exactly once, right before the command")
     if len(rendered.attachments) > MAX_ATTACHMENTS:
         raise NoFix(f"the pass has more than {MAX_ATTACHMENTS} attachments")
@@ -143,8 +139,8 @@ def _color_resolve(drawn: DrawnSamples, name: str, mode: str, final_layout: str 
 
 def _has_other_readers(drawn: DrawnSamples, context: FixContext) -> bool:
     """Whether something besides the command reads the samples, or may."""
-    uses = context.timeline.uses.get(drawn.image.key, [])
-    return not context.timeline.followed or any(use.kind == READ and use.position != drawn.position for use in uses)
+    readers = context.analysis.readers
+    return not readers.timeline.followed or any(event.position != drawn.position for event in readers.reads(drawn.image.key))
 
 
 def _without_reader(drawn: DrawnSamples, read_layout: str, subject: Subject, context: FixContext) -> list[Change]:

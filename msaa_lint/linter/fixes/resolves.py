@@ -51,7 +51,7 @@ def drop_resolve(subject: Subject, context: FixContext) -> list[Change]:
 def _is_unread(resolve: Resolve, context: FixContext) -> bool:
     # The finding's subject belongs to another instance of the frame than the results.
     own = context.resolves.get((id(resolve.record), resolve.aspect))
-    return own is not None and context.results.is_read(own) is False
+    return own is not None and context.analysis.resolve_uses.is_read(own) is False
 
 
 def _drop_one_aspect(resolve: Resolve) -> list[Change]:

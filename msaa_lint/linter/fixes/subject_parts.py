@@ -11,7 +11,7 @@ from .changes import NoFix
 
 def described_image(subject: Subject) -> Image:
     """The record of an image that the description declares."""
-    image = subject.of.image if isinstance(subject.of, Target) else None
+    image = subject.image.image if subject.image is not None else None
     if image is None:
         raise NoFix("the description does not declare the image")
     return image
@@ -19,50 +19,44 @@ def described_image(subject: Subject) -> Image:
 
 def attachment_of(subject: Subject) -> Attachment:
     """The attachment of an attachment or of one of its aspects."""
-    part = subject.of[0] if isinstance(subject.of, tuple) and subject.of else subject.of
-    if not isinstance(part, Attachment):
+    if subject.attachment is None:
         raise NoFix("the finding is not about an attachment")
-    return part
+    return subject.attachment
 
 
 def aspect_of(subject: Subject) -> tuple[Attachment, Aspect]:
     """An aspect and its attachment."""
-    if isinstance(subject.of, tuple):
-        attachment, aspect = subject.of
-        if isinstance(attachment, Attachment) and isinstance(aspect, Aspect):
-            return attachment, aspect
-    raise NoFix("the finding is not about an aspect of an attachment")
+    if subject.attachment is None or subject.aspect is None:
+        raise NoFix("the finding is not about an aspect of an attachment")
+    return subject.attachment, subject.aspect
 
 
 def images_of(subject: Subject) -> list[Target]:
     """The images of an image, attachment or aspect: several if framebuffers alternate between them."""
-    if isinstance(subject.of, Target):
-        return [subject.of]
+    if subject.image is not None:
+        return [subject.image]
     return list({id(target.record): target for target in attachment_of(subject).targets}.values())
 
 
 def resolve_of(subject: Subject) -> Resolve:
     """The resolve that the subject is."""
-    if not isinstance(subject.of, Resolve):
+    if subject.resolve is None:
         raise NoFix("the finding is not about a resolve")
-    return subject.of
+    return subject.resolve
 
 
 def pipeline_of(subject: Subject) -> Pipeline:
     """The pipeline that the subject is."""
-    pipeline = subject.of[0] if isinstance(subject.of, tuple) else None
-    if not isinstance(pipeline, Pipeline):
+    if subject.pipeline is None:
         raise NoFix("the finding is not about a pipeline")
-    return pipeline
+    return subject.pipeline
 
 
 def read_of(subject: Subject) -> tuple[int, str]:
     """The position of a command that reads an image, and the image's name."""
-    if isinstance(subject.of, tuple):
-        position, target = subject.of
-        if isinstance(position, int) and isinstance(target, Target):
-            return position, target.name
-    raise NoFix("the finding is not about a command that reads an image")
+    if subject.position is None or subject.image is None:
+        raise NoFix("the finding is not about a command that reads an image")
+    return subject.position, subject.image.name
 
 
 def copied_images(subject: Subject) -> tuple[str, str]:

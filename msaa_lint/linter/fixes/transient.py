@@ -72,7 +72,7 @@ def dropped_stores(image: Image, context: FixContext, store_change: StoreChange)
             change = store_change(attachment, aspect)
             if change is None:
                 continue
-            if context.timeline.read_later(rendered, attachment, aspect) is not False:
+            if context.analysis.readers.read_later(rendered, attachment, aspect) is not False:
                 raise NoFix(f"something may read what `{rendered.name}` stores in {attachment.title}")
             changes.append(change)
     return changes

@@ -18,7 +18,7 @@ from msaa_lint.frame.devices.msaa_features import EXTENSIONS
 from msaa_lint.frame.devices.offer import Offer, builtin_offer
 from msaa_lint.frame.devices.paths import is_path, split
 from msaa_lint.frame.devices.reports import MAX_BYTES, read
-from msaa_lint.frame.facts.global_facts import surroundings
+from msaa_lint.frame.facts.global_facts import global_facts
 from msaa_lint.frame.facts.table import WORDS
 from msaa_lint.frame.profiles import Problem, device_for, device_of, profile_of
 from msaa_lint.input.readers import read as read_document
@@ -164,7 +164,7 @@ def facts_of(text: str, folder: Path) -> dict[str, object]:
     stated = description(text + "images: {}\n")
     device = device_for(stated, str(folder / "a.msaa.yaml"), None)
     assert isinstance(device, DeviceProfile)
-    return surroundings(stated, device).values | {"profile": device._replace(source="", name="", features=None, extensions=None)}
+    return global_facts(stated, device).values | {"profile": device._replace(source="", name="", features=None, extensions=None)}
 
 
 @pytest.mark.parametrize("name", names())

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.core.finding import Finding
-from msaa_lint.frame.facts.events import MAX_STEPS
+from msaa_lint.frame.facts.event_search import MAX_STEPS
 from msaa_lint.linter.fixes.fixer import fix_text
 from msaa_lint.linter.results import FileResult
 from tests.linter.lifetimes import watched as given_frames

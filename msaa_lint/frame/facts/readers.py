@@ -1,0 +1,179 @@
+"""Who reads what a pass stored: by the frame's timeline where it has commands, else as stated usages allow.
+
+Where the description records commands, only they read. Where it does not, what a stated usage allows is taken as done. A pass that the
+commands never begin is judged by itself.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterator
+from functools import cached_property
+from typing import NamedTuple
+
+from msaa_lint.core.text.span import Span
+
+from .commands import CLEAR, COMMAND_READS, COMMAND_WRITES, RESOLVE_WRITE
+from .frame import RENDERING, Aspect, Attachment, Frame, Pass, Resolve, Target
+from .pass_begin import targets_at
+from .timeline import BEGIN, DISCARD, ELSEWHERE, LOAD, RESUME, STORE, Event, Timeline, key_of
+from .walk import PassRun, flags_of
+
+READS = "reads"
+OVERWRITES = "overwrites"
+MAY_READ = "may read"
+
+READING_USAGES = frozenset({"SAMPLED", "STORAGE", "INPUT_ATTACHMENT", "TRANSFER_SRC"})
+
+
+class Store(NamedTuple):
+    """The pass that stored the contents of an image last, and where that is stated."""
+
+    render_pass: Pass
+    place: Span
+
+
+class Readers:
+    """What reads the images of a frame."""
+
+    def __init__(self, timeline: Timeline) -> None:
+        self.timeline = timeline
+        self.frame: Frame = timeline.frame
+        self._uses_of: dict[tuple[str, str | None], list[tuple[Event, str]]] = {}
+
+    def uses(self, image: str, aspect: str | None = None) -> list[tuple[Event, str]]:
+        """The events that read an aspect of an image, end what was there, or may do either, in order; None: of any aspect."""
+        key = (image, aspect)
+        if key not in self._uses_of:
+            events = (event for event in self.timeline.of.get(image, ()) if same_aspect(event.aspect, aspect))
+            self._uses_of[key] = [(event, effect) for event in events if (effect := _effect(event)) is not None]
+        return self._uses_of[key]
+
+    def reads(self, image: str) -> list[Event]:
+        """The events that read an image."""
+        return [event for event, effect in self.uses(image) if effect == READS]
+
+    def read_later(self, render_pass: Pass, attachment: Attachment, aspect: Aspect) -> bool | None:
+        """Whether anything reads what a pass stored of an aspect; None where the description does not say."""
+        runs = self.timeline.walk.runs_of(render_pass)
+        if attachment.input or "SUSPENDING" in flags_of(render_pass):
+            # What a suspended rendering draws is stored by the one that resumes and ends it.
+            return True
+        if not self.timeline.followed:
+            return None
+        answers = set(self._answers(render_pass, runs, attachment, aspect))
+        if not answers or True in answers:
+            return True if answers else None
+        return None if None in answers else False
+
+    def _answers(self, render_pass: Pass, runs: list[PassRun], attachment: Attachment, aspect: Aspect) -> Iterator[bool | None]:
+        if self.frame.has_commands and not render_pass.begun:
+            for target in attachment.targets:
+                yield True if aspect.load == "LOAD" else self._read_as_stated(target, aspect)
+            return
+        for run in runs:
+            for target in targets_at(self.frame, attachment, run.position):
+                if target.image is None:
+                    # Nothing else of the description can name it: only its own load in the next frame shows.
+                    yield True if aspect.load == "LOAD" or self._may_be_loaded(aspect) else None
+                    continue
+                follows = self._next_use(target.name, aspect.name, run)
+                if follows == READS:
+                    yield True
+                elif follows == MAY_READ:
+                    yield None
+                elif run.position is not None:
+                    yield False
+                else:
+                    yield True if target.image.presentable else _usage_reads(target)
+
+    def _next_use(self, image: str, aspect: str | None, run: PassRun) -> str | None:
+        """What first happens to what a run stored, round the loop; None where nothing does.
+
+        Where the order of the passes is not known, what any of them does that spares the contents most.
+        """
+        uses = self.uses(image, aspect)
+        if not self.frame.document.ordered:
+            effects = {effect for _, effect in uses}
+            return next((effect for effect in (READS, MAY_READ, OVERWRITES) if effect in effects), None)
+        first = bisect_right(uses, run.begin_time, key=lambda use: use[0].time)
+        later = (effect for event, effect in uses[first:] if event.run is not run)
+        return next(later, uses[0][1] if uses else None)
+
+    def _may_be_loaded(self, aspect: Aspect) -> bool:
+        """Where the order is not known: whether some pass loads the aspect of a multisampled image that is not known either."""
+        if self.frame.document.ordered:
+            return False
+        return any(
+            attachment.samples != 1 and any(each.load == "LOAD" and same_aspect(each.name, aspect.name) for each in attachment.aspects)
+            for render_pass in self.frame.passes
+            for attachment in render_pass.attachments
+            if attachment.target is not None and attachment.target.image is None and attachment.used
+        )
+
+    def _read_as_stated(self, target: Target, aspect: Aspect) -> bool | None:
+        """Whether what a pass that is never begun stores has a reader: its usage allows one, or something that is described reads."""
+        if target.image is None:
+            return None
+        idle = (event for event in self.timeline.idle.get(target.name, ()) if same_aspect(event.aspect, aspect.name))
+        read = any(effect == READS for _, effect in self.uses(target.name, aspect.name)) or any(_effect(event) == READS for event in idle)
+        return True if read else _usage_reads(target)
+
+    @cached_property
+    def _stores(self) -> dict[str, list[Event]]:
+        return {key: [event for event in events if _leaves_contents(event)] for key, events in self.timeline.of.items()}
+
+    def stored_before(self, render_pass: Pass, attachment: Attachment, aspect: Aspect) -> Store | None:
+        """Which pass stored what an attachment loads, round the loop; None where none did, or where that differs from time to time."""
+        runs = self.timeline.walk.runs_of(render_pass)
+        if aspect.load != "LOAD" or len(runs) != 1 or attachment.target is None or runs[0].resumes:
+            return None
+        stores = [event for event in self._stores.get(key_of(attachment.target), ()) if same_aspect(event.aspect, aspect.name)]
+        before = [event for event in stores if event.time < runs[0].begin_time]
+        last = (before or stores)[-1] if stores else None
+        if last is None or last.run is None or last.kind not in (STORE, RESOLVE_WRITE) or not last.certain:
+            return None
+        return Store(last.run.render_pass, last.place)
+
+
+def same_aspect(one: str | None, other: str | None) -> bool:
+    """Whether two aspects are one, or may be: None is all, or an unknown one."""
+    return one is None or other is None or one == other
+
+
+def _effect(event: Event) -> str | None:
+    """What an event does to what was there; None where nothing, or nothing that is known to matter."""
+    if event.kind in (LOAD, BEGIN, RESUME):
+        return _load_effect(event)
+    if event.kind == RESOLVE_WRITE or event.kind == CLEAR:
+        return OVERWRITES if event.certain and event.whole and event.frames is None else None
+    return READS if event.kind in COMMAND_READS and event.command is not None else None
+
+
+def _load_effect(event: Event) -> str | None:
+    attachment = event.source
+    assert isinstance(attachment, Attachment)
+    if event.kind == RESUME or (event.kind == LOAD and event.certain):
+        return READS
+    # Of images that alternate from frame to frame, each is left as it was in every other frame.
+    overwrites = OVERWRITES if event.whole and event.frames is None else None
+    if event.kind == BEGIN or any(event.aspect in aspects for aspects in attachment.resolve.values()):
+        return overwrites
+    return MAY_READ if attachment.drawn or attachment.resolve else READS
+
+
+def _leaves_contents(event: Event) -> bool:
+    """Whether an event decides what a later load finds."""
+    if event.command is not None:
+        return event.kind in COMMAND_WRITES or event.kind == DISCARD
+    if isinstance(event.source, Resolve):
+        # In a render pass the target's store operation decides.
+        return event.kind == RESOLVE_WRITE and event.source.kind == RENDERING
+    return event.kind in (STORE, DISCARD, ELSEWHERE)
+
+
+def _usage_reads(target: Target) -> bool | None:
+    """What the usage alone says of readers."""
+    if target.image is None or target.image.usage is None:
+        return None
+    return not READING_USAGES.isdisjoint(target.image.usage)
