@@ -143,7 +143,7 @@ def test_read_only_file_is_reported_and_others_are_fixed(folder: Path) -> None:
     (folder / "frame.msaa.yaml").chmod(0o444)
     done = run(folder, "check", ".", "--fix")
     assert done.returncode == 2
-    assert "the fixed text cannot be written: the file is read-only" in done.stdout
+    assert "cannot write the fixed text: the file is read-only" in done.stdout
     assert (text(folder), text(folder, "other.msaa.yaml")) == (STORED, FIXED)
     assert "frame.msaa.yaml:7:" in done.stdout
     assert done.stderr.startswith("msaa-lint: 3 fixed, 3 remaining")
