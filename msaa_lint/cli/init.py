@@ -51,16 +51,35 @@ DESCRIPTION = """\
 frame: {width: 1920, height: 1080, fps: 60}
 
 images:
-  color_ms: {format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT, TRANSIENT_ATTACHMENT], memory: [DEVICE_LOCAL, LAZILY_ALLOCATED]}
-  backbuffer: {format: R8G8B8A8_UNORM, samples: 1, usage: [COLOR_ATTACHMENT], presentable: true}
+  color_ms:
+    format: R8G8B8A8_UNORM
+    samples: 4
+    usage: [COLOR_ATTACHMENT, TRANSIENT_ATTACHMENT]
+    memory: [DEVICE_LOCAL, LAZILY_ALLOCATED]
+  backbuffer:
+    format: R8G8B8A8_UNORM
+    samples: 1
+    usage: [COLOR_ATTACHMENT]
+    presentable: true
 
 renderPasses:
   main:
     attachments:
-      color: {image: color_ms, loadOp: CLEAR, storeOp: STORE, initialLayout: UNDEFINED, finalLayout: COLOR_ATTACHMENT_OPTIMAL}
-      output: {image: backbuffer, loadOp: DONT_CARE, storeOp: STORE, initialLayout: UNDEFINED, finalLayout: PRESENT_SRC_KHR}
+      color:
+        image: color_ms
+        loadOp: CLEAR
+        storeOp: STORE
+        initialLayout: UNDEFINED
+        finalLayout: COLOR_ATTACHMENT_OPTIMAL
+      output:
+        image: backbuffer
+        loadOp: DONT_CARE
+        storeOp: STORE
+        initialLayout: UNDEFINED
+        finalLayout: PRESENT_SRC_KHR
     subpasses:
-      - {colorAttachments: [color], resolveAttachments: [output]}
+      - colorAttachments: [color]
+        resolveAttachments: [output]
 """
 
 HOOK = f"""\
@@ -81,7 +100,7 @@ def init(folder: str) -> int:
     try:
         os.makedirs(folder, exist_ok=True)
         for name, text in (("msaa-lint.toml", CONFIGURATION), ("frame.msaa.yaml", DESCRIPTION)):
-            path = os.path.join(folder, name)
+            path = os.path.normpath(os.path.join(folder, name))
             if os.path.lexists(path):
                 print(f"{visible(path)} already exists: left unchanged", file=sys.stderr)
                 continue

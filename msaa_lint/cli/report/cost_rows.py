@@ -143,7 +143,7 @@ def images(cost: FrameCost) -> list[Row]:
     for image in cost.images:
         remark = "lazily allocated" if image.bytes and image.committed == 0 else ""
         if image.committed_by_use:
-            remark += ", but a pass loads or stores it, which commits the memory"
+            remark += "; committed, as a pass loads or stores it"
         table.append(Row(LINE, (image.name, remark), (_mib(image.bytes), _mib(image.committed))))
     return table
 
