@@ -8,8 +8,8 @@ from typing import NamedTuple
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.source import Source
 
-from .bind import Problem
 from .models import Description, MetalStencilAttachment
+from .problems import Problem
 from .record import Record
 
 

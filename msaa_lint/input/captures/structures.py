@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from msaa_lint.frame.description.bind import DECISIVE, OTHER_NAMES, PNEXT, WITHIN
+from msaa_lint.frame.description.dumps import DECISIVE, OTHER_NAMES, PNEXT, WITHIN
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.description.scalars import ATTACHMENT_UNUSED
 from msaa_lint.frame.description.shapes import Shape

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from msaa_lint.core.quote import shortened
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping
 from msaa_lint.core.text.source import Source
-from msaa_lint.frame.description.bind import Binder, Problem, shortened
+from msaa_lint.frame.description.bind import Binder
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import Description
+from msaa_lint.frame.description.problems import Problem
 from msaa_lint.input.readers import description
 
 MAX_ROUNDS = 4

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from msaa_lint.core.suggestions import nearest
+from collections.abc import Collection
+from itertools import islice
+
+from msaa_lint.core.quote import quoted, shortened
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Span
 from msaa_lint.core.text.tree import Node
-from msaa_lint.frame.description.bind import Binder, Mention, shortened
+from msaa_lint.frame.description.bind import Binder
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import AttachmentReference, Description, Device, Framebuffer, RenderPass, Subpass
+from msaa_lint.frame.description.problems import Mention, member_of
 
 SECTIONS = frozenset(Description.SHAPE)
 
@@ -69,7 +73,7 @@ def check_names(binder: Binder, description: Description) -> None:
     for pipeline in description.pipelines.values():
         within = description.renderPasses.get(pipeline.renderPass) if pipeline.renderPass is not None else None
         if within is not None and pipeline.subpass is not None and pipeline.subpass >= max(len(within.subpasses), 1):
-            message = f"`{pipeline.renderPass}` has {_subpasses(within)}, no subpass {pipeline.subpass}"
+            message = _no_subpass(f"{pipeline.renderPass}", pipeline.subpass, within)
             binder.report("MSAA904", message, pipeline.place("subpass"), f"{pipeline.path}.subpass")
 
 
@@ -83,16 +87,17 @@ def _section(description: Description, name: str) -> dict[str, object]:
 
 
 def _dangling(binder: Binder, mention: Mention, entries: dict[str, object]) -> None:
-    close = nearest(mention.name, entries)
-    help = f"did you mean `{close}`?" if close else _has(mention.section, entries)
-    binder.report("MSAA904", f"no `{mention.name}` in `{mention.section}`", mention.node.span, mention.path, help)
+    message = f"{member_of(mention.path)} names {quoted(mention.name)}, which is not in `{mention.section}`"
+    _report_unknown(binder, message, mention.name, entries, mention.section, mention.node.span, mention.path)
 
 
-def _has(section: str, entries: dict[str, object]) -> str:
-    names = list(entries)
+def _report_unknown(binder: Binder, message: str, name: str, names: Collection[str], section: str, span: Span, path: str) -> None:
+    """Reports a name that a section does not have, with the nearest one or the first few that it has."""
+    hint = binder.suggestion(name, names)
+    help = "" if hint or not names else f"`{section}` has {', '.join(islice(names, 8))}{', …' if len(names) > 8 else ''}"
     if not names:
-        return f"the description has no `{section}`"
-    return f"`{section}` has {', '.join(names[:8])}{', …' if len(names) > 8 else ''}"
+        hint = f"; the description has no `{section}`"
+    binder.report("MSAA904", f"{message}{hint}", span, path, help)
 
 
 def _device(binder: Binder, description: Description) -> None:
@@ -107,9 +112,9 @@ def _device(binder: Binder, description: Description) -> None:
     name = description.device
     if builtin(name) is not None or is_path(name):
         return
-    close = nearest(name, names())
-    help = f"did you mean `{close}`?" if close else f"built-in devices: {', '.join(names())}"
-    binder.report("MSAA904", f"no device `{name}`", description.place("device"), "device", help)
+    hint = binder.suggestion(name, names())
+    help = "" if hint else f"built-in devices: {', '.join(names())}"
+    binder.report("MSAA904", f"unknown device {quoted(name)}{hint}", description.place("device"), "device", help)
 
 
 def _cost_model(binder: Binder, device: Device) -> None:
@@ -128,34 +133,38 @@ def _cost_model(binder: Binder, device: Device) -> None:
 
 
 def _attachments(binder: Binder, name: str, render_pass: RenderPass) -> None:
-    by_name = {attachment.key for attachment in render_pass.attachments if attachment is not None}
+    """Checks the attachments and subpasses that a render pass refers to."""
+    names = dict.fromkeys(attachment.key for attachment in render_pass.attachments if attachment is not None)
     count = len(render_pass.attachments)
     for subpass in render_pass.subpasses:
         for reference in _references(subpass):
-            stated = reference.attachment
-            if stated is None or (isinstance(stated, int) and stated < count) or stated in by_name:
+            attachment = reference.attachment
+            if attachment is None or (isinstance(attachment, int) and attachment < count) or attachment in names:
                 continue
-            if isinstance(stated, int):
-                help = f"it has {count}, counted from 0"
-            else:
-                close = nearest(stated, by_name)
-                help = f"did you mean `{close}`?" if close else _has(f"renderPasses.{name}.attachments", dict.fromkeys(by_name))
             at = reference.place("attachment")
-            binder.report("MSAA904", f"no attachment `{stated}` in render pass `{name}`", at, reference.path, help)
+            if isinstance(attachment, int):
+                message = f"render pass `{name}` has no attachment {attachment}; it has {_count(count, 'attachment')}, counted from 0"
+                binder.report("MSAA904", message, at, reference.path)
+            else:
+                message = f"render pass `{name}` has no attachment {quoted(attachment)}"
+                _report_unknown(binder, message, attachment, names, f"renderPasses.{name}.attachments", at, reference.path)
     for dependency in render_pass.dependencies:
         for member in ("srcSubpass", "dstSubpass"):
             index = getattr(dependency, member)
             if isinstance(index, int) and index >= len(render_pass.subpasses):
-                message = f"`{name}` has {_subpasses(render_pass)}, no subpass {index}"
-                binder.report("MSAA904", message, dependency.place(member), f"{dependency.path}.{member}")
+                binder.report("MSAA904", _no_subpass(name, index, render_pass), dependency.place(member), f"{dependency.path}.{member}")
 
 
-def _subpasses(render_pass: RenderPass) -> str:
-    count = len(render_pass.subpasses)
-    return f"{count} subpass{'es' if count != 1 else ''}"
+def _no_subpass(name: str, index: int, render_pass: RenderPass) -> str:
+    return f"render pass `{name}` has no subpass {index}; it has {_count(len(render_pass.subpasses), 'subpass')}, counted from 0"
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 'es' if noun.endswith('s') else 's'}"
 
 
 def _references(subpass: Subpass) -> list[AttachmentReference]:
+    """Every attachment reference of a subpass."""
     found = [*subpass.inputAttachments, *subpass.colorAttachments, *subpass.resolveAttachments, *subpass.preserveAttachments]
     if subpass.depthStencilAttachment is not None:
         found.append(subpass.depthStencilAttachment)
@@ -165,10 +174,11 @@ def _references(subpass: Subpass) -> list[AttachmentReference]:
 
 
 def _framebuffer(binder: Binder, framebuffer: Framebuffer, description: Description) -> None:
+    """Checks that a framebuffer has as many attachments as its render pass."""
     within = description.renderPasses.get(framebuffer.renderPass) if framebuffer.renderPass is not None else None
     if within is None or "IMAGELESS" in framebuffer.flags or not framebuffer.states("attachments"):
         return
-    wanted, given = len(within.attachments), len(framebuffer.attachments)
-    if wanted != given:
-        message = f"`{framebuffer.renderPass}` has {wanted} attachments, this framebuffer {given}"
+    expected, count = len(within.attachments), len(framebuffer.attachments)
+    if expected != count:
+        message = f"this framebuffer has {_count(count, 'attachment')}, but render pass `{framebuffer.renderPass}` has {expected}"
         binder.report("MSAA903", message, framebuffer.place("attachments"), f"{framebuffer.path}.attachments")

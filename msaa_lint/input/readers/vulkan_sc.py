@@ -8,8 +8,9 @@ from __future__ import annotations
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Span
 from msaa_lint.core.text.tree import Node
-from msaa_lint.frame.description.bind import Binder, is_null
+from msaa_lint.frame.description.bind import Binder
 from msaa_lint.frame.description.document import Document
+from msaa_lint.frame.description.dumps import is_null
 from msaa_lint.frame.description.models import Description, Enabled, Pipeline, RenderPass
 
 STATES = ("GraphicsPipelineState", "ComputePipelineState", "RayTracingPipelineState")
@@ -25,14 +26,14 @@ def read(source: Source, root: Node) -> Document:
     binder = Binder(dumped=True)
     description: Description = binder.record(Description, _nothing(root), "", "", Span(root.start, root.start))
     if root.kind != "mapping" or not any(state in root.value for state in STATES):
-        binder.wrong(root, "", f"one of {', '.join(STATES)}")
+        binder.wrong_structure(root, "", f"a mapping with one of {', '.join(STATES)}")
         return Document(source, description, tuple(binder.problems), whole=False)
     state = root.value.get("GraphicsPipelineState")
     if state is not None and state.kind == "mapping":
         _graphics(binder, description, state)
         _enabled(binder, description, root, state)
     elif state is not None and not is_null(state):
-        binder.wrong(state, "GraphicsPipelineState", "a mapping")
+        binder.wrong_structure(state, "GraphicsPipelineState", "a mapping")
     return Document(source, description, tuple(binder.problems), whole=False)
 
 
@@ -55,7 +56,7 @@ def _graphics(binder: Binder, description: Description, state: Node) -> None:
         return
     path = "GraphicsPipelineState.GraphicsPipeline"
     if pipeline.kind != "mapping":
-        binder.wrong(pipeline, path, "a mapping")
+        binder.wrong_structure(pipeline, path, "a mapping")
         return
     made_pipeline: Pipeline = binder.record(Pipeline, _plain(pipeline), path, "GraphicsPipeline", state.keys["GraphicsPipeline"].span)
     # `renderPass` is the tool's number for the render pass above.

@@ -12,8 +12,9 @@ from pydantic import BaseModel, ValidationError
 
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
-from msaa_lint.frame.description.bind import Binder, Problem
+from msaa_lint.frame.description.bind import Binder
 from msaa_lint.frame.description.models import AttachmentReference
+from msaa_lint.frame.description.problems import Problem
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.description.scalars import ATTACHMENT_UNUSED, UNUSED
 from tests.frame.description.shapes import JUNK, MODELS, RECORDS, Json, paths, replaced, structure
@@ -67,6 +68,9 @@ def members(value: Any, names: list[str]) -> dict[str, Any]:
         elif (type(value).__name__, name) in (("Subpass", "depthStencilAttachment"), ("DepthStencilResolve", "attachment")):
             held = slot(held)
         out[name] = held
+    if type(value).__name__ == "DepthStencilResolve" and out["attachment"] is not None:
+        # A record's reference has the layout that is stated beside it.
+        out["attachment"]["layout"] = out["attachment"]["layout"] or out["layout"]
     return out
 
 

@@ -178,29 +178,29 @@ def test_sample_counts(word: int | str, count: int) -> None:
 
 
 MISTAKES = [
-    ("renderTargets: {a: {api: ⟦vulcan⟧}}", "one of vulkan, metal is due here, not `vulcan`", "did you mean `vulkan`?"),
+    ("renderTargets: {a: {api: ⟦vulcan⟧}}", "`api` must be vulkan or metal, found `vulcan`; did you mean `vulkan`?", ""),
     ("renderTargets: {⟦a⟧: {sampleCount: 4}}", "`a` must have an `api`: vulkan or metal", ""),
     (
         "renderTargets: {a: {api: vulkan, ⟦colourFormat⟧: kR8UNormInt}}",
-        "unknown key `colourFormat` in renderTargets.a",
-        "did you mean `colorFormat`?",
+        "unknown key `colourFormat` in renderTargets.a: did you mean `colorFormat`?",
+        "",
     ),
     (
         "renderTargets: {a: {api: vulkan, colorAttachmentConfig: {⟦storageMod⟧: kDevicePrivate}}}",
-        "unknown key `storageMod` in renderTargets.a.colorAttachmentConfig",
-        "did you mean `storageMode`?",
+        "unknown key `storageMod` in renderTargets.a.colorAttachmentConfig: did you mean `storageMode`?",
+        "",
     ),
     (
         "renderTargets: {a: {api: vulkan, colorAttachmentConfig: {storeAction: ⟦kMultiSampleResolve⟧}}}",
-        "one of kDontCare, kStore, kMultisampleResolve, kStoreAndMultisampleResolve is due here, not `kMultiSampleResolve`",
-        "did you mean `kMultisampleResolve`?",
+        "`storeAction` must be one of kDontCare, kStore, kMultisampleResolve, kStoreAndMultisampleResolve, found `kMultiSampleResolve`; did you mean `kMultisampleResolve`?",
+        "",
     ),
     (
         "renderTargets: {a: {api: vulkan, depthFormat: ⟦kD32Float⟧}}",
-        "one of kS8UInt, kD24UnormS8Uint, kD32FloatS8UInt is due here, not `kD32Float`",
-        "did you mean `kD32FloatS8UInt`?",
+        "`depthFormat` must be one of kS8UInt, kD24UnormS8Uint, kD32FloatS8UInt, found `kD32Float`; did you mean `kD32FloatS8UInt`?",
+        "",
     ),
-    ("renderTargets: {a: {api: vulkan, enableStencil: ⟦1⟧}}", "true or false is due here, not `1`", ""),
+    ("renderTargets: {a: {api: vulkan, enableStencil: ⟦1⟧}}", "`enableStencil` must be true or false, found `1`", ""),
     (
         "renderTargets: {a: {api: vulkan, depthFormat: kS8UInt, enableStencil: ⟦false⟧}}",
         "`kS8UInt` has only stencil, but `enableStencil` is false",
@@ -217,7 +217,7 @@ MISTAKES = [
         "`images` is not allowed beside `renderTargets`, which define the whole frame",
         "run `msaa-lint convert` to expand the render targets, then edit the result",
     ),
-    ("renderTargets: ⟦4⟧", "a mapping of names is due here, not `4`", ""),
+    ("renderTargets: ⟦4⟧", "`renderTargets` must be a mapping by name, found `4`", ""),
 ]
 
 
@@ -232,7 +232,7 @@ def test_a_count_that_is_none_has_a_place_and_the_words() -> None:
     text, spans = unmarked("renderTargets: {a: {api: vulkan, sampleCount: ⟦3⟧}}")
     (found,) = read(text).problems
     assert found.span == spans[0]
-    assert found.message.startswith("one of 1, 2, 4, 8, 16, kCount1, ")
+    assert found.message.startswith("`sampleCount` must be one of 1, 2, 4, 8, 16, kCount1, ")
 
 
 MARKED = """\
@@ -370,7 +370,7 @@ def test_convert_tells_mistakes_and_where(tmp_path: Path) -> None:
     (tmp_path / "a.yaml").write_text("renderTargets:\n  a: {api: vulcan}\n", encoding="utf-8")
     made = run(tmp_path, "convert", "a.yaml")
     assert (made.returncode, made.stdout) == (2, "")
-    assert made.stderr == "a.yaml:2:12: one of vulkan, metal is due here, not `vulcan` (MSAA903)\n"
+    assert made.stderr == "a.yaml:2:12: `api` must be vulkan or metal, found `vulcan`; did you mean `vulkan`? (MSAA903)\n"
 
 
 def test_convert_of_a_stream_has_every_document(tmp_path: Path) -> None:

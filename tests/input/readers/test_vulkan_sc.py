@@ -196,13 +196,19 @@ def test_dynamic_sample_count() -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ('{"GraphicsPipelineState": []}', "a mapping is due here, not a list"),
-        ('{"GraphicsPipelineState": {"Renderpass": 4}}', "a mapping is due here, not `4`"),
-        ('{"GraphicsPipelineState": {"GraphicsPipeline": []}}', "a mapping is due here, not a list"),
+        ('{"GraphicsPipelineState": []}', "`GraphicsPipelineState` must be a mapping, found a list"),
+        ('{"GraphicsPipelineState": {"Renderpass": 4}}', "`GraphicsPipelineState.Renderpass` must be a mapping, found `4`"),
+        ('{"GraphicsPipelineState": {"GraphicsPipeline": []}}', "`GraphicsPipelineState.GraphicsPipeline` must be a mapping, found a list"),
         ('{"GraphicsPipelineState": {"Renderpass": {"pAttachments": {}}}}', None),
-        ('{"GraphicsPipelineState": {"Renderpass": {"pAttachments": [4]}}}', "a mapping is due here, not `4`"),
+        (
+            '{"GraphicsPipelineState": {"Renderpass": {"pAttachments": [4]}}}',
+            "`GraphicsPipelineState.Renderpass.pAttachments[0]` must be a mapping, found `4`",
+        ),
         ('{"GraphicsPipelineState": {"Renderpass": {"pAttachments": [{"samples": "VK_SAMPLE_COUNT_3_BIT"}]}}}', None),
-        ('{"GraphicsPipelineState": {"Renderpass": {"pSubpasses": [{"viewMask": "²"}]}}}', "a whole number is due here, not `²`"),
+        (
+            '{"GraphicsPipelineState": {"Renderpass": {"pSubpasses": [{"viewMask": "²"}]}}}',
+            "`viewMask` must be an integer from 0 to 4294967295, found `²`",
+        ),
         ('{"GraphicsPipelineState": {"Renderpass": {"pSubpasses": [{"viewMask": "99999999999999999999999"}]}}}', None),
         ('{"GraphicsPipelineState": {"GraphicsPipeline": {"pMultisampleState": {"minSampleShading": "much"}}}}', None),
         ('{"GraphicsPipelineState": {"GraphicsPipeline": {"pMultisampleState": {"sampleShadingEnable": "VK_MAYBE"}}}}', None),

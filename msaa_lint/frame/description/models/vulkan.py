@@ -99,9 +99,10 @@ AttachmentSlot = Annotated[AttachmentReference, ("slot",)]
 
 
 class DepthStencilResolve(Record):
-    """VkSubpassDescriptionDepthStencilResolve."""
+    """VkSubpassDescriptionDepthStencilResolve; `layout` is that of its VkAttachmentReference2."""
 
     attachment: AttachmentSlot | None = None
+    layout: Layout | None = None
     depthResolveMode: ResolveMode | None = None
     stencilResolveMode: ResolveMode | None = None
 
