@@ -192,7 +192,8 @@ MISTAKES = [
     ),
     (
         "renderTargets: {a: {api: vulkan, colorAttachmentConfig: {storeAction: ⟦kMultiSampleResolve⟧}}}",
-        "`storeAction` must be one of kDontCare, kStore, kMultisampleResolve, kStoreAndMultisampleResolve, found `kMultiSampleResolve`; did you mean `kMultisampleResolve`?",
+        "`storeAction` must be one of kDontCare, kStore, kMultisampleResolve, kStoreAndMultisampleResolve, found `kMultiSampleResolve`; "
+        "did you mean `kMultisampleResolve`?",
         "",
     ),
     (
