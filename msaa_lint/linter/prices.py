@@ -14,7 +14,8 @@ from msaa_lint.frame.description.models import BeginRenderPass, Command, Descrip
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.facts.commands import named_images
-from msaa_lint.frame.facts.frame import Frame, Pass
+from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.frame.facts.parts import Pass
 
 from .fixes.changes import Change, NoFix, StructuralChange, applied
 from .fixes.document_fixes import DocumentFixes

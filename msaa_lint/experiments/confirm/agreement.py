@@ -8,7 +8,8 @@ from typing import NamedTuple
 from msaa_lint.core.finding import Finding, Undecided
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.facts.facts import Subject
-from msaa_lint.frame.facts.frame import Frame, Pass
+from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.frame.facts.parts import Pass
 from msaa_lint.frame.facts.subjects import subjects
 from msaa_lint.linter.rules.condition import Condition, activation
 

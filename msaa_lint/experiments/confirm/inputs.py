@@ -9,8 +9,9 @@ from typing import NamedTuple
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding, Undecided
 from msaa_lint.frame.devices import DeviceProfile
-from msaa_lint.frame.facts.frame import Frame, Pass
+from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.global_facts import profile
+from msaa_lint.frame.facts.parts import Pass
 from msaa_lint.input.source_file import SourceFile
 from msaa_lint.linter.fixes.file_fixes import FixedText, fix_input
 from msaa_lint.linter.results import DocumentResult, FileResult

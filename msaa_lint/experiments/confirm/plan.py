@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from msaa_lint.frame.description.models import Command
 from msaa_lint.frame.description.models import Pipeline as Described
 from msaa_lint.frame.facts.frame import Frame
-from msaa_lint.frame.facts.frame import Pass as Joined
+from msaa_lint.frame.facts.parts import Pass as Joined
 
 from . import parts
 from .parts import CLEAR, LOAD, NONE, Image, Inner, Pass, Pipeline, Plan, Step, from_json, to_json

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from msaa_lint.frame.facts.frame import Attachment, Frame, Pass, Resolve, Target
+from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.frame.facts.parts import Attachment, Pass, Resolve, Target
 from msaa_lint.frame.vulkan.formats import Format, format_of
 
 from .parts import (

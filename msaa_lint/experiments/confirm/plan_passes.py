@@ -14,8 +14,9 @@ from msaa_lint.frame.description.models import (
     SubpassDependency,
 )
 from msaa_lint.frame.description.models import Subpass as DescribedSubpass
-from msaa_lint.frame.facts.frame import RENDERING, Attachment, Frame, PassSubpass
-from msaa_lint.frame.facts.frame import Pass as Joined
+from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.frame.facts.parts import RENDERING, Attachment, PassSubpass
+from msaa_lint.frame.facts.parts import Pass as Joined
 from msaa_lint.frame.facts.pass_begin import targets_at
 
 from . import parts

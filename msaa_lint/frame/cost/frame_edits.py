@@ -11,7 +11,8 @@ from typing import TypeVar
 from msaa_lint.frame.description.models import BeginRendering, BeginRenderPass, Command, Image
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.commands import accesses
-from msaa_lint.frame.facts.frame import Attachment, Frame, Pass, Resolve, Target
+from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.frame.facts.parts import Attachment, Pass, Resolve, Target
 
 Kind = TypeVar("Kind", bound=Record)
 Order = list[tuple[Command, Pass | None]]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from msaa_lint.frame.devices import DeviceProfile
-from msaa_lint.frame.facts.frame import Frame, Target
+from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.frame.facts.parts import Target
 
 from .amounts import ImageMemory
 from .sizes import Sizes

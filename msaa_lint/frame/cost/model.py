@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.devices.tiles import TileUse
-from msaa_lint.frame.facts.frame import Frame, Pass
+from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.frame.facts.parts import Pass
 from msaa_lint.frame.facts.subpass import tile_targets
 from msaa_lint.frame.facts.walk import Walk
 

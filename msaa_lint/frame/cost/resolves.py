@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from msaa_lint.frame.description.models import AttachmentDescription, Command, Image, TwoImages
-from msaa_lint.frame.facts.frame import RENDERING, Aspect, Attachment, Frame, Pass, Resolve, Target
+from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.frame.facts.parts import RENDERING, Aspect, Attachment, Pass, Resolve, Target
 from msaa_lint.frame.facts.readers import Readers
 from msaa_lint.frame.facts.timeline import Timeline
 

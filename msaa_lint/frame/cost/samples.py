@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from msaa_lint.frame.facts.frame import RENDERING, Aspect, Attachment, Frame, Pass, PassSubpass, Resolve, Target
+from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.frame.facts.parts import RENDERING, Aspect, Attachment, Pass, PassSubpass, Resolve, Target
 
 from .frame_edits import image_of, mentioned, record, recorded, renamed, resolved, users
 from .resolves import inline

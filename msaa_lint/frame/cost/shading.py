@@ -10,7 +10,8 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
-from msaa_lint.frame.facts.frame import RENDER_PASS, Frame, Pass
+from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.frame.facts.parts import RENDER_PASS, Pass
 from msaa_lint.frame.facts.subpass import samples_of
 from msaa_lint.frame.vulkan.sample_locations import STANDARD
 

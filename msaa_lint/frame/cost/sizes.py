@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from msaa_lint.frame.description.models import BeginRendering, BeginRenderPass, Framebuffer
-from msaa_lint.frame.facts.frame import RENDERING, Attachment, Frame, Pass, Target
+from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.frame.facts.parts import RENDERING, Attachment, Pass, Target
 
 from .amounts import Terms
 

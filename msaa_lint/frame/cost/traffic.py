@@ -21,7 +21,8 @@ from msaa_lint.frame.facts.commands import (
     RESOLVE_WRITE,
     WRITE,
 )
-from msaa_lint.frame.facts.frame import RENDERING, Attachment, Frame, Pass, Target
+from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.frame.facts.parts import RENDERING, Attachment, Pass, Target
 from msaa_lint.frame.vulkan.formats import Format
 
 from .amounts import Line

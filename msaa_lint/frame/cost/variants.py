@@ -10,7 +10,8 @@ from typing import NamedTuple
 
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.devices import DeviceProfile
-from msaa_lint.frame.facts.frame import Frame, Target
+from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.frame.facts.parts import Target
 
 from .amounts import FrameCost, Terms
 from .model import frame_cost

@@ -5,7 +5,7 @@ from __future__ import annotations
 from msaa_lint.frame.description.models import AttachmentDescription
 
 from .facts import Facts
-from .frame import Aspect, Attachment, Pass, Resolve
+from .parts import Aspect, Attachment, Pass, Resolve
 from .readers import Readers
 from .walk import flags_of
 

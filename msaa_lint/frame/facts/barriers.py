@@ -15,7 +15,7 @@ from msaa_lint.frame.description.record import Record
 from .commands import COPY_READ, READ, RESOLVE_READ
 from .event_search import EventSearch, reads
 from .facts import Facts
-from .frame import Resolve
+from .parts import Resolve
 from .timeline import DRAW, INPUT, LOAD, Event, EventRef
 from .walk import PassRun
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from msaa_lint.frame.description.models import BeginRenderPass
 
 from .facts import Facts
-from .frame import RENDER_PASS, Frame, Pass
+from .frame import Frame
+from .parts import RENDER_PASS, Pass
 
 
 def clear_value_facts(facts: Facts, each: Pass, frame: Frame) -> None:

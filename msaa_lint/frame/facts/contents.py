@@ -10,7 +10,8 @@ from functools import cached_property
 from math import lcm
 
 from .commands import CLEAR, COMMAND_READS, COMMAND_WRITES, RESOLVE_WRITE, WRITE
-from .frame import RENDERING, Attachment, Frame, Resolve, Target
+from .frame import Frame
+from .parts import RENDERING, Attachment, Resolve, Target
 from .pass_begin import MAX_USES
 from .timeline import BEGIN, DISCARD, ELSEWHERE, INPUT, LOAD, MAX_FRAMES, SOME_FRAMES, STORE, Event, Timeline
 

@@ -10,7 +10,8 @@ from msaa_lint.frame.description.models import ImageBarrier, PipelineBarrier, Re
 from msaa_lint.frame.description.record import Record
 
 from .facts import Facts
-from .frame import RENDER_PASS, Attachment, Frame, Pass
+from .frame import Frame
+from .parts import RENDER_PASS, Attachment, Pass
 
 _ALL_STAGES = frozenset({"ALL_GRAPHICS", "ALL_COMMANDS", "BOTTOM_OF_PIPE"})
 _LATE_STAGES = frozenset({"LATE_FRAGMENT_TESTS"}) | _ALL_STAGES

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from functools import cached_property
 
 from .commands import CLEAR, COPY_READ, PRESENT, READ, RESOLVE_READ, RESOLVE_WRITE
-from .frame import Frame, Resolve
+from .frame import Frame
+from .parts import Resolve
 from .timeline import BEGIN, DISCARD, DRAW, ELSEWHERE, INPUT, LOAD, RESUME, STORE, Event, EventRef, Timeline
 
 _READS = frozenset({LOAD, DRAW, INPUT, RESOLVE_READ, READ, COPY_READ, PRESENT})

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.models import Pipeline, SubpassDependency
 
-from .frame import Aspect, Attachment, Pass, PassSubpass, Resolve, Target
+from .parts import Aspect, Attachment, Pass, PassSubpass, Resolve, Target
 
 Value = bool | int | float | str | list[str] | list[int]
 

@@ -1,13 +1,7 @@
-"""The frame as Vulkan sees it: passes of both kinds in one form, with their attachments, resolves and images joined.
-
-A pass is a VkRenderPass or one vkCmdBeginRendering. What the description does not say stays None here too.
-"""
+"""The frame as Vulkan sees it: its passes with their attachments, resolves and images joined."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
-from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import Document, StencilApart
 from msaa_lint.frame.description.models import (
     AttachmentDescription,
@@ -16,182 +10,14 @@ from msaa_lint.frame.description.models import (
     BeginRenderPass,
     Command,
     Framebuffer,
-    Image,
     Pipeline,
     ReadImage,
-    RenderingAttachment,
-    RenderPass,
     Subpass,
 )
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.vulkan.formats import Format, format_of
+from msaa_lint.frame.vulkan.formats import format_of
 
-RENDER_PASS = "renderPass"
-RENDERING = "rendering"
-
-
-class Target:
-    """An image that is rendered to. An attachment that names no image has one of its own, of which only that much is known."""
-
-    __slots__ = ("format", "image", "path", "record", "samples")
-
-    def __init__(self, record: Record, image: Image | None, format: str | None, samples: int | None) -> None:
-        self.record = record
-        self.image = image
-        self.path = record.path
-        self.format: Format | None = format_of(format) if format is not None else None
-        self.samples = samples
-
-    @property
-    def name(self) -> str:
-        return self.record.key
-
-    @property
-    def title(self) -> str:
-        """What messages call it: its name, or the attachment that it stands for."""
-        return f"attachment {self.name}" if self.image is None and self.name.isdecimal() else self.name
-
-
-class Aspect(NamedTuple):
-    """One aspect of an attachment, with its own load and store operation, and the members that state them.
-
-    `name` is None where the format, and with it what `loadOp` means, is unknown.
-    """
-
-    name: str | None
-    load: str | None
-    store: str | None
-    load_member: str
-    store_member: str
-
-
-class Attachment:
-    """One attachment of a pass. The role sets hold the subpasses (0 in dynamic rendering) that use it so."""
-
-    __slots__ = (
-        "aspects",
-        "color",
-        "depth_stencil",
-        "format",
-        "index",
-        "input",
-        "name",
-        "preserve",
-        "record",
-        "resolve",
-        "samples",
-        "targets",
-    )
-
-    def __init__(self, record: AttachmentDescription | RenderingAttachment, name: str, index: int, targets: list[Target]) -> None:
-        self.record = record
-        self.name = name
-        self.index = index
-        self.targets = targets
-        self.format: Format | None = None
-        self.samples: int | None = None
-        self.aspects: list[Aspect] = []
-        self.color: set[int] = set()
-        self.depth_stencil: set[int] = set()
-        self.resolve: dict[int, set[str]] = {}
-        """By subpass: the aspects that a resolve with a source and a mode overwrites here; `?` for one whose mode is unknown."""
-        self.input: set[int] = set()
-        self.preserve: set[int] = set()
-
-    @property
-    def title(self) -> str:
-        """What messages call it: its name; where attachments are a list its image's with its index, or `attachment 2` without one."""
-        if not self.name.isdecimal():
-            return self.name
-        target = self.target
-        named = target is not None and target.image is not None
-        return f"{target.name} (attachment {self.name})" if named and target is not None else f"attachment {self.name}"
-
-    @property
-    def used(self) -> bool:
-        """Whether a subpass refers to it at all."""
-        return bool(self.color or self.depth_stencil or self.resolve or self.input)
-
-    @property
-    def drawn(self) -> bool:
-        """Whether a subpass draws to it."""
-        return bool(self.color or self.depth_stencil)
-
-    @property
-    def target(self) -> Target | None:
-        """Its image, where it is one and the same whenever the pass is begun."""
-        return self.targets[0] if len({id(t.record) for t in self.targets}) == 1 else None
-
-
-class Resolve:
-    """One resolve of one aspect: in a subpass, at the end of a dynamic rendering, or by vkCmdResolveImage.
-
-    `record` states it; `mode` is None where unknown; `places` are (record, member) pairs for mode, source and target.
-    """
-
-    __slots__ = (
-        "aspect", "kind", "mode", "mode_at", "pair", "path", "record", "source", "source_at", "source_image", "subpass",
-        "target", "target_at", "target_image", "within",
-    )  # fmt: skip
-
-    def __init__(self, kind: str, aspect: str, record: Record, path: str) -> None:
-        self.kind = kind
-        self.aspect = aspect
-        self.record = record
-        self.path = path
-        self.within: Pass | None = None
-        self.subpass = 0
-        self.mode: str | None = None
-        self.mode_at: Span = record.head
-        self.source: Attachment | None = None
-        self.source_image: Target | None = None
-        self.source_at: Span = record.head
-        self.target: Attachment | None = None
-        self.target_image: Target | None = None
-        self.target_at: Span = record.head
-        self.pair: Resolve | None = None
-        """The resolve of the other aspect by the same structure, or of the same rendering; without a pass where it states NONE alone."""
-
-
-class PassSubpass:
-    """A subpass; a dynamic rendering has one."""
-
-    __slots__ = ("color", "depth_stencil", "index", "path", "record", "resolves", "single_sampled", "single_sampled_count", "within")
-
-    def __init__(self, within: Pass, record: Subpass | BeginRendering, index: int) -> None:
-        self.within = within
-        self.record = record
-        self.index = index
-        self.path = record.path
-        self.color: list[Attachment | None] = []
-        self.depth_stencil: list[Attachment] = []
-        self.resolves: list[Resolve] = []
-        chained = record.multisampledRenderToSingleSampled
-        self.single_sampled = chained is not None and chained.multisampledRenderToSingleSampledEnable is not False
-        self.single_sampled_count = chained.rasterizationSamples if chained is not None and self.single_sampled else None
-
-
-class Pass:
-    """A render pass or a dynamic rendering. `begun` are the positions in the frame's commands where it begins."""
-
-    __slots__ = ("attachments", "begun", "kind", "name", "partial_area", "path", "record", "subpasses")
-
-    def __init__(self, kind: str, name: str, record: RenderPass | BeginRendering) -> None:
-        self.kind = kind
-        self.name = name
-        self.record = record
-        self.path = record.path
-        self.attachments: list[Attachment] = []
-        self.subpasses: list[PassSubpass] = []
-        self.begun: list[int] = []
-        self.partial_area: bool | None = False
-        """Whether some render area that it is begun with is smaller than what it renders to; None where a size is not stated."""
-
-    @property
-    def custom_resolve(self) -> bool:
-        """Whether a subpass (or the rendering) resolves by its own shader."""
-        flags = [flag for subpass in self.subpasses for flag in subpass.record.flags]
-        return any(flag.startswith(("CUSTOM_RESOLVE", "SHADER_RESOLVE")) for flag in flags)
+from .parts import RENDER_PASS, RENDERING, Aspect, Attachment, Pass, PassSubpass, Resolve, Target
 
 
 class Frame:

@@ -8,7 +8,8 @@ from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.devices.shares import sample_count_share
 
 from .facts import Facts
-from .frame import RENDER_PASS, Attachment, Frame, Target
+from .frame import Frame
+from .parts import RENDER_PASS, Attachment, Target
 from .readers import READING_USAGES, READS, Readers
 
 BESIDE_TRANSIENT = frozenset({"TRANSIENT_ATTACHMENT", "COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT", "INPUT_ATTACHMENT"})

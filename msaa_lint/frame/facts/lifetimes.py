@@ -10,7 +10,7 @@ from msaa_lint.frame.description.models import Command, ReadImage
 from .commands import CLEAR, COMMAND_READS, COPY_WRITE, RESOLVE_WRITE, WRITE
 from .contents import READS, AspectEvents, Contents, is_known
 from .facts import Facts
-from .frame import Aspect, Attachment, Pass, Target
+from .parts import Aspect, Attachment, Pass, Target
 from .readers import READING_USAGES
 from .timeline import BEGIN, DISCARD, LOAD, STORE, Event, plain
 from .walk import flags_of

@@ -9,7 +9,7 @@ from msaa_lint.frame.metal.families import counts, offers_count, offers_memoryle
 from msaa_lint.frame.metal.names import MULTISAMPLE_RESOLVES, MULTISAMPLE_TYPES
 
 from .facts import Facts
-from .frame import Aspect, Attachment, Resolve, Target
+from .parts import Aspect, Attachment, Resolve, Target
 
 
 def texture_facts(facts: Facts, target: Target, metal: Metal, lazy_memory: object) -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from msaa_lint.frame.description.models import BeginRenderPass, Framebuffer, Image
 from msaa_lint.frame.description.record import Record
 
-from .frame import RENDER_PASS, RENDERING, Attachment, Frame, Pass, Target
+from .frame import Frame
+from .parts import RENDER_PASS, RENDERING, Attachment, Pass, Target
 
 MAX_USES = 500_000
 """How many uses of images by passes are followed. Some thousand passes have some ten thousand; hostile ones attachments times begins."""

@@ -12,7 +12,8 @@ from msaa_lint.frame.description.models import BeginRenderPass, ClearAttachment,
 
 from .contents import Contents, is_known
 from .facts import Facts, known
-from .frame import RENDER_PASS, Aspect, Attachment, Frame, Pass, PassSubpass
+from .frame import Frame
+from .parts import RENDER_PASS, Aspect, Attachment, Pass, PassSubpass
 from .pass_begin import MAX_USES, targets_at
 from .timeline import LOAD
 from .walk import Walk, flags_of

@@ -12,7 +12,8 @@ from msaa_lint.frame.description.models import Draw as DrawCommand
 from msaa_lint.frame.vulkan.formats import Format, format_of
 
 from .facts import Facts
-from .frame import Frame, Pass, PassSubpass
+from .frame import Frame
+from .parts import Pass, PassSubpass
 from .subpass import samples_of
 from .walk import Walk
 

@@ -14,7 +14,8 @@ from typing import NamedTuple
 from msaa_lint.core.text.span import Span
 
 from .commands import CLEAR, COMMAND_READS, COMMAND_WRITES, RESOLVE_WRITE
-from .frame import RENDERING, Aspect, Attachment, Frame, Pass, Resolve, Target
+from .frame import Frame
+from .parts import RENDERING, Aspect, Attachment, Pass, Resolve, Target
 from .pass_begin import targets_at
 from .timeline import BEGIN, DISCARD, ELSEWHERE, LOAD, RESUME, STORE, Event, Timeline, key_of
 from .walk import PassRun, flags_of

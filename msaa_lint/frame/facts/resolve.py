@@ -7,7 +7,7 @@ from msaa_lint.frame.devices.shares import resolve_mode_share
 from msaa_lint.frame.vulkan.formats import Format
 
 from .facts import Facts
-from .frame import Resolve, Target
+from .parts import Resolve, Target
 from .pass_begin import covers, targets_at
 from .readers import Readers
 from .timeline import Timeline

@@ -13,7 +13,8 @@ from .barriers import Waits
 from .commands import COPY_READ, COPY_WRITE, PRESENT, RESOLVE_READ, RESOLVE_WRITE, WRITE, image_of, naming_records
 from .event_search import ENDS, EventSearch, ends_contents, every_time, is_unknown, reads
 from .facts import Facts, known
-from .frame import Frame, Resolve, Target
+from .frame import Frame
+from .parts import Resolve, Target
 from .readers import READING_USAGES, Readers
 from .timeline import DRAW, STORE, Event, EventRef
 

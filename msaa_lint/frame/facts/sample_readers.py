@@ -5,7 +5,7 @@ from __future__ import annotations
 from msaa_lint.frame.description.models import ReadImage
 
 from .event_search import ENDS, EventSearch, every_time, is_unknown, reads
-from .frame import Aspect, Attachment
+from .parts import Aspect, Attachment
 
 ONE, ALL, NOT_STATED, OTHER = "ONE", "ALL", "NOT_STATED", "OTHER"
 

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from msaa_lint.frame.description.models import Draw, Pipeline, ReadImage, ShaderStage, Subpass
 
 from .facts import Facts, Subject
-from .frame import RENDER_PASS, Attachment, Frame, Pass, PassSubpass, Resolve, Target
+from .frame import Frame
+from .parts import RENDER_PASS, Attachment, Pass, PassSubpass, Resolve, Target
 from .pass_begin import targets_at
 from .pipeline import discards, subpass_of
 from .resolve import command_facts

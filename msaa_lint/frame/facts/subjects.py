@@ -15,10 +15,11 @@ from .contents import Contents
 from .dependency import Barriers, external_dependencies, recorded_barriers
 from .event_search import EventSearch
 from .facts import Facts, Subject
-from .frame import Aspect, Attachment, Frame, Pass, Target
+from .frame import Frame
 from .global_facts import global_facts, profile
 from .image import Bindings, image_facts
 from .lifetimes import lifetime_facts
+from .parts import Aspect, Attachment, Pass, Target
 from .pass_contents import Instance, pass_contents, screen_facts, touch_facts
 from .pipeline import draws_of, pipeline_facts, subpass_of, unshaded
 from .readers import Readers

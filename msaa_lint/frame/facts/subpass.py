@@ -9,8 +9,8 @@ from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.vulkan.formats import Format
 
 from .facts import Facts
-from .frame import Attachment, PassSubpass
 from .global_facts import single_sampled_enabled, single_sampled_offered
+from .parts import Attachment, PassSubpass
 from .walk import Walk
 
 

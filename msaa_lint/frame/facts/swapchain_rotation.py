@@ -6,8 +6,9 @@ from msaa_lint.frame.description.models import BeginRenderPass, Framebuffer, Ima
 
 from .commands import accesses
 from .facts import Facts
-from .frame import Frame, Pass, Target
+from .frame import Frame
 from .image import Bindings
+from .parts import Pass, Target
 
 MAX_TURNS = 16
 """Of images of a swapchain: more than any has."""

@@ -15,7 +15,8 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.models import BeginRenderPass, Command, ImageBarrier, PipelineBarrier
 
 from .commands import CLEAR, COMMAND_WRITES, RESOLVE_READ, RESOLVE_WRITE, accesses
-from .frame import Attachment, Frame, Pass, Resolve, Target
+from .frame import Frame
+from .parts import Attachment, Pass, Resolve, Target
 from .pass_begin import MAX_USES, covers, one_surface, targets_at, uses_at_most
 from .walk import PassRun, Walk, once_each
 

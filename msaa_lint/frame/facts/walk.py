@@ -9,7 +9,8 @@ from typing import NamedTuple
 from msaa_lint.frame.description.models import BeginRendering, Command
 
 from .commands import END_COMMANDS
-from .frame import Frame, Pass
+from .frame import Frame
+from .parts import Pass
 
 
 def flags_of(render_pass: Pass) -> tuple[str, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from msaa_lint.frame.description.models import BeginRenderPass, ClearAttachments
 from msaa_lint.frame.facts.facts import Subject
-from msaa_lint.frame.facts.frame import Attachment, Pass
+from msaa_lint.frame.facts.parts import Attachment, Pass
 
 from .changes import Change, NoFix
 from .context import FixContext

@@ -7,7 +7,8 @@ from functools import cached_property
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import Document, Lowered
 from msaa_lint.frame.description.models import ClearAttachments, Framebuffer, Metal, PipelineBarrier, SubpassDependency
-from msaa_lint.frame.facts.frame import Attachment, Frame, Pass, Resolve
+from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.frame.facts.parts import Attachment, Pass, Resolve
 from msaa_lint.frame.facts.subjects import FrameAnalysis
 
 from .changes import Change

@@ -8,7 +8,7 @@ from functools import partial
 from msaa_lint.frame.description.models import BeginRenderPass
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.facts import Subject
-from msaa_lint.frame.facts.frame import RENDERING, Resolve
+from msaa_lint.frame.facts.parts import RENDERING, Resolve
 
 from .changes import NoFix
 from .context import FixContext

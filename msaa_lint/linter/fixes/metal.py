@@ -7,8 +7,8 @@ from functools import partial
 from msaa_lint.frame.description.models import MetalTexture
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.facts import Subject
-from msaa_lint.frame.facts.frame import Aspect, Attachment
 from msaa_lint.frame.facts.metal import stated_for
+from msaa_lint.frame.facts.parts import Aspect, Attachment
 from msaa_lint.frame.metal.names import KEEPING, MULTISAMPLE_RESOLVES
 
 from .actions import Action

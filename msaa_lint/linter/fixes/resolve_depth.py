@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from msaa_lint.frame.description.models import Image, ReadImage, RenderPass, Subpass
 from msaa_lint.frame.facts.facts import Subject
-from msaa_lint.frame.facts.frame import Aspect, Attachment, Pass
 from msaa_lint.frame.facts.image import BESIDE_TRANSIENT
+from msaa_lint.frame.facts.parts import Aspect, Attachment, Pass
 
 from .changes import Change, NoFix
 from .context import FixContext

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from msaa_lint.frame.description.models import Command, Image, ReadImage, RenderPass, Subpass
 from msaa_lint.frame.facts.facts import Subject
-from msaa_lint.frame.facts.frame import RENDERING, Attachment, Pass, Target
+from msaa_lint.frame.facts.parts import RENDERING, Attachment, Pass, Target
 from msaa_lint.frame.facts.pass_begin import targets_at
 
 from .changes import Change, NoFix

@@ -7,7 +7,7 @@ from typing import Any
 
 from msaa_lint.frame.description.models import AttachmentDescription, Command, Image, RenderingAttachment, RenderPass
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.facts.frame import Attachment
+from msaa_lint.frame.facts.parts import Attachment
 
 from .changes import Change, NoFix
 from .context import FixContext

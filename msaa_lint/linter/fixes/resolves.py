@@ -15,7 +15,7 @@ from msaa_lint.frame.description.models import (
 )
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.facts import Subject
-from msaa_lint.frame.facts.frame import Attachment, Resolve
+from msaa_lint.frame.facts.parts import Attachment, Resolve
 
 from .changes import Change, NoFix
 from .context import FixContext

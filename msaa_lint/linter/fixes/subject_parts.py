@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from msaa_lint.frame.description.models import Image, Pipeline
 from msaa_lint.frame.facts.facts import Subject
-from msaa_lint.frame.facts.frame import Aspect, Attachment, Resolve, Target
+from msaa_lint.frame.facts.parts import Aspect, Attachment, Resolve, Target
 
 from .changes import NoFix
 

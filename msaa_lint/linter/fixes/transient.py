@@ -9,8 +9,8 @@ from collections.abc import Callable
 
 from msaa_lint.frame.description.models import Command, Image
 from msaa_lint.frame.facts.facts import Subject
-from msaa_lint.frame.facts.frame import Aspect, Attachment
 from msaa_lint.frame.facts.image import BESIDE_TRANSIENT
+from msaa_lint.frame.facts.parts import Aspect, Attachment
 
 from .changes import Change, NoFix
 from .context import FixContext

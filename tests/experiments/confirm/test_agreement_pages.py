@@ -15,7 +15,7 @@ from msaa_lint.experiments.confirm.session import Session, environment
 from msaa_lint.experiments.confirm.trial import Terms, trial
 from msaa_lint.experiments.confirm.verdict import CONFIRMED, DIED, REFUSED, SKIPPED, TIMED_OUT, Said, Verdict
 from msaa_lint.frame.description.models import RenderPass, Subpass
-from msaa_lint.frame.facts.frame import Pass
+from msaa_lint.frame.facts.parts import Pass
 from msaa_lint.linter.workspace import Request
 from tests.pages import all_examples
 from tests.paths import ROOT
