@@ -171,7 +171,7 @@ class Engine:
                 modules.append(Modules(document, file))
             return modules[0].reflected(stage, alpha)
 
-        verdicts = self._runner.judge(subjects(document, device, study, shader), file, options.severity, document.api)
+        verdicts = self._runner.run(subjects(document, device, study, shader), file, options.severity, document.api)
         for each in modules:
             verdicts.findings.extend(each.findings)
         return verdicts, device

@@ -1,7 +1,7 @@
-"""Conditions of rules: CEL, the Common Expression Language, over the facts of one subject.
+"""Conditions of rules: expressions in CEL, the Common Expression Language, over the facts of one subject.
 
-CEL's `&&` and `||` take an error for an answer where the other side decides, so that a fact that is absent is exactly an unknown of
-three-valued logic (CEL specification, "Logical operators").
+CEL's `&&` and `||` absorb an error if their other operand decides the result. An absent fact is such an error: it behaves like the
+unknown of three-valued logic (CEL specification, "Logical operators").
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ from cel_expr_python import cel
 
 from msaa_lint.frame.facts.table import FACTS, SUBJECTS, WORDS, Fact
 
-# A text; or a comment, in which a quote begins none.
+# A string literal, or a comment, which may contain quotes.
 _STRING = re.compile(r'''//[^\n]*|(?:\b[rR])?(?P<quote>"""|\'{3}|"|')(?P<text>(?:[^\\]|\\.)*?)(?P=quote)''', re.DOTALL)
 _FACT = re.compile(r"\b[a-z]+\.[a-z_0-9]+\b(?!\s*\()")
-# What only `check` needs is compiled where it is used: the conditions of the built-in pages are not checked at start-up.
+# Only `check` needs these, and it does not run on the built-in pages at startup: they are compiled on first use.
 _MACRO = r"\.\s*(?:all|exists|exists_one|map|filter)\s*\("
 _MEETS = (
     r"(?P<fact>\b[a-z]+\.[a-z_0-9]+)\s*(?:==|!=)\s*(?P<one>\x00\d+\x00)"
@@ -31,7 +31,7 @@ _environments: dict[str | None, Any] = {}
 
 
 class ConditionError(ValueError):
-    """A condition that cannot be used: what is wrong, and where in its text (an offset of None: all of it)."""
+    """An invalid condition: the problem, and its offset in the text (None: all of it)."""
 
     def __init__(self, message: str, offset: int | None = None, length: int = 1) -> None:
         super().__init__(message)
@@ -42,8 +42,8 @@ class ConditionError(ValueError):
 class Condition:
     """A compiled condition. `facts` are the facts that it names.
 
-    With a `subject` it may name the facts of that kind only, else every fact there is: a condition that was checked need not be again, and
-    one environment for all kinds is made in a third of the time of one for each.
+    With a `subject` it may only name the facts of that kind of subject. Without one it may name any fact: conditions that were checked
+    before share one environment, which is faster to create than one for each kind.
     """
 
     __slots__ = ("_program", "facts", "text")
@@ -54,19 +54,19 @@ class Condition:
         try:
             self._program = _environment(subject).compile(text)
         except RuntimeError as error:
-            raise _explained(error, text, subject) from None
+            raise _condition_error(error, text, subject) from None
 
     def must_decide(self) -> None:
-        """Raises `ConditionError` where the condition is no yes or no."""
+        """Raises `ConditionError` if the condition is not a boolean."""
         if str(self._program.return_type()) != "BOOL":
-            raise ConditionError("a condition is true or false, not a value")
+            raise ConditionError("the condition must be a boolean expression")
 
     def holds(self, activation: Any) -> bool | None:
-        """True or false; None where it hangs on a fact that is absent. ArithmeticError where it cannot be worked out at all."""
+        """True or false; None if that depends on an absent fact. Raises ArithmeticError if the evaluation fails."""
         try:
             value = self._program.eval(activation).plain_value()
         except RuntimeError as error:
-            # What it may cost is bounded.
+            # CEL bounds the cost of an evaluation.
             raise ArithmeticError(str(error)) from None
         if isinstance(value, bool):
             return value
@@ -76,17 +76,14 @@ class Condition:
 
 
 def activation(subject: str | None, facts: Mapping[str, Any]) -> Any:
-    """The facts of one subject in the form that conditions made with the same `subject` are worked out with."""
+    """The facts of one subject, prepared for conditions that were compiled with the same `subject`."""
     return _environment(subject).Activation(facts)
 
 
 def check(text: str, subject: str) -> None:
-    """Raises `ConditionError` where a condition cannot be used: a misspelt fact, a wrong type, a text that its fact never has.
-
-    For pages as they are loaded; a condition that passes compiles.
-    """
+    """Raises `ConditionError` for an invalid condition: an unknown fact, a wrong type, or a string that its fact never equals."""
     if len(re.findall(_MACRO, _STRING.sub(" ", text))) > _MAX_MACROS:
-        raise ConditionError(f"at most {_MAX_MACROS} of all, exists, exists_one, map and filter may stand in a condition")
+        raise ConditionError(f"the condition uses all, exists, exists_one, map and filter more than {_MAX_MACROS} times")
     Condition(text, subject).must_decide()
     for fact, literal, offset, length in literals(text):
         words = _words(fact)
@@ -99,12 +96,12 @@ def check(text: str, subject: str) -> None:
 
 
 def named(text: str) -> tuple[str, ...]:
-    """The facts that a condition names, in their order."""
+    """The facts that a condition names, in order."""
     return tuple(dict.fromkeys(name for name in _FACT.findall(_STRING.sub(" ", text)) if name in FACTS))
 
 
 def literals(text: str) -> list[tuple[str, str, int, int]]:
-    """Every text that a condition compares a fact with, and where it stands: its offset and length, with its quotes."""
+    """The string literals that a condition compares facts with: the fact, the string, and the offset and length of the quoted literal."""
     found: list[tuple[str, int, int]] = []
 
     def mark(match: re.Match[str]) -> str:
@@ -122,7 +119,7 @@ def literals(text: str) -> list[tuple[str, str, int, int]]:
 
 
 def _words(fact: str) -> frozenset[str] | None:
-    """The texts that a fact can have, where they are a Vulkan enum's or ours."""
+    """The strings that a fact can equal; None if they are not those of an enum."""
     enum = FACTS[fact].enum if fact in FACTS else ""
     if not enum:
         return None
@@ -151,8 +148,8 @@ def _environment(subject: str | None) -> Any:
     return _environments[subject]
 
 
-def _explained(error: RuntimeError, text: str, subject: str | None) -> ConditionError:
-    """The compiler's first complaint, in our words where it is a misspelt fact."""
+def _condition_error(error: RuntimeError, text: str, subject: str | None) -> ConditionError:
+    """The compiler's first error; for an unknown fact with a suggestion."""
     match = re.search(r"<input>:(\d+):(\d+): (.*)", str(error))
     if match is None:
         return ConditionError(str(error).splitlines()[0][:200])
@@ -174,4 +171,4 @@ def _explained(error: RuntimeError, text: str, subject: str | None) -> Condition
     close = nearest(spelled, known)
     hint = f"; did you mean {close}?" if close else ""
     of = f" of {subject}" if subject is not None else ""
-    return ConditionError(f"there is no fact {spelled}{of}{hint}", start, len(spelled))
+    return ConditionError(f"unknown fact {spelled}{of}{hint}", start, len(spelled))

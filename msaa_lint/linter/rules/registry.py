@@ -1,4 +1,4 @@
-"""The rules there are: the pages of the catalogue, and a user's own."""
+"""The registry of rules: the built-in rule pages and the user's own."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from .condition import ConditionError, check
 from .rule_file import Rule, read_page, split
 
 EDITIONS = ("2026.1",)
-"""In their order; a rule of a later edition than the one pinned is off."""
+"""In order. A rule of an edition later than the pinned one is off by default."""
 
 
 class Registry(NamedTuple):
-    """Rules by code, what is wrong with the pages that could not be used, and the texts that this points into, by name."""
+    """Rules in order of code, the problems of unusable pages, and the texts they point into, by name."""
 
     rules: tuple[Rule, ...]
     problems: tuple[Finding, ...]
@@ -29,17 +29,17 @@ class Registry(NamedTuple):
 
 
 def folder() -> str:
-    """Where the built-in pages stand: inside the installed package, or at the top of a checkout."""
+    """The folder of the built-in pages: in the installed package, or at the top of a checkout."""
     installed = os.path.join(package.FOLDER, "rules")
     return installed if os.path.isdir(installed) else os.path.join(os.path.dirname(package.FOLDER), "rules")
 
 
 def pages(path: str) -> list[str]:
-    """The pages at a path: itself, or those of a folder (not its README), sorted."""
+    """The rule pages at a path: the file itself, or the pages of the folder except its README, sorted."""
     try:
         names = sorted(os.listdir(path))
     except OSError:
-        # What is no folder is a page; a folder that cannot be read is said to be none.
+        # Either a file, or a folder that cannot be read, which is then reported as an unreadable page.
         return [path]
     return [os.path.join(path, name) for name in names if name.endswith(".md") and name != "README.md"]
 
@@ -62,14 +62,14 @@ def load(paths: Sequence[str] = (), check_fixes: CheckFixes = lambda _: []) -> R
         problems.extend(page.problems)
         if page.rule is not None:
             rules.append(page.rule)
-    given: dict[str, None] = {}
-    for each in paths:
-        found_there = pages(each)
-        given.update(dict.fromkeys(os.path.normpath(page) for page in found_there))
-        if not found_there:
-            shown = os.path.relpath(each).replace(os.sep, "/")
-            problems.append(diagnostic("MSAA921", "there are no rule pages in this folder", shown))
-    for path in given:
+    own: dict[str, None] = {}
+    for path in paths:
+        found = pages(path)
+        own.update(dict.fromkeys(map(os.path.normpath, found)))
+        if not found:
+            shown = os.path.relpath(path).replace(os.sep, "/")
+            problems.append(diagnostic("MSAA921", "no rule pages in this folder", shown))
+    for path in own:
         shown = os.path.relpath(path).replace(os.sep, "/")
         page = read_page(path, shown)
         problems.extend(page.problems)
@@ -77,33 +77,33 @@ def load(paths: Sequence[str] = (), check_fixes: CheckFixes = lambda _: []) -> R
             sources[shown] = page.source
         if page.rule is None:
             continue
-        found = [*conflicts(page.rule, rules), *misnamed(page.rule), *check_rule(page.rule), *check_fixes(page.rule)]
-        problems.extend(found)
-        if not found:
+        of_rule = [*conflicts(page.rule, rules), *misnamed(page.rule), *check_rule(page.rule), *check_fixes(page.rule)]
+        problems.extend(of_rule)
+        if not of_rule:
             rules.append(page.rule)
     return Registry(tuple(sorted(rules, key=lambda rule: rule.code)), tuple(problems), sources)
 
 
 def conflicts(rule: Rule, others: Iterable[Rule]) -> list[Finding]:
-    """A page whose code or name another rule has already."""
+    """Problems of a page with the code or the name of another rule."""
     found = []
     for other in others:
         if rule.code == other.code or rule.name == other.name:
             shared = f"code {rule.code}" if rule.code == other.code else f"name {rule.name}"
-            message = f"rule page `{rule.name}`: the {shared} is `{other.name}`'s already"
+            message = f"rule page `{rule.name}`: the {shared} is already used by `{other.name}`"
             found.append(diagnostic("MSAA921", message, rule.source.name, Span(0, 3), rule.name))
     return found
 
 
 def misnamed(rule: Rule) -> list[Finding]:
-    """A page of a user's whose code or name cannot stand in a selection, a suppression or an output."""
+    """Problems of a user's page with a code or name that cannot be used in selectors, suppressions or outputs."""
     found = []
     if re.fullmatch(r"(?!MSAA)[A-Z]{2,12}-?[0-9]{1,6}", rule.code) is None:
-        found.append("its code is a few capital letters of yours, not MSAA, and a number, e.g. ACME001")
+        found.append("the code must be 2 to 12 capital letters other than MSAA and a number, for example ACME001")
     if re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", rule.name) is None or any(rule.name == info.name for info in DIAGNOSTICS.values()):
-        found.append("its file is named in small letters with hyphens, as no other rule is, e.g. no-multisampled-storage.md")
+        found.append("the file name must be lowercase words with hyphens, for example no-multisampled-storage.md")
     if rule.name in rule.supersedes:
-        found.append("it supersedes itself")
+        found.append("the rule supersedes itself")
     return [diagnostic("MSAA921", f"rule page `{rule.name}`: {text}", rule.source.name, Span(0, 3), rule.name) for text in found]
 
 
@@ -121,18 +121,18 @@ def check_rule(rule: Rule) -> list[Finding]:
     known = {fact.name for fact in SUBJECTS[rule.subject]}
     named = [*rule.at, *(fact for fact, _ in rule.labels), *placeholders(rule.message), *placeholders(rule.help)]
     named.extend(name for case in rule.cases for text in (case.message, case.help) for name in placeholders(text or ""))
-    named.extend(name for mend in rule.fix_specs for name in placeholders(mend.title))
+    named.extend(name for spec in rule.fix_specs for name in placeholders(spec.title))
     for text in (text for _, text in rule.labels):
         named.extend(placeholders(text))
     for name in dict.fromkeys(named):
         if name not in known:
-            message = f"rule page `{rule.name}`: there is no fact {name} of {rule.subject}"
+            message = f"rule page `{rule.name}`: unknown fact {name} of {rule.subject}"
             found.append(diagnostic("MSAA921", message, rule.source.name, rule.condition_at, rule.name))
     return found
 
 
 def _within(text: str, at: Span, when: str, error: ConditionError) -> Span:
-    """Where a condition that is written at a place of a page is wrong: the line it is in stands there as it is, unless it is folded."""
+    """The location of an error in a condition on a page; the whole condition if YAML folded its lines."""
     if error.offset is None:
         return at
     begin = when.rfind("\n", 0, error.offset) + 1
@@ -143,18 +143,18 @@ def _within(text: str, at: Span, when: str, error: ConditionError) -> Span:
 
 
 def placeholders(text: str) -> list[str]:
-    """The facts that a text names in braces."""
+    """The names of the facts in braces in a text."""
     parts = text.split("{")[1:]
     return [part[: part.index("}")] for part in parts if "}" in part]
 
 
 def markdown(rule: Rule) -> str:
-    """A rule's page without its front matter."""
+    """The Markdown of a rule's page."""
     return split(rule.source.text)[1].lstrip("\n")
 
 
 def info(rule: Rule, severity: str | None = None, full: bool = True) -> RuleInfo:
-    """What reports say of a rule; `full` with its page."""
+    """A rule as reports describe it; `full` includes its page."""
     text = markdown(rule) if full else ""
     severity = severity or rule.severity
     return RuleInfo(rule.code, rule.name, severity, rule.confidence, rule.summary, text, rule.references, bool(rule.fix_specs))

@@ -1,29 +1,28 @@
-"""A rule's page: YAML front matter, then Markdown."""
+"""Reads rule pages: YAML front matter, then Markdown."""
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 import os
 from typing import NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import CONFIDENCES, SEVERITIES, Finding
+from msaa_lint.core.quote import quoted
 from msaa_lint.core.text.source import Source, Unreadable, decode
 from msaa_lint.core.text.span import Span
 from msaa_lint.core.text.tree import Limits, Node, parse, read
 
 FENCE = "---"
-MAX_PAGE = 1 << 20
+MAX_PAGE_BYTES = 1 << 20
 MAX_CONDITION = 2000
-"""Characters of a condition: a user's page may come from an untrusted branch, and what CEL does is bounded by what it is given."""
-
+"""Characters of a condition. A page may come from an untrusted branch, and the cost of a CEL expression grows with its length."""
 
 SAFETIES = ("safe", "unsafe", "shown")
-"""Of a fix: the picture cannot change by it; it may, or the fix is a choice; it is said and priced, and never made."""
+"""Of a fix: it cannot change the picture; it may change the picture or needs a decision; it is shown with its price, but never applied."""
 
 
 class Setting(NamedTuple):
-    """One change of a fix: a fact, the value that it gets, gains or loses, and where the page states it.
+    """One change of a fix: a fact, the value to set, add or remove, and its location on the page.
 
-    A text in braces names a fact of the subject, whose value is meant.
+    A value in braces names another fact of the subject, whose value is used.
     """
 
     fact: str
@@ -32,8 +31,8 @@ class Setting(NamedTuple):
 
 
 class FixSpec(NamedTuple):
-    """A fix, in terms of what the facts are made from: `set` gives a member a value, `add` and `remove` change a list, `do` names a
-    change that `fixes.deeds` knows."""
+    """A fix in terms of facts: `set` sets the member that a fact comes from, `add` and `remove` change a list, and `do` names an action of
+    `linter.fixes`."""
 
     title: str
     safety: str
@@ -49,11 +48,11 @@ class FixSpec(NamedTuple):
 
 
 APIS = ("vulkan", "metal")
-"""Whose frames a rule may be about, as pages name them."""
+"""The APIs whose frames a rule may be about."""
 
 
 class Case(NamedTuple):
-    """What changes where a rule fires and `when` holds as well; the first case that holds is taken. `fix` is the one that then counts."""
+    """What differs if a rule fires and `when` is true as well. The first such case applies; its `fix` replaces the rule's."""
 
     when: str
     severity: str | None
@@ -65,9 +64,9 @@ class Case(NamedTuple):
 
 
 class Rule(NamedTuple):
-    """A rule, as its page's front matter states it.
+    """A rule as stated by the front matter of its page.
 
-    `when` and the cases are CEL; `at` and the labels name facts, whose places they point to. `apis` are those whose frames it is asked of.
+    `when` is a CEL condition. `at` and `labels` name facts and refer to their locations. `apis` are those whose frames the rule applies to.
     """
 
     code: str
@@ -94,12 +93,12 @@ class Rule(NamedTuple):
 
     @property
     def fix_specs(self) -> "tuple[FixSpec, ...]":
-        """Its fixes: its own and those of its cases."""
-        return tuple(dict.fromkeys(mend for mend in (self.fix, *(case.fix for case in self.cases)) if mend is not None))
+        """The fixes of the rule and of its cases."""
+        return tuple(dict.fromkeys(fix for fix in (self.fix, *(case.fix for case in self.cases)) if fix is not None))
 
 
 class Page(NamedTuple):
-    """A page as it was read: the rule, if it could be, what is wrong with it, and its text, if it has one."""
+    """The result of reader a page: the rule if it is valid, the problems, and the text if it could be read."""
 
     rule: Rule | None
     problems: tuple[Finding, ...]
@@ -114,33 +113,32 @@ REQUIRED = ("code", "severity", "subject", "when", "message")
 
 
 def read_page(path: str, shown: str) -> Page:
-    """The rule that a page states. `shown` is the path as messages name it."""
+    """Reads a rule page. `shown` is the path in messages."""
     name = os.path.basename(path).removesuffix(".md")
     try:
-        text = decode(read(path, Limits(bytes=MAX_PAGE)))
+        text = decode(read(path, Limits(bytes=MAX_PAGE_BYTES)))
     except (OSError, Unreadable) as error:
-        return Page(None, (diagnostic("MSAA921", f"the rule page cannot be read: {error}", shown),))
+        return Page(None, (diagnostic("MSAA921", f"cannot read the rule page: {error}", shown),))
     source = Source(shown, text)
     front, body = split(text)
     if front is None:
-        return Page(
-            None, (diagnostic("MSAA921", "a rule page begins with front matter between two lines of ---", shown, Span(0, 0)),), source
-        )
+        message = "a rule page must begin with front matter between two `---` lines"
+        return Page(None, (diagnostic("MSAA921", message, shown, Span(0, 0)),), source)
     parsed = parse(Source(shown, front), Limits())
     if parsed.problems:
-        found = [diagnostic("MSAA921", p.message, shown, p.span, name, tuple(p.labels)) for p in parsed.problems]
-        return Page(None, tuple(found), source)
-    reading = _Reading(shown, name, source)
+        problems = [diagnostic("MSAA921", p.message, shown, p.span, name, tuple(p.labels)) for p in parsed.problems]
+        return Page(None, tuple(problems), source)
+    reader = _PageReader(shown, name, source)
     root = parsed.documents[0] if parsed.documents else None
     if root is None or root.kind != "mapping":
-        reading.wrong(Span(0, 0), "the front matter is a mapping")
-        return Page(None, tuple(reading.problems), source)
-    rule = reading.rule(root, body, path)
-    return Page(rule if not reading.problems else None, tuple(reading.problems), source)
+        reader.problem(Span(0, 0), "the front matter must be a mapping")
+        return Page(None, tuple(reader.problems), source)
+    rule = reader.rule(root, body, path)
+    return Page(rule if not reader.problems else None, tuple(reader.problems), source)
 
 
 def split(text: str) -> tuple[str | None, str]:
-    """The front matter, at its offsets (what stands before it is blank), and the Markdown after it."""
+    """The front matter, padded with blanks so that offsets are those of the page, and the Markdown after it."""
     first = text.find("\n") + 1
     if text[:first].rstrip() != FENCE:
         return None, text
@@ -154,7 +152,7 @@ def split(text: str) -> tuple[str | None, str]:
 
 
 def first_sentence(body: str) -> str:
-    """What a page says first: the first sentence of its first paragraph."""
+    """The first sentence of the first paragraph."""
     paragraph: list[str] = []
     for line in body.splitlines():
         text = line.strip()
@@ -170,8 +168,8 @@ def first_sentence(body: str) -> str:
     return joined if end < 0 else joined[: end + 1]
 
 
-class _Reading:
-    """One page while its front matter is read."""
+class _PageReader:
+    """Reads the front matter of one page."""
 
     def __init__(self, shown: str, name: str, source: Source) -> None:
         self.shown = shown
@@ -179,8 +177,8 @@ class _Reading:
         self.source = source
         self.problems: list[Finding] = []
 
-    def wrong(self, span: Span, message: str, help: str = "") -> None:
-        self.problems.append(diagnostic("MSAA921", f"rule page `{self.name}`: {message}", self.shown, span, self.name, (), help))
+    def problem(self, span: Span, message: str) -> None:
+        self.problems.append(diagnostic("MSAA921", f"rule page `{self.name}`: {message}", self.shown, span, self.name))
 
     def rule(self, root: Node, body: str, path: str) -> Rule | None:
         from msaa_lint.frame.facts.table import SUBJECTS, WORDS
@@ -191,7 +189,7 @@ class _Reading:
                 self.unknown(root.keys[key], KEYS)
         missing = [key for key in REQUIRED if key not in members]
         if missing:
-            self.wrong(Span(0, len(FENCE)), f"the front matter lacks {', '.join(missing)}")
+            self.problem(Span(0, len(FENCE)), f"missing {', '.join(f'`{key}`' for key in missing)} in the front matter")
             return None
         self.one_of(members["subject"], tuple(SUBJECTS))
         self.one_of(members["severity"], SEVERITIES)
@@ -205,7 +203,7 @@ class _Reading:
         when = members["when"]
         self.bounded(when)
         at = members.get("at")
-        fix = self.mend(members["fix"], None) if "fix" in members else None
+        fix = self.fix(members["fix"], None) if "fix" in members else None
         return Rule(
             code=self.text(members["code"]),
             name=self.name,
@@ -234,27 +232,28 @@ class _Reading:
         from msaa_lint.core.suggestions import nearest
 
         close = nearest(key.text, known)
-        self.wrong(key.span, f"unknown key `{key.text[:80]}`", f"did you mean `{close}`?" if close else f"it may have {', '.join(known)}")
+        hint = f"did you mean `{close}`?" if close else f"expected one of {', '.join(known)}"
+        self.problem(key.span, f"unknown key {quoted(key.text)}: {hint}")
 
     def text(self, node: Node) -> str:
         if node.kind != "scalar" or node.value is None:
-            self.wrong(node.span, "a text is due here")
+            self.problem(node.span, f"expected a string, found {_kind(node)}")
             return ""
         return node.text.strip()
 
     def bounded(self, when: Node) -> None:
         if len(when.text) > MAX_CONDITION:
-            self.wrong(when.span, f"a condition has at most {MAX_CONDITION} characters")
+            self.problem(when.span, f"the condition is longer than {MAX_CONDITION} characters")
 
     def one_of(self, node: Node, words: tuple[str, ...]) -> None:
         if node.kind != "scalar" or node.text not in words:
-            self.wrong(node.span, f"one of {', '.join(words)} is due here")
+            self.problem(node.span, f"expected one of {', '.join(words)}, found {_kind(node)}")
 
     def items(self, node: Node | None) -> list[Node]:
         if node is None:
             return []
         if node.kind != "sequence":
-            self.wrong(node.span, "a list is due here")
+            self.problem(node.span, f"expected a list, found {_kind(node)}")
             return []
         return list(node.value)
 
@@ -265,15 +264,15 @@ class _Reading:
         if node is None:
             return ()
         if node.kind != "mapping":
-            self.wrong(node.span, "a mapping is due here")
+            self.problem(node.span, f"expected a mapping, found {_kind(node)}")
             return ()
         return tuple((key, self.text(value)) for key, value in node.value.items())
 
     def case(self, node: Node, fix: FixSpec | None) -> Case:
-        """A case; without `fix`, or where that states its safety alone, the rule's own is its fix."""
+        """A case. Without a `fix`, or with one that only states its safety, it has the fix of the rule."""
         known = ("when", "severity", "confidence", "message", "help", "fix")
         if node.kind != "mapping" or "when" not in node.value:
-            self.wrong(node.span, "a case is a mapping with `when` and what it changes")
+            self.problem(node.span, "a case must be a mapping with `when` and what differs")
             return Case("true", None, None, None)
         for key in node.value:
             if key not in known:
@@ -287,17 +286,17 @@ class _Reading:
         self.bounded(when)
         own = node.value.get("fix")
         if own is not None:
-            fix = None if own.kind == "scalar" and own.value is None else self.mend(own, fix)
+            fix = None if own.kind == "scalar" and own.value is None else self.fix(own, fix)
         texts = (given.get("severity"), given.get("confidence"), given.get("message"))
         return Case(given["when"], *texts, when.span, fix, given.get("help"))
 
-    def mend(self, node: Node, of_rule: FixSpec | None) -> FixSpec | None:
-        """A fix. One that states its safety alone, in a case, is the rule's with that safety."""
+    def fix(self, node: Node, of_rule: FixSpec | None) -> FixSpec | None:
+        """A fix. In a case, one that only states its safety is the fix of the rule with that safety."""
         known = ("title", "safety", "set", "add", "remove", "do")
         members = node.value if node.kind == "mapping" else {}
         inherits = of_rule is not None and list(members) == ["safety"]
         if not inherits and ("title" not in members or "safety" not in members):
-            self.wrong(node.span, f"a fix is a mapping with `title`, `safety` ({', '.join(SAFETIES)}) and what it changes")
+            self.problem(node.span, f"a fix must be a mapping with `title`, `safety` ({', '.join(SAFETIES)}) and what it changes")
             return None
         for key in members:
             if key not in known:
@@ -307,17 +306,17 @@ class _Reading:
         if inherits and of_rule is not None:
             return of_rule._replace(safety=safety)
         if {"set", "add", "remove", "do"}.isdisjoint(members):
-            self.wrong(node.span, "a fix states what it changes: `set`, `add`, `remove` or `do`")
-        given, added, removed = (self.changes(members.get(key), key) for key in ("set", "add", "remove"))
+            self.problem(node.span, "a fix must state what it changes: `set`, `add`, `remove` or `do`")
+        set_, added, removed = (self.changes(members.get(key), key) for key in ("set", "add", "remove"))
         do = self.text(members["do"]) if "do" in members else ""
-        return FixSpec(self.text(members["title"]), safety, given, added, removed, do, node.span)
+        return FixSpec(self.text(members["title"]), safety, set_, added, removed, do, node.span)
 
     def changes(self, node: Node | None, action: str) -> tuple[Setting, ...]:
-        """The facts that a fix changes, with their values; a list of values is as many changes."""
+        """The facts that a fix changes with their values; a list of values gives one change for each."""
         if node is None:
             return ()
         if node.kind != "mapping":
-            self.wrong(node.span, "a mapping of facts to values is due here")
+            self.problem(node.span, f"expected a mapping of facts to values, found {_kind(node)}")
             return ()
         found = []
         for fact, value in node.value.items():
@@ -333,11 +332,14 @@ class _Reading:
             from msaa_lint.core.suggestions import nearest
 
             close = nearest(key.text, FACTS)
-            self.wrong(key.span, f"there is no fact {key.text[:80]}", f"did you mean `{close}`?" if close else "")
+            hint = f": did you mean `{close}`?" if close else ""
+            self.problem(key.span, f"unknown fact {quoted(key.text)}{hint}")
         elif (fact.type == "LIST") != (action != "set"):
-            self.wrong(key.span, f"{fact.name} is {'a list' if fact.type == 'LIST' else 'no list'}: `{action}` is not for it")
+            self.problem(
+                key.span, f"{fact.name} is {'a list' if fact.type == 'LIST' else 'not a list'}: it cannot be changed with `{action}`"
+            )
         elif value.kind != "scalar" or not (_names_fact(value) or _is_of(value.value, fact.type)):
-            self.wrong(value.span, f"a value of {fact.name} ({fact.type}) is due here")
+            self.problem(value.span, f"expected a value of {fact.name} ({fact.type}), found {_kind(value)}")
         return Setting(key.text, value.value if value.kind == "scalar" else "", value.span)
 
 
@@ -345,10 +347,16 @@ _TYPES = {"BOOL": (bool,), "INT": (int,), "DOUBLE": (int, float), "STRING": (str
 
 
 def _is_of(value: object, type_name: str) -> bool:
-    """Whether a value is of a fact's type, or one of its list's."""
+    """Whether a value has a fact's type, or that of its elements."""
     return type(value) in _TYPES.get(type_name, ())
 
 
 def _names_fact(node: Node) -> bool:
     """Whether a value is a fact in braces."""
     return isinstance(node.value, str) and node.text[:1] == "{" and node.text[-1:] == "}"
+
+
+def _kind(node: Node) -> str:
+    if node.kind != "scalar":
+        return "a mapping" if node.kind == "mapping" else "a list"
+    return "nothing" if node.value is None else quoted(node.text)

@@ -104,7 +104,7 @@ def test_a_person_sees_the_call_and_the_structure(tmp_path: Path) -> None:
     assert "        storeOp: STORE" in made.stdout
     assert f"= from: vkCreateRenderPass, call {index}; in 5 of 5 frames" in made.stdout
     assert "= fix: storeOp: DONT_CARE (not applied automatically)" in made.stdout
-    assert "game.jsonl is a capture, and stays as it is" in made.stderr
+    assert "game.jsonl is a capture and is not fixed" in made.stderr
     assert (tmp_path / "game.jsonl").read_bytes() == program.text()
 
 

@@ -42,7 +42,7 @@ def judged(given: str) -> Verdicts:
     document = readers.read(source, parse(source, Limits()).documents[0])
     assert document.problems == ()
     # A dump of one pipeline is never all there is.
-    return JUDGE.judge(subjects(document._replace(whole=False)), "given", as_written)
+    return JUDGE.run(subjects(document._replace(whole=False)), "given", as_written)
 
 
 def subject(path: str) -> str:

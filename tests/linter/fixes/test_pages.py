@@ -49,13 +49,13 @@ def loaded(folder: Path, fix: str) -> tuple[list[tuple[str, str]], list[str]]:
 @pytest.mark.parametrize(
     ("fix", "message"),
     [
-        ("fix: {title: x, safety: safe, set: {⟦aspect.stor⟧: DONT_CARE}}", "there is no fact aspect.stor"),
+        ("fix: {title: x, safety: safe, set: {⟦aspect.stor⟧: DONT_CARE}}", "unknown fact `aspect.stor`: did you mean `aspect.store`?"),
         ("fix: {title: x, safety: safe, set: {aspect.name: ⟦color⟧}}", "fixes cannot change `aspect.name`; use one of "),
         ("fix: {title: x, safety: safe, set: {resolve.mode: ⟦MIN⟧}}", "subject `aspect` has no fact `resolve.mode`"),
         ("fix: {title: x, safety: safe, set: {aspect.store: ⟦DONTCARE⟧}}", "`aspect.store` is never `DONTCARE`; did you mean `DONT_CARE`?"),
-        ("fix: {title: x, safety: safe, set: {aspect.store: ⟦4⟧}}", "a value of aspect.store (STRING) is due here"),
-        ("fix: {title: x, safety: safe, set: {⟦image.usage⟧: SAMPLED}}", "image.usage is a list: `set` is not for it"),
-        ("fix: {title: x, safety: safe, add: {⟦aspect.store⟧: STORE}}", "aspect.store is no list: `add` is not for it"),
+        ("fix: {title: x, safety: safe, set: {aspect.store: ⟦4⟧}}", "expected a value of aspect.store (STRING), found "),
+        ("fix: {title: x, safety: safe, set: {⟦image.usage⟧: SAMPLED}}", "image.usage is a list: it cannot be changed with `set`"),
+        ("fix: {title: x, safety: safe, add: {⟦aspect.store⟧: STORE}}", "aspect.store is not a list: it cannot be changed with `add`"),
         (
             "fix: {title: x, safety: safe, add: {image.usage: [SAMPLED, ⟦SMAPLED⟧]}}",
             "`image.usage` is never `SMAPLED`; did you mean `SAMPLED`?",
@@ -64,14 +64,17 @@ def loaded(folder: Path, fix: str) -> tuple[list[tuple[str, str]], list[str]]:
             'fix: {title: x, safety: safe, set: {aspect.store: ⟦"{image.samples}"⟧}}',
             "`{image.samples}` does not refer to a fact of type STRING",
         ),
-        ("fix: ⟦{title: x, safety: safe}⟧", "a fix states what it changes: `set`, `add`, `remove` or `do`"),
+        ("fix: ⟦{title: x, safety: safe}⟧", "a fix must state what it changes: `set`, `add`, `remove` or `do`"),
         ("fix: ⟦{title: x, safety: safe, do: nothing}⟧", "unknown action `do: nothing`; use one of make-transient, resolve-in-pass"),
-        ("cases: [{when: image.samples > 1, fix: ⟦{safety: unsafe}⟧}]", "a fix is a mapping with `title`, `safety` (safe, unsafe, shown)"),
+        (
+            "cases: [{when: image.samples > 1, fix: ⟦{safety: unsafe}⟧}]",
+            "a fix must be a mapping with `title`, `safety` (safe, unsafe, shown)",
+        ),
         (
             "fix: {title: x, safety: safe, set: {aspect.store: NONE}}\ncases: [{when: image.samples > 1, fix: {safety: ⟦often⟧}}]",
-            "one of safe, unsafe, shown is due here",
+            "expected one of safe, unsafe, shown, found `often`",
         ),
-        ('fix: {title: "{image.sample}", safety: safe, set: {aspect.store: NONE}}', "there is no fact image.sample of aspect"),
+        ('fix: {title: "{image.sample}", safety: safe, set: {aspect.store: NONE}}', "unknown fact image.sample of aspect"),
     ],
 )
 def test_problems_of_fixes_and_their_places(tmp_path: Path, fix: str, message: str) -> None:

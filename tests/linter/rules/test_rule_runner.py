@@ -1,4 +1,4 @@
-"""What the judge remembers changes no verdict."""
+"""Caching changes no result."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def test_verdicts_are_the_same_whatever_is_remembered(monkeypatch: pytest.Monkey
     assert any(linted.findings for linted in first)
     assert any(linted.undecided for linted in first)
     assert verdicts(engine, TEXTS) == first
-    monkeypatch.setattr(judge, "MOST_REMEMBERED", 1)
+    monkeypatch.setattr(judge, "MAX_CACHED", 1)
     assert verdicts(Engine(load()), TEXTS[::-1]) == first[::-1]
 
 
