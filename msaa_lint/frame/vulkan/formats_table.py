@@ -1,6 +1,6 @@
 """What the formats hold, a line each.
 
-Generated from the Vulkan registry, version 1.4.366, by `python -m msaa_lint.frame.vulkan.generate`: do not edit.
+Generated from the Vulkan registry, version 1.4.366, by `python -m tests.frame.vulkan.generate`: do not edit.
 """
 
 # fmt: off

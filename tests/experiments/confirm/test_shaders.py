@@ -15,8 +15,8 @@ from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from msaa_lint.experiments.confirm import scene
-from msaa_lint.experiments.confirm.shaders import generate
 from msaa_lint.experiments.confirm.shaders.spirv import OUTPUTS, SLOTS, instructions, needs, read, with_outputs, words_of
+from tests.experiments.confirm import generate_shaders as generate
 from tests.strength import examples
 
 FOLDER = Path(generate.FOLDER)
@@ -75,7 +75,7 @@ def test_the_code_is_valid(shader: str) -> None:
 
 @pytest.mark.parametrize("shader", SHADERS)
 def test_the_code_is_that_of_the_source(shader: str) -> None:
-    assert plainly(generate.compiled(shader)) == plainly(stored(shader)), "python -m msaa_lint.experiments.confirm.shaders.generate"
+    assert plainly(generate.compiled(shader)) == plainly(stored(shader)), "python -m tests.experiments.confirm.generate_shaders"
 
 
 def test_another_source_gives_other_code(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,7 +6,7 @@ import os
 
 import pytest
 
-from msaa_lint.frame.devices import generate_shares, shares_table
+from msaa_lint.frame.devices import shares_table
 from msaa_lint.frame.devices.shares import (
     ATTRIBUTION,
     DEPTH_RESOLVE_ALL,
@@ -16,6 +16,7 @@ from msaa_lint.frame.devices.shares import (
     resolve_mode_share,
     sample_count_share,
 )
+from tests.frame.devices import generate_shares
 from tests.paths import SAMPLES
 
 TABLE = """\

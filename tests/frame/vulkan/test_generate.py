@@ -8,7 +8,8 @@ import sys
 
 import pytest
 
-from msaa_lint.frame.vulkan import enums, formats_table, generate
+from msaa_lint.frame.vulkan import enums, formats_table
+from tests.frame.vulkan import generate
 from tests.paths import ROOT
 
 
@@ -42,7 +43,7 @@ def test_check_writes_nothing_and_says_what_is_stale(
 def test_headers_say_where_the_tables_are_from(module: object) -> None:
     doc = module.__doc__ or ""
     assert "Vulkan registry, version 1." in doc
-    assert "`python -m msaa_lint.frame.vulkan.generate`: do not edit." in doc
+    assert "`python -m tests.frame.vulkan.generate`: do not edit." in doc
 
 
 @pytest.mark.parametrize(

@@ -1,1 +1,1 @@
-"""Shaders: GLSL, and the SPIR-V made from it by `python -m msaa_lint.experiments.confirm.shaders.generate`."""
+"""Shaders: GLSL, and the SPIR-V made from it by `python -m tests.experiments.confirm.generate_shaders`."""

@@ -1,6 +1,6 @@
 """Writes `enums.py` and `formats_table.py` from the Vulkan registry, as PyPI's `vulkan-object` (a development dependency) carries it.
 
-    python -m msaa_lint.frame.vulkan.generate [--check]
+    python -m tests.frame.vulkan.generate [--check]
 
 `--check` writes nothing and exits with 1 where a file is stale.
 """
@@ -12,8 +12,10 @@ import sys
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-HERE = os.path.dirname(__file__)
-COMMAND = "python -m msaa_lint.frame.vulkan.generate"
+from tests.paths import ROOT
+
+HERE = str(ROOT / "msaa_lint" / "frame" / "vulkan")
+COMMAND = "python -m tests.frame.vulkan.generate"
 
 ENUMS = (
     "VkAttachmentLoadOp",

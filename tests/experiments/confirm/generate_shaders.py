@@ -1,4 +1,4 @@
-"""Makes the SPIR-V of the shaders: `python -m msaa_lint.experiments.confirm.shaders.generate`, with `glslangValidator` on the path."""
+"""Makes the SPIR-V of the shaders: `python -m tests.experiments.confirm.generate_shaders`, with `glslangValidator` on the path."""
 
 from __future__ import annotations
 
@@ -7,7 +7,9 @@ import subprocess
 import sys
 import tempfile
 
-FOLDER = os.path.dirname(os.path.abspath(__file__))
+from msaa_lint.experiments.confirm.shaders import spirv
+
+FOLDER = spirv.FOLDER
 STAGES = (".vert", ".frag", ".comp")
 
 
