@@ -6,9 +6,8 @@ import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from msaa_lint.experiments.confirm.explanations import CONSEQUENCES, EXPLANATIONS, Explanation
-from msaa_lint.experiments.confirm.families import FAMILIES, Looks
-from msaa_lint.experiments.confirm.noise import NOISE
+from msaa_lint.experiments.confirm.explanations import CONSEQUENCES, EXPLANATIONS, NOISE, Explanation
+from msaa_lint.experiments.confirm.families import FAMILIES, CheckScope
 from msaa_lint.linter.rules.registry import load
 
 PAGE = Path(__file__).parent / "agreement.md"
@@ -27,7 +26,7 @@ def linked(rules: Iterable[str]) -> str:
     return ", ".join(f"[{rule}](../rules/{rule}.md)" for rule in rules)
 
 
-def looks(at: Looks) -> str:
+def looks(at: CheckScope) -> str:
     """Where the layer looks, in words."""
     words = []
     if at.passes:
@@ -40,14 +39,16 @@ def looks(at: Looks) -> str:
         words.append("devices with lazily allocated memory")
     if at.device:
         words.append("the device that runs")
-    if at.at:
-        words.append(at.at)
-    words.extend(text.removeprefix("it looks at ") for _, _, text in at.when)
+    if at.instead:
+        words.append(at.instead)
+    words.extend(text.removeprefix("it checks ") for _, _, text in at.when)
     return "; ".join(words)
 
 
 def families() -> str:
-    rows = ((f"`{f.name}`", f.says, linked(f.rules) or "none", looks(f.looks), " ".join(f"`{id}`" for id in f.ids)) for f in FAMILIES)
+    rows = (
+        (f"`{f.name}`", f.description, linked(f.rules) or "none", looks(f.scope), " ".join(f"`{id}`" for id in f.ids)) for f in FAMILIES
+    )
     return table(("family", "the layer says", "our rules", "it looks at", "VUIDs and best practices"), rows)
 
 

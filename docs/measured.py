@@ -17,8 +17,8 @@ import numpy as np
 
 from msaa_lint.cli.report.study_plot import plot
 from msaa_lint.experiments.confirm.child import Limits
-from msaa_lint.experiments.confirm.results import Unusable
 from msaa_lint.experiments.confirm.session import Session, environment
+from msaa_lint.experiments.confirm.vulkan_errors import Unusable
 from msaa_lint.experiments.study import coverage, fragments, locations, snap
 from msaa_lint.experiments.study.device_coverage import clip, covered
 from msaa_lint.experiments.study.measure import difference, errors, truth

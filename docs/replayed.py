@@ -21,9 +21,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from msaa_lint.experiments.confirm.explanations import Noise
 from msaa_lint.experiments.confirm.families import Family
 from msaa_lint.experiments.confirm.messages import bare, classify
-from msaa_lint.experiments.confirm.noise import Noise
 
 PAGE = Path(__file__).parent / "captures-and-the-layer.md"
 ROOT = PAGE.parent.parent
@@ -38,7 +38,7 @@ PROFILE = "mali-g76"
 """What our rules judge for. The captures say that they are of lavapipe, which has no tiles; vendors' checks of the layer do not ask."""
 
 UNRELATED = ("DevLimit-MissingQueryCount", "vkCreateSampler-lod-clamping")
-"""Messages besides `confirm.noise` that have nothing to do with multisampling."""
+"""Messages besides NOISE of `confirm` that have nothing to do with multisampling."""
 
 WHY = {
     4: "no check of the layer is about sample shading",

@@ -10,8 +10,8 @@ from typing import IO, Any, NamedTuple
 
 from msaa_lint.experiments.confirm.child import Limits
 from msaa_lint.experiments.confirm.outcome import DeviceRun, about, exit_code
-from msaa_lint.experiments.confirm.results import NotWritten, Unusable
 from msaa_lint.experiments.confirm.session import Session, environment
+from msaa_lint.experiments.confirm.vulkan_errors import NotWritten, Unusable
 
 from .common import (
     MAX_RENDER_SIDE,
@@ -104,11 +104,11 @@ def _session(options: ConfirmOptions, device: str | None) -> Session:
 
 def _run(arguments: Arguments, options: ConfirmOptions, session: Session) -> int:
     from msaa_lint.experiments.confirm.inputs import Inputs, inputs
-    from msaa_lint.experiments.confirm.trial import Terms, trial
+    from msaa_lint.experiments.confirm.trial import TrialOptions, trial
     from msaa_lint.linter.workspace import Request
 
     several = len(options.devices) > 1
-    terms = Terms(
+    terms = TrialOptions(
         options.gate, options.image, options.time, options.repeats, options.size, options.samples, several, options.resolves
     )  # fmt: skip
     read: list[Inputs] = []

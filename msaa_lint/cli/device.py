@@ -103,7 +103,7 @@ def _stdin() -> list[Report]:
 def _installed() -> list[Offer]:
     """The devices of the installed drivers."""
     from msaa_lint.experiments.confirm.devices import running
-    from msaa_lint.experiments.confirm.results import Unusable
+    from msaa_lint.experiments.confirm.vulkan_errors import Unusable
 
     try:
         return [Offer(report) for report in running(MAX_SECONDS)]

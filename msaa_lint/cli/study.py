@@ -11,8 +11,8 @@ from functools import partial
 from typing import IO, Any, NamedTuple
 
 from msaa_lint.core.finding import Finding
-from msaa_lint.experiments.confirm.results import NotWritten
-from msaa_lint.experiments.confirm.results import Unusable as NoDevice
+from msaa_lint.experiments.confirm.vulkan_errors import NotWritten
+from msaa_lint.experiments.confirm.vulkan_errors import Unusable as NoDevice
 from msaa_lint.experiments.study.checkpoint import Checkpoint
 from msaa_lint.experiments.study.outcome import SceneSummary, Study, UntimedTechnique
 from msaa_lint.experiments.study.points import COUNTS, KINDS, MSAA, Point, Technique, techniques
@@ -250,10 +250,10 @@ def _progress(total: int) -> Iterator[Any]:
 
 
 def _write_crops(folder: str, options: StudyOptions, studied: Sequence[Subject]) -> list[str]:
-    from msaa_lint.experiments.confirm.png import Album
+    from msaa_lint.experiments.confirm.png import PictureFolder
     from msaa_lint.experiments.study.crops import crops
 
-    album = Album(folder)
+    album = PictureFolder(folder)
     return [crops(album, subject.input.name, subject.picture, options.techniques, options.bits) for subject in studied]
 
 

@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from msaa_lint.core.finding import Finding
-from msaa_lint.experiments.confirm.outcome import DeviceRun
-from msaa_lint.experiments.confirm.verdict import Said, Times, Verdict
+from msaa_lint.experiments.confirm.outcome import AgreementRow, DeviceRun, Times, Verdict
 
 from . import Options, Write
 from .data import Json, head, text, write_object
@@ -57,8 +56,8 @@ def _pass(verdict: Verdict) -> Json:
         "status": verdict.status,
         "reason": text(verdict.reason),
         "created": verdict.created,
-        "messages": [_message(said) for said in verdict.said if said.verdict != "ours"],
-        "ours": [{"rule": text(said.rule), "reason": text(said.reason)} for said in verdict.said if said.verdict == "ours"],
+        "messages": [_message(said) for said in verdict.agreement if said.verdict != "ours"],
+        "ours": [{"rule": text(said.rule), "reason": text(said.reason)} for said in verdict.agreement if said.verdict == "ours"],
         "findings": [text(code) for code in verdict.findings],
         "agrees": verdict.agrees,
         "pixels_equal": verdict.pixels_equal,
@@ -70,7 +69,7 @@ def _pass(verdict: Verdict) -> Json:
                 "pixels": image.pixels,
                 "first": list(image.first) if image.first is not None else None,
                 "tolerance": image.tolerance,
-                "says": text(image.words),
+                "says": text(image.text),
             }
             for image in verdict.images
         ],
@@ -81,7 +80,7 @@ def _pass(verdict: Verdict) -> Json:
     }
 
 
-def _message(said: Said) -> Json:
+def _message(said: AgreementRow) -> Json:
     return {
         "id": text(said.id),
         "family": text(said.family) or None,
@@ -101,7 +100,7 @@ def _times(times: Times | None) -> Json | None:
         "fixed": times.fixed.json() if times.fixed is not None else None,
         "difference": None
         if difference is None
-        else {"share": round(difference.share, 6), "real": difference.real, "says": difference.words},
+        else {"share": round(difference.share, 6), "real": difference.real, "says": difference.text},
     }
 
 

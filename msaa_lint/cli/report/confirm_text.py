@@ -8,9 +8,8 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from msaa_lint.experiments.confirm.outcome import DeviceRun
+from msaa_lint.experiments.confirm.outcome import STATUSES, WRONG, AgreementRow, DeviceRun, Verdict
 from msaa_lint.experiments.confirm.timing import Timing
-from msaa_lint.experiments.confirm.verdict import STATUSES, WRONG, Said, Verdict
 
 from . import Options, Write
 from .console import cell, new_table, open_console
@@ -95,7 +94,7 @@ def _table(run: DeviceRun) -> Table:
         ]
         if timed:
             before, after, difference = verdict.times if verdict.times is not None else (None, None, None)
-            texts += [_time(before), _time(after), difference.words if difference is not None else "-"]
+            texts += [_time(before), _time(after), difference.text if difference is not None else "-"]
         if priced:
             texts.append(_traffic(verdict))
         table.add_row(*(cell(text, STYLES[verdict.status] if column == 2 else "") for column, text in enumerate(texts)))
@@ -118,7 +117,7 @@ def _comparison(runs: Sequence[DeviceRun]) -> Table:
 
 
 def _agreement(verdict: Verdict) -> str:
-    counts = {kind: sum(said.verdict == kind for said in verdict.said) for kind in ("both", "ours", "theirs", "explained")}
+    counts = {kind: sum(said.verdict == kind for said in verdict.agreement) for kind in ("both", "ours", "theirs", "explained")}
     words = ", ".join(f"{count} {_WORDS[kind]}" for kind, count in counts.items() if count)
     return words or ("-" if verdict.agrees is None else "none")
 
@@ -136,8 +135,8 @@ def _details(verdict: Verdict, verbose: bool) -> Iterator[str]:
     """The details of a pass, one per line, after a line that names it."""
     lines = [shown(verdict.reason)] if verdict.reason else []
     for kind in ("theirs", "both", "explained", *(("ours", "noise") if verbose else ())):
-        lines += [_message(said) for said in verdict.said if said.verdict == kind]
-    lines += [f"{shown(image.image)}: {shown(image.words)}" for image in verdict.images if image.equal is not True or image.differing]
+        lines += [_message(said) for said in verdict.agreement if said.verdict == kind]
+    lines += [f"{shown(image.image)}: {shown(image.text)}" for image in verdict.images if image.equal is not True or image.differing]
     lines += [shown(note) for note in verdict.notes]
     lines += [f"picture: {shown(path)}" for path in verdict.pictures]
     if lines:
@@ -145,7 +144,7 @@ def _details(verdict: Verdict, verbose: bool) -> Iterator[str]:
         yield from (f"  {line}" for line in lines)
 
 
-def _message(said: Said) -> str:
+def _message(said: AgreementRow) -> str:
     """Who reports a mistake, the layer's message ID, the rule, and the layer's text if no rule covers it."""
     words = f"{_WORDS[said.verdict]}: " + " = ".join(shown(name) for name in (said.id, said.rule) if name)
     if said.reason:

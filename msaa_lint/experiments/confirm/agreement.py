@@ -1,8 +1,9 @@
-"""What the validation layer says of a frame against what we find in it: both, theirs alone, ours alone, and why."""
+"""How the validation layer's messages about a frame agree with the findings: both, theirs alone, ours alone, and why."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
 from typing import NamedTuple
 
 from msaa_lint.core.finding import Finding, Undecided
@@ -13,13 +14,12 @@ from msaa_lint.frame.facts.parts import Pass
 from msaa_lint.frame.facts.subjects import subjects
 from msaa_lint.linter.rules.condition import Condition, activation
 
-from .explanations import CONSEQUENCES, EXPLANATIONS
+from .explanations import CONSEQUENCES, EXPLANATIONS, Noise
 from .families import FAMILIES, Family
-from .inputs import of_pass
-from .layer_scope import Looking
+from .inputs import concerns
+from .layer_scope import LayerScope
 from .messages import Message, bare, classify, sentence
-from .noise import Noise
-from .verdict import Said
+from .outcome import AgreementRow
 
 BOTH = "both"
 OURS = "ours"
@@ -27,8 +27,11 @@ THEIRS = "theirs"
 EXPLAINED = "explained"
 NOISE = "noise"
 
-NO_CHECK = "no check of the layer has it"
-SILENT = "the layer should have said this"
+NO_CHECK = "the layer has no such check"
+SILENT = "the layer should have reported this"
+
+_LIKELIHOOD = (BOTH, NOISE, EXPLAINED, THEIRS)
+"""The order in which passes are preferred for a message that may be about several of them, by its verdict there."""
 
 
 def agreement(
@@ -36,159 +39,152 @@ def agreement(
     passes: Mapping[int, str],
     findings: Sequence[Finding],
     messages: Sequence[Message],
-    looking: Looking,
+    layer: LayerScope,
     undecided: Sequence[Undecided] = (),
     device: DeviceProfile | None = None,
-) -> dict[int, list[Said]]:
+) -> dict[int, list[AgreementRow]]:
     """The rows of each pass.
 
-    `passes` are those that ran: their numbers and names. `findings` are all of the frame's, silenced ones too, `undecided` what rules
-    could not say; `device` is the profile that they were judged for. A message of no pass in particular goes to the first pass whose
-    findings or facts answer to it.
+    `passes` are those that ran: their numbers and names. `findings` are all of the frame's, suppressed ones included; `undecided` are the
+    rules that could not be decided; `device` is the profile that they were checked against. A message about no pass in particular goes to
+    the first pass whose findings or facts account for it.
     """
     if not passes:
         return {}
-    this = _Frame(frame, passes, _Scope(findings, undecided, list(subjects(frame.document, device))))
-    rows: dict[int, list[Said]] = {number: [] for number in passes}
-    answered: set[Finding] = set()
-    for message in _once(messages):
-        number, said = this.told(message)
-        answered.update(said.answers)
-        rows[number].extend(each for each in said.rows if each not in rows[number])
-    for number, own in this.own.items():
-        for finding in own.findings:
-            if finding not in answered:
-                rows[number].append(this.unsaid(finding, looking, number))
+    matcher = _Matcher(frame, passes, _Scope(findings, undecided, list(subjects(frame.document, device))))
+    rows: dict[int, list[AgreementRow]] = {number: [] for number in passes}
+    reported: set[Finding] = set()
+    for message in _unique(messages):
+        number, match = matcher.match(message)
+        reported.update(match.findings)
+        rows[number].extend(row for row in match.rows if row not in rows[number])
+    for number, scope in matcher.by_pass.items():
+        for finding in scope.findings:
+            if finding not in reported:
+                rows[number].append(matcher.unreported(finding, layer, number))
     return rows
 
 
 class _Scope(NamedTuple):
-    """A pass, or the whole frame: what is found there, and what there is."""
+    """A pass or the whole frame: its findings, undecided rules and subjects."""
 
     findings: Sequence[Finding]
     undecided: Sequence[Undecided]
     subjects: Sequence[Subject]
 
 
-class _Rows(NamedTuple):
-    """The rows of a message, and the findings that answer to it."""
+class _Match(NamedTuple):
+    """The rows of a message, and the findings that account for it."""
 
-    rows: list[Said]
-    answers: Sequence[Finding] = ()
-
-
-_LIKELY = (BOTH, NOISE, EXPLAINED, THEIRS)
-"""Of a message that may be about several passes: which it is about, by what is said of it there."""
+    rows: list[AgreementRow]
+    findings: Sequence[Finding] = ()
 
 
-class _Frame:
-    """What is the same for all messages of a frame."""
+class _Matcher:
+    """Matches the messages about a frame with its findings."""
 
-    def __init__(self, frame: Frame, passes: Mapping[int, str], everything: _Scope) -> None:
-        self.everything = everything
-        self.own: dict[int, _Scope] = {}
-        by_name = {each.name: each for each in frame.passes}
+    def __init__(self, frame: Frame, passes: Mapping[int, str], frame_scope: _Scope) -> None:
+        self.frame_scope = frame_scope
+        self.by_pass: dict[int, _Scope] = {}
+        by_name = {described.name: described for described in frame.passes}
         for number, name in passes.items():
-            within = by_name.get(name)
-            self.own[number] = _scope(frame, within, self.everything) if within is not None else self.everything
+            described = by_name.get(name)
+            self.by_pass[number] = _pass_scope(frame, described, frame_scope) if described is not None else frame_scope
         self._by_path: dict[str, list[Subject]] = {}
-        for subject in everything.subjects:
+        for subject in frame_scope.subjects:
             self._by_path.setdefault(subject.path, []).append(subject)
 
-    def told(self, message: Message) -> tuple[int, _Rows]:
-        """The pass that a message is told with, and what is said of it there."""
-        numbers = [message.number] if message.number in self.own else list(self.own)
-        found = [(number, self.said(message, self.own[number])) for number in numbers]
+    def match(self, message: Message) -> tuple[int, _Match]:
+        """The pass that a message is reported with, and its rows there."""
+        numbers = [message.number] if message.number in self.by_pass else list(self.by_pass)
+        matches = [(number, self._match_within(message, self.by_pass[number])) for number in numbers]
         family = classify(message.id, message.text)
-        if message.number not in self.own or (isinstance(family, Family) and family.looks.at):
-            # It is said of the frame, or of what one pass does to another.
-            found.append((numbers[0], self.said(message, self.everything)))
-        return min(found, key=lambda each: _LIKELY.index(each[1].rows[0].verdict))
+        if message.number not in self.by_pass or (isinstance(family, Family) and family.scope.instead):
+            # The message is about the frame, or about the effect of one pass on another.
+            matches.append((numbers[0], self._match_within(message, self.frame_scope)))
+        return min(matches, key=lambda match: _LIKELIHOOD.index(match[1].rows[0].verdict))
 
-    def said(self, message: Message, scope: _Scope) -> _Rows:
-        """What is to be said of a message within a scope."""
+    def _match_within(self, message: Message, scope: _Scope) -> _Match:
         family = classify(message.id, message.text)
-        row = Said(THEIRS, message.id, family.name if isinstance(family, Family) else "", text=sentence(message.text))
+        row = AgreementRow(THEIRS, message.id, family.name if isinstance(family, Family) else "", text=sentence(message.text))
         if isinstance(family, Noise):
-            return _Rows([row._replace(verdict=NOISE, reason=family.reason)])
+            return _Match([row._replace(verdict=NOISE, reason=family.reason)])
         if family is not None:
-            both = [finding for finding in scope.findings if finding.rule in family.rules]
-            if both:
-                return _Rows([row._replace(verdict=BOTH, rule=rule) for rule in dict.fromkeys(finding.rule for finding in both)], both)
-        reason = _follows(message, family, scope.findings) or (_explained(family, scope) if family is not None else "")
-        return _Rows([row._replace(verdict=EXPLAINED, reason=reason) if reason else row])
+            findings = [finding for finding in scope.findings if finding.rule in family.rules]
+            if findings:
+                rules = dict.fromkeys(finding.rule for finding in findings)
+                return _Match([row._replace(verdict=BOTH, rule=rule) for rule in rules], findings)
+        reason = _consequence(message, family, scope.findings) or (_explanation(family, scope) if family is not None else "")
+        return _Match([row._replace(verdict=EXPLAINED, reason=reason) if reason else row])
 
-    def unsaid(self, finding: Finding, looking: Looking, number: int) -> Said:
-        """Why the layer says nothing of a finding."""
-        row = Said(OURS, rule=finding.rule, text=finding.message)
+    def unreported(self, finding: Finding, layer: LayerScope, number: int) -> AgreementRow:
+        """The row of a finding that the layer does not report, with the reason."""
+        row = AgreementRow(OURS, rule=finding.rule, text=finding.message)
         families = [family for family in FAMILIES if finding.rule in family.rules]
         if not families:
             return row._replace(reason=NO_CHECK)
         about = self._by_path.get(finding.subject, [])
-        reasons = [_looks_away(family, about, looking, looking.kinds.get(number, "")) for family in families]
+        reasons = [_not_checked(family, about, layer, layer.kinds.get(number, "")) for family in families]
         if all(reasons):
             return row._replace(reason="; ".join(dict.fromkeys(reasons)))
         silent = ", ".join(family.name for family, reason in zip(families, reasons, strict=True) if not reason)
         return row._replace(reason=f"{SILENT} ({silent})", expected=True)
 
 
-def _scope(frame: Frame, within: Pass, everything: _Scope) -> _Scope:
-    """What of a frame has to do with a pass."""
-    own = {f.subject for f in of_pass(frame, within, [_at(path) for path in {s.path for s in everything.subjects}])}
+def _pass_scope(frame: Frame, described: Pass, frame_scope: _Scope) -> _Scope:
+    """The findings, undecided rules and subjects that concern a pass."""
     return _Scope(
-        of_pass(frame, within, everything.findings),
-        [each for each in everything.undecided if each.subject in own],
-        [each for each in everything.subjects if each.path in own],
+        [finding for finding in frame_scope.findings if concerns(frame, described, finding.subject)],
+        [rule for rule in frame_scope.undecided if concerns(frame, described, rule.subject)],
+        [subject for subject in frame_scope.subjects if concerns(frame, described, subject.path)],
     )
 
 
-def _at(path: str) -> Finding:
-    """Something found at a path, for whoever asks where that is."""
-    return Finding("", "", "", "", "", "", None, path)
-
-
-def _follows(message: Message, family: Family | None, findings: Iterable[Finding]) -> str:
-    """Of which finding a message is a consequence."""
-    words = bare(message.id)
-    there = {finding.rule for finding in findings}
-    for each in CONSEQUENCES:
-        named = family is not None and family.name in each.ids
-        if named or any(words.endswith(f"-{known}") for known in each.ids):
-            rule = next((rule for rule in each.rules if rule in there), None)
+def _consequence(message: Message, family: Family | None, findings: Iterable[Finding]) -> str:
+    """The finding that a message is a consequence of, in words; empty for none."""
+    name = bare(message.id)
+    rules = {finding.rule for finding in findings}
+    for consequence in CONSEQUENCES:
+        in_family = family is not None and family.name in consequence.ids
+        if in_family or any(name.endswith(f"-{id}") for id in consequence.ids):
+            rule = next((rule for rule in consequence.rules if rule in rules), None)
             if rule is not None:
-                return f"follows from {rule}: {each.reason}"
+                return f"follows from {rule}: {consequence.reason}"
     return ""
 
 
-def _explained(family: Family, scope: _Scope) -> str:
-    for each in EXPLANATIONS:
-        if each.family == family.name and any(_holds(each.when, subject) for subject in scope.subjects if subject.kind == each.subject):
-            return each.reason
-    for unknown in scope.undecided:
-        if unknown.rule in family.rules:
-            missing = ", ".join(unknown.missing) or "what it asks"
-            return f"{unknown.rule} is undecided: the description does not say {missing}"
+def _explanation(family: Family, scope: _Scope) -> str:
+    """Why no rule reports messages of a family in a scope; empty if unexplained."""
+    for explanation in EXPLANATIONS:
+        if explanation.family == family.name and any(
+            _holds(explanation.when, subject) for subject in scope.subjects if subject.kind == explanation.subject
+        ):
+            return explanation.reason
+    for rule in scope.undecided:
+        if rule.rule in family.rules:
+            missing = ", ".join(rule.missing) or "the required facts"
+            return f"{rule.rule} is undecided: the description does not state {missing}"
     return ""
 
 
-def _looks_away(family: Family, about: Sequence[Subject], looking: Looking, kind: str) -> str:
-    """Why a family's check does not look at what is found; empty where it does."""
-    looks = family.looks
-    if looks.passes and kind and kind not in looks.passes:
-        return f"it looks at {_PASSES[looks.passes]} alone"
-    if looks.vendors and not looking.vendors & set(looks.vendors):
-        return f"the checks for {' and '.join(_VENDOR[each] for each in looks.vendors)} are not on"
-    if looks.since is not None and looking.version is not None and looking.version < looks.since:
-        return f"layers have it since {'.'.join(map(str, looks.since))}"
-    if looks.lazy and looking.lazy_memory is False:
-        return f"{looking.device} has no lazily allocated memory"
-    if looks.device:
-        return f"it judges {looking.device} and what is enabled there, not what the description is for"
-    if looks.at:
-        return f"it looks at {looks.at}"
-    for subject, when, words in looks.when:
-        if not any(_holds(when, each) for each in about if each.kind == subject):
-            return words
+def _not_checked(family: Family, about: Sequence[Subject], layer: LayerScope, kind: str) -> str:
+    """Why the layer's check of a family does not cover a finding; empty where it does."""
+    scope = family.scope
+    if scope.passes and kind and kind not in scope.passes:
+        return f"it checks {_PASSES[scope.passes]} only"
+    if scope.vendors and not layer.vendors & set(scope.vendors):
+        return f"the checks for {' and '.join(_VENDOR[vendor] for vendor in scope.vendors)} are off"
+    if scope.since is not None and layer.version is not None and layer.version < scope.since:
+        return f"layers have this check since {'.'.join(map(str, scope.since))}"
+    if scope.lazy and layer.lazy_memory is False:
+        return f"{layer.device} has no lazily allocated memory"
+    if scope.device:
+        return f"it checks against {layer.device} and what is enabled there, not against the device that the description is for"
+    if scope.instead:
+        return f"it checks {scope.instead}"
+    for subject_kind, when, text in scope.when:
+        if not any(_holds(when, subject) for subject in about if subject.kind == subject_kind):
+            return text
     return ""
 
 
@@ -199,17 +195,18 @@ _PASSES = {
 }
 _VENDOR = {"arm": "Arm", "amd": "AMD", "img": "IMG", "nvidia": "NVIDIA"}
 
-_conditions: dict[str, Condition] = {}
+
+@cache
+def _condition(when: str) -> Condition:
+    return Condition(when)
 
 
 def _holds(when: str, subject: Subject) -> bool:
-    if when not in _conditions:
-        _conditions[when] = Condition(when)
-    asked = _conditions[when]
+    condition = _condition(when)
     values = subject.facts.values
-    return asked.holds(activation(None, {name: values[name] for name in asked.facts if name in values})) is True
+    return condition.holds(activation(None, {name: values[name] for name in condition.facts if name in values})) is True
 
 
-def _once(messages: Iterable[Message]) -> list[Message]:
-    """Each message of a pass once, whatever objects it is said of."""
-    return list({(m.id, m.number, sentence(m.text)): m for m in messages}.values())
+def _unique(messages: Iterable[Message]) -> list[Message]:
+    """Each message of a pass once, however many objects it is reported for."""
+    return list({(message.id, message.number, sentence(message.text)): message for message in messages}.values())

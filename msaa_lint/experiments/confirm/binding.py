@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterable
 from types import ModuleType
 from typing import Any
 
-from .results import RESULTS, Unusable, VulkanError
+from .vulkan_errors import RESULTS, Unusable, VulkanError
 
 PACKAGE = "the Python package `vulkan` is not there: pip install 'msaa-lint[confirm]'"
 LOADER = "there is no Vulkan loader (libvulkan.so.1, vulkan-1.dll): install a Vulkan driver; on Debian `apt install libvulkan1`"

@@ -14,13 +14,13 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from typing import IO, Any, NamedTuple
 
-from .protocol import LONGEST, Event, Garbage, event, line
+from .protocol import MAX_LINE, Event, ProtocolError, event, line
 from .worker import EXECUTE
 
-WAITING = 4096
+MAX_WAITING = 4096
 """Answers that may wait to be read; then the child has to wait."""
 
-PRINTED = 16 << 10
+MAX_OUTPUT = 16 << 10
 """Bytes kept of the beginning, and of the end, of what driver and layer print."""
 
 
@@ -31,11 +31,11 @@ class Limits(NamedTuple):
     memory: int = 8 << 30
 
 
-class Ended(Exception):
+class ChildExit(Exception):
     """A child that is no more: `how` is `died`, `timed-out` or `garbage`; `signal` its name, empty where there was none."""
 
-    def __init__(self, how: str, words: str, signal: str = "") -> None:
-        super().__init__(words)
+    def __init__(self, how: str, text: str, signal: str = "") -> None:
+        super().__init__(text)
         self.how = how
         self.signal = signal
 
@@ -58,9 +58,9 @@ class Child:
             start_new_session=True,
         )
         assert self._process.stdin and self._process.stdout and self._process.stderr
-        self._answers: queue.Queue[bytes] = queue.Queue(WAITING)
+        self._answers: queue.Queue[bytes] = queue.Queue(MAX_WAITING)
         self._closing = False
-        self.printed = Printed(self._process.stderr)
+        self.printed = ChildOutput(self._process.stderr)
         self._listener = threading.Thread(target=self._listen, args=(self._process.stdout,), daemon=True)
         self._listener.start()
 
@@ -83,14 +83,14 @@ class Child:
                 text = self._answers.get(timeout=max(deadline - time.monotonic(), 0))
             except queue.Empty:
                 self.close()
-                raise Ended("timed-out", f"it took longer than {limit:g} s") from None
+                raise ChildExit("timed-out", f"it took longer than {limit:g} s") from None
             if not text:
                 raise self._ended()
             try:
                 found = event(text)
-            except Garbage as error:
+            except ProtocolError as error:
                 self.close()
-                raise Ended("garbage", f"the process with the driver in it wrote {error}, and was ended") from None
+                raise ChildExit("garbage", f"the process with the driver in it wrote {error}, and was ended") from None
             if found["event"] in ("pass", "time"):
                 deadline = time.monotonic() + limit
             yield found
@@ -98,7 +98,7 @@ class Child:
                 return
             if time.monotonic() > deadline:
                 self.close()
-                raise Ended("timed-out", f"it took longer than {limit:g} s")
+                raise ChildExit("timed-out", f"it took longer than {limit:g} s")
 
     def close(self) -> None:
         """Ends the child and all that it started; nothing of it is left."""
@@ -132,7 +132,7 @@ class Child:
         text = b"?"
         while text and not self._closing:
             try:
-                text = answers.readline(LONGEST)
+                text = answers.readline(MAX_LINE)
             except (OSError, ValueError):
                 text = b""
             while not self._closing:
@@ -140,21 +140,21 @@ class Child:
                     self._answers.put(text, timeout=0.2)
                     break
 
-    def _ended(self) -> Ended:
+    def _ended(self) -> ChildExit:
         """What a child that closed its answers came to."""
         try:
             code = self._process.wait(1)
         except subprocess.TimeoutExpired:
             self.close()
-            return Ended("garbage", "the process with the driver in it closed its answers, and was ended")
+            return ChildExit("garbage", "the process with the driver in it closed its answers, and was ended")
         self.close()
-        words = self.printed.last()
-        said = f"; its last words: {words}" if words else ""
+        text = self.printed.last()
+        agreement = f"; its last words: {text}" if text else ""
         if code >= 0:
-            return Ended("died", f"the driver ended the process with code {code}{said}")
+            return ChildExit("died", f"the driver ended the process with code {code}{agreement}")
         name = signal_name(-code)
         hint = ", as the system does when memory runs out" if name == "SIGKILL" else ""
-        return Ended("died", f"{name}{hint}{said}", name)
+        return ChildExit("died", f"{name}{hint}{agreement}", name)
 
 
 def _patience(limit: float, request: Mapping[str, Any]) -> float:
@@ -171,7 +171,7 @@ def signal_name(number: int) -> str:
         return f"signal {number}"
 
 
-class Printed:
+class ChildOutput:
     """What a child prints, read by a thread to the end so that it never waits; of that the beginning and the end."""
 
     def __init__(self, pipe: IO[bytes]) -> None:
@@ -204,8 +204,8 @@ class Printed:
                 return
             if not text:
                 return
-            room = PRINTED - len(self.head)
+            room = MAX_OUTPUT - len(self.head)
             self.head, rest = self.head + text[:room], text[room:]
             tail = self.tail + rest
-            self.dropped += max(len(tail) - PRINTED, 0)
-            self.tail = tail[-PRINTED:]
+            self.dropped += max(len(tail) - MAX_OUTPUT, 0)
+            self.tail = tail[-MAX_OUTPUT:]

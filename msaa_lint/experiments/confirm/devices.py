@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .results import Unusable
+from .vulkan_errors import Unusable
 
 if TYPE_CHECKING:
     from msaa_lint.frame.devices.reports import Report

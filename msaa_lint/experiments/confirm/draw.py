@@ -7,10 +7,10 @@ from typing import Any
 
 from . import parts
 from .binding import push_bytes
-from .build import Built
+from .build import FrameObjects
 from .defined_contents import Contents
 from .layouts import Layouts
-from .parts import CLEAR, COLOR, DEPTH, DEPTH_READ_LAYOUT, NONE, READ_LAYOUT, SOURCE_LAYOUT, STENCIL, TARGET_LAYOUT, Inner, Pass, Step
+from .parts import CLEAR, COLOR, DEPTH, DEPTH_READ_LAYOUT, NONE, READ_LAYOUT, SOURCE_LAYOUT, STENCIL, TARGET_LAYOUT, Pass, PassCommand, Step
 from .scene import BACKDROP, CLEARED, CLEARED_INTEGERS, CLEARED_STENCIL
 
 PEAK, HDR_PEAK = 1.0, 8.0
@@ -23,7 +23,7 @@ ALL_LEVELS = 1000.0
 class Recorder:
     """Records the steps of a plan, in order, and follows what the images are in and hold."""
 
-    def __init__(self, built: Built) -> None:
+    def __init__(self, built: FrameObjects) -> None:
         self.built = built
         self.vk = built.vk
         self.call = built.opened.call
@@ -161,8 +161,8 @@ class Recorder:
         if parts.SAMPLES_DYNAMIC in pipeline.dynamic:
             self.call("vkCmdSetRasterizationSamplesEXT")(buffer, count or pipeline.samples)
         if parts.MASK_DYNAMIC in pipeline.dynamic:
-            words = [*pipeline.mask, 0xFFFFFFFF][:1]
-            self.call("vkCmdSetSampleMaskEXT")(buffer, count or pipeline.samples, self.vk.ffi.new("uint32_t[]", words))
+            text = [*pipeline.mask, 0xFFFFFFFF][:1]
+            self.call("vkCmdSetSampleMaskEXT")(buffer, count or pipeline.samples, self.vk.ffi.new("uint32_t[]", text))
         if parts.COVERAGE_DYNAMIC in pipeline.dynamic:
             self.call("vkCmdSetAlphaToCoverageEnableEXT")(buffer, int(pipeline.alpha_to_coverage))
 
@@ -209,7 +209,7 @@ class Recorder:
         vk.vkUpdateDescriptorSets(handle, len(writes), writes, 0, None)
         return found
 
-    def _clear_attachment(self, buffer: Any, each: Pass, step: Step, inner: Inner) -> None:
+    def _clear_attachment(self, buffer: Any, each: Pass, step: Step, inner: PassCommand) -> None:
         vk = self.vk
         images = self._drawn(each, step, inner.subpass)
         number = images[inner.value] if inner.aspects & COLOR and inner.value < len(images) else NONE

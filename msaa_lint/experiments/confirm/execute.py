@@ -6,18 +6,18 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from . import parts
-from .build import Built
+from .build import FrameObjects
 from .devices import devices
 from .draw import Recorder
-from .opening import Session, Tell
+from .opening import Emit, Session
 from .parts import SAMPLED, SUSPENDING, TRANSFER_SOURCE, TRANSIENT, Plan, Step, from_json
 from .readback import bring_back, bring_samples
 from .resample import pictured
-from .results import VulkanError
 from .submit import Submitter
+from .vulkan_errors import VulkanError
 
 
-class Want(NamedTuple):
+class RunOptions(NamedTuple):
     """What is asked of a run. `pixels` is a folder that images are written to. With `repeats` passes are timed, after `warmups`, at the
     size that is described, otherwise pictures of at most 512 texels a side are drawn; `size` draws at a size. `samples_of` is an image
     whose samples are written one by one."""
@@ -29,7 +29,7 @@ class Want(NamedTuple):
     samples_of: str | None = None
 
 
-def run(session: Session, plan: Plan, passes: Sequence[int] | None, want: Want, tell: Tell) -> None:
+def run(session: Session, plan: Plan, passes: Sequence[int] | None, want: RunOptions, emit: Emit) -> None:
     """Creates and draws passes of a plan (None: all that are not refused) in the frame's order, and tells of what comes of it.
 
     Events: `pass` before a pass is touched, `created`, `message` of the layer, `pixels` and `sample` of files, `time`, at last `done`. A
@@ -39,28 +39,28 @@ def run(session: Session, plan: Plan, passes: Sequence[int] | None, want: Want, 
     asked = range(len(plan.passes)) if passes is None else passes
     going = [n for n in asked if 0 <= n < len(plan.passes) and not plan.passes[n].refused]
     session.at = None
-    session.telling(tell)
+    session.telling(emit)
     opened = session.opened(plan)
     sampled = next((n for n, image in enumerate(plan.images) if image.name == want.samples_of), None)
     if sampled is not None:
         images = list(plan.images)
         images[sampled] = images[sampled]._replace(usage=(images[sampled].usage | SAMPLED) & ~TRANSIENT)
         plan = plan._replace(images=tuple(images))
-    built = Built(opened, plan, _read_back(plan) if want.pixels is not None else {})
+    built = FrameObjects(opened, plan, _read_back(plan) if want.pixels is not None else {})
     submitter: Submitter | None = None
     at = -1
     try:
         made = []
         for at in going:
-            tell({"event": "pass", "pass": at})
+            emit({"event": "pass", "pass": at})
             session.at = at
             try:
-                built.made(at)
+                built.create_pass(at)
             except VulkanError as error:
-                tell({"event": "created", "pass": at, "ok": False, "error": error.name})
+                emit({"event": "created", "pass": at, "ok": False, "error": error.name})
                 continue
             made.append(at)
-            tell({"event": "created", "pass": at, "ok": True, "error": ""})
+            emit({"event": "created", "pass": at, "ok": True, "error": ""})
         submitter = Submitter(opened, want.repeats > 0)
         # Twice for the layer: what a frame leaves is what the next finds.
         for turn in range(want.warmups + want.repeats if want.repeats else 2 if session.layer is not None else 1):
@@ -69,29 +69,29 @@ def run(session: Session, plan: Plan, passes: Sequence[int] | None, want: Want, 
             for at, steps in segments(plan, made):
                 session.at = at
                 if turn == 0:
-                    tell({"event": "pass", "pass": at})
+                    emit({"event": "pass", "pass": at})
                 times[at] = times.get(at, 0.0) + _drawn(recorder, submitter, steps)
             if want.repeats and turn >= want.warmups:
                 for number, time in times.items():
-                    tell({"event": "time", "pass": number, "ms": round(time, 6), "source": submitter.source})
+                    emit({"event": "time", "pass": number, "ms": round(time, 6), "source": submitter.source})
         session.at = None
         if want.pixels is not None:
-            bring_back(recorder, submitter, want.pixels, tell)
+            bring_back(recorder, submitter, want.pixels, emit)
             if sampled is not None and sampled in built.images:
-                bring_samples(recorder, submitter, sampled, want.pixels, tell)
+                bring_samples(recorder, submitter, sampled, want.pixels, emit)
     except VulkanError as error:
         if at < 0:
             raise
-        tell({"event": "created", "pass": at, "ok": False, "error": error.name})
+        emit({"event": "created", "pass": at, "ok": False, "error": error.name})
     finally:
         session.at = None
         if submitter is not None:
             submitter.close()
         built.close()
-    tell({"event": "done"})
+    emit({"event": "done"})
 
 
-def _sized(plan: Plan, want: Want) -> Plan:
+def _sized(plan: Plan, want: RunOptions) -> Plan:
     from .resample import resized
 
     if want.size is not None:
@@ -132,4 +132,4 @@ def _drawn(recorder: Recorder, submitter: Submitter, steps: Sequence[Step]) -> f
     return submitter.end(buffer, timed=True)
 
 
-__all__ = ["Session", "Want", "devices", "from_json", "run", "segments"]
+__all__ = ["RunOptions", "Session", "devices", "from_json", "run", "segments"]

@@ -1,16 +1,16 @@
-"""Where the validation layer speaks and we rightly do not: what it overlooks, what our rules leave alone on purpose, and what follows from
-another finding of ours."""
+"""Messages of the validation layer that rightly have no finding: what the layer overlooks, what the rules ignore on purpose, what follows
+from another finding, and noise about how `confirm` calls Vulkan, the scene that it draws, or matters other than multisampling."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-_SINGLE = "an attachment of one sample is no matter of multisampling"
+_SINGLE = "a single-sampled attachment is outside the scope of multisampling rules"
 
 
 class Explanation(NamedTuple):
-    """Why messages of a family are right to be without a finding: where `when`, a condition over the facts of a kind of subject, holds for
-    one that the pass has. `wrong` where the layer is mistaken, else our rules mean to say nothing there."""
+    """Why messages of a family rightly have no finding if `when`, a condition on the facts of a kind of subject, holds for a subject of the
+    pass. `wrong` says that the layer is mistaken; otherwise the rules ignore it on purpose."""
 
     family: str
     subject: str
@@ -20,7 +20,7 @@ class Explanation(NamedTuple):
 
 
 class Consequence(NamedTuple):
-    """Messages that say again, in other words, what a finding of one of `rules` says. `ids` are families' names, or as in a family."""
+    """Messages that follow from a finding of one of `rules`. `ids` are names of families, or ids as in a family."""
 
     ids: tuple[str, ...]
     rules: tuple[str, ...]
@@ -32,22 +32,22 @@ EXPLANATIONS = (
         "non-transient-ms-image",
         "image",
         "image.samples > 1 && (image.read || image.loaded)",
-        "its samples are read or loaded outside the pass that draws them, which those of a transient attachment cannot be",
+        "its samples are read or loaded outside the pass that draws them, which is not possible for a transient attachment",
         wrong=True,
     ),
     Explanation(
         "should-be-transient",
         "image",
         "image.read || image.loaded",
-        "another pass or a shader reads the image: the layer looks at one framebuffer",
+        "another pass or a shader reads the image; the layer checks a single framebuffer",
         wrong=True,
     ),
-    Explanation("should-be-transient", "image", "image.samples == 1", "an image of one sample is no matter of multisampling"),
+    Explanation("should-be-transient", "image", "image.samples == 1", "a single-sampled image is outside the scope of multisampling rules"),
     Explanation(
         "image-requires-memory",
         "aspect",
         'attachment.samples > 1 && aspect.store == "STORE" && aspect.read_later',
-        "something reads the samples that are stored",
+        "the stored samples are read",
         wrong=True,
     ),
     Explanation("image-requires-memory", "attachment", "!attachment.used", "no subpass uses the attachment", wrong=True),
@@ -55,7 +55,7 @@ EXPLANATIONS = (
         "image-requires-memory",
         "attachment",
         'attachment.format == "S8_UINT"',
-        "loadOp and storeOp mean nothing for a format of stencil alone",
+        "loadOp and storeOp have no meaning for a stencil-only format",
         wrong=True,
     ),
     Explanation("should-not-be-transient", "attachment", "!attachment.used", "no subpass uses the attachment", wrong=True),
@@ -63,19 +63,19 @@ EXPLANATIONS = (
         "attachment-needs-readback",
         "aspect",
         'aspect.load == "LOAD" && device.immediate_mode',
-        "the device that the description is for does not render tile by tile",
+        "the described device does not render by tiles",
     ),
     Explanation(
         "attachment-needs-readback",
         "aspect",
         'attachment.is_resolve_target && aspect.load == "LOAD" && (aspect.read_before_resolve || pass.partial_area)',
-        "what the resolve target holds is used before the resolve, or kept around it",
+        "the previous contents of the resolve target are used before the resolve or preserved around it",
     ),
     Explanation(
         "too-large-sample-count",
         "image",
         "image.samples > 4 && image.samples <= device.max_efficient_samples",
-        "the device that the description is for keeps its rate with as many",
+        "the described device keeps its full rate at that sample count",
     ),
     Explanation("discarded-then-loaded", "aspect", 'attachment.samples == 1 && aspect.load == "LOAD"', _SINGLE),
     Explanation("redundant-store", "aspect", 'attachment.samples == 1 && aspect.store == "STORE"', _SINGLE),
@@ -83,13 +83,13 @@ EXPLANATIONS = (
         "redundant-store",
         "aspect",
         'aspect.store == "STORE" && aspect.read_later',
-        "something reads what is stored; confirm draws no more than the passes, so that the layer sees nobody",
+        "the stored contents are read; confirm draws only the passes, so the layer does not see the read",
     ),
     Explanation(
         "redundant-store",
         "image",
         '"SAMPLED" in image.usage || "STORAGE" in image.usage || "TRANSFER_SRC" in image.usage',
-        "its usage lets something read what is stored, and the description does not say what",
+        "its usage allows the stored contents to be read, and the description does not say whether they are",
     ),
     Explanation(
         "resolving-image",
@@ -109,34 +109,34 @@ EXPLANATIONS = (
         "amd-render-targets",
         "image",
         'device.known && device.vendor != "amd"',
-        "the device that the description is for is another vendor's",
+        "the described device is another vendor's",
     ),
     Explanation("amd-render-targets", "image", "!image.is_render_target", "nothing renders to the image", wrong=True),
     Explanation(
         "nvidia-linear-tiling",
         "image",
         'image.tiling == "LINEAR" && device.known && device.vendor != "nvidia"',
-        "the device that the description is for is another vendor's",
+        "the described device is another vendor's",
     ),
     Explanation("nvidia-linear-tiling", "image", 'image.tiling == "LINEAR" && !image.is_render_target', "nothing renders to the image"),
     Explanation(
         "rasterization-samples",
         "pipeline",
         "pipeline.samples_dynamic && pipeline.rasterization_samples == pipeline.attachment_samples",
-        "the count that is set dynamically is that of its attachments: the layer compares the one that the pipeline states",
+        "the dynamically set count is that of its attachments; the layer compares the count stated in the pipeline",
         wrong=True,
     ),
     Explanation(
         "resolve-source-samples",
         "resolve",
         "resolve.single_sampled_render",
-        "its source is multisampled while the pass draws; whether it may then have a resolve attachment is not settled",
+        "its source is multisampled while the pass draws; the specification does not settle whether it may have a resolve attachment",
     ),
     Explanation(
         "clear-values",
         "aspect",
         'aspect.name == "stencil" && aspect.load == "CLEAR"',
-        "stencilLoadOp CLEAR takes a clear value too, which the layer does not count",
+        "stencilLoadOp CLEAR uses a clear value too, which the layer ignores",
         wrong=True,
     ),
 )
@@ -145,28 +145,65 @@ CONSEQUENCES = (
     Consequence(
         ("rasterization-samples", "00758"),
         ("mixed-sample-counts", "resolve-source-single-sampled"),
-        "attachments that differ in their counts leave pipelines none to agree with",
+        "no pipeline can match attachments with different sample counts",
     ),
-    Consequence(("sample-count-unsupported", "04972"), ("multisampled-image-invalid",), "such an image can have one sample alone"),
+    Consequence(("sample-count-unsupported", "04972"), ("multisampled-image-invalid",), "such an image can only have one sample"),
     Consequence(
         ("attachment-needs-readback", "image-requires-memory"),
         ("load-from-undefined", "discarded-then-loaded"),
-        "the load is what is wrong there",
+        "the load itself is the mistake",
     ),
-    Consequence(("image-requires-memory",), ("resolve-target-multisampled",), "what is resolved to is stored, and should have one sample"),
+    Consequence(("image-requires-memory",), ("resolve-target-multisampled",), "the resolve target is stored and should have one sample"),
     Consequence(
         ("attachment-needs-readback", "image-requires-memory", "discarded-then-loaded", "redundant-store"),
         ("transient-needs-memory",),
-        "the operation that needs memory is what is wrong there",
+        "the operation that needs memory is the mistake",
     ),
     Consequence(
         ("non-transient-ms-image",),
         ("lazily-allocated-without-transient",),
-        "the same usage is missing",
+        "it lacks the same usage",
     ),
     Consequence(
         ("resolving-image",),
         ("resolve-source-single-sampled", "resolve-target-multisampled", "resolve-format-mismatch"),
-        "the resolve itself is what is wrong there",
+        "the resolve itself is the mistake",
     ),
 )
+
+
+class Noise(NamedTuple):
+    """Messages that say nothing about the description, by parts of their ids, and why."""
+
+    ids: tuple[str, ...]
+    reason: str
+
+
+_MEMORY = "confirm allocates memory for each image separately, as small as the image"
+_SCENE = "confirm draws its own scene"
+_VALUES = "confirm chooses the clear values"
+_CALLS = "how confirm records and submits commands is not part of the description"
+_START = "how confirm opens a device is not part of the description"
+_OTHER = "it has nothing to do with multisampling"
+
+NOISE = (
+    Noise(("vkAllocateMemory-small-allocation", "small-dedicated-allocation", "too-many-objects"), _MEMORY),
+    Noise(("AllocateMemory-ReuseAllocations",), _MEMORY),
+    Noise(("AllocateMemory-SetPriority", "BindMemory-NoPriority", "CreateDevice-PageableDeviceLocalMemory"), _MEMORY),
+    Noise(("requirements-not-retrieved", "requirements-not-all-retrieved"), _MEMORY),
+    Noise(("VUID_Undefined",), "it is about the layer itself: its limited knowledge of an extension or a driver"),
+    Noise(("specialuse-extension", "deprecated-extension", "extension-mismatch", "API-version-mismatch"), _START),
+    Noise(("physical-device-features-not-retrieved", "RobustBufferAccess"), _START),
+    Noise(("command-buffer-reset", "one-time-submit", "simultaneous-use", "AvoidSecondaryCmdBuffers", "unusable-secondary"), _CALLS),
+    Noise(("pipeline-stage-flags", "CmdBuffer-highBarrierCount", "readToReadBarrier", "ImageBarrierAccessLayout"), _CALLS),
+    Noise(("ReduceNumberOfSubmissions", "HighNumberOfFences", "HighNumberOfSemaphores", "vkImage-AvoidGeneral"), _CALLS),
+    Noise(("TransitionUndefinedToReadOnly", "AvoidImageToImageCopy", "ClearAttachment-ClearImage"), _CALLS),
+    Noise(("multiple-pipelines-caches", "multiple-pipelines-no-cache", "TooManyPipelines", "Pipeline-SortAndBind"), _CALLS),
+    Noise(("MinimizeNumDynamicStates", "CreatePipelinesLayout-KeepLayoutSmall", "CreatePipelineLayout"), _CALLS),
+    Noise(("SpirvDeprecated_WorkgroupSize",), "it is about a built-in shader of confirm"),
+    Noise(("redundant-attachment-on-tile", "depth-pre-pass-usage", "Zcull-LessGreaterRatio"), _SCENE),
+    Noise(("small-indexed-drawcalls", "SwitchTessGeometryMesh", "Shader-OutputNotConsumed"), _SCENE),
+    Noise(("ClearColor-NotCompressed", "ClearAttachment-FastClearValues", "ClearValueCountHigherThanAttachmentCount"), _VALUES),
+    Noise(("CreateImage-Depth32Format", "depthbias-zero", "DepthBiasNoAttachment", "AvoidPrimitiveRestart"), _OTHER),
+)
+"""By topic. Every other message that belongs to no family is reported as the layer's alone."""

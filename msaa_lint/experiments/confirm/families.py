@@ -1,7 +1,7 @@
-"""What the Khronos validation layer says of multisampling, by families of its messages, and the rules of ours that answer to each.
+"""Families of the Khronos validation layer's messages about multisampling, and the rules that correspond to each.
 
-A family outlives the ids of its messages: VUIDs are renumbered, best practices lose prefixes and gain vendors from one version of the
-layer to the next. `messages.classify` finds the family of a message.
+A family outlives the ids of its messages: from one version of the layer to the next VUIDs are renumbered, and best practices lose prefixes
+and gain vendors. `messages.classify` finds the family of a message.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ LEGACY = (RENDER_PASS, RENDER_PASS_2)
 MOBILE = ("arm", "img")
 
 
-class Looks(NamedTuple):
-    """Where the layer looks, so that where it does not its silence says nothing. What is empty does not limit it.
+class CheckScope(NamedTuple):
+    """What a check of the layer covers; outside it the layer's silence means nothing. Empty members impose no limit.
 
-    `passes` are kinds of passes; `vendors` those whose checks have it, one of which must be on; `since` the first version of the layer with
-    it. With `lazy` it needs a device with lazily allocated memory. With `device` it judges the device that it runs on, whatever the
-    description is for. `when` is a condition over the facts of what our finding is about: its kind of subject, the condition, in words.
-    `at` says what it looks at where that is another matter than ours, to which ours is an answer all the same.
+    `passes` are kinds of passes. `vendors` are those with the check, one of which must be enabled. `since` is the first version of the
+    layer with the check. `lazy` checks need a device with lazily allocated memory. `device` checks are made against the device that runs,
+    whatever device the description is for. `when` are conditions on the facts of a finding's subject: the kind of subject, the condition,
+    and the reason in words if it does not hold. `instead` says what the layer checks if that differs from what the rules check.
     """
 
     passes: tuple[str, ...] = ()
@@ -32,28 +32,28 @@ class Looks(NamedTuple):
     lazy: bool = False
     device: bool = False
     when: tuple[tuple[str, str, str], ...] = ()
-    at: str = ""
+    instead: str = ""
 
 
 class Family(NamedTuple):
-    """Messages that mean one thing.
+    """Messages with the same meaning.
 
-    `ids` are the numbers of VUIDs (`03067`), and the words that the names of best practices share over versions and vendors
-    (`non-transient-ms-image`). Where a VUID's number is none that is known, `structures` and `words` decide: patterns of the structure or
-    command in the id and of the message's text.
+    `ids` are the numbers of VUIDs (`03067`) and the parts that the names of best practices share across versions and vendors
+    (`non-transient-ms-image`). A VUID with an unknown number belongs to the family if the structure or command in its id matches
+    `structure_pattern` and its text matches `text_pattern`.
     """
 
     name: str
     rules: tuple[str, ...]
     ids: tuple[str, ...]
-    says: str
-    looks: Looks = Looks()
-    structures: str = ""
-    words: str = ""
+    description: str
+    scope: CheckScope = CheckScope()
+    structure_pattern: str = ""
+    text_pattern: str = ""
 
 
-def _ids(words: str) -> tuple[str, ...]:
-    return tuple(words.split())
+def _ids(text: str) -> tuple[str, ...]:
+    return tuple(text.split())
 
 
 _SUBPASS = r"VkSubpassDescription2?"
@@ -70,8 +70,8 @@ FAMILIES = (
         "sample-count-unsupported",
         ("sample-count-unsupported",),
         _ids("02258 08745"),
-        "an image's sample count is none that the device offers for its format",
-        Looks(device=True),
+        "the device does not support an image's sample count for its format",
+        CheckScope(device=True),
         _IMAGE,
         r"samples.*(not supported|imageCreateSampleCounts)",
     ),
@@ -80,7 +80,7 @@ FAMILIES = (
         ("mixed-sample-counts",),
         _ids("01418 09430 09431 09456 06868 06869 06870 06872 01417 03071 01506 03070 06857 06858 09429"),
         "attachments of one subpass or rendering differ in their sample counts",
-        Looks(),
+        CheckScope(),
         rf"{_SUBPASS}|VkRenderingInfo",
         r"[Ss]ubpass.*(sample|color).*(differ|inconsistent|match|same)|sample count.*(differ|inconsistent|match|same)"
         r"|MultisampledRenderToSingleSampled.*not VK_SAMPLE_COUNT_1",
@@ -90,7 +90,7 @@ FAMILIES = (
         ("rasterization-samples-mismatch",),
         _ids("06853 06854 00757 01505 01411 01412 04740 07284 07285 07286 07287 08644 07935 09211 06185 06186 06187 07474"),
         "a pipeline's rasterizationSamples is not the sample count of what it draws to",
-        Looks(when=(("pipeline", "!pipeline.samples_dynamic", "it looks at the count in the pipeline, not at one that commands set"),)),
+        CheckScope(when=(("pipeline", "!pipeline.samples_dynamic", "it checks the count in the pipeline, not one set by a command"),)),
         r"VkGraphicsPipelineCreateInfo|vkCmdDraw\w*",
         r"(rasterizationSamples|PipelineMultisampleState|VkPipeline|sample count).*(match|equal|!=|same)",
     ),
@@ -98,8 +98,8 @@ FAMILIES = (
         "multisampled-image",
         ("multisampled-image-invalid",),
         ("02257",),
-        "a multisampled image has mip levels, another shape than 2D, faces of a cube, or linear tiling",
-        Looks(),
+        "a multisampled image has mip levels, is not 2D, is cube compatible, or has linear tiling",
+        CheckScope(),
         _IMAGE,
         r"([Mm]ulti-?sampl|samples).*(mips|mipLevels|VK_IMAGE_TYPE_2D|CUBE_COMPATIBLE)",
     ),
@@ -107,8 +107,8 @@ FAMILIES = (
         "transient-usage",
         ("transient-usage-conflict",),
         _ids("00963 00966 01925 02539 02797 02798"),
-        "TRANSIENT_ATTACHMENT stands beside a usage that is no attachment's, or beside none",
-        Looks(),
+        "TRANSIENT_ATTACHMENT is combined with a usage other than attachments, or with none",
+        CheckScope(),
         _IMAGE,
         r"TRANSIENT_ATTACHMENT|Transient attachment",
     ),
@@ -116,8 +116,8 @@ FAMILIES = (
         "lazy-memory",
         ("lazily-allocated-without-transient",),
         _ids("01047 01614"),
-        "an image that is no transient attachment is bound to a type of memory that its requirements leave out",
-        Looks(lazy=True),
+        "an image that is not a transient attachment is bound to a memory type that its requirements exclude",
+        CheckScope(lazy=True),
         r"vkBindImageMemory|VkBindImageMemoryInfo",
         r"memoryTypeBits|[mM]emory[ _]type",
     ),
@@ -129,7 +129,7 @@ FAMILIES = (
             *_ids("vkCreateRenderPass-attachment-color-depth vkCreateRenderPass-attachment-stencil"),
         ),
         "an attachment is loaded from the layout UNDEFINED",
-        Looks(),
+        CheckScope(),
         _ATTACHMENT,
         r"LOAD_OP_LOAD.*UNDEFINED|UNDEFINED.*LOAD_OP_LOAD",
     ),
@@ -137,8 +137,8 @@ FAMILIES = (
         "resolve-without-ends",
         ("resolve-target-missing",),
         _ids("00847 03065 09335 03177 06862"),
-        "a resolve has a target and no source, or a mode and no target",
-        Looks(),
+        "a resolve has a target without a source, or a mode without a target",
+        CheckScope(),
         rf"{_SUBPASS}|{_DEPTH_RESOLVE}|{_RENDERING}",
         r"resolve (from|attachment).*VK_ATTACHMENT_UNUSED|resolveImageView must not be VK_NULL_HANDLE",
     ),
@@ -146,8 +146,8 @@ FAMILIES = (
         "resolve-source-samples",
         ("resolve-source-single-sampled",),
         _ids("00848 03066 09338 03179 06861 00257"),
-        "what is resolved has one sample",
-        Looks(),
+        "the source of a resolve has one sample",
+        CheckScope(),
         rf"{_SUBPASS}|{_DEPTH_RESOLVE}|{_RENDERING}|{_RESOLVE}",
         r"resolve from.*SAMPLE_COUNT_1|srcImage sample count is VK_SAMPLE_COUNT_1|DepthStencilAttachment has sample count"
         r"|(imageView|Image sample count).* must not have a VK_SAMPLE_COUNT_1",
@@ -156,8 +156,8 @@ FAMILIES = (
         "resolve-target-samples",
         ("resolve-target-multisampled",),
         _ids("00849 03067 03180 06864 00259"),
-        "what is resolved to has more than one sample",
-        Looks(),
+        "the target of a resolve has more than one sample",
+        CheckScope(),
         rf"{_SUBPASS}|{_DEPTH_RESOLVE}|{_RENDERING}|{_RESOLVE}",
         r"resolve into.*must have VK_SAMPLE_COUNT_1|dstImage sample count.*is not"
         r"|resolve attachment \d+ which has sample count|resolveImageView sample count must",
@@ -166,8 +166,8 @@ FAMILIES = (
         "resolve-formats",
         ("resolve-format-mismatch",),
         _ids("00850 03068 09339 03181 03182 06865 01386"),
-        "a resolve goes from one format to another",
-        Looks(),
+        "the source and the target of a resolve differ in format",
+        CheckScope(),
         rf"{_SUBPASS}|{_DEPTH_RESOLVE}|{_RENDERING}|{_RESOLVE}",
         r"different format|must have the same (VkFormat|number of bits)|[Ff]ormat.*(differ|not equal|identical|match)",
     ),
@@ -175,8 +175,8 @@ FAMILIES = (
         "depth-resolve-modes-none",
         ("depth-resolve-mode-none",),
         _ids("03178 06873"),
-        "a depth-stencil resolve attachment is named, and both modes are NONE",
-        Looks(),
+        "there is a depth-stencil resolve attachment, but both modes are NONE",
+        CheckScope(),
         _DEPTH_RESOLVE,
         r"resolve modes? (is|are) VK_RESOLVE_MODE_NONE",
     ),
@@ -184,8 +184,8 @@ FAMILIES = (
         "depth-resolve-modes",
         ("depth-resolve-mode-unsupported", "depth-averaged", "stencil-resolve-average"),
         _ids("03183 03184 03185 03186 06102 06103 06104 06105 06874 06875 06876 06877 10989 10990 10991 10992"),
-        "depth or stencil is resolved by a mode, or a pair of modes, that the device does not offer",
-        Looks(device=True),
+        "depth or stencil is resolved with a mode, or a pair of modes, that the device does not support",
+        CheckScope(device=True),
         rf"{_DEPTH_RESOLVE}|VkRenderingInfo|VkResolveImageInfo2",
         r"supported(Depth|Stencil)ResolveModes|invalid (depth|stencil)ResolveMode|independentResolve"
         r"|stencilResolveMode \(\w+\) must be identical|resolveMode structure with invalid mode",
@@ -195,14 +195,14 @@ FAMILIES = (
         ("depth-resolve-unavailable",),
         ("VkSubpassDescription2-pNext-pNext",),
         "a depth-stencil resolve is chained to a subpass without Vulkan 1.2 or VK_KHR_depth_stencil_resolve",
-        Looks(device=True),
+        CheckScope(device=True),
     ),
     Family(
         "integer-resolve-mode",
         ("integer-multisampled-target",),
         _ids("06130 06129"),
-        "integers are resolved by a mode other than SAMPLE_ZERO, or other colour by one other than AVERAGE",
-        Looks(passes=(RENDERING,), at="the mode that integers are resolved by"),
+        "integers are resolved with a mode other than SAMPLE_ZERO, or other colors with a mode other than AVERAGE",
+        CheckScope(passes=(RENDERING,), instead="the mode with which integers are resolved"),
         _RENDERING,
         r"resolve mode.*for (non-)?integer formats",
     ),
@@ -210,8 +210,8 @@ FAMILIES = (
         "sample-shading-feature",
         ("sample-shading-feature-missing",),
         ("00784",),
-        "sample shading is on without the feature sampleRateShading",
-        Looks(device=True),
+        "sample shading is enabled without the feature sampleRateShading",
+        CheckScope(device=True),
         r"VkPipelineMultisampleStateCreateInfo",
         r"sampleRateShading",
     ),
@@ -220,7 +220,7 @@ FAMILIES = (
         ("min-sample-shading-out-of-range",),
         ("00786",),
         "minSampleShading is not from 0 to 1",
-        Looks(when=(("pipeline", "pipeline.sample_shading", "it looks at minSampleShading where sample shading is on"),)),
+        CheckScope(when=(("pipeline", "pipeline.sample_shading", "it checks minSampleShading only with sample shading enabled"),)),
         r"VkPipelineMultisampleStateCreateInfo",
         r"minSampleShading",
     ),
@@ -228,8 +228,8 @@ FAMILIES = (
         "alpha-to-coverage-output",
         ("alpha-to-coverage-without-alpha",),
         ("08891",),
-        "alpha to coverage is on, and the shader writes no alpha to location 0",
-        Looks(at="the shader that is drawn with, which is confirm's own"),
+        "alpha to coverage is enabled, but the shader writes no alpha to location 0",
+        CheckScope(instead="the shader of the draw, which is the built-in one of confirm"),
         r"VkGraphicsPipelineCreateInfo",
         r"alphaToCoverageEnable.*(alpha|component)",
     ),
@@ -238,42 +238,42 @@ FAMILIES = (
         ("multisampled-image-not-transient",),
         ("non-transient-ms-image",),
         "a multisampled image is not TRANSIENT_ATTACHMENT",
-        Looks(vendors=MOBILE),
+        CheckScope(vendors=MOBILE),
     ),
     Family(
         "should-be-transient",
         ("multisampled-image-not-transient",),
         ("attachment-should-be-transient",),
         "an attachment that a framebuffer neither loads nor stores is not TRANSIENT_ATTACHMENT",
-        Looks(passes=LEGACY, lazy=True),
+        CheckScope(passes=LEGACY, lazy=True),
     ),
     Family(
         "should-not-be-transient",
         ("transient-needs-memory",),
         ("attachment-should-not-be-transient",),
         "a transient attachment of a framebuffer is loaded or stored",
-        Looks(passes=LEGACY),
+        CheckScope(passes=LEGACY),
     ),
     Family(
         "non-lazy-transient-image",
         ("transient-not-lazily-allocated",),
         ("non-lazy-transient-image",),
-        "a transient attachment is in memory that is not lazily allocated, which the device offers",
-        Looks(lazy=True),
+        "a transient attachment is not in lazily allocated memory although the device offers it",
+        CheckScope(lazy=True),
     ),
     Family(
         "too-large-sample-count",
         ("sample-count-above-four",),
         ("too-large-sample-count",),
         "an image has more than four samples",
-        Looks(vendors=MOBILE),
+        CheckScope(vendors=MOBILE),
     ),
     Family(
         "image-requires-memory",
         ("multisampled-attachment-stored", "multisampled-attachment-loaded", "multisampled-depth-stored", "multisampled-stencil-stored"),
         ("image-requires-memory",),
         "a multisampled attachment is loaded or stored",
-        Looks(passes=(RENDER_PASS,)),
+        CheckScope(passes=(RENDER_PASS,)),
     ),
     Family(
         "attachment-needs-readback",
@@ -287,7 +287,7 @@ FAMILIES = (
         ),
         ("attachment-needs-readback",),
         "an attachment is loaded",
-        Looks(passes=LEGACY, vendors=MOBILE, when=(("aspect", 'aspect.load == "LOAD"', "it looks at loads, not at clears and stores"),)),
+        CheckScope(passes=LEGACY, vendors=MOBILE, when=(("aspect", 'aspect.load == "LOAD"', "it checks loads, not clears and stores"),)),
     ),
     Family(
         "discarded-then-loaded",
@@ -299,71 +299,71 @@ FAMILIES = (
             "multisampled-stencil-stored",
         ),
         ("StoreOpDontCareThenLoadOpLoad",),
-        "a pass loads what the pass before it discarded",
-        Looks(passes=LEGACY, at="what a later pass loads"),
+        "a pass loads what the previous pass discarded",
+        CheckScope(passes=LEGACY, instead="what a later pass loads"),
     ),
     Family(
         "redundant-store",
         ("multisampled-attachment-stored", "multisampled-depth-stored", "multisampled-stencil-stored", "stored-then-discarded"),
         ("RenderPass-redundant-store",),
-        "a pass clears what the pass before it stored",
-        Looks(passes=LEGACY, vendors=MOBILE, at="what a later pass clears"),
+        "a pass clears what the previous pass stored",
+        CheckScope(passes=LEGACY, vendors=MOBILE, instead="what a later pass clears"),
     ),
     Family(
         "transfer-then-loaded",
         ("copied-then-loaded", "clear-command-instead-of-load-op", "multisampled-attachment-loaded", "framebuffer-readback"),
         ("RenderPass-inefficient-clear", "blitimage-loadopload", "copyimage-loadopload", "resolveimage-loadopload"),
         "a pass loads what a clear, copy, blit or resolve command wrote",
-        Looks(passes=LEGACY, vendors=MOBILE, at="what transfer commands wrote"),
+        CheckScope(passes=LEGACY, vendors=MOBILE, instead="what transfer commands wrote"),
     ),
     Family(
         "clear-values",
         ("clear-value-without-clear",),
         ("ClearValueWithoutLoadOpClear",),
-        "a pass is begun with clear values, and clears no attachment",
-        Looks(passes=LEGACY, at="the clear values that confirm gives, one an attachment"),
+        "a pass begins with clear values but clears no attachment",
+        CheckScope(passes=LEGACY, instead="the clear values that confirm passes, one per attachment"),
     ),
     Family(
         "clear-before-draw",
         ("clear-command-instead-of-load-op",),
         ("ClearCmdBeforeDraw", "RenderPass-redundant-clear", "clear-after-load"),
-        "a command clears what the pass could have cleared as it began",
-        Looks(passes=LEGACY),
+        "a command clears what the pass could have cleared at its start",
+        CheckScope(passes=LEGACY),
     ),
     Family(
         "resolve-mode-none",
         ("resolve-mode-none",),
         ("ResolveModeNone",),
-        "a rendering names a resolve image, and its resolve mode is NONE",
-        Looks(passes=(RENDERING,), since=(1, 3, 278), when=(("resolve", 'resolve.aspect == "color"', "it looks at colour alone"),)),
+        "a rendering has a resolve image, but its resolve mode is NONE",
+        CheckScope(passes=(RENDERING,), since=(1, 3, 278), when=(("resolve", 'resolve.aspect == "color"', "it checks color only"),)),
     ),
     Family(
         "resolving-image",
         ("resolve-outside-pass",),
         ("resolving-image",),
         "an image is resolved by vkCmdResolveImage",
-        Looks(vendors=("arm",)),
+        CheckScope(vendors=("arm",)),
     ),
     Family(
         "multisampled-blending",
         ("multisampled-float-blending",),
         ("multisampled-blending",),
         "a multisampled pipeline blends into a float format",
-        Looks(passes=LEGACY, vendors=("arm",)),
+        CheckScope(passes=LEGACY, vendors=("arm",)),
     ),
     Family(
         "amd-render-targets",
         ("attachment-blocks-compression",),
         ("vkImage-AvoidConcurrentRenderTargets", "vkImage-DontUseMutableRenderTargets", "vkImage-DontUseStorageRenderTargets"),
         "a render target has STORAGE usage, MUTABLE_FORMAT or CONCURRENT sharing",
-        Looks(vendors=("amd",), when=(("image", _AMD, "it looks at usage and flags; of sharing too, which takes several queue families"),)),
+        CheckScope(vendors=("amd",), when=(("image", _AMD, "it checks usage and flags; sharing only with several queue families"),)),
     ),
     Family(
         "nvidia-linear-tiling",
         ("attachment-blocks-compression",),
         ("CreateImage-TilingLinear",),
         "an image has linear tiling",
-        Looks(vendors=("nvidia",), when=(("image", 'image.tiling == "LINEAR"', "it looks at tiling alone"),)),
+        CheckScope(vendors=("nvidia",), when=(("image", 'image.tiling == "LINEAR"', "it checks tiling only"),)),
     ),
 )
-"""In the order of the documentation: what Vulkan forbids, then what the best practices advise."""
+"""In the order of the documentation: what Vulkan forbids, then what best practices recommend."""

@@ -1,4 +1,4 @@
-"""What came of a frame, collected from what its child says."""
+"""The results of running a frame, collected from the events of its child process."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from typing import NamedTuple
 
 from .protocol import Event
 
-MOST_MESSAGES = 200
-"""Messages of the layer that are kept of one pass."""
+MAX_MESSAGES = 200
+"""Layer messages that are kept per pass."""
 
 SAMPLES_OF = ":samples"
-"""What follows the name of an image whose samples were read back one by one."""
+"""The suffix of the name of an image whose samples were read back one by one."""
 
 
-class Ran(NamedTuple):
-    """What came of one pass. `end` is empty where it went through, else `died`, `timed-out` or `left`; `reason` says how.
+class PassOutcome(NamedTuple):
+    """The outcome of one pass. `end` is empty where it went through, otherwise `died`, `timed-out` or `left`, and `reason` says why.
 
-    `created` is None where nothing was said of it. `times` are in milliseconds.
+    `created` is None where the child did not report it. `times` are in milliseconds.
     """
 
     number: int
@@ -33,36 +33,38 @@ class Ran(NamedTuple):
 
 
 class FrameRun(NamedTuple):
-    """What came of a frame: of each pass, messages that are of no pass, and the images that were read back, by name.
+    """The outcome of a frame: each pass, messages about no pass in particular, and the images that were read back, by name.
 
-    `whole` where all passes that were asked for went through in one run; the images hold what they should only then. `failed` says why
-    the frame as a whole could not be run.
+    `whole` says whether all requested passes went through in one run; only then are the contents of the images meaningful. `failed` says
+    why the frame as a whole could not be run.
     """
 
-    passes: Mapping[int, Ran]
+    passes: Mapping[int, PassOutcome]
     messages: tuple[Event, ...] = ()
     images: Mapping[str, Event] = {}
     whole: bool = True
     failed: str = ""
 
 
-class Collected:
-    """The events of one run, taken apart."""
+class RunCollector:
+    """Collects the events of one run by pass. `at` is the last pass that the child announced."""
 
     def __init__(self) -> None:
         self.at: int | None = None
         self.failed = ""
         self.messages: list[Event] = []
         self.images: dict[str, Event] = {}
-        self._passes: dict[int, Ran] = {}
+        self._passes: dict[int, PassOutcome] = {}
 
-    def ran(self, number: int) -> Ran:
-        found = self._passes.get(number)
-        if found is None:
-            return Ran(number, end="left", reason=self.failed or "nothing was said of it")
-        return found._replace(end="left", reason=self.failed) if self.failed and self.at == number else found
+    def outcome(self, number: int) -> PassOutcome:
+        """The outcome of a pass."""
+        outcome = self._passes.get(number)
+        if outcome is None:
+            return PassOutcome(number, end="left", reason=self.failed or "the child process reported nothing about it")
+        return outcome._replace(end="left", reason=self.failed) if self.failed and self.at == number else outcome
 
-    def take(self, event: Event) -> None:
+    def add(self, event: Event) -> None:
+        """Takes up an event."""
         kind, number = event["event"], event.get("pass")
         if kind == "pixels":
             self.images[event["image"]] = event
@@ -71,18 +73,19 @@ class Collected:
         elif kind == "failed":
             self.failed = event["reason"]
         elif kind == "message" and number is None:
-            if len(self.messages) < MOST_MESSAGES:
+            if len(self.messages) < MAX_MESSAGES:
                 self.messages.append(event)
         elif isinstance(number, int):
-            ran = self._passes.get(number, Ran(number))
+            outcome = self._passes.get(number, PassOutcome(number))
             if kind == "pass":
                 self.at = number
             elif kind == "created":
-                ran = ran._replace(created=event["ok"] and ran.created is not False, error=str(event.get("error") or ran.error))
-            elif kind == "message" and len(ran.messages) < MOST_MESSAGES:
-                ran = ran._replace(messages=(*ran.messages, event))
+                created = event["ok"] and outcome.created is not False
+                outcome = outcome._replace(created=created, error=str(event.get("error") or outcome.error))
+            elif kind == "message" and len(outcome.messages) < MAX_MESSAGES:
+                outcome = outcome._replace(messages=(*outcome.messages, event))
             elif kind == "message":
-                ran = ran._replace(dropped=ran.dropped + 1)
+                outcome = outcome._replace(dropped=outcome.dropped + 1)
             elif kind == "time":
-                ran = ran._replace(times=(*ran.times, float(event["ms"])), source=str(event.get("source", "")))
-            self._passes[number] = ran
+                outcome = outcome._replace(times=(*outcome.times, float(event["ms"])), source=str(event.get("source", "")))
+            self._passes[number] = outcome

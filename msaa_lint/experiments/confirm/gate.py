@@ -47,7 +47,7 @@ def gate(plan: Plan, device: Mapping[str, Any]) -> dict[int, str]:
 
     `device` is what `opening.Session.device` holds. What the device does not say is not held against a pass.
     """
-    offered = Offered(device)
+    offered = DeviceSupport(device)
     found = {}
     for number, each in enumerate(plan.passes):
         reason = "" if each.refused else next(_reasons(plan, each, offered), "")
@@ -56,7 +56,7 @@ def gate(plan: Plan, device: Mapping[str, Any]) -> dict[int, str]:
     return found
 
 
-class Offered:
+class DeviceSupport:
     """What a device says of itself."""
 
     def __init__(self, device: Mapping[str, Any]) -> None:
@@ -93,12 +93,12 @@ class Offered:
         return None
 
 
-def _reasons(plan: Plan, each: Pass, offered: Offered) -> Iterator[str]:
+def _reasons(plan: Plan, each: Pass, offered: DeviceSupport) -> Iterator[str]:
     for check in _CHECKS:
         yield from check(plan, each, offered)
 
 
-def _way(plan: Plan, each: Pass, offered: Offered) -> Iterator[str]:
+def _way(plan: Plan, each: Pass, offered: DeviceSupport) -> Iterator[str]:
     """What its kind of pass needs."""
     if each.kind == parts.RENDERING and not offered.dynamic_rendering:
         yield "the device has no dynamic rendering"
@@ -123,12 +123,12 @@ def _way(plan: Plan, each: Pass, offered: Offered) -> Iterator[str]:
         yield f"the device has no {STORING_NONE[0]}, which storeOp NONE needs"
 
 
-def _images(plan: Plan, each: Pass, offered: Offered) -> Iterator[str]:
+def _images(plan: Plan, each: Pass, offered: DeviceSupport) -> Iterator[str]:
     for number in each.images:
         yield from _image(plan.images[number], offered)
 
 
-def _image(image: Image, offered: Offered) -> Iterator[str]:
+def _image(image: Image, offered: DeviceSupport) -> Iterator[str]:
     """Why an image cannot be had."""
     if image.tiling == MODIFIER_TILING:
         yield f"{image.name} has the tiling DRM_FORMAT_MODIFIER_EXT, whose modifiers are not described"
@@ -140,21 +140,21 @@ def _image(image: Image, offered: Offered) -> Iterator[str]:
     if image.samples > 1 and (image.type != 1 or image.tiling == 1 or image.levels > 1 or image.flags & CUBE_COMPATIBLE):
         yield f"{image.name} has {image.samples} samples, which an image that is not 2D, is linear, a cube or has levels cannot have"
     name = format_name(image.format)
-    said = offered.formats.get(str(image.format))
-    if said is None:
+    agreement = offered.formats.get(str(image.format))
+    if agreement is None:
         if offered.formats and image.format < FIRST_VERSION_FORMATS:
             yield f"the device has no images of {name}, as {image.name} is one"
         return
     attached = image.usage & (parts.COLOR_ATTACHMENT | parts.DEPTH_ATTACHMENT)
     if not attached and image.samples == 1:
         return
-    if "counts" not in said:
+    if "counts" not in agreement:
         yield f"the device does not render to {name}, as {image.name} is one"
         return
     if image.type != 1 or image.tiling == 1:
         return
-    with_usage = [(said[key], f" with the usage {word}") for bit, key, word in USAGES if image.usage & bit]
-    for counts, usage in ((said["counts"], ""), *with_usage):
+    with_usage = [(agreement[key], f" with the usage {word}") for bit, key, word in USAGES if image.usage & bit]
+    for counts, usage in ((agreement["counts"], ""), *with_usage):
         if not counts & image.samples:
             has = _counts(counts)
             yield (
@@ -171,7 +171,7 @@ MODIFIER_TILING = 1000158000
 """VK_IMAGE_TILING_DRM_FORMAT_MODIFIER_EXT."""
 
 
-def _mixed(plan: Plan, each: Pass, offered: Offered) -> Iterator[str]:
+def _mixed(plan: Plan, each: Pass, offered: DeviceSupport) -> Iterator[str]:
     """Attachments that are drawn to together and differ in their counts."""
     for subpass, (colors, depths, single) in enumerate(_drawn_together(plan, each)):
         wanted = [name for name in MIXED if name in plan.extensions]
@@ -194,7 +194,7 @@ def _drawn_together(plan: Plan, each: Pass) -> Iterator[tuple[list[int], list[in
         yield [n for role, n in counts if role == "color"], [n for role, n in counts if role != "color"], each.single_sampled > 0
 
 
-def _images_of_attachments(plan: Plan, each: Pass, offered: Offered) -> Iterator[str]:
+def _images_of_attachments(plan: Plan, each: Pass, offered: DeviceSupport) -> Iterator[str]:
     """Images and attachments that are not of one count, and framebuffers that are too large."""
     for framebuffer in each.framebuffers:
         for attachment, number in zip(each.attachments, framebuffer.images, strict=False):
@@ -212,7 +212,7 @@ def _images_of_attachments(plan: Plan, each: Pass, offered: Offered) -> Iterator
         yield f"it has {colors} color attachments, and the device has maxColorAttachments {offered.most('maxColorAttachments')}"
 
 
-def _resolves(plan: Plan, each: Pass, offered: Offered) -> Iterator[str]:
+def _resolves(plan: Plan, each: Pass, offered: DeviceSupport) -> Iterator[str]:
     """Resolves that drivers crash on, and modes of depth and stencil."""
     if not each.single_sampled and any(r.image != NONE and r.mode and r.resolve_image == NONE for r in each.rendered):
         yield "it resolves, and names no image to resolve to"
@@ -231,7 +231,7 @@ def _resolves(plan: Plan, each: Pass, offered: Offered) -> Iterator[str]:
         yield from _modes(modes.get("depth", 0), modes.get("stencil", 0), aspects, offered)
 
 
-def _modes(depth: int, stencil: int, aspects: int, offered: Offered) -> Iterator[str]:
+def _modes(depth: int, stencil: int, aspects: int, offered: DeviceSupport) -> Iterator[str]:
     for aspect, mode, word in ((DEPTH, depth, "Depth"), (STENCIL, stencil, "Stencil")):
         supported = offered.resolves(f"supported{word}ResolveModes")
         if aspects & aspect and mode and supported is not None and not supported & mode:
@@ -243,7 +243,7 @@ def _modes(depth: int, stencil: int, aspects: int, offered: Offered) -> Iterator
         yield f"the device does not resolve depth by {mode_name(depth)} and stencil by {mode_name(stencil)} ({limit} is false)"
 
 
-def _pipelines(plan: Plan, each: Pass, offered: Offered) -> Iterator[str]:
+def _pipelines(plan: Plan, each: Pass, offered: DeviceSupport) -> Iterator[str]:
     number = next(n for n, one in enumerate(plan.passes) if one is each)
     set_counts = {i.value for step in plan.steps if step.number == number for i in step.inner if i.kind == "samples"}
     counts = offered.limits.get("framebufferColorSampleCounts")
@@ -255,7 +255,7 @@ def _pipelines(plan: Plan, each: Pass, offered: Offered) -> Iterator[str]:
             yield f"{pipeline.name}: {reason}"
 
 
-def _pipeline(plan: Plan, each: Pass, pipeline: Pipeline, offered: Offered) -> Iterator[str]:
+def _pipeline(plan: Plan, each: Pass, pipeline: Pipeline, offered: DeviceSupport) -> Iterator[str]:
     subpass = each.subpasses[pipeline.subpass] if 0 <= pipeline.subpass < len(each.subpasses) else None
     depth = pipeline.depth_format or pipeline.stencil_format or (subpass is not None and subpass.depth_stencil)
     if pipeline.subpass == NONE and not offered.dynamic_rendering:
@@ -283,12 +283,12 @@ def _pipeline(plan: Plan, each: Pass, pipeline: Pipeline, offered: Offered) -> I
     if subpass is not None:
         formats = tuple(each.attachments[r.attachment].format if r.attachment != NONE else 0 for r in subpass.colors)
     for number, blend in zip(formats, pipeline.blends, strict=False):
-        said = offered.formats.get(str(number))
-        if blend.enable and said is not None and not said.get("features", 0) & BLEND_FEATURE:
+        agreement = offered.formats.get(str(number))
+        if blend.enable and agreement is not None and not agreement.get("features", 0) & BLEND_FEATURE:
             yield f"the device does not blend {format_name(number)}"
 
 
-_Check = Callable[[Plan, Pass, Offered], Iterator[str]]
+_Check = Callable[[Plan, Pass, DeviceSupport], Iterator[str]]
 _CHECKS: tuple[_Check, ...] = (_way, _mixed, _images, _images_of_attachments, _resolves, _pipelines)
 
 
@@ -315,5 +315,5 @@ def _counts(mask: int) -> str:
 
 
 def _list(numbers: list[int]) -> str:
-    words = [str(each) for each in numbers]
-    return " and ".join([", ".join(words[:-1]), words[-1]]) if len(words) > 1 else "".join(words)
+    text = [str(each) for each in numbers]
+    return " and ".join([", ".join(text[:-1]), text[-1]]) if len(text) > 1 else "".join(text)

@@ -133,13 +133,15 @@ def _own(findings: Sequence[Finding], prefix: str) -> tuple[Finding, ...]:
     return tuple(f._replace(subject=f.subject.removeprefix(prefix)) for f in findings if f.subject.startswith(prefix))
 
 
-def of_pass(frame: Frame, each: Pass, findings: Sequence[Finding]) -> list[Finding]:
-    """The findings that have to do with a pass: of itself, of its images, framebuffers and pipelines, and of the commands about those.
+def of_pass(frame: Frame, described: Pass, findings: Sequence[Finding]) -> list[Finding]:
+    """The findings that concern a pass."""
+    return [finding for finding in findings if concerns(frame, described, finding.subject)]
 
-    What is of no pass in particular is every pass's.
-    """
-    owners = _owners(frame)
-    return [found for found in findings if owners.has(each, found.subject)]
+
+def concerns(frame: Frame, described: Pass, path: str) -> bool:
+    """Whether a path concerns a pass: the pass itself, its images, framebuffers and pipelines, and the commands on them. A path of no pass
+    in particular concerns every pass."""
+    return _owners(frame).has(described, path)
 
 
 class _Owners:

@@ -12,7 +12,7 @@ from types import TracebackType
 from typing import Any, NamedTuple
 
 from .binding import chain, extensions, instance_version, layers, load, packed, physical_name, procedure, text
-from .results import Unusable, VulkanError
+from .vulkan_errors import Unusable, VulkanError
 
 DRIVER = "the Vulkan loader finds no driver: install one; on Debian `apt install mesa-vulkan-drivers`, which needs no GPU"
 LAYER = "the layer {} is not there{}"
@@ -123,8 +123,8 @@ class Instance:
     def _told(self, severity: int, kinds: int, data: Any, user: Any) -> int:
         try:
             assert self._sink is not None
-            said = Message(_SEVERITIES.get(severity, "error"), text(data.pMessageIdName), text(data.pMessage), data.messageIdNumber)
-            self._sink(said)
+            agreement = Message(_SEVERITIES.get(severity, "error"), text(data.pMessageIdName), text(data.pMessage), data.messageIdNumber)
+            self._sink(agreement)
         except BaseException as error:
             self.sink_error = self.sink_error or error
         return 0

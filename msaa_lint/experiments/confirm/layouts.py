@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from .build import Built
+from .build import FrameObjects
 from .parts import (
     COLOR,
     COLOR_LAYOUT,
@@ -40,14 +40,14 @@ USES = {
 
 READING = (DEPTH_READ_LAYOUT, READ_LAYOUT)
 
-Wanted = tuple[int, int, int | None]
+LayoutRequest = tuple[int, int, int | None]
 """An image, the layout it is to be in, and stencil's own where that is another."""
 
 
 class Layouts:
     """Where every aspect of every image is."""
 
-    def __init__(self, built: Built) -> None:
+    def __init__(self, built: FrameObjects) -> None:
         self.built = built
         self.vk = built.vk
         self.known: dict[tuple[int, int], int] = {}
@@ -61,9 +61,9 @@ class Layouts:
         for aspect in self._aspects(image):
             self.known[image, aspect] = stencil if stencil is not None and aspect == STENCIL else layout
 
-    def into(self, buffer: Any, wanted: Sequence[Wanted]) -> None:
+    def into(self, buffer: Any, wanted: Sequence[LayoutRequest]) -> None:
         """Records barriers that bring images into layouts: (image, layout, stencil's own or None). UNDEFINED asks for nothing."""
-        through: list[Wanted] = [(image, GENERAL, None) for image, layout, _ in wanted if self._blank(image) and layout in READING]
+        through: list[LayoutRequest] = [(image, GENERAL, None) for image, layout, _ in wanted if self._blank(image) and layout in READING]
         if through:
             self._barrier(buffer, through)
         self._barrier(buffer, wanted)
@@ -79,7 +79,7 @@ class Layouts:
     def _aspects(self, image: int) -> list[int]:
         return [aspect for aspect in (COLOR, DEPTH, STENCIL) if self.built.plan.images[image].aspects & aspect]
 
-    def _barrier(self, buffer: Any, wanted: Sequence[Wanted]) -> None:
+    def _barrier(self, buffer: Any, wanted: Sequence[LayoutRequest]) -> None:
         vk = self.vk
         barriers, before, after = [], 0, 0
         for image, layout, stencil in wanted:

@@ -1,4 +1,4 @@
-"""Messages of the validation layer: what is said, and which family it belongs to."""
+"""Messages of the validation layer, and the families they belong to."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from functools import cache
 from typing import NamedTuple
 
+from .explanations import NOISE, Noise
 from .families import FAMILIES, Family
-from .noise import NOISE, Noise
 
 
 class Message(NamedTuple):
-    """What the layer says. `number` is the pass it was said of; None where it is of no pass in particular."""
+    """A message of the layer. `number` is the pass that it is about; None for no pass in particular."""
 
     id: str
     text: str
@@ -21,7 +21,7 @@ class Message(NamedTuple):
 
 
 VENDORS = {"arm": "arm", "amd": "amd", "img": "img", "nvidia": "nvidia"}
-"""The words of ids and texts that name a vendor's checks."""
+"""The parts of ids and texts that name a vendor's checks."""
 
 _OWN = re.compile(r"^(?:UNASSIGNED-)?BestPractices-(?:(?P<vendor>Arm|AMD|IMG|NVIDIA)-)?", re.IGNORECASE)
 _VUID = re.compile(r"^(?:UNASSIGNED-)?VUID-(?P<of>\w+)-(?P<rest>.+)$")
@@ -34,40 +34,44 @@ _VENDORS_SAID = re.compile(r"^(?:\[(?:Arm|AMD|IMG|NVIDIA)\]\s*)+", re.IGNORECASE
 
 
 def classify(id: str, text: str = "") -> Family | Noise | None:
-    """The family of a message, or why it is noise. None where it is neither: then nobody of ours answers to it."""
-    words = bare(id)
-    for each in _candidates():
-        if any(_has(words, known) for known in each.ids):
-            return each
+    """The family of a message, or the kind of noise it is. None for neither: no rule corresponds to it."""
+    name = bare(id)
+    for candidate in _candidates():
+        if any(_has(name, id_part) for id_part in candidate.ids):
+            return candidate
     vuid = _VUID.match(id)
     if vuid is None or _NUMBER.search(id) is None:
         return None
-    # A number that is not known: renumbered, or new.
-    said = sentence(text)
+    # An unknown number: renumbered, or new.
+    message = sentence(text)
     for family in FAMILIES:
-        if family.words and re.fullmatch(family.structures, vuid["of"]) and re.search(family.words, said, re.DOTALL):
+        if (
+            family.text_pattern
+            and re.fullmatch(family.structure_pattern, vuid["of"])
+            and re.search(family.text_pattern, message, re.DOTALL)
+        ):
             return family
     return None
 
 
 def bare(id: str) -> str:
-    """An id without what versions of the layer put in front of it: `UNASSIGNED-`, `VUID-`, `BestPractices-` and a vendor."""
+    """An id without the prefixes of various layer versions: `UNASSIGNED-`, `VUID-`, `BestPractices-` and a vendor."""
     return _OWN.sub("", id).removeprefix("VUID-")
 
 
 def vendors(id: str, text: str = "") -> frozenset[str]:
-    """The vendors whose checks say it; none where it is said for all."""
-    found = {match["vendor"].lower() for match in (_OWN.match(id),) if match is not None and match["vendor"]}
-    named = _VENDORS_SAID.match(_PREAMBLE.sub("", text))
-    if named is not None:
-        found.update(word.lower() for word in re.findall(r"\w+", named[0]))
-    return frozenset(found)
+    """The vendors whose checks report a message; none for messages that do not depend on a vendor."""
+    names = {match["vendor"].lower() for match in (_OWN.match(id),) if match is not None and match["vendor"]}
+    prefix = _VENDORS_SAID.match(_PREAMBLE.sub("", text))
+    if prefix is not None:
+        names.update(word.lower() for word in re.findall(r"\w+", prefix[0]))
+    return frozenset(names)
 
 
 def sentence(text: str) -> str:
-    """What a message says, without what the layer puts around it: objects, numbers and links; handles, which are others in every run."""
-    said = _QUOTED.sub("", _VENDORS_SAID.sub("", _PREAMBLE.sub("", text)))
-    return " ".join(_HANDLE.sub("...", _NAMED.sub(r"`\1`", said)).split())
+    """The text of a message without the preamble and the quotation of the specification; handles, which differ in every run, are elided."""
+    message = _QUOTED.sub("", _VENDORS_SAID.sub("", _PREAMBLE.sub("", text)))
+    return " ".join(_HANDLE.sub("...", _NAMED.sub(r"`\1`", message)).split())
 
 
 @cache
@@ -75,10 +79,10 @@ def _candidates() -> tuple[Family | Noise, ...]:
     return (*FAMILIES, *NOISE)
 
 
-def _has(words: str, known: str) -> bool:
-    return f"-{known}-" in f"-{words}-"
+def _has(name: str, id_part: str) -> bool:
+    return f"-{id_part}-" in f"-{name}-"
 
 
 def numbers() -> Iterator[str]:
-    """Every number of a VUID that a family has."""
-    return (known for family in FAMILIES for known in family.ids if known.isdecimal())
+    """The VUID numbers of all families."""
+    return (id_part for family in FAMILIES for id_part in family.ids if id_part.isdecimal())

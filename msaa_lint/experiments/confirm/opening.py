@@ -11,11 +11,11 @@ from .binding import chain, extensions, layers, load, procedure
 from .devices import _device
 from .instance import Device, Instance, Message, no_driver
 from .parts import Plan
-from .results import Unusable, VulkanError
 from .scene import VERTEX_BYTES, vertices
 from .shaders.spirv import read
+from .vulkan_errors import Unusable, VulkanError
 
-Tell = Callable[[dict[str, Any]], None]
+Emit = Callable[[dict[str, Any]], None]
 
 VALIDATION = "VK_LAYER_KHRONOS_validation"
 BEST_PRACTICES = "VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT"
@@ -48,12 +48,12 @@ FORMAT_USAGES = {"attachment": 0, "sampled": 0x4, "storage": 0x8, "input": 0x80,
 VERTEX_BUFFER, VISIBLE = 0x80, 0x6
 """VK_BUFFER_USAGE_VERTEX_BUFFER_BIT; host-visible and coherent memory, of VkMemoryPropertyFlagBits."""
 
-MOST_FORMATS = 185
+MAX_FORMAT = 185
 """The formats of Vulkan 1.0 are numbered from 1 to this."""
 
 
 class Session:
-    """An instance, and one physical device of it; one in a process. `tell` is told of what the layer says.
+    """An instance, and one physical device of it; one in a process. `emit` is told of what the layer says.
 
     `name` is a part of the device's name (None: the first that is the CPU, else the first); `validation` asks for the validation layer,
     which is left out where it is not there; `vendors` are those whose checks it makes. Unusable where no device is there.
@@ -63,10 +63,10 @@ class Session:
         self.vk = load()
         self.vendors = tuple(vendors)
         self.at: int | None = None
-        self.tell: Tell | None = None
+        self.emit: Emit | None = None
         self._waiting: list[Message] = []
         self._deaf = False
-        self._devices: dict[tuple[Any, ...], Opened] = {}
+        self._devices: dict[tuple[Any, ...], OpenDevice] = {}
         there = layers() if validation else {}
         self.layer: dict[str, Any] | None = None
         if VALIDATION in there:
@@ -102,14 +102,14 @@ class Session:
     def _said(self, message: Message) -> None:
         if self._deaf:
             return
-        if self.tell is None:
+        if self.emit is None:
             self._waiting.append(message)
         else:
-            self.tell({"event": "message", "pass": self.at, "id": message.id, "severity": message.severity, "text": message.text[:4000]})
+            self.emit({"event": "message", "pass": self.at, "id": message.id, "severity": message.severity, "text": message.text[:4000]})
 
-    def telling(self, tell: Tell) -> None:
-        """Has `tell` told of what the layer says, and of what it said before anyone listened."""
-        self.tell = tell
+    def telling(self, emit: Emit) -> None:
+        """Has `emit` told of what the layer says, and of what it said before anyone listened."""
+        self.emit = emit
         waiting, self._waiting = self._waiting, []
         for message in waiting:
             self._said(message)
@@ -126,12 +126,12 @@ class Session:
                 return device
         raise Unusable(f"no device is named {name}: there are {', '.join(names)}" if names else no_driver())
 
-    def opened(self, plan: Plan) -> Opened:
+    def opened(self, plan: Plan) -> OpenDevice:
         """A logical device with what a plan needs; the same one for plans that need the same."""
         key = (tuple(name for name in plan.extensions if name in self.names), plan.without)
         if key not in self._devices:
             self.at, before = None, self.at
-            self._devices[key] = Opened(self, *key)
+            self._devices[key] = OpenDevice(self, *key)
             self.at = before
         return self._devices[key]
 
@@ -143,7 +143,7 @@ class Session:
         self.instance.__exit__(None, None, None)
 
 
-class Opened:
+class OpenDevice:
     """A logical device, with what lives as long as it: the command pool, shader modules, layouts."""
 
     def __init__(self, session: Session, special: tuple[str, ...], without: tuple[str, ...]) -> None:
@@ -291,7 +291,7 @@ def formats(physical: Any) -> dict[str, dict[str, int]]:
     sample counts of attachments, `sampled`, `storage`, `input` and `transient` those with that usage too (0: not at all)."""
     vk = load()
     found = {}
-    for number in range(1, MOST_FORMATS):
+    for number in range(1, MAX_FORMAT):
         features = vk.vkGetPhysicalDeviceFormatProperties(physical, number)
         own = {"features": features.optimalTilingFeatures, "linear": features.linearTilingFeatures}
         attachment = 0x10 if own["features"] & 0x80 else 0x20 if own["features"] & 0x200 else 0

@@ -115,7 +115,7 @@ class Dependency(NamedTuple):
     view_offset: int
 
 
-class Rendered(NamedTuple):
+class RenderTarget(NamedTuple):
     """VkRenderingAttachmentInfo. `role` is color, depth or stencil; an unused slot has no image."""
 
     role: str
@@ -188,7 +188,7 @@ class Pipeline(NamedTuple):
     stages: tuple[Stage, ...] = ()
 
 
-class Inner(NamedTuple):
+class PassCommand(NamedTuple):
     """What is recorded within a pass.
 
     `draw` draws the scene by `pipeline`, over a backdrop where `backdrop`; `covers` says that it then writes to every pixel.
@@ -218,7 +218,7 @@ class Pass(NamedTuple):
     attachments: tuple[Attachment, ...] = ()
     subpasses: tuple[Subpass, ...] = ()
     dependencies: tuple[Dependency, ...] = ()
-    rendered: tuple[Rendered, ...] = ()
+    rendered: tuple[RenderTarget, ...] = ()
     framebuffers: tuple[Framebuffer, ...] = ()
     pipelines: tuple[Pipeline, ...] = ()
     layers: int = 1
@@ -235,7 +235,7 @@ class Step(NamedTuple):
     number: int
     framebuffer: int = 0
     area: tuple[int, ...] = ()
-    inner: tuple[Inner, ...] = ()
+    inner: tuple[PassCommand, ...] = ()
     source: int = NONE
     target: int = NONE
     masks: tuple[int, ...] = ()
@@ -274,8 +274,8 @@ def from_json(data: Mapping[str, Any]) -> Plan:
 
 _WITHIN: dict[str, type] = {
     "images": Image, "passes": Pass, "steps": Step, "attachments": Attachment, "subpasses": Subpass, "dependencies": Dependency,
-    "rendered": Rendered, "framebuffers": Framebuffer, "pipelines": Pipeline, "inputs": Reference, "colors": Reference,
-    "resolves": Reference, "depth_stencil": Reference, "depth_resolve": Reference, "blends": Blend, "stages": Stage, "inner": Inner,
+    "rendered": RenderTarget, "framebuffers": Framebuffer, "pipelines": Pipeline, "inputs": Reference, "colors": Reference,
+    "resolves": Reference, "depth_stencil": Reference, "depth_resolve": Reference, "blends": Blend, "stages": Stage, "inner": PassCommand,
 }  # fmt: skip
 """By the name of a member: what its elements are."""
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from .texels import Texels, aspect_of, format_name, format_of, texel_bytes, texels
 
 
-class Raw(NamedTuple):
+class RawImage(NamedTuple):
     """An image as it was read back."""
 
     format: int
@@ -20,7 +20,7 @@ class Raw(NamedTuple):
     aspect: str = ""
 
 
-class Compared(NamedTuple):
+class ImageComparison(NamedTuple):
     """One image of both versions. `equal` is None where they are not compared, and `reason` says why.
 
     `differing` of `pixels` differ; `first` is the first of them by rows. `greatest` is in steps of the format (codes of normalised and
@@ -38,7 +38,7 @@ class Compared(NamedTuple):
     reason: str = ""
 
     @property
-    def words(self) -> str:
+    def text(self) -> str:
         """What is to be said of it, in one line."""
         if self.equal is None:
             return f"not compared: {self.reason}"
@@ -51,8 +51,8 @@ class Compared(NamedTuple):
 
 
 def compare(
-    as_written: Mapping[str, Raw], fixed: Mapping[str, Raw], tolerances: Mapping[str, tuple[int, str]] | None = None
-) -> list[Compared]:
+    as_written: Mapping[str, RawImage], fixed: Mapping[str, RawImage], tolerances: Mapping[str, tuple[int, str]] | None = None
+) -> list[ImageComparison]:
     """Every image of either version, in the order of their names.
 
     `tolerances` give the steps that may lie between two right answers, and why: Vulkan does not say how an average is rounded. An image
@@ -64,32 +64,32 @@ def compare(
         before, after = as_written.get(name), fixed.get(name)
         if before is None or after is None:
             left = "the fixed version" if after is None else "the version as written"
-            out.append(Compared(name, None, reason=f"{left} leaves nothing defined in it"))
+            out.append(ImageComparison(name, None, reason=f"{left} leaves nothing defined in it"))
         else:
             out.append(_compare(name, before, after, *allowed.get(name, (0, ""))))
     return out
 
 
-def _compare(name: str, before: Raw, after: Raw, tolerance: int, why: str) -> Compared:
+def _compare(name: str, before: RawImage, after: RawImage, tolerance: int, why: str) -> ImageComparison:
     if (before.format, before.width, before.height) != (after.format, after.width, after.height):
-        return Compared(name, None, reason="its format or size is another in the fixed version")
+        return ImageComparison(name, None, reason="its format or size is another in the fixed version")
     form = format_of(format_name(before.format))
     size = texel_bytes(form, aspect_of(form, before.aspect)) if form is not None else 0
     if not size or not before.width:
-        return Compared(name, None, reason="its format cannot be compared")
+        return ImageComparison(name, None, reason="its format cannot be compared")
     if len(before.data) != len(after.data) or len(before.data) % (size * before.width):
-        return Compared(name, None, reason="it did not come back whole")
+        return ImageComparison(name, None, reason="it did not come back whole")
     count = len(before.data) // size
     one, other = _masked(before, form), _masked(after, form)
     if one == other:
-        return Compared(name, True, 0, count, tolerance=tolerance, why=why)
+        return ImageComparison(name, True, 0, count, tolerance=tolerance, why=why)
     places = [n for n in range(count) if one[n * size : (n + 1) * size] != other[n * size : (n + 1) * size]]
     greatest = _greatest(before, after, places)
     first = places[0] % before.width, places[0] // before.width
-    return Compared(name, greatest <= tolerance, len(places), count, first, greatest, tolerance, why)
+    return ImageComparison(name, greatest <= tolerance, len(places), count, first, greatest, tolerance, why)
 
 
-def _masked(raw: Raw, form: object) -> bytes:
+def _masked(raw: RawImage, form: object) -> bytes:
     """The bytes that mean something: of 24-bit depth in 32 bits the highest eight do not."""
     if getattr(form, "depth_bits", 0) == 24 and raw.aspect != "stencil":
         data = bytearray(raw.data)
@@ -98,7 +98,7 @@ def _masked(raw: Raw, form: object) -> bytes:
     return raw.data
 
 
-def _greatest(before: Raw, after: Raw, places: list[int]) -> float:
+def _greatest(before: RawImage, after: RawImage, places: list[int]) -> float:
     """The greatest difference among some texels, in steps of the format."""
     one, other = read(before), read(after)
     if one is None or other is None:
@@ -131,7 +131,7 @@ def _ordered(value: float, bits: int) -> int:
     return int(code) if code >= 0 else -(int(code) + (1 << (bits - 1)))
 
 
-def read(raw: Raw) -> Texels | None:
+def read(raw: RawImage) -> Texels | None:
     """An image's components; None where its format has none that can be shown."""
     form = format_of(format_name(raw.format))
     return texels(form, raw.data, raw.width, raw.aspect) if form is not None else None

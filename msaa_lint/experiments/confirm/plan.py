@@ -11,14 +11,14 @@ from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.parts import Pass as Joined
 
 from . import parts
-from .parts import CLEAR, LOAD, NONE, Image, Inner, Pass, Pipeline, Plan, Step, from_json, to_json
+from .parts import CLEAR, LOAD, NONE, Image, Pass, PassCommand, Pipeline, Plan, Step
 from .plan_images import Images
 from .plan_integers import layout, mask
 from .plan_passes import Passes
 from .plan_pipelines import GREATER, LESS, built_in, described
 from .resample import resampled, resized
 
-MOST_STEPS = 4096
+MAX_STEPS = 4096
 """Commands outside of passes, and begins of passes, that are followed."""
 
 SPECIAL = (
@@ -54,7 +54,7 @@ class _Plan:
         self.file = file
         self.folder = os.path.dirname(file)
         self.images = Images(frame)
-        self.words = self.images.words
+        self.text = self.images.text
         self.passes = Passes(frame, self.images, api)
         self.numbers = {id(each): n for n, each in enumerate(frame.passes)}
         scene = frame.description.scene
@@ -65,7 +65,7 @@ class _Plan:
 
     def made(self) -> Plan:
         if not self.images.sized and self.images.made:
-            self.words.append("no size is stated: 256x256 is taken")
+            self.text.append("no size is stated: 256x256 is taken")
         passes = [self.passes.made(each) for each in self.frame.passes]
         if self.frame.has_commands:
             self._commands(passes)
@@ -91,7 +91,7 @@ class _Plan:
             self.images.made,
             tuple(passes),
             tuple(self.steps),
-            tuple(dict.fromkeys(self.words)),
+            tuple(dict.fromkeys(self.text)),
             self._extensions(),
             tuple(name for name in OPTIONAL if stated is not None and name not in stated),
             self.reversed,
@@ -113,8 +113,8 @@ class _Plan:
         begun: tuple[Joined, int] | None = None
         at = 0
         for position, command in enumerate(self.frame.commands):
-            if len(self.steps) >= MOST_STEPS:
-                self.words.append(f"commands after the first {MOST_STEPS} are left out")
+            if len(self.steps) >= MAX_STEPS:
+                self.text.append(f"commands after the first {MAX_STEPS} are left out")
                 return
             if position in by_position:
                 begun, within = (by_position[position], position), []
@@ -124,14 +124,14 @@ class _Plan:
                     self._begin(passes[at], begun[0], at, begun[1], within)
                 begun = within = None
             elif within is not None:
-                if len(within) < MOST_STEPS:
+                if len(within) < MAX_STEPS:
                     within.append(command)
                 else:
-                    self.words.append(f"commands after the first {MOST_STEPS} of a pass are left out")
+                    self.text.append(f"commands after the first {MAX_STEPS} of a pass are left out")
             elif command.kind in TRANSFERS:
                 self._transfer(command, at)
             elif command.kind in ("readImage", "writeImage"):
-                self.words.append(f"{command.kind} outside of a pass is left out")
+                self.text.append(f"{command.kind} outside of a pass is left out")
         if begun is not None and within is not None:
             self._begin(passes[at], begun[0], at, begun[1], within)
 
@@ -145,7 +145,7 @@ class _Plan:
         if (source, target) == (NONE, NONE) or (kind in ("resolve", "copy", "blit") and NONE in (source, target)):
             return
         if NONE not in (source, target) and not self.images.made[source].aspects & self.images.made[target].aspects:
-            self.words.append(f"{command.kind} between color and depth is left out")
+            self.text.append(f"{command.kind} between color and depth is left out")
             return
         self.steps.append(Step(kind, at, source=source, target=target))
 
@@ -178,10 +178,10 @@ class _Plan:
         x, y = max(area.x or 0, 0) if area is not None else 0, max(area.y or 0, 0) if area is not None else 0
         x, y = min(x, whole.width - 1), min(y, whole.height - 1)
         if area is not None and ((area.width or 0) + x > whole.width or (area.height or 0) + y > whole.height):
-            self.words.append(f"the area of {each.name} goes beyond its images: it is cut there")
+            self.text.append(f"the area of {each.name} goes beyond its images: it is cut there")
         width = min((area.width if area is not None else None) or whole.width, whole.width - x)
         height = min((area.height if area is not None else None) or whole.height, whole.height - y)
-        inner: list[Inner] = []
+        inner: list[PassCommand] = []
         commands: list[list[Command]] = [[] for _ in fitting]
         subpass = 0
         for command in within:
@@ -247,7 +247,7 @@ class _Plan:
             if known.name == record.key:
                 return index
         self.used.add(record.key)
-        own.append(described(record, fitting, self.folder, self.words))
+        own.append(described(record, fitting, self.folder, self.text))
         return len(own) - 1
 
     def _built_in(self, number: int, fitting: Pipeline) -> int:
@@ -257,10 +257,12 @@ class _Plan:
             own.append(made)
         return own.index(made)
 
-    def _inner(self, each: Pass, joined: Joined, number: int, subpass: int, fitting: Pipeline, commands: Sequence[Command]) -> list[Inner]:
+    def _inner(
+        self, each: Pass, joined: Joined, number: int, subpass: int, fitting: Pipeline, commands: Sequence[Command]
+    ) -> list[PassCommand]:
         """What is recorded in a subpass: what is described, else the scene by each of its pipelines."""
-        found: list[Inner] = []
-        drawing: list[Inner] = []
+        found: list[PassCommand] = []
+        drawing: list[PassCommand] = []
         own = set(each.framebuffers[0].images)
         for command in commands:
             body = command.body
@@ -268,33 +270,33 @@ class _Plan:
                 name = getattr(body, "pipeline", None)
                 record = self.frame.description.pipelines.get(name) if name is not None else None
                 index = self._described(number, record, fitting) if record is not None else self._built_in(number, fitting)
-                drawing.append(Inner("draw", subpass, index))
+                drawing.append(PassCommand("draw", subpass, index))
             elif command.kind == "setRasterizationSamples" and isinstance(body, int):
-                drawing.append(Inner("samples", subpass, value=body))
+                drawing.append(PassCommand("samples", subpass, value=body))
             elif command.kind == "clearAttachments":
                 drawing += [
-                    Inner("clear", subpass, value=c.colorAttachment or 0, aspects=mask("VkImageAspectFlagBits", c.aspect))
+                    PassCommand("clear", subpass, value=c.colorAttachment or 0, aspects=mask("VkImageAspectFlagBits", c.aspect))
                     for c in getattr(body, "attachments", ())
                 ]
             elif command.kind == "readImage":
                 image = self.images.named(getattr(body, "image", None))
                 if image != NONE and image not in own and getattr(body, "stage", None) in (None, "FRAGMENT", "FRAGMENT_SHADER"):
-                    found.append(Inner("read", subpass, image=image))
+                    found.append(PassCommand("read", subpass, image=image))
             elif command.kind == "pipelineBarrier":
-                self.words.append("a barrier within a pass is left out")
+                self.text.append("a barrier within a pass is left out")
         if not any(each.kind == "draw" for each in drawing):
             # Of several pipelines each draws the scene turned by a quarter.
             known = [n for n, p in enumerate(self.pipelines[number]) if p.subpass == subpass and not p.name.startswith("built-in ")]
             known = [n for n in known if self._belongs(joined, self.pipelines[number][n].name)]
             if not any(not self.pipelines[number][n].discard for n in known):
                 known.append(self._built_in(number, fitting))
-            drawing += [Inner("draw", subpass, n) for n in known[:8]]
+            drawing += [PassCommand("draw", subpass, n) for n in known[:8]]
         return found + self._backdrop(each, number, subpass, drawing, bool(found))
 
     def _belongs(self, joined: Joined, name: str) -> bool:
         return any(pipeline.key == name and of is joined for pipeline, of in self.frame.pipelines)
 
-    def _backdrop(self, each: Pass, number: int, subpass: int, drawing: list[Inner], read: bool) -> list[Inner]:
+    def _backdrop(self, each: Pass, number: int, subpass: int, drawing: list[PassCommand], read: bool) -> list[PassCommand]:
         """The first draw covers every pixel where what an attachment holds before is not kept and not cleared."""
         first = next((n for n, inner in enumerate(drawing) if inner.kind == "draw"), None)
         if first is None or read:
@@ -323,7 +325,7 @@ class _Plan:
                 formats=(37,) * colors,
             )  # fmt: skip
             if pipeline.rendering is None and of is None:
-                self.words.append(f"what {pipeline.key} draws to is not stated: R8G8B8A8_UNORM is taken")
+                self.text.append(f"what {pipeline.key} draws to is not stated: R8G8B8A8_UNORM is taken")
             number = next((n for n, each in enumerate(self.frame.passes) if each.kind == parts.RENDERING), 0)
             self._described(number, pipeline, fitting)
 
@@ -350,6 +352,3 @@ def _with_images(passes: Sequence[Pass], steps: Sequence[Step], images: int) -> 
     if needed:
         needed[0].update(set(range(images)) - set().union(*needed))
     return [each._replace(images=tuple(sorted(own - {NONE}))) for each, own in zip(passes, needed, strict=True)]
-
-
-__all__ = ["Plan", "from_json", "plan", "to_json"]

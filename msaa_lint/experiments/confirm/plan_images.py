@@ -63,7 +63,7 @@ class Images:
 
     def __init__(self, frame: Frame) -> None:
         self.frame = frame
-        self.words: list[str] = []
+        self.text: list[str] = []
         self._used: dict[int, _Used] = {}
         self._numbers: dict[int, int] = {}
         self.base, self._sized = _base(frame)
@@ -182,12 +182,12 @@ class Images:
                 depth = used.usage & DEPTH_ATTACHMENT and not used.usage & COLOR_ATTACHMENT
                 used.format = known or format_of(DEPTH_FORMAT if depth else COLOR_FORMAT)
                 assert used.format is not None
-                self.words.append(f"the format of {used.name} is not stated: {used.format.name} is taken")
+                self.text.append(f"the format of {used.name} is not stated: {used.format.name} is taken")
         for used in self._used.values():
             if used.samples is None:
                 beside = [other.samples for other in used.beside if other.samples is not None]
                 used.samples = 1 if used.resolved_to and not used.source else max(beside) if beside else 4 if used.source else 1
-                self.words.append(f"the sample count of {used.name} is not stated: {used.samples} is taken")
+                self.text.append(f"the sample count of {used.name} is not stated: {used.samples} is taken")
 
     def _image(self, used: _Used) -> Image:
         record = used.target.image

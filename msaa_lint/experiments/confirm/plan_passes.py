@@ -32,7 +32,7 @@ DEPTH_ALONE = {"DEPTH_ATTACHMENT_OPTIMAL", "DEPTH_READ_ONLY_OPTIMAL"}
 """The layouts that say nothing of stencil."""
 
 
-class Unplanned(Exception):
+class PassRefused(Exception):
     """Why no device can run a pass, in words."""
 
 
@@ -42,7 +42,7 @@ class Passes:
     def __init__(self, frame: Frame, images: Images, api: int | None) -> None:
         self.frame = frame
         self.images = images
-        self.words = images.words
+        self.text = images.text
         self.api = api
         self.read = {command.body.image for command in frame.commands if command.kind == "readImage" and command.body is not None}  # type: ignore[attr-defined]
 
@@ -52,9 +52,9 @@ class Passes:
         empty = parts.Pass(each.name, each.path, kind, 0 if kind == parts.RENDERING else self._api(each))
         try:
             if each.custom_resolve:
-                raise Unplanned("it resolves by a shader of its own, which is not driven here")
+                raise PassRefused("it resolves by a shader of its own, which is not driven here")
             return self._rendering(each, empty) if each.kind == RENDERING else self._render_pass(each, empty)
-        except Unplanned as reason:
+        except PassRefused as reason:
             return empty._replace(refused=str(reason))
 
     def _api(self, each: Joined) -> int:
@@ -73,9 +73,9 @@ class Passes:
         record = each.record
         assert isinstance(record, RenderPass)
         if not record.subpasses:
-            raise Unplanned("no subpass of it is described")
+            raise PassRefused("no subpass of it is described")
         if max(len(record.attachments), len(record.subpasses), len(record.dependencies)) > MOST:
-            raise Unplanned(f"it has more than {MOST} attachments, subpasses or dependencies")
+            raise PassRefused(f"it has more than {MOST} attachments, subpasses or dependencies")
         attachments = tuple(self._attachment(a) for a in each.attachments)
         indices = {a.name: a.index for a in each.attachments}
         subpasses = tuple(self._subpass(each, n, s, indices) for n, s in enumerate(record.subpasses))
@@ -136,7 +136,7 @@ class Passes:
         for member, value, default, there in zip(members, stated, usual, (first, first, second, second), strict=True):
             load = member.endswith("oadOp")
             if value is None and there:
-                self.words.append(f"{member} of {self._title(each)} is not stated: {'DONT_CARE' if load or default else 'STORE'} is taken")
+                self.text.append(f"{member} of {self._title(each)} is not stated: {'DONT_CARE' if load or default else 'STORE'} is taken")
             enum = "VkAttachmentLoadOp" if load else "VkAttachmentStoreOp"
             found.append(number(enum, value) if value is not None else default)
         return found[0], found[1], found[2], found[3]
@@ -150,12 +150,12 @@ class Passes:
             return Reference(NONE, UNDEFINED)
         index = indices.get(stated.attachment, NONE) if isinstance(stated.attachment, str) else stated.attachment
         if not 0 <= index < len(indices):
-            raise Unplanned(f"it refers to an attachment that there is not: {stated.attachment}")
+            raise PassRefused(f"it refers to an attachment that there is not: {stated.attachment}")
         return Reference(index, layout(stated.layout, usual))
 
     def _subpass(self, each: Joined, at: int, record: DescribedSubpass, indices: dict[str, int]) -> Subpass:
         if record.pipelineBindPoint not in (None, "GRAPHICS"):
-            raise Unplanned("a subpass of it is not for graphics")
+            raise PassRefused("a subpass of it is not for graphics")
         colors = [self._reference(r, indices, parts.COLOR_LAYOUT) for r in record.colorAttachments]
         resolves = [self._reference(r, indices, parts.COLOR_LAYOUT) for r in record.resolveAttachments]
         if resolves:
@@ -207,14 +207,14 @@ class Passes:
             return own.single_sampled_count
         several = max([image.samples for image in self.images.made] or [1])
         taken = several if several > 1 else 4
-        self.words.append(f"rasterizationSamples of {path}.multisampledRenderToSingleSampled is not stated: {taken} is taken")
+        self.text.append(f"rasterizationSamples of {path}.multisampledRenderToSingleSampled is not stated: {taken} is taken")
         return taken
 
     def _mode(self, resolve: DepthStencilResolve, member: str, there: bool = True) -> int:
         """A resolve mode; sample zero, which every device has, where none is stated. Of an aspect that is not there nothing is said."""
         name = getattr(resolve, member)
         if name is None and there:
-            self.words.append(f"{member} of {resolve.path} is not stated: SAMPLE_ZERO is taken")
+            self.text.append(f"{member} of {resolve.path} is not stated: SAMPLE_ZERO is taken")
         return number("VkResolveModeFlagBits", name) if name is not None else 1
 
     @staticmethod
@@ -223,12 +223,12 @@ class Passes:
             if stated is None or stated == "EXTERNAL":
                 return NONE
             if not isinstance(stated, int) or not 0 <= stated < subpasses:
-                raise Unplanned("a dependency of it names a subpass that there is not")
+                raise PassRefused("a dependency of it names a subpass that there is not")
             return stated
 
         source, target = end(record.srcSubpass), end(record.dstSubpass)
         if source == target == NONE:
-            raise Unplanned("a dependency of it is from outside to outside")
+            raise PassRefused("a dependency of it is from outside to outside")
         return Dependency(
             source,
             target,
@@ -250,7 +250,7 @@ class Passes:
             for attachment in each.attachments:
                 targets = targets_at(self.frame, attachment, position)
                 if len(targets) > 1:
-                    self.words.append(f"{each.name} alternates between framebuffers: the first is taken")
+                    self.text.append(f"{each.name} alternates between framebuffers: the first is taken")
                 numbers.append(self.images.of(targets[0]))
             body = self.frame.commands[position].body if position is not None else None
             name = getattr(body, "framebuffer", None)
@@ -260,7 +260,7 @@ class Passes:
             width, height = self.size(numbers)
             stated_size = (record.width or width, record.height or height) if record is not None else (width, height)
             if stated_size[0] > width or stated_size[1] > height:
-                self.words.append(f"the framebuffer of {each.name} is larger than its images: {width}x{height} is taken")
+                self.text.append(f"the framebuffer of {each.name} is larger than its images: {width}x{height} is taken")
             width, height = min(width, stated_size[0]), min(height, stated_size[1])
             layers = (record.layers or 1) if record is not None else 1
             found.append(Framebuffer(tuple(numbers), width, height, layers))
@@ -279,7 +279,7 @@ class Passes:
         rendered += [self._rendered("stencil", info) for info in (record.stencilAttachment,) if info is not None]
         depths = {each.image for each in rendered if each.role != "color" and each.image != NONE}
         if len(depths) > 1:
-            raise Unplanned("its depth and its stencil attachment are two images")
+            raise PassRefused("its depth and its stencil attachment are two images")
         numbers = [n for each in rendered for n in (each.image, each.resolve_image) if n != NONE]
         width, height = self.size(numbers)
         own = each.subpasses[0]
@@ -294,20 +294,20 @@ class Passes:
             single_sampled=single,
         )
 
-    def _rendered(self, role: str, info: RenderingAttachment | None) -> parts.Rendered:
+    def _rendered(self, role: str, info: RenderingAttachment | None) -> parts.RenderTarget:
         image = self.images.named(info.image) if info is not None else NONE
         if info is None or image == NONE:
-            return parts.Rendered(role)
+            return parts.RenderTarget(role)
         own = parts.COLOR_LAYOUT if role == "color" else parts.DEPTH_LAYOUT
         transient = self.images.made[image].usage & TRANSIENT
         usual = (LOAD_DONT_CARE, STORE_DONT_CARE if transient else STORE)
         if info.loadOp is None:
-            self.words.append(f"loadOp of {info.path} is not stated: DONT_CARE is taken")
+            self.text.append(f"loadOp of {info.path} is not stated: DONT_CARE is taken")
         if info.storeOp is None:
-            self.words.append(f"storeOp of {info.path} is not stated: {'DONT_CARE' if transient else 'STORE'} is taken")
+            self.text.append(f"storeOp of {info.path} is not stated: {'DONT_CARE' if transient else 'STORE'} is taken")
         target = self.images.named(info.resolveImage)
         mode = self._resolve_mode(info, image, target)
-        return parts.Rendered(
+        return parts.RenderTarget(
             role,
             image,
             layout(info.imageLayout, own),
@@ -324,7 +324,7 @@ class Passes:
         if target == NONE:
             return 0
         plain = self.images.made[image].aspects & parts.COLOR and self.images.made[image].numeric not in ("UINT", "SINT")
-        self.words.append(f"resolveMode of {info.path} is not stated: {'AVERAGE' if plain else 'SAMPLE_ZERO'} is taken")
+        self.text.append(f"resolveMode of {info.path} is not stated: {'AVERAGE' if plain else 'SAMPLE_ZERO'} is taken")
         return 2 if plain else 1
 
 

@@ -48,7 +48,7 @@ def built_in(
     )
 
 
-def described(record: Described, fitting: Pipeline, folder: str, words: list[str]) -> Pipeline:
+def described(record: Described, fitting: Pipeline, folder: str, text: list[str]) -> Pipeline:
     """A pipeline as it is described, on top of one that fits what it draws to."""
     made = fitting._replace(name=record.key)
     state = record.multisampleState
@@ -82,7 +82,7 @@ def described(record: Described, fitting: Pipeline, folder: str, words: list[str
     if record.colorBlendState is not None:
         blends = [_blend(each) for each in record.colorBlendState.attachments][: len(made.blends)]
         made = made._replace(blends=(*blends, *made.blends[len(blends) :]))
-    return _dynamic(record, _shaders(record, _formats(record, made), folder, words), words)
+    return _dynamic(record, _shaders(record, _formats(record, made), folder, text), text)
 
 
 def _formats(record: Described, made: Pipeline) -> Pipeline:
@@ -106,42 +106,42 @@ def _numeric(name: str | None) -> str:
     return found.numeric if found is not None else ""
 
 
-def _dynamic(record: Described, made: Pipeline, words: list[str]) -> Pipeline:
+def _dynamic(record: Described, made: Pipeline, text: list[str]) -> Pipeline:
     kept = []
     for name in record.dynamicState:
         value = VALUES["VkDynamicState"][name]
         if value in KEPT_DYNAMIC:
             kept.append(value)
         elif value not in (VIEWPORT, SCISSOR):
-            words.append(f"the dynamic state {name} of {record.key} is left out")
+            text.append(f"the dynamic state {name} of {record.key} is left out")
     return made._replace(dynamic=(VIEWPORT, SCISSOR, *kept))
 
 
-def _shaders(record: Described, made: Pipeline, folder: str, words: list[str]) -> Pipeline:
+def _shaders(record: Described, made: Pipeline, folder: str, text: list[str]) -> Pipeline:
     """The described SPIR-V of a vertex and a fragment stage, where its files are there; it is the driver's to judge, in its own process."""
     stages: list[Stage] = []
     described = {each.stage for each in record.stages}
     for each in record.stages:
         path = os.path.join(folder, each.module) if each.module is not None else ""
         if each.stage is not None and each.stage not in ("VERTEX", "FRAGMENT"):
-            words.append(f"the {each.stage.lower()} shader of {record.key} is left out: only vertices and fragments are shaded here")
+            text.append(f"the {each.stage.lower()} shader of {record.key} is left out: only vertices and fragments are shaded here")
             continue
         if not path or each.stage is None or not os.path.isfile(path):
             if path or each.stage is not None:
-                words.append(f"the {(each.stage or 'unnamed').lower()} shader of {record.key} is not there: a built-in one is taken")
+                text.append(f"the {(each.stage or 'unnamed').lower()} shader of {record.key} is not there: a built-in one is taken")
             continue
         reason = _undrivable(path, each.stage, "VERTEX" in described)
         if reason:
-            words.append(f"the {each.stage.lower()} shader of {record.key} {reason}: a built-in one is taken")
+            text.append(f"the {each.stage.lower()} shader of {record.key} {reason}: a built-in one is taken")
             continue
         constants = tuple((int(constant), float(value)) for constant, value in (each.specialization or {}).items())
         stages.append(Stage(number("VkShaderStageFlagBits", each.stage), path, each.name or "main", constants))
     if record.vertexInputState is not None and not any(stage.stage == 1 for stage in stages):
-        words.append(f"the vertex input of {record.key} is left out: the built-in shader makes its own vertices")
+        text.append(f"the vertex input of {record.key} is left out: the built-in shader makes its own vertices")
     return made._replace(stages=tuple(stages))
 
 
-MOST_SPIRV = 4 << 20
+MAX_SPIRV = 4 << 20
 """Bytes of a shader that are read."""
 
 
@@ -149,7 +149,7 @@ def _undrivable(path: str, stage: str, with_vertices: bool) -> str:
     """Why a described shader cannot be run here; empty where it can. What a driver makes of it is seen in its own process."""
     try:
         with open(path, "rb") as file:
-            found = needs(file.read(MOST_SPIRV + 1)[:MOST_SPIRV])
+            found = needs(file.read(MAX_SPIRV + 1)[:MAX_SPIRV])
     except (OSError, ValueError) as error:
         return f"cannot be read ({error.strerror if isinstance(error, OSError) else error})"
     if "descriptors" in found:

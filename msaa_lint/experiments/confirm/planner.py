@@ -1,61 +1,95 @@
-"""Plans, the gate and the agreement, as a trial asks for them."""
+"""Plans of frames, what a device does not support of them, and how the layer agrees with the rules, as a trial asks for them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from msaa_lint.frame.facts.frame import Frame
 
-from . import gate, plan
-from . import resolve_check as resolving
+from . import gate, plan, resolve_check
 from .agreement import agreement
 from .inputs import Input
-from .layer_scope import kind, looking
+from .layer_scope import layer_scope, pass_kind
 from .messages import Message
-from .planning import Planned, PlannedPass, Planner, Told
+from .outcome import AgreementRow
+from .parts import Plan, to_json
+from .protocol import Event
 from .session import Session
-from .verdict import Said
 
 
-class Plans:
-    """Plans by `plan.plan`; `api` is the version of the structures of render passes, None the one that a description can have."""
+class PlannedPass(NamedTuple):
+    """A pass of a plan. `refused` says why no device can run it, empty where one can. `kind` is `renderPass`, `renderPass2` or `rendering`,
+    by the call that creates it."""
+
+    name: str
+    path: str
+    refused: str = ""
+    kind: str = ""
+
+
+class PlannedFrame(NamedTuple):
+    """A frame's plan, in the form that the child process takes (`data`); its passes; and the defaults that were assumed, in words."""
+
+    data: Mapping[str, Any]
+    plan: Plan
+    passes: Sequence[PlannedPass]
+    defaults: Sequence[str] = ()
+
+
+class LayerReport(NamedTuple):
+    """The layer's messages about the passes of a frame that ran, the layer, and the device that it ran on."""
+
+    numbers: Sequence[int]
+    messages: Sequence[Event]
+    layer: Mapping[str, Any]
+    vendors: Sequence[str]
+    device: Mapping[str, Any]
+
+
+class Planner:
+    """Makes plans. `api` is the version of the structures that create render passes; None selects the one that the description allows."""
 
     def __init__(self, api: int | None = None) -> None:
         self.api = api
-        self._known: resolving.Cache = {}
+        self._deviations: resolve_check.Cache = {}
 
-    def plan(self, frame: Frame, file: str, size: tuple[int, int] | None, samples: int | None) -> Planned:
-        made = plan.plan(frame, file=file, size=size, samples=samples, api=self.api)
-        passes = [PlannedPass(each.name, each.path, each.refused, kind(each.api, each.kind != "renderPass")) for each in made.passes]
-        return Planned(plan.to_json(made), made, passes, (*_of_metal(frame), *made.defaults))
+    def plan(self, frame: Frame, file: str, size: tuple[int, int] | None, samples: int | None) -> PlannedFrame:
+        """The plan of a frame. It never raises for what the frame contains."""
+        frame_plan = plan.plan(frame, file=file, size=size, samples=samples, api=self.api)
+        passes = [
+            PlannedPass(each.name, each.path, each.refused, pass_kind(each.api, each.kind != "renderPass")) for each in frame_plan.passes
+        ]
+        return PlannedFrame(to_json(frame_plan), frame_plan, passes, (*_metal_notes(frame), *frame_plan.defaults))
 
-    def gate(self, planned: Planned, device: Mapping[str, Any]) -> dict[int, str]:
-        return gate.gate(planned.own, device)
+    def gate(self, planned: PlannedFrame, device: Mapping[str, Any]) -> dict[int, str]:
+        """The passes that a device does not support, by number, and why."""
+        return gate.gate(planned.plan, device)
 
-    def deviations(self, session: Session, planned: Planned, device: Mapping[str, Any], color: bool) -> Mapping[int, Sequence[str]]:
-        found = resolving.deviations(session, planned.own, device, self._known, color)
+    def deviations(self, session: Session, planned: PlannedFrame, device: Mapping[str, Any], color: bool) -> Mapping[int, Sequence[str]]:
+        """How the resolves of passes deviate from the correct result, in words by pass; those of color only on request."""
+        found = resolve_check.deviations(session, planned.plan, device, self._deviations, color)
         numbers = range(len(planned.passes)) if found else ()
-        return {number: [each.words for each in resolving.of_pass(planned.own, number, found)] for number in numbers}
+        return {number: [deviation.text for deviation in resolve_check.of_pass(planned.plan, number, found)] for number in numbers}
 
-    def rows(self, input: Input, planned: Planned, told: Told) -> Mapping[int, Sequence[Said]]:
-        kinds = {number: planned.passes[number].kind for number in told.numbers}
-        names = {number: planned.passes[number].name for number in told.numbers}
-        messages = [Message(each["id"], each["text"], str(each.get("severity", "warning")), each.get("pass")) for each in told.messages]
-        at = looking(told.layer, told.device, kinds, told.vendors)
-        found, undecided = input.by_vulkan or ([*input.findings, *input.silenced], input.undecided)
-        return agreement(input.frame, names, found, messages, at, undecided, input.device)
+    def agreement(self, source: Input, planned: PlannedFrame, report: LayerReport) -> Mapping[int, Sequence[AgreementRow]]:
+        """How the layer and the rules agree about each pass that ran."""
+        kinds = {number: planned.passes[number].kind for number in report.numbers}
+        names = {number: planned.passes[number].name for number in report.numbers}
+        messages = [
+            Message(event["id"], event["text"], str(event.get("severity", "warning")), event.get("pass")) for event in report.messages
+        ]
+        scope = layer_scope(report.layer, report.device, kinds, report.vendors)
+        findings, undecided = source.by_vulkan or ([*source.findings, *source.silenced], source.undecided)
+        return agreement(source.frame, names, findings, messages, scope, undecided, source.device)
 
 
-def _of_metal(frame: Frame) -> list[str]:
-    """What is to be said of what is drawn of a frame in Metal's words."""
+def _metal_notes(frame: Frame) -> list[str]:
+    """Notes on the Vulkan frame that stands for a frame in Metal's words."""
     metal = frame.document.metal
     if metal is None:
         return []
-    told = ["the frame is in Metal's words: what is drawn is the Vulkan pass of the same meaning"]
+    notes = ["the frame is described in terms of Metal: the equivalent Vulkan pass is drawn"]
     if metal.stencils:
-        told.append("stencil with a texture that is not depth's is left out: an attachment of a Vulkan render pass has both")
-    return told
-
-
-PLANNER: Planner = Plans()
+        notes.append("stencil in a different texture than depth is ignored: an attachment of a Vulkan render pass holds both")
+    return notes

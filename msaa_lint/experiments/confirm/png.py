@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 from msaa_lint.core.atomic_write import write_file
 
-from .results import NotWritten
 from .texels import Plane, Texels
+from .vulkan_errors import NotWritten
 
 EDGE = 16
 """Pixels, each way, of what is enlarged, and how many each of them becomes."""
@@ -169,7 +169,7 @@ def file_name(*parts: str) -> str:
     return "-".join(clean)[-200:]
 
 
-class Album:
+class PictureFolder:
     """A folder of pictures. What is in it under a name is replaced, never followed where it is a link. NotWritten where it cannot be."""
 
     def __init__(self, folder: str) -> None:
@@ -196,7 +196,7 @@ class Album:
         return path
 
 
-def show(album: Album, stem: tuple[str, ...], before: Texels, after: Texels | None, first: tuple[int, int] | None) -> list[str]:
+def show(album: PictureFolder, stem: tuple[str, ...], before: Texels, after: Texels | None, first: tuple[int, int] | None) -> list[str]:
     """The pictures of one image: as written; and where there is a fixed version that, the difference, and an edge of all three."""
     as_written = picture(before)
     paths = [album.write(as_written, *stem, "as-written")]

@@ -10,7 +10,7 @@ import json
 from collections.abc import Callable, Mapping
 from typing import Any
 
-LONGEST = 8 << 20
+MAX_LINE = 8 << 20
 """Bytes of one line, at most: a plan of many passes, or a long message of the layer."""
 
 EVENTS = frozenset({"opened", "devices", "failed", "pass", "created", "message", "pixels", "time", "sample", "done"})
@@ -20,7 +20,7 @@ EVENTS = frozenset({"opened", "devices", "failed", "pass", "created", "message",
 Event = dict[str, Any]
 
 
-class Garbage(Exception):
+class ProtocolError(Exception):
     """A line that no sane child writes, in words."""
 
 
@@ -32,15 +32,15 @@ def line(request: Mapping[str, Any]) -> bytes:
 def event(text: bytes) -> Event:
     """The answer that a line holds. Garbage where it holds none."""
     if not text.endswith(b"\n"):
-        raise Garbage("a line that is cut off" if len(text) < LONGEST else "a line without an end")
+        raise ProtocolError("a line that is cut off" if len(text) < MAX_LINE else "a line without an end")
     try:
         found = json.loads(text)
     except (ValueError, RecursionError):
-        raise Garbage("a line that is no JSON") from None
+        raise ProtocolError("a line that is no JSON") from None
     if not isinstance(found, dict) or found.get("event") not in EVENTS:
-        raise Garbage("an answer to nothing that was asked")
+        raise ProtocolError("an answer to nothing that was asked")
     if not _WELL_FORMED[found["event"]](found):
-        raise Garbage(f"an answer `{found['event']}` that lacks a part")
+        raise ProtocolError(f"an answer `{found['event']}` that lacks a part")
     return found
 
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from .build import CACHED, COHERENT, HOST_VISIBLE, Built
+from .build import CACHED, COHERENT, HOST_VISIBLE, FrameObjects
 from .draw import Recorder
-from .opening import Tell
+from .opening import Emit
 from .parts import COLOR, DEPTH, DEPTH_READ_LAYOUT, READ_LAYOUT, SOURCE_LAYOUT, STENCIL, TRANSFER_SOURCE, Image
 from .submit import Submitter
 
-MOST_BYTES = 1 << 30
+MAX_BYTES = 1 << 30
 """Bytes of one image that are brought back."""
 
 DEPTH_BYTES = {124: 2, 128: 2, 125: 4, 126: 4, 129: 4, 130: 4}
@@ -23,7 +23,7 @@ NAMES = {COLOR: "", DEPTH: "", STENCIL: "stencil"}
 class Buffer:
     """Memory that the device writes and we read."""
 
-    def __init__(self, built: Built, size: int, usage: int) -> None:
+    def __init__(self, built: FrameObjects, size: int, usage: int) -> None:
         self.built, self.size = built, size
         vk, handle = built.vk, built.opened.handle
         self.handle = vk.vkCreateBuffer(handle, vk.VkBufferCreateInfo(size=size, usage=usage), None)
@@ -57,7 +57,7 @@ def texel_bytes(image: Image, aspect: int) -> int:
     return DEPTH_BYTES.get(image.format, 0) if aspect == DEPTH else image.bytes
 
 
-def bring_back(recorder: Recorder, submitter: Submitter, folder: str, tell: Tell) -> None:
+def bring_back(recorder: Recorder, submitter: Submitter, folder: str, emit: Emit) -> None:
     """Writes every image that holds what is defined into a file, and tells of it. The images are left as they are for nothing after."""
     built, vk = recorder.built, recorder.vk
     taken: list[tuple[int, int, Buffer]] = []
@@ -66,7 +66,7 @@ def bring_back(recorder: Recorder, submitter: Submitter, folder: str, tell: Tell
     for number, aspect in recorder.contents.outputs():
         image = built.plan.images[number]
         size = texel_bytes(image, aspect) * image.width * image.height * image.layers
-        if not size or size > MOST_BYTES or number not in built.images or not _source(built, number):
+        if not size or size > MAX_BYTES or number not in built.images or not _source(built, number):
             continue
         target = Buffer(built, size, 2)
         taken.append((number, aspect, target))
@@ -82,14 +82,14 @@ def bring_back(recorder: Recorder, submitter: Submitter, folder: str, tell: Tell
         target.write_to(path)
         target.close()
         found = {"event": "pixels", "image": f"{image.name}:stencil" if stencil else image.name, "format": image.format}
-        tell({**found, "width": image.width, "height": image.height * image.layers, "path": path, "aspect": NAMES[aspect]})
+        emit({**found, "width": image.width, "height": image.height * image.layers, "path": path, "aspect": NAMES[aspect]})
 
 
-def _source(built: Built, number: int) -> bool:
+def _source(built: FrameObjects, number: int) -> bool:
     return bool((built.plan.images[number].usage | built.more_usage.get(number, 0)) & TRANSFER_SOURCE)
 
 
-def bring_samples(recorder: Recorder, submitter: Submitter, number: int, folder: str, tell: Tell) -> None:
+def bring_samples(recorder: Recorder, submitter: Submitter, number: int, folder: str, emit: Emit) -> None:
     """Writes every sample of a multisampled image into a file: four 32-bit floats a sample, sample after sample, rows from the top."""
     built, vk, opened = recorder.built, recorder.vk, recorder.built.opened
     image = built.plan.images[number]
@@ -110,4 +110,4 @@ def bring_samples(recorder: Recorder, submitter: Submitter, number: int, folder:
     target.write_to(path)
     target.close()
     own = {"width": image.width, "height": image.height, "samples": image.samples, "format": image.format, "path": path}
-    tell({"event": "sample", "image": image.name, **own})
+    emit({"event": "sample", "image": image.name, **own})

@@ -7,7 +7,7 @@ from .parts import NONE, STORE, Framebuffer, Image, Pass, Pipeline, Plan, Refere
 CUBE_COMPATIBLE = 0x10
 """VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT."""
 
-LARGEST = 512
+MAX_IMAGE = 512
 """Texels of the longer side of a picture."""
 
 
@@ -18,7 +18,7 @@ def resized(plan: Plan, size: tuple[int, int]) -> Plan:
     return _scaled(plan, (size[0], width), (size[1], height))
 
 
-def pictured(plan: Plan, largest: int = LARGEST) -> Plan:
+def pictured(plan: Plan, largest: int = MAX_IMAGE) -> Plan:
     """A plan for a picture: at most `largest` texels on each side, in the described proportion."""
     side = max([max(i.width, i.height) for i in plan.images] or [1])
     return plan if side <= largest else _scaled(plan, (largest, side), (largest, side))

@@ -20,12 +20,12 @@ from .frame_results import SAMPLES_OF, FrameRun
 from .gate import gate
 from .parts import COLOR, DEPTH, RENDER_PASS, STENCIL, Plan, to_json
 from .protocol import Event
-from .resolve_expected import AVERAGE, ENCODED_AVERAGE, GREATEST, LEAST, ZERO, Component, Due, components, due, likeness, stored, value
+from .resolve_expected import AVERAGE, ENCODED_AVERAGE, GREATEST, LEAST, ZERO, Component, Expected, components, due, likeness, stored, value
 from .resolve_probe import COMMAND, SAMPLES, Probe, Resolve, probe, resolves
-from .results import Unusable
 from .scene import CLEARED, CLEARED_INTEGERS, CLEARED_STENCIL, DRAWN_STENCIL
 from .session import Session
 from .texels import Texels, format_name, format_of, texel_bytes, texels
+from .vulkan_errors import Unusable
 
 VERBS = {ZERO: "taking sample 0 of", AVERAGE: "averaging", LEAST: "taking the least of", GREATEST: "taking the greatest of"}
 ASPECTS = {COLOR: "", DEPTH: "the depth of ", STENCIL: "the stencil of "}
@@ -45,7 +45,7 @@ class Deviation(NamedTuple):
 
     `format` is the VkFormat's number, `way` a kind of pass or `command`, `aspect` a VkImageAspectFlagBits, `mode` a VkResolveModeFlagBits;
     `given` and `expected` are of the component that is furthest off, of 0 to 1 where it is normalised, and as stored where it is sRGB;
-    `words` say it all.
+    `text` say it all.
     """
 
     format: int
@@ -57,7 +57,7 @@ class Deviation(NamedTuple):
     y: int
     given: float
     expected: float
-    words: str
+    text: str
 
 
 Cache = MutableMapping[tuple[str, Resolve], list[Deviation]]
@@ -219,12 +219,12 @@ def judged(name: str, resolve: Resolve, aspect: int, mode: int, samples: Samples
     _, pixel, own, found, right = worst
     x, y = pixel % given.width, pixel // given.width
     given_value, right_value = value(own, found), value(own, right)
-    words = _words(name, resolve, aspect, mode, own, (x, y), (given_value, right_value), likeness(own, wrong[own]))
-    return Deviation(resolve.format, resolve.samples, resolve.way, aspect, mode, x, y, given_value, right_value, words)
+    text = _words(name, resolve, aspect, mode, own, (x, y), (given_value, right_value), likeness(own, wrong[own]))
+    return Deviation(resolve.format, resolve.samples, resolve.way, aspect, mode, x, y, given_value, right_value, text)
 
 
 @lru_cache(1 << 14)
-def _due(own: Component, mode: int, read: tuple[float, ...]) -> tuple[tuple[float, ...], Due]:
+def _due(own: Component, mode: int, read: tuple[float, ...]) -> tuple[tuple[float, ...], Expected]:
     """What the samples of a component are stored as, and what is due of them: the same in every way of resolving."""
     codes = tuple(stored(own, each) for each in read)
     return codes, due(own, mode, codes)

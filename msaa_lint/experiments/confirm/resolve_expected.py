@@ -44,7 +44,7 @@ class Component(NamedTuple):
     least: int = 0
 
 
-class Due(NamedTuple):
+class Expected(NamedTuple):
     """The value that is due, and the least and the greatest that are right."""
 
     value: float
@@ -99,18 +99,18 @@ def value(own: Component, code: float) -> float:
     return code / own.codes if own.codes else code
 
 
-def due(own: Component, mode: int, samples: Sequence[float]) -> Due:
+def due(own: Component, mode: int, samples: Sequence[float]) -> Expected:
     """What the stored samples of a pixel resolve to."""
     if mode == AVERAGE:
         return _averaged(own, samples)
     if own.numeric == "FLOAT" and any(map(math.isnan, samples)) and mode != ZERO:
-        return Due(math.nan, -math.inf, math.inf)
+        return Expected(math.nan, -math.inf, math.inf)
     chosen = samples[0] if mode == ZERO else min(samples) if mode == LEAST else max(samples)
     slack = 1 if own.codes == TWENTY_FOUR else 0
-    return Due(chosen, chosen - slack, chosen + slack)
+    return Expected(chosen, chosen - slack, chosen + slack)
 
 
-def _averaged(own: Component, samples: Sequence[float]) -> Due:
+def _averaged(own: Component, samples: Sequence[float]) -> Expected:
     if own.numeric == "FLOAT":
         return _float_average(own, samples)
     if own.numeric == "SRGB":
@@ -118,14 +118,14 @@ def _averaged(own: Component, samples: Sequence[float]) -> Due:
         exact = encoded(light) * own.codes
     else:
         exact = sum(samples) / len(samples)
-    return Due(exact, exact - 1, exact + 1)
+    return Expected(exact, exact - 1, exact + 1)
 
 
-def _float_average(own: Component, samples: Sequence[float]) -> Due:
+def _float_average(own: Component, samples: Sequence[float]) -> Expected:
     if not all(map(math.isfinite, samples)):
         # As IEEE 754 adds them: infinities of both signs are no number.
         total = sum(samples)
-        return Due(total, total, total)
+        return Expected(total, total, total)
     exact = math.fsum(samples) / len(samples)
     slack = _order_slack(samples)
     tiny = math.ldexp(1.0, own.least)
@@ -133,7 +133,7 @@ def _float_average(own: Component, samples: Sequence[float]) -> Due:
     low, high = beside(own, exact - slack)[0], beside(own, exact + slack)[1]
     if abs(exact) < tiny:
         low, high = min(low, 0.0), max(high, 0.0)
-    return Due(exact, low, high)
+    return Expected(exact, low, high)
 
 
 def _order_slack(samples: Sequence[float]) -> float:
@@ -179,9 +179,9 @@ def likeness(own: Component, wrong: Sequence[tuple[float, Sequence[float]]]) -> 
     for number in range(count):
         if all(due(own, ZERO, samples[number:]).met(given) for given, samples in wrong):
             return f"sample {number}"
-    for words, (mode, component) in guesses.items():
+    for text, (mode, component) in guesses.items():
         if wrong and all(due(component, mode, samples).met(given) for given, samples in wrong):
-            return words
+            return text
     return ""
 
 

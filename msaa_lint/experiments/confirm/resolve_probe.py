@@ -28,7 +28,7 @@ from .parts import (
     Pipeline,
     Plan,
     Reference,
-    Rendered,
+    RenderTarget,
     Step,
     Subpass,
 )
@@ -184,7 +184,7 @@ class _Frame:
         return tuple(self._pass(number, each) for number, each in enumerate(self.drawn))
 
     def steps(self) -> tuple[Step, ...]:
-        area, scene = (0, 0, self.side, self.side), (parts.Inner("draw", 0, 0),)
+        area, scene = (0, 0, self.side, self.side), (parts.PassCommand("draw", 0, 0),)
         begins = [Step("begin", number, 0, area, scene) for number in range(len(self.drawn))]
         resolved = [(at, self.first + n) for n, (each, at) in enumerate(self.resolves) if each.way == COMMAND]
         return (*begins, *(Step("resolve", at, source=0, target=target) for at, target in resolved))
@@ -220,17 +220,17 @@ class _Frame:
         unused = (Reference(NONE),) if self.witnessed else ()
         return Subpass(colors=(own, *beside), resolves=(target, *unused) if each.way != COMMAND else ())
 
-    def _rendered(self, each: Resolve, target: int) -> tuple[Rendered, ...]:
+    def _rendered(self, each: Resolve, target: int) -> tuple[RenderTarget, ...]:
         roles = {COLOR: "color", DEPTH: "depth", STENCIL: "stencil"}
         modes = {COLOR: each.mode, DEPTH: each.mode, STENCIL: each.stencil_mode}
         own = [
-            Rendered(
+            RenderTarget(
                 role, 0, self.layout, modes[aspect], *((target, self.layout) if modes[aspect] else (NONE, 0)), parts.CLEAR, parts.STORE
             )
             for aspect, role in roles.items()
             if each.aspects & aspect
         ]
-        beside = [Rendered("color", 1, COLOR_LAYOUT, 0, NONE, 0, parts.CLEAR, parts.STORE)] if self.witnessed else []
+        beside = [RenderTarget("color", 1, COLOR_LAYOUT, 0, NONE, 0, parts.CLEAR, parts.STORE)] if self.witnessed else []
         return (*own, *beside)
 
     def _pipeline(self, each: Resolve) -> Pipeline:

@@ -13,16 +13,16 @@ from typing import Any
 
 from msaa_lint.core import package
 
-from .child import Child, Ended, Limits
-from .frame_results import Collected, FrameRun, Ran
+from .child import Child, ChildExit, Limits
+from .frame_results import FrameRun, PassOutcome, RunCollector
 from .protocol import Event
-from .results import Unusable
+from .vulkan_errors import Unusable
 from .worker import EXECUTE
 
 ICD_FOLDERS = ("/etc/vulkan/icd.d", "/usr/local/share/vulkan/icd.d", "/usr/share/vulkan/icd.d")
 PINNED = ("VK_DRIVER_FILES", "VK_ICD_FILENAMES", "VK_LOADER_DRIVERS_SELECT", "VK_ADD_DRIVER_FILES")
 
-MOST_DEATHS = 16
+MAX_DEATHS = 16
 """Deaths of a frame's passes, after which the rest of that frame is left: each costs two new processes."""
 
 OPENING = 30.0
@@ -120,47 +120,47 @@ class Session:
 
     def run(self, plan: Mapping[str, Any], passes: Sequence[int], want: Mapping[str, Any]) -> FrameRun:
         """Runs passes of a plan, in their order; what the driver does is in what is returned. Unusable where no device opens any more."""
-        done: dict[int, Ran] = {}
+        done: dict[int, PassOutcome] = {}
         left = list(passes)
         while left:
-            collected = Collected()
+            collected = RunCollector()
             try:
                 self._collect(plan, left, want, collected)
-            except Ended as ended:
+            except ChildExit as ended:
                 guilty = collected.at
                 if guilty is None:
                     # Before any pass: each has a run of its own to show whether it was its doing.
-                    done.update((number, self._alone(plan, number, want, ended)) for number in left[:MOST_DEATHS])
-                    done.update((number, _left(number)) for number in left[MOST_DEATHS:])
+                    done.update((number, self._alone(plan, number, want, ended)) for number in left[:MAX_DEATHS])
+                    done.update((number, _left(number)) for number in left[MAX_DEATHS:])
                     return FrameRun(done, tuple(collected.messages), {}, False)
                 done[guilty] = self._alone(plan, guilty, want, ended)
                 left.remove(guilty)
-                if sum(ran.end != "" for ran in done.values()) >= MOST_DEATHS:
+                if sum(ran.end != "" for ran in done.values()) >= MAX_DEATHS:
                     done.update((number, _left(number)) for number in left)
                     return FrameRun(done, tuple(collected.messages), {}, False)
                 continue
             whole = not done and not collected.failed
-            done.update((number, collected.ran(number)) for number in left)
+            done.update((number, collected.outcome(number)) for number in left)
             return FrameRun(done, tuple(collected.messages), collected.images if whole else {}, whole, collected.failed)
         return FrameRun(done, whole=False)
 
-    def _alone(self, plan: Mapping[str, Any], number: int, want: Mapping[str, Any], ended: Ended) -> Ran:
+    def _alone(self, plan: Mapping[str, Any], number: int, want: Mapping[str, Any], ended: ChildExit) -> PassOutcome:
         """A pass that its process died at, by itself in a fresh one. One that took too long is not waited for again."""
         if ended.how == "timed-out":
-            return Ran(number, end="timed-out", reason=str(ended))
+            return PassOutcome(number, end="timed-out", reason=str(ended))
         self.close()
-        collected = Collected()
+        collected = RunCollector()
         try:
             self._collect(plan, [number], want, collected)
-        except Ended as again:
+        except ChildExit as again:
             how = "timed-out" if again.how == "timed-out" else "died"
-            return collected.ran(number)._replace(end=how, signal=again.signal, reason=str(again))
+            return collected.outcome(number)._replace(end=how, signal=again.signal, reason=str(again))
         finally:
             self.close()
-        ran = collected.ran(number)
+        ran = collected.outcome(number)
         return ran._replace(end="died", signal=ended.signal, reason=f"{ended} (in company: alone it lives)")
 
-    def _collect(self, plan: Mapping[str, Any], passes: Sequence[int], want: Mapping[str, Any], into: Collected) -> None:
+    def _collect(self, plan: Mapping[str, Any], passes: Sequence[int], want: Mapping[str, Any], into: RunCollector) -> None:
         self.open()
         assert self._child is not None
         request = {"do": "run", "plan": plan, "passes": list(passes), "want": dict(want)}
@@ -170,8 +170,8 @@ class Session:
             if meanwhile is not None:
                 meanwhile()
             for event in self._child.answers():
-                into.take(event)
-        except Ended:
+                into.add(event)
+        except ChildExit:
             self.close()
             raise
 
@@ -184,7 +184,7 @@ class Session:
         assert self._child is not None
         try:
             *_, found = self._child.answers(max(OPENING, self.limits.seconds))
-        except Ended as ended:
+        except ChildExit as ended:
             self.close()
             raise Unusable(f"the driver cannot be opened: {ended}") from None
         if found["event"] == "failed":
@@ -193,8 +193,8 @@ class Session:
         return found
 
 
-def _left(number: int) -> Ran:
-    return Ran(number, end="left", reason=f"left: the driver died {MOST_DEATHS} times in this frame")
+def _left(number: int) -> PassOutcome:
+    return PassOutcome(number, end="left", reason=f"left: the driver died {MAX_DEATHS} times in this frame")
 
 
 def _advice(found: Event) -> str:

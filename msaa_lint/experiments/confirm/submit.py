@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from typing import Any
 
-from .opening import Opened
+from .opening import OpenDevice
 
 BOTTOM, TOP = 0x2000, 0x1
 """VkPipelineStageFlagBits."""
@@ -16,7 +16,7 @@ FOREVER = 0xFFFFFFFFFFFFFFFF
 class Submitter:
     """Records and submits, one command buffer at a time."""
 
-    def __init__(self, opened: Opened, timed: bool = False) -> None:
+    def __init__(self, opened: OpenDevice, timed: bool = False) -> None:
         self.opened = opened
         self.vk = vk = opened.vk
         allocate = vk.VkCommandBufferAllocateInfo(commandPool=opened.pool, level=0, commandBufferCount=1)

@@ -74,8 +74,8 @@ def _depth(form: Format, data: bytes, width: int, height: int) -> Texels:
         return Texels(width, height, "SFLOAT", {"D": _array("f", data)}, {"D": 32}, "depth")
     if form.depth_bits == 16:
         return Texels(width, height, "UNORM", {"D": _array("H", data)}, {"D": 16}, "depth")
-    words = _array("I", data)
-    return Texels(width, height, "UNORM", {"D": [word & 0xFFFFFF for word in words]}, {"D": 24}, "depth")
+    text = _array("I", data)
+    return Texels(width, height, "UNORM", {"D": [word & 0xFFFFFF for word in text]}, {"D": 24}, "depth")
 
 
 def _planes(form: Format, data: bytes) -> dict[str, Plane]:
@@ -94,22 +94,22 @@ def _planes(form: Format, data: bytes) -> dict[str, Plane]:
 
 def _packed(form: Format, data: bytes) -> dict[str, Plane]:
     """Components in one word, the first in its highest bits."""
-    words = _array(_WORDS[form.bytes * 8], data)
+    text = _array(_WORDS[form.bytes * 8], data)
     if form.name.startswith("E5B9G9R9"):
         shifts = (("R", 0), ("G", 9), ("B", 18))
-        return {name: [(word >> shift & 0x1FF) * 2.0 ** ((word >> 27) - 24) for word in words] for name, shift in shifts}
+        return {name: [(word >> shift & 0x1FF) * 2.0 ** ((word >> 27) - 24) for word in text] for name, shift in shifts}
     planes: dict[str, Plane] = {}
     shift = form.bytes * 8
     for name, bits in form.components:
         shift -= bits
         mask = (1 << bits) - 1
         if form.numeric == "UFLOAT":
-            values: Plane = [_small_float(word >> shift & mask, bits - 5) for word in words]
+            values: Plane = [_small_float(word >> shift & mask, bits - 5) for word in text]
         elif form.numeric in ("SINT", "SNORM"):
             half = 1 << (bits - 1)
-            values = [((word >> shift & mask) ^ half) - half for word in words]
+            values = [((word >> shift & mask) ^ half) - half for word in text]
         else:
-            values = [word >> shift & mask for word in words]
+            values = [word >> shift & mask for word in text]
         planes[name] = values
     return planes
 

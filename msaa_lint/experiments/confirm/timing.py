@@ -75,7 +75,7 @@ class Difference(NamedTuple):
 
     share: float
     real: bool
-    words: str
+    text: str
 
 
 def difference(as_written: Timing, fixed: Timing, software: bool) -> Difference:

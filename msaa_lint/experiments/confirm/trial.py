@@ -1,41 +1,41 @@
-"""The trial of inputs on one device: planned, let through the gate, run as written and as fixed, compared, timed, judged."""
+"""The trial of inputs on one device: planned, checked against the device, run as written and as fixed, compared, timed, and judged."""
 
 from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
 
 from msaa_lint.core.finding import Finding
 from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.frame.facts.parts import Pass
 
 from .frame_results import FrameRun
 from .inputs import Input, of_pass
-from .outcome import About, DeviceRun, about
-from .pixels import Compared, Raw, compare, read
-from .planning import PlannedPass, Planner, Told
+from .outcome import REFUSED, SKIPPED, AgreementRow, DeviceInfo, DeviceRun, Verdict, about, pixels_equal
+from .pixels import ImageComparison, RawImage, compare, read
+from .planner import LayerReport, PlannedPass, Planner
+from .png import PictureFolder, file_name, show
 from .protocol import Event
-from .results import Unusable
 from .session import Session
 from .timing import cannot_show
-from .verdict import REFUSED, SKIPPED, Said, Verdict, pixels_equal, settled
-from .version_timing import Version, times
+from .version_timing import Version, measure_times
+from .vulkan_errors import Unusable
 
-if TYPE_CHECKING:
-    from .png import Album
+MAX_IMAGE = 256 << 20
+"""Maximum size in bytes of an image that is read back."""
 
-LARGEST = 256 << 20
-"""Bytes of one image that are read back, at most."""
-
-
-NOTHING_TO_COMPARE = "there is no picture to compare: no image of one sample holds in the end what the pass draws"
+NOTHING_TO_COMPARE = "there is no picture to compare: no single-sampled image holds the result of the pass"
 
 
-class Terms(NamedTuple):
-    """What is asked of a trial: whether to ask the gate, where pictures go, whether to time (None: on a GPU), how often, at which size,
-    with how many samples; `resolves` has those of colour held against their samples too; `several` devices have folders of their own for
-    their pictures."""
+class TrialOptions(NamedTuple):
+    """The options of a trial.
+
+    `gate` skips what the device does not support; `image` is the folder for pictures; `time` measures times (None: on a GPU only) with
+    `repeats`; `size` and `samples` replace the described ones; `several` gives each device its own folder of pictures; `resolves` checks
+    the color resolves too.
+    """
 
     gate: bool = True
     image: str | None = None
@@ -50,217 +50,211 @@ class Terms(NamedTuple):
 def trial(
     session: Session,
     inputs: Callable[[], Sequence[Input]],
-    terms: Terms,
+    options: TrialOptions,
     planner: Planner | None = None,
     meanwhile: Callable[[], None] | None = None,
 ) -> DeviceRun:
-    """What came of every pass of some inputs on the device of a session, which is closed then.
+    """The outcome of every pass of some inputs on the device of a session, which is closed afterwards.
 
-    `inputs` gives them once the child is opening the device; `meanwhile` is called once, while it draws.
+    `inputs` is called while the child process opens the device, and `meanwhile` once while it draws.
     """
     asked = session.name or ""
     try:
         session.start()
-        # Imports what planning needs while the device opens.
-        planner = planner or _planner()
-        found = inputs()
+        sources = inputs()
         session.meanwhile = meanwhile
-        this = _Trial(session, terms, session.open(), planner)
-        verdicts = [verdict for each in found for verdict in this.input(each)]
+        device_trial = _Trial(session, options, session.open(), planner or Planner())
+        verdicts = [verdict for source in sources for verdict in device_trial.verdicts(source)]
     except Unusable as error:
         return DeviceRun(None, unusable=str(error), asked=asked)
     finally:
         session.close()
-    shown = cannot_show({"type": this.about.type}, this.tiler)
-    return DeviceRun(this.about, session.layer, verdicts, this.notes(verdicts), "", asked, shown, session.printed)
-
-
-def _planner() -> Planner:
-    from .planner import PLANNER
-
-    return PLANNER
+    info = device_trial.info
+    limits = cannot_show({"type": info.type}, _is_tiler(info))
+    return DeviceRun(info, session.layer, verdicts, device_trial.notes(verdicts), "", asked, limits, session.printed)
 
 
 class _Trial:
     """What is the same for all inputs."""
 
-    def __init__(self, session: Session, terms: Terms, device: Mapping[str, Any], planner: Planner) -> None:
+    def __init__(self, session: Session, options: TrialOptions, device: Mapping[str, Any], planner: Planner) -> None:
         self.session = session
-        self.terms = terms
+        self.options = options
         self.device = device
-        self.about: About = about(device)
-        self.tiler: bool | None = _tiler(self.about)
+        self.info: DeviceInfo = about(device)
         self.planner = planner
-        self.timed = terms.time if terms.time is not None else not self.about.software
-        self.album: Album | None = None
-        if terms.image is not None:
-            from .png import Album, file_name
-
-            self.album = Album(os.path.join(terms.image, file_name(self.about.name)) if terms.several else terms.image)
+        self.timed = options.time if options.time is not None else not self.info.software
+        self.album: PictureFolder | None = None
+        if options.image is not None:
+            self.album = PictureFolder(os.path.join(options.image, file_name(self.info.name)) if options.several else options.image)
 
     def notes(self, verdicts: Sequence[Verdict]) -> list[str]:
-        """What holds for the device as a whole."""
-        found = []
+        """Notes on the device as a whole."""
+        notes = []
         if self.session.layer is None and self.session.validation:
-            words = "the validation layer is missing, so nothing is said of how it agrees with us"
-            found.append(f"{words}; on Debian `apt install vulkan-validationlayers`")
-        if not self.timed and self.terms.time is None and verdicts:
-            found.append("times are not measured on a software driver unless --time asks for them")
-        if not self.terms.gate:
-            found.append("the gate is off: what the device does not support was tried too, and its results mean nothing")
-        return found
+            missing = "the validation layer is not installed, so its agreement with the rules is unknown"
+            notes.append(f"{missing}; on Debian run `apt install vulkan-validationlayers`")
+        if not self.timed and self.options.time is None and verdicts:
+            notes.append("times are not measured on a software driver unless --time requests them")
+        if not self.options.gate:
+            notes.append("the gate is off: what the device does not support was tried too, and those results are meaningless")
+        return notes
 
-    def input(self, each: Input) -> list[Verdict]:
+    def verdicts(self, source: Input) -> list[Verdict]:
         """The verdicts on the passes of one input."""
-        before = self.version(each.frame, each.file)
-        after = self.version(each.fixed, each.file) if each.fixed is not None else None
-        compared, why = self.compared(each, before, after)
-        pictures = self.pictures(each, before, after, compared)
+        before = self._version(source.frame, source.file)
+        after = self._version(source.fixed, source.file) if source.fixed is not None else None
+        comparisons, not_compared = self._compare(source, before, after)
+        pictures = self._pictures(source, before, after, comparisons)
+        passes = before.planned.passes
+        if not passes:
+            return [Verdict(source.file, "", source.prefix.rstrip("."), SKIPPED, "it has no pass")]
         versions = {"as written": before, **({"fixed": after} if after is not None else {})}
-        timed = times(self.session, versions, self.terms.repeats, self.about.software) if self.timed else {}
-        # The model's figures stand beside times alone, and take a while to reckon.
-        said, model = self.said(each, before), _model(each) if self.timed else {}
-        deviating = self.planner.deviations(self.session, before.planned, self.device, self.terms.resolves) if before.run.passes else {}
+        times = measure_times(self.session, versions, self.options.repeats, self.info.software) if self.timed else {}
+        # The cost model's figures are shown next to times only, and take a while to compute.
+        agreement, model = self._agreement(source, before), _model(source) if self.timed else {}
+        deviations = self.planner.deviations(self.session, before.planned, self.device, self.options.resolves) if before.run.passes else {}
         verdicts = []
-        if not before.planned.passes:
-            verdicts.append(Verdict(each.file, "", each.prefix.rstrip("."), SKIPPED, "it has no pass"))
-        for number, one in enumerate(before.planned.passes):
-            verdict = self.verdict(each, before, number)
-            verdict = verdict._replace(said=tuple(said.get(number, ())), times=timed.get(number), model=model.get(one.name))
-            if one.refused or number in before.refused:
-                verdicts.append(verdict._replace(status=REFUSED, reason=one.refused or before.refused[number]))
+        for number, planned in enumerate(passes):
+            verdict = self._verdict(source, before, number)
+            verdict = verdict._replace(
+                agreement=tuple(agreement.get(number, ())), times=times.get(number), model=model.get(planned.name)
+            )  # fmt: skip
+            if planned.refused or number in before.refused:
+                verdicts.append(verdict._replace(status=REFUSED, reason=planned.refused or before.refused[number]))
                 continue
-            own = [image for image in compared if _concerns(image.image, one, each.frame, len(before.planned.passes))]
-            told = why or (NOTHING_TO_COMPARE if after is not None and pixels_equal(own) is None else "")
-            notes = (*verdict.notes, *([told] if told else ()), *deviating.get(number, ()))
-            verdict = verdict._replace(images=tuple(own), pixels_equal=pixels_equal(own), notes=notes)
-            fixed_number = after.number(one.name) if after is not None else None
+            images = [image for image in comparisons if _concerns(image.image, planned, source.frame, len(passes))]
+            equal = pixels_equal(images)
+            note = not_compared or (NOTHING_TO_COMPARE if after is not None and equal is None else "")
+            notes = (*verdict.notes, *([note] if note else ()), *deviations.get(number, ()))
+            verdict = verdict._replace(images=tuple(images), pixels_equal=equal, notes=notes)
+            fixed_number = after.number(planned.name) if after is not None else None
             fixed = after.run.passes.get(fixed_number) if after is not None and fixed_number is not None else None
-            errors = any(found.severity == "error" for found in _findings(each, one))
-            verdict = settled(verdict, before.run.passes.get(number), fixed, errors)
-            verdicts.append(verdict._replace(pictures=tuple(pictures) if number == len(before.planned.passes) - 1 else ()))
+            has_errors = any(finding.severity == "error" for finding in _findings(source, planned))
+            verdicts.append(verdict.with_status(before.run.passes.get(number), fixed, has_errors))
+        if verdicts[-1].status != REFUSED:
+            verdicts[-1] = verdicts[-1]._replace(pictures=tuple(pictures))
         return verdicts
 
-    def version(self, frame: Frame, file: str) -> Version:
-        """A frame planned, let through the gate, and run."""
-        planned = self.planner.plan(frame, file, self.terms.size, self.terms.samples)
-        refused = self.planner.gate(planned, self.device) if self.terms.gate else {}
-        going = [n for n, each in enumerate(planned.passes) if not each.refused and n not in refused]
-        if not going:
+    def _version(self, frame: Frame, file: str) -> Version:
+        """A frame planned, checked against the device, and run."""
+        planned = self.planner.plan(frame, file, self.options.size, self.options.samples)
+        refused = self.planner.gate(planned, self.device) if self.options.gate else {}
+        runnable = [number for number, planned_pass in enumerate(planned.passes) if not planned_pass.refused and number not in refused]
+        if not runnable:
             return Version(planned, refused, FrameRun({}), {})
         folder = self.session.folder("pixels")
-        want = {"pixels": folder, "repeats": 0, "warmups": 0, "size": None, "samples_of": None}
+        options = {"pixels": folder, "repeats": 0, "warmups": 0, "size": None, "samples_of": None}
         try:
-            run = self.session.run(planned.data, going, want)
-            return Version(planned, refused, run, dict(_raw(run.images, folder)))
+            run = self.session.run(planned.data, runnable, options)
+            return Version(planned, refused, run, dict(_raw_images(run.images, folder)))
         finally:
             shutil.rmtree(folder, ignore_errors=True)
 
-    def compared(self, each: Input, before: Version, after: Version | None) -> tuple[list[Compared], str]:
+    def _compare(self, source: Input, before: Version, after: Version | None) -> tuple[list[ImageComparison], str]:
         """The images of both versions compared, or why they cannot be."""
         if after is None or not before.run.passes:
             return [], ""
         if not before.run.whole or not after.run.whole or before.run.failed or after.run.failed:
             reason = before.run.failed or after.run.failed or "not every pass went through"
             return [], f"the pictures are not compared: {reason}"
-        if any(ran.created is False for version in (before, after) for ran in version.run.passes.values()):
+        if any(outcome.created is False for version in (before, after) for outcome in version.run.passes.values()):
             return [], "the pictures are not compared: a pass could not be created"
         if len(before.run.passes) != len(after.run.passes):
             return [], "the pictures are not compared: the device does not support the same passes of both versions"
-        ways, others = _resolved(each.frame), _resolved(each.fixed) if each.fixed is not None else {}
-        moved = {name for name, how in ways.items() if others.get(name, how) != how}
-        why = "an average is rounded as each way of resolving does it"
+        resolves, fixed_resolves = _averages(source.frame), _averages(source.fixed) if source.fixed is not None else {}
+        moved = {name for name, kinds in resolves.items() if fixed_resolves.get(name, kinds) != kinds}
+        why = "each way of resolving rounds an average in its own way"
         return compare(before.images, after.images, dict.fromkeys(moved, (1, why))), ""
 
-    def pictures(self, each: Input, before: Version, after: Version | None, compared: Sequence[Compared]) -> list[str]:
+    def _pictures(self, source: Input, before: Version, after: Version | None, comparisons: Sequence[ImageComparison]) -> list[str]:
         if self.album is None:
             return []
-        from .png import show
-
         paths = []
-        first = {image.image: image.first for image in compared}
-        stem = (each.file, *([str(each.number)] if each.many > 1 else ()))
+        first = {comparison.image: comparison.first for comparison in comparisons}
+        stem = (source.file, *([str(source.number)] if source.many > 1 else ()))
         for name, raw in sorted(before.images.items()):
             texels = read(raw)
-            other = after.images.get(name) if after is not None else None
+            fixed = after.images.get(name) if after is not None else None
             if texels is not None and texels.planes:
-                paths += show(self.album, (*stem, name), texels, read(other) if other is not None else None, first.get(name))
+                paths += show(self.album, (*stem, name), texels, read(fixed) if fixed is not None else None, first.get(name))
         return paths
 
-    def said(self, each: Input, before: Version) -> Mapping[int, Sequence[Said]]:
-        """How the layer and we agree, by pass."""
+    def _agreement(self, source: Input, before: Version) -> Mapping[int, Sequence[AgreementRow]]:
+        """How the layer and the rules agree, by pass."""
         layer, run = self.session.layer, before.run
         if layer is None or not run.passes:
             return {}
-        messages = [*run.messages, *(message for ran in run.passes.values() for message in ran.messages)]
-        told = Told(list(run.passes), messages, layer, self.session.vendors, self.device, self.about.name)
-        return self.planner.rows(each, before.planned, told)
+        messages = [*run.messages, *(message for outcome in run.passes.values() for message in outcome.messages)]
+        report = LayerReport(list(run.passes), messages, layer, self.session.vendors, self.device)
+        return self.planner.agreement(source, before.planned, report)
 
-    def verdict(self, each: Input, before: Version, number: int) -> Verdict:
-        """What is known of a pass before it is judged."""
-        one = before.planned.passes[number]
-        ran = before.run.passes.get(number)
+    def _verdict(self, source: Input, before: Version, number: int) -> Verdict:
+        """What is known about a pass before it is judged."""
+        planned = before.planned.passes[number]
+        outcome = before.run.passes.get(number)
         notes = list(before.planned.defaults) if number == 0 else []
-        if ran is not None and ran.dropped:
-            notes.append(f"{ran.dropped} more messages of the layer are left out")
-        codes = tuple(dict.fromkeys(found.code for found in _findings(each, one)))
-        return Verdict(each.file, one.name, each.prefix + one.path, "", findings=codes, notes=tuple(notes))
+        if outcome is not None and outcome.dropped:
+            notes.append(f"{outcome.dropped} more messages of the layer are omitted")
+        codes = tuple(dict.fromkeys(finding.code for finding in _findings(source, planned)))
+        return Verdict(source.file, planned.name, source.prefix + planned.path, "", findings=codes, notes=tuple(notes))
 
 
-def _findings(each: Input, one: PlannedPass) -> list[Finding]:
-    """All that is found of a pass, silenced or not."""
-    own = next((p for p in each.frame.passes if p.name == one.name), None)
-    findings = [*each.findings, *each.silenced]
-    return of_pass(each.frame, own, findings) if own is not None else findings
+def _findings(source: Input, planned: PlannedPass) -> list[Finding]:
+    """All findings about a pass, suppressed ones included."""
+    described = next((each for each in source.frame.passes if each.name == planned.name), None)
+    findings = [*source.findings, *source.silenced]
+    return of_pass(source.frame, described, findings) if described is not None else findings
 
 
-def _concerns(image: str, one: PlannedPass, frame: Frame, passes: int) -> bool:
-    """Whether an image is told of with a pass: one that it renders or resolves to; what no pass does is told with each."""
-    owners = [each.name for each in frame.passes if _draws(each, image)]
-    return passes == 1 or not owners or one.name in owners
+def _concerns(image: str, planned: PlannedPass, frame: Frame, passes: int) -> bool:
+    """Whether an image is reported with a pass that renders or resolves to it; images of no pass are reported with every pass."""
+    owners = [described.name for described in frame.passes if _writes(described, image)]
+    return passes == 1 or not owners or planned.name in owners
 
 
-def _draws(each: Any, image: str) -> bool:
-    targets = {target.name for attachment in each.attachments for target in attachment.targets}
-    targets.update(r.target_image.name for subpass in each.subpasses for r in subpass.resolves if r.target_image is not None)
+def _writes(described: Pass, image: str) -> bool:
+    targets = {target.name for attachment in described.attachments for target in attachment.targets}
+    resolves = (resolve for subpass in described.subpasses for resolve in subpass.resolves)
+    targets.update(resolve.target_image.name for resolve in resolves if resolve.target_image is not None)
     return image.partition(":")[0] in targets
 
 
-def _resolved(frame: Frame) -> dict[str, set[str]]:
-    """By image that is averaged to: in which ways, in a pass or by a command."""
-    found: dict[str, set[str]] = {}
-    resolves = [resolve for each in frame.passes for subpass in each.subpasses for resolve in subpass.resolves]
+def _averages(frame: Frame) -> dict[str, set[str]]:
+    """By image that samples are averaged into: whether in a pass or by a command."""
+    kinds: dict[str, set[str]] = {}
+    resolves = [resolve for described in frame.passes for subpass in described.subpasses for resolve in subpass.resolves]
     for resolve in (*resolves, *(resolve for _, resolve in frame.resolve_commands)):
         if resolve.target_image is not None and resolve.mode == "AVERAGE":
-            found.setdefault(resolve.target_image.name, set()).add("command" if resolve.kind == "command" else "pass")
-    return found
+            kinds.setdefault(resolve.target_image.name, set()).add("command" if resolve.kind == "command" else "pass")
+    return kinds
 
 
-def _raw(images: Mapping[str, Event], folder: str) -> Any:
-    """The images of a run, read: only files of that folder, and none that is larger than an image can be."""
+def _raw_images(images: Mapping[str, Event], folder: str) -> Iterator[tuple[str, RawImage]]:
+    """The images of a run, read only from files of its own folder, up to the maximum size."""
     for name, event in images.items():
         path = os.path.realpath(event["path"])
         if os.path.dirname(path) != os.path.realpath(folder):
             continue
         try:
             with open(path, "rb") as file:
-                data = file.read(LARGEST)
+                data = file.read(MAX_IMAGE)
         except OSError:
             continue
-        yield name, Raw(event["format"], event["width"], event["height"], data, str(event.get("aspect") or ""))
+        yield name, RawImage(event["format"], event["width"], event["height"], data, str(event.get("aspect") or ""))
 
 
-def _model(each: Input) -> dict[str, dict[str, Any]]:
-    """What the cost model says of passes, as written and fixed, by their names."""
+def _model(source: Input) -> dict[str, dict[str, Any]]:
+    """The cost model's figures for passes as written and fixed, by name."""
     from msaa_lint.frame.cost.model import frame_cost
 
-    frames = [frame for frame in (each.frame, each.fixed) if frame is not None]
-    written, *fixed = ({cost.name: cost.amount._asdict() for cost in frame_cost(frame, each.device).passes} for frame in frames)
+    frames = [frame for frame in (source.frame, source.fixed) if frame is not None]
+    written, *fixed = ({cost.name: cost.amount._asdict() for cost in frame_cost(frame, source.device).passes} for frame in frames)
     return {name: {"as_written": amount, "fixed": fixed[0].get(name) if fixed else None} for name, amount in written.items()}
 
 
-def _tiler(device: About) -> bool | None:
-    """Whether a device renders by tiles, as its vendor's do."""
+def _is_tiler(device: DeviceInfo) -> bool | None:
+    """Whether a device renders by tiles, judging by its vendor; None if unknown."""
     from msaa_lint.frame.devices.vendors import TILERS, vendor_of
 
     vendor = vendor_of(device.vendor_id)

@@ -1,4 +1,4 @@
-"""Both versions of a frame timed in turns, in fresh processes, without the layer."""
+"""Both versions of a frame timed alternately, in fresh processes, without the layer."""
 
 from __future__ import annotations
 
@@ -6,56 +6,59 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from .frame_results import FrameRun
-from .pixels import Raw
-from .planning import Planned
+from .outcome import Times
+from .pixels import RawImage
+from .planner import PlannedFrame
 from .session import Session
 from .timing import difference, rounds, timing
-from .verdict import Times
 
 WARMUPS = 2
 
 
 class Version(NamedTuple):
-    """A frame as written or fixed: its plan, which passes the gate refuses, and its run."""
+    """A frame as written or fixed: its plan, the passes that the device does not support, and its run."""
 
-    planned: Planned
+    planned: PlannedFrame
     refused: Mapping[int, str]
     run: FrameRun
-    images: Mapping[str, Raw]
+    images: Mapping[str, RawImage]
 
     def number(self, name: str) -> int | None:
-        """The number of a pass by its name, which fixes leave as it is."""
-        return next((n for n, each in enumerate(self.planned.passes) if each.name == name), None)
+        """The number of a pass by its name, which fixes do not change."""
+        return next((number for number, planned in enumerate(self.planned.passes) if planned.name == name), None)
 
 
-def times(session: Session, versions: Mapping[str, Version], repeats: int, software: bool) -> dict[int, Times]:
+def measure_times(session: Session, versions: Mapping[str, Version], repeats: int, software: bool) -> dict[int, Times]:
     """The times of the passes that went through, by their number as written. `versions` are `as written` and, if there is one, `fixed`."""
-    found: dict[str, dict[int, list[float]]] = {name: {} for name in versions}
+    values: dict[str, dict[int, list[float]]] = {name: {} for name in versions}
     source = "wall"
-    with _without_layer(session) as timed:
-        last = 0
+    # The layer would be timed too: use a session without it.
+    with Session(
+        session.name, validation=False, limits=session.limits, environment=session.environment, execute=session.execute
+    ) as timed_session:  # fmt: skip
+        previous = 0
         for process, order, count in rounds(repeats):
-            if process != last:
-                timed.close()
-            last = process
-            for name in (each for each in order if each in versions):
-                version = versions[name]
-                going = [n for n, ran in version.run.passes.items() if ran.end == "" and ran.created is not False]
-                want = {"pixels": None, "repeats": count, "warmups": WARMUPS, "size": None, "samples_of": None}
-                for n, ran in (timed.run(version.planned.data, going, want).passes if going else {}).items():
-                    found[name].setdefault(n, []).extend(ran.times)
-                    source = ran.source or source
-    made = {}
-    for number, values in found["as written"].items():
-        if not values:
+            if process != previous:
+                timed_session.close()
+            previous = process
+            options = {"pixels": None, "repeats": count, "warmups": WARMUPS, "size": None, "samples_of": None}
+            for name in order:
+                version = versions.get(name)
+                passes = version.run.passes.items() if version is not None else ()
+                runnable = [number for number, outcome in passes if outcome.end == "" and outcome.created is not False]
+                if version is None or not runnable:
+                    continue
+                for number, outcome in timed_session.run(version.planned.data, runnable, options).passes.items():
+                    values[name].setdefault(number, []).extend(outcome.times)
+                    source = outcome.source or source
+    times = {}
+    for number, written_values in values["as written"].items():
+        if not written_values:
             continue
-        twin = versions["fixed"].number(versions["as written"].planned.passes[number].name) if "fixed" in versions else None
-        other = found["fixed"].get(twin, []) if twin is not None else []
-        written, fixed = timing(values, source), timing(other, source) if other else None
-        made[number] = Times(written, fixed, difference(written, fixed, software) if fixed is not None else None)
-    return made
-
-
-def _without_layer(session: Session) -> Session:
-    """A session of the same device without the layer, which would be timed with it."""
-    return Session(session.name, validation=False, limits=session.limits, environment=session.environment, execute=session.execute)
+        written, fixed = timing(written_values, source), None
+        if "fixed" in versions:
+            twin = versions["fixed"].number(versions["as written"].planned.passes[number].name)
+            fixed_values = values["fixed"].get(twin, []) if twin is not None else []
+            fixed = timing(fixed_values, source) if fixed_values else None
+        times[number] = Times(written, fixed, difference(written, fixed, software) if fixed is not None else None)
+    return times

@@ -15,8 +15,8 @@ import sys
 from collections.abc import Callable
 from typing import IO, Any
 
-from .protocol import LONGEST, Event, line
-from .results import Unusable
+from .protocol import MAX_LINE, Event, line
+from .vulkan_errors import Unusable
 
 EXECUTE = "msaa_lint.experiments.confirm.execute"
 
@@ -52,36 +52,36 @@ def _limit(memory: int) -> None:
 
 
 def _serve(requests: IO[bytes], answers: IO[bytes], execute: str) -> int:
-    def tell(event: Event) -> None:
+    def emit(event: Event) -> None:
         answers.write(line(event))
 
     session: Any = None
-    while text := requests.readline(LONGEST):
+    while text := requests.readline(MAX_LINE):
         request = json.loads(text)
         _alarm(request.get("seconds", 0))
         try:
-            session = _answer(importlib.import_module(execute), session, request, tell)
+            session = _answer(importlib.import_module(execute), session, request, emit)
         except MemoryError:
-            tell({"event": "failed", "kind": "memory", "reason": "out of memory"})
+            emit({"event": "failed", "kind": "memory", "reason": "out of memory"})
         except ImportError as error:
-            tell({"event": "failed", "kind": "environment", "reason": str(error)[:400], "missing": error.name})
+            emit({"event": "failed", "kind": "environment", "reason": str(error)[:400], "missing": error.name})
         except Exception as error:
             kind = "environment" if isinstance(error, Unusable) else "program"
             reason = str(error) if kind == "environment" else f"{type(error).__name__}: {error}"
-            tell({"event": "failed", "kind": kind, "reason": reason[:2000], "where": _where(error)})
+            emit({"event": "failed", "kind": kind, "reason": reason[:2000], "where": _where(error)})
         _alarm(0)
     return 0
 
 
-def _answer(module: Any, session: Any, request: dict[str, Any], tell: Callable[[Event], None]) -> Any:
+def _answer(module: Any, session: Any, request: dict[str, Any], emit: Callable[[Event], None]) -> Any:
     """Does what a request asks; the session, opened where it asks for that."""
     if request["do"] == "devices":
-        tell({"event": "devices", "devices": module.devices()})
+        emit({"event": "devices", "devices": module.devices()})
     elif request["do"] == "open":
         session = module.Session(request["device"], request["validation"], tuple(request["vendors"]))
-        tell({"event": "opened", "device": session.device, "layer": session.layer})
+        emit({"event": "opened", "device": session.device, "layer": session.layer})
     else:
-        module.run(session, module.from_json(request["plan"]), request["passes"], module.Want(**request["want"]), tell)
+        module.run(session, module.from_json(request["plan"]), request["passes"], module.RunOptions(**request["want"]), emit)
     return session
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from msaa_lint.experiments.confirm.png import EDGE, Album, Picture, enlarged
+from msaa_lint.experiments.confirm.png import EDGE, Picture, PictureFolder, enlarged
 
 from .points import KINDS, MSAA, SAMPLE_SHADING, Technique
 
@@ -25,7 +25,7 @@ _GLYPHS = {
 """The letters of technique names: five rows, each an octal digit whose bits are three dots."""
 
 
-def crops(album: Album, name: str, scene: Any, techniques: Sequence[Technique], bits: int = 8) -> str:
+def crops(album: PictureFolder, name: str, scene: Any, techniques: Sequence[Technique], bits: int = 8) -> str:
     """Writes one picture of a scene and returns its path.
 
     There is a row for each kind of technique, with the exact picture first and then the techniques in order, under their names (`4x/2` is

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from msaa_lint.experiments.confirm import gate, plan
 from msaa_lint.experiments.confirm.frame_results import SAMPLES_OF
-from msaa_lint.experiments.confirm.parts import Plan
-from msaa_lint.experiments.confirm.results import Unusable
+from msaa_lint.experiments.confirm.parts import Plan, to_json
 from msaa_lint.experiments.confirm.scene import CLEARED
 from msaa_lint.experiments.confirm.session import Session
+from msaa_lint.experiments.confirm.vulkan_errors import Unusable
 
 from .points import MSAA, Technique
 from .technique_frames import frame_of
@@ -56,7 +56,7 @@ def _covered(session: Session, frame_plan: Plan, samples: int, folder: str) -> N
     options: Mapping[str, Any] = {
         "pixels": folder, "repeats": 0, "warmups": 0, "size": size, "samples_of": name if samples > 1 else None,
     }  # fmt: skip
-    run = session.run(plan.to_json(frame_plan), [0], options)
+    run = session.run(to_json(frame_plan), [0], options)
     event = run.images.get(name + SAMPLES_OF if samples > 1 else name)
     if run.failed or event is None:
         raise Unusable(run.failed or run.passes[0].reason or "the device returned no samples")

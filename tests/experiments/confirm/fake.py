@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 Tell = Callable[[dict[str, Any]], None]
 
 
-class Want(NamedTuple):
+class RunOptions(NamedTuple):
     pixels: str | None = None
     repeats: int = 0
     warmups: int = 0
@@ -39,7 +39,7 @@ def from_json(data: Any) -> Any:
     return data
 
 
-def run(session: Session, plan: dict[str, Any], passes: Sequence[int], want: Want, tell: Tell) -> None:
+def run(session: Session, plan: dict[str, Any], passes: Sequence[int], want: RunOptions, tell: Tell) -> None:
     session.runs += 1
     before = plan.get("before")
     if before is not None:

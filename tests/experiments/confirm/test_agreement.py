@@ -14,13 +14,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.experiments.confirm.agreement import BOTH, EXPLAINED, NO_CHECK, NOISE, OURS, SILENT, THEIRS, agreement
-from msaa_lint.experiments.confirm.explanations import CONSEQUENCES, EXPLANATIONS
+from msaa_lint.experiments.confirm.explanations import CONSEQUENCES, EXPLANATIONS, Noise
+from msaa_lint.experiments.confirm.explanations import NOISE as LEFT_OUT
 from msaa_lint.experiments.confirm.families import FAMILIES, RENDER_PASS, RENDER_PASS_2, RENDERING, Family
-from msaa_lint.experiments.confirm.layer_scope import Looking, kind, looking
+from msaa_lint.experiments.confirm.layer_scope import LayerScope, layer_scope, pass_kind
 from msaa_lint.experiments.confirm.messages import Message, bare, classify, sentence, vendors
-from msaa_lint.experiments.confirm.noise import NOISE as LEFT_OUT
-from msaa_lint.experiments.confirm.noise import Noise
-from msaa_lint.experiments.confirm.verdict import Said
+from msaa_lint.experiments.confirm.outcome import AgreementRow
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.linter.engine import Engine, LintOptions
 from msaa_lint.linter.results import FileResult
@@ -69,7 +68,7 @@ def test_what_a_page_refers_to_is_in_a_family_that_names_its_rule(rule: str, id:
 
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
 def test_the_pages_of_a_familys_rules_refer_to_it(family: Family) -> None:
-    if family.looks.at and family.name != "integer-resolve-mode":
+    if family.scope.instead and family.name != "integer-resolve-mode":
         # Ours answers to another matter.
         return
     for rule in family.rules:
@@ -96,9 +95,9 @@ def test_explanations_are_of_families_and_facts_that_there_are() -> None:
         for name in set(consequence.ids) & set(BY_NAME):
             assert not set(BY_NAME[name].rules) & set(consequence.rules), "it is an answer, not a consequence"
     for family in FAMILIES:
-        for subject, when, words in family.looks.when:
+        for subject, when, words in family.scope.when:
             check(when, subject)
-            assert words.startswith("it looks at ")
+            assert words.startswith("it checks ")
             assert all(RULES[rule].subject == subject for rule in family.rules), f"{family.name}: the condition is about another subject"
 
 
@@ -224,7 +223,7 @@ AFTER = """\
 NON_TRANSIENT = "UNASSIGNED-BestPractices-vkCreateImage-non-transient-ms-image"
 REQUIRES_MEMORY = "UNASSIGNED-BestPractices-vkCreateRenderPass-image-requires-memory"
 READBACK = "UNASSIGNED-BestPractices-vkCmdBeginRenderPass-attachment-needs-readback"
-EVERYTHING = Looking((1, 4, 309), frozenset({"arm", "img", "amd", "nvidia"}), {0: RENDER_PASS, 1: RENDER_PASS}, True)
+EVERYTHING = LayerScope((1, 4, 309), frozenset({"arm", "img", "amd", "nvidia"}), {0: RENDER_PASS, 1: RENDER_PASS}, True)
 
 
 def described(usage: str = "", load: str = "CLEAR", store: str = "DONT_CARE", more: str = "") -> str:
@@ -238,7 +237,7 @@ def linted_of(text: str) -> FileResult:
     return linted
 
 
-def rows(text: str, *messages: Message, at: Looking = EVERYTHING) -> dict[int, list[Said]]:
+def rows(text: str, *messages: Message, at: LayerScope = EVERYTHING) -> dict[int, list[AgreementRow]]:
     linted = linted_of(text)
     (judged,) = linted.documents
     frame = Frame(judged.document)
@@ -252,13 +251,13 @@ def said(id: str, number: int | None = 0, text: str = "It is so.") -> Message:
     return Message(id, text, "warning", number)
 
 
-def only(found: Mapping[int, Sequence[Said]], verdict: str, number: int = 0) -> list[Said]:
+def only(found: Mapping[int, Sequence[AgreementRow]], verdict: str, number: int = 0) -> list[AgreementRow]:
     return [row for row in found[number] if row.verdict == verdict]
 
 
 def test_both() -> None:
     found = rows(described(), said(NON_TRANSIENT))
-    assert found[0][0] == Said(BOTH, NON_TRANSIENT, "non-transient-ms-image", "multisampled-image-not-transient", "It is so.")
+    assert found[0][0] == AgreementRow(BOTH, NON_TRANSIENT, "non-transient-ms-image", "multisampled-image-not-transient", "It is so.")
     assert "multisampled-image-not-transient" not in [row.rule for row in only(found, OURS)]
     assert not only(found, THEIRS)
 
@@ -272,8 +271,8 @@ def test_a_message_that_two_findings_answer_to_is_told_with_each() -> None:
 def test_theirs_alone_is_shown() -> None:
     found = rows(described(usage=", TRANSIENT_ATTACHMENT"), said(NON_TRANSIENT), said("VUID-vkDestroyDevice-device-00378"))
     assert only(found, THEIRS) == [
-        Said(THEIRS, NON_TRANSIENT, "non-transient-ms-image", text="It is so."),
-        Said(THEIRS, "VUID-vkDestroyDevice-device-00378", text="It is so."),
+        AgreementRow(THEIRS, NON_TRANSIENT, "non-transient-ms-image", text="It is so."),
+        AgreementRow(THEIRS, "VUID-vkDestroyDevice-device-00378", text="It is so."),
     ]
 
 
@@ -281,21 +280,21 @@ def test_noise() -> None:
     found = rows(described(), said("UNASSIGNED-BestPractices-vkAllocateMemory-small-allocation"))
     (row,) = only(found, NOISE)
     assert (row.family, row.rule) == ("", "")
-    assert "confirm's own" in row.reason
+    assert "confirm allocates" in row.reason
 
 
 def test_sampled_images_explain_that_they_are_not_transient() -> None:
     sampled = described(usage=", SAMPLED", more="commands:\n  - readImage: {image: ms}\n")
     (row,) = only(rows(sampled, said(NON_TRANSIENT)), EXPLAINED)
     assert row.rule == ""
-    assert "cannot be" in row.reason
+    assert "is not possible" in row.reason
 
 
 def test_what_the_description_does_not_say_explains_our_silence() -> None:
     """Without `usage` it is unknown whether the image is transient."""
     text = described().replace("usage: [COLOR_ATTACHMENT], ", "", 1)
     (row,) = only(rows(text, said(NON_TRANSIENT)), EXPLAINED)
-    assert row.reason.startswith("multisampled-image-not-transient is undecided: the description does not say ")
+    assert row.reason.startswith("multisampled-image-not-transient is undecided: the description does not state ")
     assert "image.transient" in row.reason
 
 
@@ -344,7 +343,7 @@ def test_the_same_message_of_two_objects_is_one() -> None:
     assert len(only(rows(described(), *twice), BOTH)) == 1
 
 
-def reason(text: str, rule: str, at: Looking) -> Said:
+def reason(text: str, rule: str, at: LayerScope) -> AgreementRow:
     (row,) = [row for row in only(rows(text, at=at), OURS) if row.rule == rule]
     return row
 
@@ -361,13 +360,13 @@ DEPTH = (
     ("text", "rule", "changed", "expected"),
     [
         (DEPTH, "multisampled-depth-stored", {"kinds": {0: RENDER_PASS_2}, "vendors": frozenset({"arm"})},
-         "it looks at passes of vkCreateRenderPass alone; it looks at what a later pass clears"),
+         "it checks passes of vkCreateRenderPass only; it checks what a later pass clears"),
         (DEPTH, "multisampled-depth-stored", {"kinds": {0: RENDERING}},
-         "it looks at passes of vkCreateRenderPass alone; it looks at render passes alone"),
+         "it checks passes of vkCreateRenderPass only; it checks render passes only"),
         (described(), "multisampled-image-not-transient", {"vendors": frozenset({"amd"}), "lazy_memory": False, "device": "llvmpipe"},
-         "the checks for Arm and IMG are not on; llvmpipe has no lazily allocated memory"),
+         "the checks for Arm and IMG are off; llvmpipe has no lazily allocated memory"),
         ("device: mali-g76\n" + described().replace("samples: 4", "samples: 16"), "sample-count-unsupported", {"device": "llvmpipe"},
-         "it judges llvmpipe and what is enabled there, not what the description is for"),
+         "it checks against llvmpipe and what is enabled there, not against the device that the description is for"),
     ],
     ids=["kind of pass and another matter", "dynamic rendering", "vendors and memory", "another device"],
 )  # fmt: skip
@@ -395,18 +394,18 @@ def test_ours_alone_where_the_layer_is_too_old_or_looks_at_colour_alone() -> Non
     rendering = EVERYTHING._replace(kinds={0: RENDERING})
     color = RENDERED.replace("MODE", "NONE", 1)
     found = [row for row in only(rows(color, at=rendering._replace(version=(1, 3, 239))), OURS) if row.rule == "resolve-mode-none"]
-    assert {row.reason for row in found} == {"layers have it since 1.3.278"}
+    assert {row.reason for row in found} == {"layers have this check since 1.3.278"}
     found = [row for row in only(rows(color, at=rendering), OURS) if row.rule == "resolve-mode-none"]
     assert [(row.expected, row.reason) for row in found] == [
         (True, f"{SILENT} (resolve-mode-none)"),
-        (False, "it looks at colour alone"),
+        (False, "it checks color only"),
     ]
 
 
 def test_ours_alone_without_any_check_of_the_layer() -> None:
     text = described().replace("loadOp: DONT_CARE, storeOp: STORE", "loadOp: CLEAR, storeOp: DONT_CARE")
     row = reason(text, "resolve-target-not-stored", EVERYTHING._replace(kinds={0: RENDERING}))
-    assert row.reason == "it looks at render passes alone"
+    assert row.reason == "it checks render passes only"
     row = reason("scene: {color: LDR}\n" + described().replace("samples: 4", "samples: 8"), "sample-count-not-portable", EVERYTHING)
     assert row.reason == NO_CHECK
     assert not row.expected
@@ -449,17 +448,17 @@ def test_nothing_that_is_said_or_found_is_lost(messages: list[Message], text: st
 def test_what_the_layer_looks_at_is_read_from_what_the_child_says() -> None:
     device = {"properties": {"deviceName": "llvmpipe"}, "memory": {"memoryTypes": [{"propertyFlags": 15}, {"propertyFlags": 17}]}}
     layer = {"name": "VK_LAYER_KHRONOS_validation", "version": "1.3.239", "vendors": ["arm"]}
-    assert looking(layer, device, {0: RENDERING}) == Looking((1, 3, 239), frozenset({"arm"}), {0: RENDERING}, True, "llvmpipe")
-    newer = looking({"specVersion": 1 << 22 | 4 << 12 | 309}, {}, {}, ["img"])
-    assert newer == Looking((1, 4, 309), frozenset({"img"}), {}, None, "unnamed device")
-    desktop = looking({"version": [1, 3, 250]}, {"memory": {"memoryTypes": [{"propertyFlags": 15}]}}, {})
+    assert layer_scope(layer, device, {0: RENDERING}) == LayerScope((1, 3, 239), frozenset({"arm"}), {0: RENDERING}, True, "llvmpipe")
+    newer = layer_scope({"specVersion": 1 << 22 | 4 << 12 | 309}, {}, {}, ["img"])
+    assert newer == LayerScope((1, 4, 309), frozenset({"img"}), {}, None, "unnamed device")
+    desktop = layer_scope({"version": [1, 3, 250]}, {"memory": {"memoryTypes": [{"propertyFlags": 15}]}}, {})
     assert (desktop.version, desktop.lazy_memory) == ((1, 3, 250), False)
-    assert looking({"version": "?", "vendors": 7}, {"memory": 7}, {}).version is None
-    assert looking(None, {}, {}).vendors == frozenset()
+    assert layer_scope({"version": "?", "vendors": 7}, {"memory": 7}, {}).version is None
+    assert layer_scope(None, {}, {}).vendors == frozenset()
 
 
 def test_the_kind_of_a_pass_is_what_creates_it() -> None:
-    assert [kind(1, False), kind(2, False), kind(1, True)] == [RENDER_PASS, RENDER_PASS_2, RENDERING]
+    assert [pass_kind(1, False), pass_kind(2, False), pass_kind(1, True)] == [RENDER_PASS, RENDER_PASS_2, RENDERING]
 
 
 def test_the_page_of_the_agreement_is_fresh() -> None:

@@ -9,11 +9,10 @@ import pytest
 from msaa_lint.experiments.confirm.agreement import SILENT
 from msaa_lint.experiments.confirm.families import FAMILIES
 from msaa_lint.experiments.confirm.inputs import Input, inputs
-from msaa_lint.experiments.confirm.outcome import DeviceRun
-from msaa_lint.experiments.confirm.planner import Plans
+from msaa_lint.experiments.confirm.outcome import CONFIRMED, DIED, REFUSED, SKIPPED, TIMED_OUT, AgreementRow, DeviceRun, Verdict
+from msaa_lint.experiments.confirm.planner import Planner
 from msaa_lint.experiments.confirm.session import Session, environment
-from msaa_lint.experiments.confirm.trial import Terms, trial
-from msaa_lint.experiments.confirm.verdict import CONFIRMED, DIED, REFUSED, SKIPPED, TIMED_OUT, Said, Verdict
+from msaa_lint.experiments.confirm.trial import TrialOptions, trial
 from msaa_lint.frame.description.models import RenderPass, Subpass
 from msaa_lint.frame.facts.parts import Pass
 from msaa_lint.linter.workspace import Request
@@ -35,7 +34,7 @@ def documents(tmp_path_factory: pytest.TempPathFactory) -> list[Input]:
 def tried(found: list[Input], gate: bool = True, api: int | None = None) -> DeviceRun:
     """Documents in one child process, as written."""
     with Session(None, vendors=VENDORS, environment=environment(None)) as session:
-        made = trial(session, lambda: found, Terms(time=False, gate=gate), Plans(api))
+        made = trial(session, lambda: found, TrialOptions(time=False, gate=gate), Planner(api))
     assert not made.unusable, made.unusable
     assert made.layer is not None, "the validation layer is missing: apt install vulkan-validationlayers"
     return made
@@ -72,11 +71,11 @@ def _first_version(each: Pass) -> bool:
     return bool(subpasses) and not second and isinstance(each.record, RenderPass)
 
 
-def said(ran: DeviceRun) -> list[tuple[Verdict, Said]]:
-    return [(verdict, each) for verdict in ran.verdicts for each in verdict.said]
+def said(ran: DeviceRun) -> list[tuple[Verdict, AgreementRow]]:
+    return [(verdict, each) for verdict in ran.verdicts for each in verdict.agreement]
 
 
-def names(rows: list[tuple[Verdict, Said]]) -> list[str]:
+def names(rows: list[tuple[Verdict, AgreementRow]]) -> list[str]:
     return [f"{Path(v.file).name}: {v.name}: {each.id or each.rule}: {each.text} {each.reason}" for v, each in rows]
 
 

@@ -14,7 +14,7 @@ pytest.importorskip("vulkan")
 
 from msaa_lint.experiments.confirm import binding
 from msaa_lint.experiments.confirm.instance import Device, Instance, Message
-from msaa_lint.experiments.confirm.results import RESULTS, Unusable, VulkanError
+from msaa_lint.experiments.confirm.vulkan_errors import RESULTS, Unusable, VulkanError
 from tests.paths import ROOT
 
 try:
@@ -227,7 +227,7 @@ def test_a_sink_that_raises_is_told_of() -> None:
 def test_no_driver(name: str, tmp_path: Path) -> None:
     code = (
         "from msaa_lint.experiments.confirm.instance import Instance\n"
-        "from msaa_lint.experiments.confirm.results import Unusable\n"
+        "from msaa_lint.experiments.confirm.vulkan_errors import Unusable\n"
         "try:\n    with Instance() as i: i.physical_devices()\n"
         "except Unusable as e: print(e)\n"
     )

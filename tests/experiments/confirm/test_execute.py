@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from msaa_lint.experiments.confirm.frame_results import Collected, FrameRun
+from msaa_lint.experiments.confirm.explanations import Noise
+from msaa_lint.experiments.confirm.frame_results import FrameRun, RunCollector
 from msaa_lint.experiments.confirm.messages import classify
-from msaa_lint.experiments.confirm.noise import Noise
 from msaa_lint.experiments.confirm.parts import Plan, Stage, to_json
 from msaa_lint.experiments.confirm.protocol import Event
 from msaa_lint.experiments.confirm.session import Session, environment
@@ -64,13 +64,13 @@ def done(session: Session, plan: Plan, **wanted: Any) -> Done:
     want = {"pixels": folder, "repeats": 0, "warmups": 0, "size": None, "samples_of": None, **wanted}
     every: list[Event] = []
 
-    class Recorded(Collected):
-        def take(self, event: Event) -> None:
+    class Recorded(RunCollector):
+        def add(self, event: Event) -> None:
             every.append(event)
-            super().take(event)
+            super().add(event)
 
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr("msaa_lint.experiments.confirm.session.Collected", Recorded)
+        patched.setattr("msaa_lint.experiments.confirm.session.RunCollector", Recorded)
         run = session.run(to_json(plan), range(len(plan.passes)), want)
     images = {}
     for name, event in run.images.items():
@@ -499,13 +499,13 @@ def test_every_frame_of_a_stream_runs_in_one_child(plain: Session) -> None:
 
 LEAKS = """
 import json, os, sys, tempfile
-from msaa_lint.confirm import execute
-from msaa_lint.confirm.build import Built
-from msaa_lint.confirm.execute import Want
+from msaa_lint.experiments.confirm import execute
+from msaa_lint.experiments.confirm.build import FrameObjects
+from msaa_lint.experiments.confirm.execute import RunOptions
 
 plans = [execute.from_json(each) for each in json.loads(sys.stdin.read())]
 if "forget" in sys.argv:
-    Built.close = lambda self: None
+    FrameObjects.close = lambda self: None
 session = execute.Session(None, True, ())
 said, handles, failed = [], [], 0
 with tempfile.TemporaryDirectory() as folder:
@@ -513,7 +513,7 @@ with tempfile.TemporaryDirectory() as folder:
         plan = plans[turn % len(plans)]
         seen = next((image.name for image in plan.images if image.samples > 1 and not image.usage & 0x40), None)
         # Each in its turn is drawn, read back and timed.
-        want = (Want(pixels=folder, samples_of=seen), Want(), Want(repeats=2, warmups=1))[turn % 3]
+        want = (RunOptions(pixels=folder, samples_of=seen), RunOptions(), RunOptions(repeats=2, warmups=1))[turn % 3]
         try:
             execute.run(session, plan, None, want, said.append)
         except FileNotFoundError:

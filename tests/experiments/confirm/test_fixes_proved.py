@@ -7,10 +7,9 @@ from pathlib import Path
 import pytest
 
 from msaa_lint.experiments.confirm.inputs import Input, inputs
-from msaa_lint.experiments.confirm.outcome import DeviceRun
+from msaa_lint.experiments.confirm.outcome import CONFIRMED, DISAGREES, REFUSED, DeviceRun
 from msaa_lint.experiments.confirm.session import Session, environment
-from msaa_lint.experiments.confirm.trial import Terms, trial
-from msaa_lint.experiments.confirm.verdict import CONFIRMED, DISAGREES, REFUSED
+from msaa_lint.experiments.confirm.trial import TrialOptions, trial
 from msaa_lint.linter.workspace import Request
 from tests.pages import all_examples
 from tests.paths import ROOT
@@ -18,7 +17,7 @@ from tests.paths import ROOT
 
 def ran(found: list[Input]) -> DeviceRun:
     with Session(None, environment=environment(None)) as session:
-        made = trial(session, lambda: found, Terms(time=False))
+        made = trial(session, lambda: found, TrialOptions(time=False))
     assert not made.unusable, made.unusable
     return made
 

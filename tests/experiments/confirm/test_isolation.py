@@ -17,9 +17,9 @@ from typing import Any
 import pytest
 
 from msaa_lint.experiments.confirm.child import Limits, signal_name
-from msaa_lint.experiments.confirm.frame_results import MOST_MESSAGES, FrameRun
-from msaa_lint.experiments.confirm.results import Unusable
-from msaa_lint.experiments.confirm.session import MOST_DEATHS, Session
+from msaa_lint.experiments.confirm.frame_results import MAX_MESSAGES, FrameRun
+from msaa_lint.experiments.confirm.session import MAX_DEATHS, Session
+from msaa_lint.experiments.confirm.vulkan_errors import Unusable
 from tests.paths import ROOT
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals are POSIX")
@@ -111,9 +111,9 @@ def test_several_deaths_are_all_found(scratch: Path) -> None:
 
 
 def test_deaths_are_bounded(scratch: Path) -> None:
-    run = ran(*["SIGKILL"] * (MOST_DEATHS + 2))
-    ends = [run.passes[n].end for n in range(MOST_DEATHS + 2)]
-    assert ends == ["died"] * MOST_DEATHS + ["left"] * 2
+    run = ran(*["SIGKILL"] * (MAX_DEATHS + 2))
+    ends = [run.passes[n].end for n in range(MAX_DEATHS + 2)]
+    assert ends == ["died"] * MAX_DEATHS + ["left"] * 2
 
 
 def test_death_before_any_pass_is_of_each_that_has_it(scratch: Path) -> None:
@@ -183,7 +183,7 @@ def test_failed_creation_is_no_death(scratch: Path) -> None:
 
 def test_messages_are_bounded(scratch: Path) -> None:
     found = ran("chatters").passes[0]
-    assert (len(found.messages), found.dropped) == (MOST_MESSAGES, 301 - MOST_MESSAGES)
+    assert (len(found.messages), found.dropped) == (MAX_MESSAGES, 301 - MAX_MESSAGES)
 
 
 def test_pixels_come_where_all_went_through(scratch: Path) -> None:

@@ -9,17 +9,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from msaa_lint.experiments.confirm.pixels import Raw, compare, read
+from msaa_lint.experiments.confirm.pixels import RawImage, compare, read
 from msaa_lint.experiments.confirm.texels import format_name, format_of, texel_bytes, texels
 from msaa_lint.frame.vulkan.enums import VALUES
 
 NUMBERS = VALUES["VkFormat"]
 
 
-def raw(format: str, data: bytes, width: int = 2, aspect: str = "") -> Raw:
+def raw(format: str, data: bytes, width: int = 2, aspect: str = "") -> RawImage:
     form = format_of(format)
     assert form is not None
-    return Raw(NUMBERS[format], width, len(data) // texel_bytes(form, aspect or form.aspects[0]) // width, data, aspect)
+    return RawImage(NUMBERS[format], width, len(data) // texel_bytes(form, aspect or form.aspects[0]) // width, data, aspect)
 
 
 def test_formats_have_their_names_back() -> None:
@@ -32,7 +32,7 @@ def test_formats_have_their_names_back() -> None:
 def test_same_bytes_are_the_same_picture(data: bytes) -> None:
     (found,) = compare({"color": raw("R8G8B8A8_UNORM", data)}, {"color": raw("R8G8B8A8_UNORM", data)})
     assert (found.equal, found.differing, found.pixels, found.first) == (True, 0, 4, None)
-    assert found.words == "the same, 4 pixels"
+    assert found.text == "the same, 4 pixels"
 
 
 @given(st.binary(min_size=64, max_size=64), st.integers(0, 63), st.integers(1, 255))
@@ -50,7 +50,7 @@ def test_tolerance_is_stated_and_is_no_wider() -> None:
     allowed = {"c": (1, "Vulkan does not say how an average is rounded")}
     (near,) = compare({"c": before}, {"c": raw("R8G8B8A8_UNORM", bytes([100] * 12 + [101, 99, 100, 100]))}, allowed)
     assert (near.equal, near.differing, near.greatest) == (True, 1, 1)
-    assert near.words == (
+    assert near.text == (
         "1 of 4 pixels differ, the first at (1, 1), by at most 1 step; 1 allowed: Vulkan does not say how an average is rounded"
     )
     (far,) = compare({"c": before}, {"c": raw("R8G8B8A8_UNORM", bytes([100] * 12 + [102, 100, 100, 100]))}, allowed)
@@ -67,15 +67,15 @@ def test_steps_of_half_floats_are_units_in_the_last_place() -> None:
     assert (found.differing, found.greatest) == (2, 3)
     (spoilt,) = compare({"c": before}, {"c": raw("R16_SFLOAT", halves(1.0, 0.0, math.nan, math.inf))})
     assert (spoilt.equal, spoilt.greatest) == (False, math.inf)
-    assert "by at most not a number" in spoilt.words
+    assert "by at most not a number" in spoilt.text
 
 
 def test_image_of_one_version_alone_is_not_compared() -> None:
     image = raw("R8G8B8A8_UNORM", bytes(16))
     gone, new = compare({"a": image}, {"b": image})
     assert (gone.equal, new.equal) == (None, None)
-    assert gone.words == "not compared: the fixed version leaves nothing defined in it"
-    assert new.words == "not compared: the version as written leaves nothing defined in it"
+    assert gone.text == "not compared: the fixed version leaves nothing defined in it"
+    assert new.text == "not compared: the version as written leaves nothing defined in it"
 
 
 def test_other_format_is_not_compared() -> None:
@@ -84,7 +84,7 @@ def test_other_format_is_not_compared() -> None:
 
 
 def test_half_an_image_is_not_compared() -> None:
-    (found,) = compare({"a": Raw(37, 2, 2, bytes(15))}, {"a": Raw(37, 2, 2, bytes(15))})
+    (found,) = compare({"a": RawImage(37, 2, 2, bytes(15))}, {"a": RawImage(37, 2, 2, bytes(15))})
     assert found.equal is None and found.reason == "it did not come back whole"
 
 
@@ -126,11 +126,11 @@ def test_formats_are_taken_apart(format: str, data: bytes, planes: dict[str, lis
 
 
 def test_stencil_of_a_joined_format_is_a_byte() -> None:
-    seen = read(Raw(NUMBERS["D24_UNORM_S8_UINT"], 2, 1, bytes([7, 9]), "stencil"))
+    seen = read(RawImage(NUMBERS["D24_UNORM_S8_UINT"], 2, 1, bytes([7, 9]), "stencil"))
     assert seen is not None and list(seen.planes["S"]) == [7, 9]
 
 
 @pytest.mark.parametrize("number", sorted(NUMBERS.values()))
 def test_no_format_is_too_much(number: int) -> None:
-    read(Raw(number, 2, 2, bytes(64)))
-    compare({"a": Raw(number, 2, 2, bytes(64))}, {"a": Raw(number, 2, 2, bytes(63) + b"\1")})
+    read(RawImage(number, 2, 2, bytes(64)))
+    compare({"a": RawImage(number, 2, 2, bytes(64))}, {"a": RawImage(number, 2, 2, bytes(63) + b"\1")})

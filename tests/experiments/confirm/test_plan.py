@@ -17,8 +17,19 @@ from hypothesis import strategies as st
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.experiments.confirm import parts
-from msaa_lint.experiments.confirm.parts import Blend, Dependency, Framebuffer, Inner, Plan, Reference, Rendered, Step
-from msaa_lint.experiments.confirm.plan import MOST_STEPS, from_json, plan, to_json
+from msaa_lint.experiments.confirm.parts import (
+    Blend,
+    Dependency,
+    Framebuffer,
+    PassCommand,
+    Plan,
+    Reference,
+    RenderTarget,
+    Step,
+    from_json,
+    to_json,
+)
+from msaa_lint.experiments.confirm.plan import MAX_STEPS, plan
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.input import readers
 from tests.experiments.confirm.frames import begins, frames, image, one, planned
@@ -98,7 +109,7 @@ def test_an_inline_resolve_is_planned_whole() -> None:
         "built-in 0", 0, 4, dynamic=(0, 1), depth_test=True, depth_write=True, depth_compare=1, stencil_test=True,
         blends=(Blend(),), numerics=("UNORM",),
     )  # fmt: skip
-    assert made.steps == (Step("begin", 0, 0, (0, 0, 128, 64), (Inner("draw", 0, 0),)),)
+    assert made.steps == (Step("begin", 0, 0, (0, 0, 128, 64), (PassCommand("draw", 0, 0),)),)
 
 
 @pytest.mark.parametrize(
@@ -721,17 +732,17 @@ def test_a_dynamic_rendering_is_planned_whole() -> None:
     assert (each.name, each.path, each.kind, each.api) == ("rendering0", "commands[0].beginRendering", "rendering", 0)
     assert (each.attachments, each.subpasses, each.flags) == ((), (), 2)
     assert each.rendered == (
-        Rendered("color", 0, COLOR_LAYOUT, 2, 2, COLOR_LAYOUT, 2, 0),
-        Rendered("color"),
-        Rendered("color", 1, GENERAL, 1, 3, GENERAL, 1, 1),
-        Rendered("depth", 4, DEPTH_LAYOUT, 1, 5, DEPTH_LAYOUT, 1, 0),
+        RenderTarget("color", 0, COLOR_LAYOUT, 2, 2, COLOR_LAYOUT, 2, 0),
+        RenderTarget("color"),
+        RenderTarget("color", 1, GENERAL, 1, 3, GENERAL, 1, 1),
+        RenderTarget("depth", 4, DEPTH_LAYOUT, 1, 5, DEPTH_LAYOUT, 1, 0),
     )
     assert each.framebuffers == (Framebuffer((0, 2, 1, 3, 4, 5), 64, 32, 1),)
     (pipeline,) = each.pipelines
     assert (pipeline.formats, pipeline.depth_format, pipeline.stencil_format) == ((RGBA16F, 0, R32_UINT), D32S8, 0)
     assert (pipeline.numerics, pipeline.samples) == (("SFLOAT", "", "UINT"), 4)
     assert (pipeline.depth_test, pipeline.depth_write, pipeline.stencil_test) == (True, True, False)
-    assert made.steps == (Step("begin", 0, 0, (8, 4, 16, 16), (Inner("draw", 0, 0, backdrop=True, covers=True),)),)
+    assert made.steps == (Step("begin", 0, 0, (8, 4, 16, 16), (PassCommand("draw", 0, 0, backdrop=True, covers=True),)),)
     begin = "commands[0].beginRendering"
     assert list(made.defaults) == [
         f"loadOp of {begin}.colorAttachments[0] is not stated: DONT_CARE is taken",
@@ -784,7 +795,7 @@ commands:
     assert (pipeline.depth_format, pipeline.stencil_format) == (0, D24S8)
     assert (pipeline.depth_test, pipeline.depth_write, pipeline.stencil_test) == (False, False, True)
     # What is unused is not in need of a backdrop.
-    assert made.steps[0].inner == (Inner("draw", 0, 0),)
+    assert made.steps[0].inner == (PassCommand("draw", 0, 0),)
 
 
 def test_depth_and_stencil_of_two_images_are_refused() -> None:
@@ -1035,8 +1046,13 @@ def test_commands_are_recorded_in_their_order() -> None:
     assert [pipeline.name for pipeline in p.pipelines] == ["x", "built-in 0"]
     assert [pipeline.name for pipeline in q.pipelines] == ["built-in 0"]
     a, b, c = range(3)
-    within = (Inner("draw", 0, 1), Inner("samples", 1, value=2), Inner("clear", 1, aspects=parts.COLOR), Inner("draw", 1, 0))
-    reads = (Inner("read", 0, image=b), Inner("read", 0, image=a), Inner("draw", 0, 0))
+    within = (
+        PassCommand("draw", 0, 1),
+        PassCommand("samples", 1, value=2),
+        PassCommand("clear", 1, aspects=parts.COLOR),
+        PassCommand("draw", 1, 0),
+    )
+    reads = (PassCommand("read", 0, image=b), PassCommand("read", 0, image=a), PassCommand("draw", 0, 0))
     assert made.steps == (
         Step("clear", 0, source=b, target=b),
         Step("begin", 0, 0, (0, 0, 32, 16), within),
@@ -1091,7 +1107,7 @@ def test_a_pass_that_never_begins_is_created_and_not_drawn() -> None:
 def test_a_pass_that_never_ends_is_drawn_to_the_end() -> None:
     made = planned(PLAIN + "commands: [{beginRenderPass: {renderPass: p}}, {draw: {}}, {draw: {}}]\n")
     (step,) = made.steps
-    assert step.inner == (Inner("draw", 0, 0), Inner("draw", 0, 0))
+    assert step.inner == (PassCommand("draw", 0, 0), PassCommand("draw", 0, 0))
 
 
 def test_subpasses_beyond_the_last_are_the_last() -> None:
@@ -1099,29 +1115,29 @@ def test_subpasses_beyond_the_last_are_the_last() -> None:
         "commands: [{beginRenderPass: {renderPass: p}}, nextSubpass, nextSubpass, {draw: {}}, endRenderPass, endRenderPass, nextSubpass]\n"
     )
     (step,) = planned(PLAIN + commands).steps
-    assert step.inner == (Inner("draw", 0, 0),)
+    assert step.inner == (PassCommand("draw", 0, 0),)
 
 
 def test_every_pipeline_of_a_subpass_draws_where_no_draw_is_described() -> None:
     pipelines = "".join(f"  x{number}: {{renderPass: p}}\n" for number in range(10))
     made = planned(f"{PLAIN}pipelines:\n{pipelines}")
     (step,) = made.steps
-    assert step.inner == tuple(Inner("draw", 0, number) for number in range(8))
+    assert step.inner == tuple(PassCommand("draw", 0, number) for number in range(8))
     assert len(one(made).pipelines) == 10
 
 
 def test_a_pipeline_that_discards_everything_has_one_beside_it_that_draws() -> None:
     made = planned(f"{PLAIN}pipelines: {{x: {{renderPass: p, rasterizationState: {{rasterizerDiscardEnable: true}}}}}}\n")
     assert [(pipeline.name, pipeline.discard) for pipeline in one(made).pipelines] == [("x", True), ("built-in 0", False)]
-    assert made.steps[0].inner == (Inner("draw", 0, 0), Inner("draw", 0, 1))
+    assert made.steps[0].inner == (PassCommand("draw", 0, 0), PassCommand("draw", 0, 1))
 
 
 def test_commands_beyond_a_limit_are_left_out() -> None:
     images = "images: {a: {format: R8G8B8A8_UNORM, samples: 1, extent: {width: 8, height: 8}}}\n"
-    few = planned(f"{images}commands: [{', '.join(['{present: {image: a}}'] * MOST_STEPS)}]\n")
-    assert (len(few.steps), few.defaults) == (MOST_STEPS, ())
-    many = planned(f"{images}commands: [{', '.join(['{present: {image: a}}'] * (MOST_STEPS + 100))}]\n")
-    assert len(many.steps) <= MOST_STEPS + 1
+    few = planned(f"{images}commands: [{', '.join(['{present: {image: a}}'] * MAX_STEPS)}]\n")
+    assert (len(few.steps), few.defaults) == (MAX_STEPS, ())
+    many = planned(f"{images}commands: [{', '.join(['{present: {image: a}}'] * (MAX_STEPS + 100))}]\n")
+    assert len(many.steps) <= MAX_STEPS + 1
     assert many.defaults == ("commands after the first 4096 are left out",)
 
 

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from msaa_lint.experiments.confirm.png import (
     EDGE,
-    Album,
     Picture,
+    PictureFolder,
     around,
     difference,
     edge,
@@ -144,7 +144,7 @@ def test_album_numbers_what_has_the_same_name_and_follows_no_link(tmp_path: Path
     folder = tmp_path / "album"
     folder.mkdir()
     (folder / "a.png").symlink_to(outside)
-    album = Album(str(folder))
+    album = PictureFolder(str(folder))
     made = Picture(1, 1, b"\1\2\3")
     assert [Path(album.write(made, name)).name for name in ("a", "A", "b")] == ["a.png", "A-2.png", "b.png"]
     assert outside.read_text() == "mine" and not (folder / "a.png").is_symlink()
@@ -154,11 +154,11 @@ def test_album_numbers_what_has_the_same_name_and_follows_no_link(tmp_path: Path
 def test_pictures_of_an_image(tmp_path: Path) -> None:
     before = image("UNORM", {"R": [0, 255] * 512, "G": [0] * 1024, "B": [0] * 1024}, width=32)
     after = image("UNORM", {"R": [0, 255] * 511 + [0, 254], "G": [0] * 1024, "B": [0] * 1024}, width=32)
-    paths = show(Album(str(tmp_path)), ("file", "color"), before, after, (31, 31))
+    paths = show(PictureFolder(str(tmp_path)), ("file", "color"), before, after, (31, 31))
     names = [f"file-color-{kind}.png" for kind in ("as-written", "fixed", "difference", "edge")]
     assert [Path(path).name for path in paths] == names
     beside = decoded(Path(paths[3]).read_bytes())
     assert (beside.width, beside.height) == (3 * EDGE * EDGE + 16, EDGE * EDGE)
-    assert [Path(path).name for path in show(Album(str(tmp_path)), ("file", "depth"), before, None, None)] == [
+    assert [Path(path).name for path in show(PictureFolder(str(tmp_path)), ("file", "depth"), before, None, None)] == [
         "file-depth-as-written.png", "file-depth-edge.png",
     ]  # fmt: skip

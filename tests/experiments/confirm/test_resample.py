@@ -12,16 +12,16 @@ from msaa_lint.experiments.confirm.parts import (
     Attachment,
     Framebuffer,
     Image,
-    Inner,
     Pass,
+    PassCommand,
     Pipeline,
     Plan,
     Reference,
-    Rendered,
+    RenderTarget,
     Step,
     Subpass,
 )
-from msaa_lint.experiments.confirm.resample import LARGEST, pictured, resampled, resized
+from msaa_lint.experiments.confirm.resample import MAX_IMAGE, pictured, resampled, resized
 from tests.experiments.confirm.frames import planned
 
 COLOR, DEPTH = 2, 3
@@ -119,7 +119,7 @@ def test_proportions_are_kept() -> None:
         (Step("begin", 0, area=(480, 270, 960, 540)), Step("begin", 1, area=(0, 0, 960, 540)), Step("copy", 1, source=0, target=1)),
     )
     made = pictured(plan)
-    assert LARGEST == 512
+    assert MAX_IMAGE == 512
     assert [(each.width, each.height) for each in made.images] == [(512, 288), (256, 144), (1, 1)]
     assert [each.framebuffers[0] for each in made.passes] == [Framebuffer((0,), 512, 288, 1), Framebuffer((1,), 256, 144, 2)]
     assert [step.area for step in made.steps] == [(128, 72, 256, 144), (0, 0, 256, 144), ()]
@@ -220,23 +220,27 @@ def test_a_depth_resolve_of_no_aspect_is_none() -> None:
 
 def test_one_sample_renders_to_the_target() -> None:
     rendered = (
-        Rendered("color", 0, COLOR, 2, 1, 5, load=1, store=1),
-        Rendered("color", 2, COLOR, 0, NONE, load=0, store=0),
-        Rendered("color"),
-        Rendered("depth", 3, DEPTH, 0, 4, DEPTH, load=1, store=1),
+        RenderTarget("color", 0, COLOR, 2, 1, 5, load=1, store=1),
+        RenderTarget("color", 2, COLOR, 0, NONE, load=0, store=0),
+        RenderTarget("color"),
+        RenderTarget("depth", 3, DEPTH, 0, 4, DEPTH, load=1, store=1),
     )
     each = Pass("p", "p", parts.RENDERING, 0, rendered=rendered)
     assert resampled(Plan("f", passes=(each,)), 1).passes[0].rendered == (
-        Rendered("color", 1, 5, 0, NONE, 5, load=1, store=0),
-        Rendered("color", 2, COLOR, 0, NONE, load=0, store=0),
-        Rendered("color"),
-        Rendered("depth", 3, DEPTH, 0, 4, DEPTH, load=1, store=1),
+        RenderTarget("color", 1, 5, 0, NONE, 5, load=1, store=0),
+        RenderTarget("color", 2, COLOR, 0, NONE, load=0, store=0),
+        RenderTarget("color"),
+        RenderTarget("depth", 3, DEPTH, 0, 4, DEPTH, load=1, store=1),
     )
     assert resampled(Plan("f", passes=(each,)), 2).passes[0].rendered == rendered
 
 
 def test_one_sample_copies_what_was_resolved() -> None:
-    steps = (Step("resolve", 0, source=0, target=1), Step("blit", 0, source=1, target=2), Step("begin", 0, inner=(Inner("draw", 0, 0),)))
+    steps = (
+        Step("resolve", 0, source=0, target=1),
+        Step("blit", 0, source=1, target=2),
+        Step("begin", 0, inner=(PassCommand("draw", 0, 0),)),
+    )
     made = resampled(Plan("f", (image(samples=4), image(), image()), steps=steps), 1)
     assert made.steps == (Step("copy", 0, source=0, target=1), *steps[1:])
 

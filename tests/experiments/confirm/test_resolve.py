@@ -14,15 +14,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.experiments.confirm import resolve_check as resolving
-from msaa_lint.experiments.confirm.frame_results import FrameRun, Ran
+from msaa_lint.experiments.confirm.frame_results import FrameRun, PassOutcome
 from msaa_lint.experiments.confirm.parts import COLOR, DEPTH, RENDER_PASS, RENDERING, STENCIL, Plan, to_json
 from msaa_lint.experiments.confirm.resolve_check import Deviation, deviations, judged, of_pass, witnessed
 from msaa_lint.experiments.confirm.resolve_expected import AVERAGE, GREATEST, LEAST, ZERO, beside, components, decoded, due, encoded, stored
 from msaa_lint.experiments.confirm.resolve_probe import COMMAND, Resolve, probe, resolves
-from msaa_lint.experiments.confirm.results import Unusable
 from msaa_lint.experiments.confirm.scene import CORNERS
 from msaa_lint.experiments.confirm.session import Session, environment
 from msaa_lint.experiments.confirm.texels import Texels, format_of, texels
+from msaa_lint.experiments.confirm.vulkan_errors import Unusable
 from msaa_lint.frame.vulkan.enums import VALUES
 from tests.experiments.confirm.frames import planned
 
@@ -303,7 +303,7 @@ def test_average_of_depth_is_found_to_be_sample_zero(session: Session) -> None:
     assert (found.x, found.y) == (worst % 16, worst // 16) == (9, 8)
     assert (Fraction(found.given), Fraction(found.expected)) == (samples[0], mean(samples)) == (Fraction(1, 16), Fraction(49, 64))
     assert found[:5] == (126, 4, RENDER_PASS, DEPTH, AVERAGE)
-    assert found.words == (
+    assert found.text == (
         "averaging the depth of D32_SFLOAT at 4 samples in a render pass gives 0.0625 at (9, 8), which is sample 0; 0.765625 is due: "
         "the driver's doing"
     )
@@ -314,7 +314,7 @@ def test_average_of_depth_in_codes(session: Session, form: str, tolerance: Fract
     (found,) = deviations(session, planned(depth_frame(form)), session.open(), {})
     samples = depths()[found.y * 16 + found.x]
     assert abs(Fraction(found.given) - samples[0]) <= tolerance and abs(Fraction(found.expected) - mean(samples)) <= tolerance
-    assert "which is sample 0" in found.words
+    assert "which is sample 0" in found.text
 
 
 def test_integers_and_stencil_are_known_by_their_witness(session: Session, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -383,7 +383,7 @@ def test_zeros_in_place_of_what_was_resolved_are_seen(session: Session) -> None:
 
     def words(text: str, changed: Sequence[str]) -> list[str]:
         spied: Any = Spied(session, dict.fromkeys(changed, lambda data: bytes(len(data))))
-        return [each.words for each in deviations(spied, planned(text), device, {})]
+        return [each.text for each in deviations(spied, planned(text), device, {})]
 
     by_way = words(frame("R8G8B8A8_UNORM"), ["0", "1", "2"])
     assert [each.partition(" at 4 samples in ")[2].partition(" gives 0 in ")[0] for each in by_way] == [
@@ -404,7 +404,7 @@ def test_one_wrong_integer_is_seen(session: Session) -> None:
     spied: Any = Spied(session, {"0": lambda data: data[:-4] + b"\xfe\xfd\xfc\xfb"})
     (found,) = deviations(spied, planned(frame("R8G8B8A8_UINT", mode="SAMPLE_ZERO")), session.open(), {})
     assert (found.x, found.y, found.aspect, found.mode, found.given, found.expected) == (31, 31, COLOR, ZERO, 254, 3)
-    assert found.words.startswith("taking sample 0 of R8G8B8A8_UINT at 4 samples in a render pass gives 254 in R at (31, 31); 3 is due")
+    assert found.text.startswith("taking sample 0 of R8G8B8A8_UINT at 4 samples in a render pass gives 254 in R at (31, 31); 3 is due")
 
 
 class Dying:
@@ -421,8 +421,8 @@ class Dying:
         if self.how == "unusable":
             raise Unusable("no device opens any more")
         if self.how == "uncreated":
-            return FrameRun({n: Ran(n, created=False, error="VK_ERROR_UNKNOWN") for n in passes})
-        return FrameRun({n: Ran(n, end="died", signal="SIGSEGV") for n in passes}, whole=False)
+            return FrameRun({n: PassOutcome(n, created=False, error="VK_ERROR_UNKNOWN") for n in passes})
+        return FrameRun({n: PassOutcome(n, end="died", signal="SIGSEGV") for n in passes}, whole=False)
 
 
 @pytest.mark.parametrize("how", ["dies", "unusable", "uncreated"])
@@ -460,7 +460,7 @@ def test_a_wrong_average_is_told() -> None:
     assert told("R8_UNORM", AVERAGE, samples, [63, 128]) is None
     found = told("R8_UNORM", AVERAGE, samples, [63, 130])
     assert found is not None and (found.x, found.y, found.given, found.expected) == (1, 0, 130 / 255, 0.5)
-    assert found.words == "averaging R8_UNORM at 4 samples in a render pass gives 0.509804 in R at (1, 0); 0.5 is due: the driver's doing"
+    assert found.text == "averaging R8_UNORM at 4 samples in a render pass gives 0.509804 in R at (1, 0); 0.5 is due: the driver's doing"
     # 63.75: 64 and 63 are beside it, 65 is further off than one, and so is 62.
     assert told("R8_UNORM", AVERAGE, samples, [65, 127]) is not None and told("R8_UNORM", AVERAGE, samples, [62, 127]) is not None
 
@@ -477,7 +477,7 @@ def test_an_average_of_encoded_srgb_is_told() -> None:
     assert told("R8_SRGB", AVERAGE, samples, [188, 10]) is None
     assert told("R8_SRGB", AVERAGE, samples, [187, 11]) is None
     found = told("R8_SRGB", AVERAGE, samples, [128, 10])
-    assert found is not None and found.words == (
+    assert found is not None and found.text == (
         "averaging R8_SRGB at 4 samples in a render pass gives 0.501961 as stored in R at (0, 0), which is the average of what is stored, "
         "not of its light; 0.735357 is due: the driver's doing, as Vulkan does not insist on linear light"
     )
@@ -487,7 +487,7 @@ def test_an_overflow_of_half_floats_is_told() -> None:
     samples = [[65504.0] * 4]
     assert told("R16_SFLOAT", AVERAGE, samples, [65504.0]) is None
     found = told("R16_SFLOAT", AVERAGE, samples, [math.inf])
-    assert found is not None and found.words.startswith(
+    assert found is not None and found.text.startswith(
         "averaging R16_SFLOAT at 4 samples in a render pass gives inf in R at (0, 0); 65504 is due"
     )
     assert told("R16_SFLOAT", AVERAGE, [[20000.0] * 4], [16376.0]) is not None
@@ -549,17 +549,17 @@ def test_least_and_greatest_swapped_are_told() -> None:
     assert told("D32_SFLOAT", LEAST, samples, least) is None and told("D32_SFLOAT", GREATEST, samples, greatest) is None
     one, other = told("D32_SFLOAT", LEAST, samples, greatest), told("D32_SFLOAT", GREATEST, samples, least)
     assert one is not None and other is not None
-    assert one.words == (
+    assert one.text == (
         "taking the least of the depth of D32_SFLOAT at 4 samples in a render pass gives 1 at (0, 0), which is the greatest of the "
         "samples; 0.25 is due: the driver's doing"
     )
-    assert "taking the greatest of the depth" in other.words and "which is the least of the samples; 1 is due" in other.words
+    assert "taking the greatest of the depth" in other.text and "which is the least of the samples; 1 is due" in other.text
 
 
 def test_sample_zero_is_that_very_sample() -> None:
     assert told("D32_SFLOAT", ZERO, [[0.25, 0.5, 0.5, 0.5]], [0.25]) is None
     found = told("D32_SFLOAT", ZERO, [[0.25, 0.5, 0.5, 0.5]], [0.4375])
-    assert found is not None and "which is the average of the samples" in found.words
+    assert found is not None and "which is the average of the samples" in found.text
     assert told("D32_SFLOAT", ZERO, [[0.25, 0.5, 0.5, 0.5]], [0.25000003]) is not None
     assert told("D16_UNORM", ZERO, [[100 / 65535, 1.0]], [100]) is None and told("D16_UNORM", ZERO, [[100 / 65535, 1.0]], [101]) is not None
     # The samples of 24 bits are read as single precision.
@@ -571,7 +571,7 @@ def test_integers_by_a_pass_and_by_a_command() -> None:
     """A pass takes sample zero; a command any of the samples, never their average."""
     assert told("R8_UINT", ZERO, [[4.0, 8.0, 8.0, 8.0]], [4]) is None
     found = told("R8_UINT", ZERO, [[4.0, 8.0, 8.0, 9.0], [4.0, 4.0, 4.0, 5.0], [7.0] * 4], [9, 5, 7])
-    assert found is not None and found.words == (
+    assert found is not None and found.text == (
         "taking sample 0 of R8_UINT at 4 samples in a render pass gives 9 in R at (0, 0), which is sample 3; 4 is due: the driver's doing"
     )
     assert told("R8_UINT", ZERO, [[4.0, 8.0, 8.0, 8.0]], [8], COMMAND) is None
@@ -581,7 +581,7 @@ def test_integers_by_a_pass_and_by_a_command() -> None:
 def test_stencil() -> None:
     assert told("S8_UINT", GREATEST, [[0.0, 1.0], [1.0, 1.0]], [1, 1]) is None
     found = told("S8_UINT", GREATEST, [[0.0, 1.0], [1.0, 1.0]], [0, 1])
-    assert found is not None and found.words == (
+    assert found is not None and found.text == (
         "taking the greatest of the stencil of S8_UINT at 2 samples in a render pass gives 0 at (0, 0), which is sample 0; 1 is due: the "
         "driver's doing"
     )
@@ -718,8 +718,8 @@ def test_deviations_of_a_pass_are_those_that_it_shows() -> None:
         for form in (37, 44)
         for way in (RENDER_PASS, RENDERING, COMMAND)
     ]
-    assert [each.words for each in of_pass(made, 0, found)] == ["37 renderPass", "37 command"]
-    assert [each.words for each in of_pass(made, 1, found)] == ["37 rendering"]
+    assert [each.text for each in of_pass(made, 0, found)] == ["37 renderPass", "37 command"]
+    assert [each.text for each in of_pass(made, 1, found)] == ["37 rendering"]
     assert of_pass(made, 7, found) == []
 
 

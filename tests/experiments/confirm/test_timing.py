@@ -72,7 +72,7 @@ def of(middle: float, spread: float = 0.01, n: int = 15) -> Timing:
 )
 def test_difference(fixed: Timing, software: bool, real: bool, words: str) -> None:
     found = difference(of(10.0), fixed, software)
-    assert (found.real, found.words) == (real, words)
+    assert (found.real, found.text) == (real, words)
 
 
 @given(st.floats(0.1, 100), st.floats(0.1, 100), st.booleans())

@@ -17,11 +17,10 @@ from msaa_lint.cli.report.confirm_json import render as as_json
 from msaa_lint.cli.report.confirm_text import render as as_text
 from msaa_lint.experiments.confirm.child import Limits
 from msaa_lint.experiments.confirm.inputs import Input, inputs
-from msaa_lint.experiments.confirm.outcome import DeviceRun, exit_code
-from msaa_lint.experiments.confirm.planning import Planned, PlannedPass, Told
+from msaa_lint.experiments.confirm.outcome import AgreementRow, DeviceRun, exit_code
+from msaa_lint.experiments.confirm.planner import LayerReport, PlannedFrame, PlannedPass
 from msaa_lint.experiments.confirm.session import Session
-from msaa_lint.experiments.confirm.trial import Terms, trial
-from msaa_lint.experiments.confirm.verdict import Said
+from msaa_lint.experiments.confirm.trial import TrialOptions, trial
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.linter.workspace import Request
 from tests.paths import ROOT
@@ -48,43 +47,45 @@ class Fake:
     """Plans whose passes do what their names say: `draws`, `SIGSEGV`, `refuses`; as fixed what `fixed` says of them."""
 
     def __init__(
-        self, fixed: Mapping[str, str] | None = None, gated: Sequence[str] = (), pixel: int = 0, said: Sequence[Said] = ()
+        self, fixed: Mapping[str, str] | None = None, gated: Sequence[str] = (), pixel: int = 0, said: Sequence[AgreementRow] = ()
     ) -> None:
         self.fixed = dict(fixed or {})
         self.gated = gated
         self.pixel = pixel
-        self.said = tuple(said)
+        self.rows = tuple(said)
         self.planned = 0
 
-    def plan(self, frame: Frame, file: str, size: tuple[int, int] | None, samples: int | None) -> Planned:
+    def plan(self, frame: Frame, file: str, size: tuple[int, int] | None, samples: int | None) -> PlannedFrame:
         written = any(a.store == "STORE" for p in frame.passes for t in p.attachments[:1] for a in t.aspects)
         deeds = [each.name if written else self.fixed.get(each.name, each.name) for each in frame.passes]
         data = {"passes": deeds, "pixel": 0 if written else self.pixel}
-        return Planned(data, None, [PlannedPass(each.name, each.path) for each in frame.passes], ["256 x 256 pixels are taken"])
+        return PlannedFrame(data, None, [PlannedPass(each.name, each.path) for each in frame.passes], ["256 x 256 pixels are taken"])
 
-    def gate(self, planned: Planned, device: Mapping[str, Any]) -> dict[int, str]:
+    def gate(self, planned: PlannedFrame, device: Mapping[str, Any]) -> dict[int, str]:
         return {n: "8 samples are not offered" for n, each in enumerate(planned.passes) if each.name in self.gated}
 
-    def deviations(self, session: Session, planned: Planned, device: Mapping[str, Any], color: bool) -> dict[int, list[str]]:
+    def deviations(self, session: Session, planned: PlannedFrame, device: Mapping[str, Any], color: bool) -> dict[int, list[str]]:
         return {}
 
-    def rows(self, input: Input, planned: Planned, told: Told) -> dict[int, tuple[Said, ...]]:
-        return dict.fromkeys(told.numbers, self.said)
+    def agreement(self, source: Input, planned: PlannedFrame, report: LayerReport) -> dict[int, tuple[AgreementRow, ...]]:
+        return dict.fromkeys(report.numbers, self.rows)
 
 
-def tried(folder: Path, *passes: str, terms: Terms | None = None, device: str | None = None, seconds: float = 20, **fake: Any) -> DeviceRun:
+def tried(
+    folder: Path, *passes: str, terms: TrialOptions | None = None, device: str | None = None, seconds: float = 20, **fake: Any
+) -> DeviceRun:
     (folder / "frame.msaa.yaml").write_text(FRAME + "".join(PASS.replace("NAME", name) for name in passes))
     found = inputs(Request(paths=[str(folder / "frame.msaa.yaml")], isolated=True))
     assert not found.wrong
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     with Session(device, limits=Limits(seconds), environment=environment, execute="tests.experiments.confirm.fake") as session:
-        return trial(session, lambda: found.inputs, terms or Terms(), Fake(**fake))
+        return trial(session, lambda: found.inputs, terms or TrialOptions(), Fake(**fake))
 
 
 def shown(run: DeviceRun) -> tuple[dict[str, Any], str]:
     """Both reports of a run; the JSON is valid."""
     printed, text = io.StringIO(), io.StringIO()
-    as_json([run], [], printed.write, "1.2.3")
+    as_json([run], [], printed.write, Options(version="1.2.3"))
     data = json.loads(printed.getvalue())
     jsonschema.Draft202012Validator(SCHEMA).validate(data)
     as_text([run], text.write, Options(width=200))
@@ -92,7 +93,7 @@ def shown(run: DeviceRun) -> tuple[dict[str, Any], str]:
 
 
 def test_pass_that_draws_the_same_as_fixed_is_confirmed(tmp_path: Path) -> None:
-    run = tried(tmp_path, "draws", said=[Said("both", "X-store", "store", "multisampled-attachment-stored", "stored")])
+    run = tried(tmp_path, "draws", said=[AgreementRow("both", "X-store", "store", "multisampled-attachment-stored", "stored")])
     data, text = shown(run)
     (found,) = data["passes"]
     assert (found["status"], found["created"], found["agrees"], found["pixels_equal"]) == ("confirmed", True, True, True)
@@ -115,19 +116,19 @@ def test_safe_fix_that_changes_a_pixel_disagrees(tmp_path: Path) -> None:
 
 
 def test_layer_alone_disagrees(tmp_path: Path) -> None:
-    said = [Said("theirs", "VUID-1", text="do\x1b not"), Said("explained", "VUID-2", reason="a bug of theirs")]
+    said = [AgreementRow("theirs", "VUID-1", text="do\x1b not"), AgreementRow("explained", "VUID-2", reason="a bug of theirs")]
     run = tried(tmp_path, "draws", said=said)
     data, text = shown(run)
     (found,) = data["passes"]
-    assert (found["status"], found["agrees"], found["reason"]) == ("disagrees", False, "the layer says what we do not: VUID-1")
-    assert "theirs alone: VUID-1: do\\x1b not" in text and "explained: VUID-2 (a bug of theirs)" in text
+    assert (found["status"], found["agrees"], found["reason"]) == ("disagrees", False, "the layer reports what no rule does: VUID-1")
+    assert "only the layer: VUID-1: do\\x1b not" in text and "explained: VUID-2 (a bug of theirs)" in text
     assert exit_code([run], False) == 1
 
 
 def test_failed_creation_without_an_error_of_ours_disagrees(tmp_path: Path) -> None:
     (found,) = shown(tried(tmp_path, "refuses"))[0]["passes"]
     assert (found["status"], found["created"]) == ("disagrees", False)
-    assert found["reason"].startswith("it cannot be created (VK_ERROR_UNKNOWN), and we found no error")
+    assert found["reason"].startswith("it cannot be created (VK_ERROR_UNKNOWN), but no rule reports an error")
 
 
 def test_death_is_of_its_pass_and_the_next_is_confirmed(tmp_path: Path) -> None:
@@ -160,13 +161,13 @@ def test_gate_refuses_and_the_rest_goes_on(tmp_path: Path) -> None:
 
 
 def test_gate_can_be_switched_off(tmp_path: Path) -> None:
-    run = tried(tmp_path, "SIGSEGV", gated=["SIGSEGV"], terms=Terms(gate=False))
+    run = tried(tmp_path, "SIGSEGV", gated=["SIGSEGV"], terms=TrialOptions(gate=False))
     assert run.verdicts[0].status == "driver-died"
     assert "the gate is off" in " ".join(run.notes)
 
 
 def test_times_of_both_versions_with_the_model_beside_them(tmp_path: Path) -> None:
-    run = tried(tmp_path, "draws", terms=Terms(time=True, repeats=12))
+    run = tried(tmp_path, "draws", terms=TrialOptions(time=True, repeats=12))
     data, text = shown(run)
     time = data["passes"][0]["time_ms"]
     assert (time["as_written"]["n"], time["fixed"]["n"], time["as_written"]["source"]) == (12, 12, "timestamp")
@@ -177,7 +178,7 @@ def test_times_of_both_versions_with_the_model_beside_them(tmp_path: Path) -> No
 
 
 def test_pictures_are_written(tmp_path: Path) -> None:
-    run = tried(tmp_path, "draws", terms=Terms(image=str(tmp_path / "pictures")))
+    run = tried(tmp_path, "draws", terms=TrialOptions(image=str(tmp_path / "pictures")))
     names = [Path(path).name for path in run.verdicts[0].pictures]
     assert [name.rpartition("-")[2] for name in names] == ["written.png", "fixed.png", "difference.png", "edge.png"]
     assert sorted(path.name for path in (tmp_path / "pictures").iterdir()) == sorted(names)
@@ -194,7 +195,7 @@ def test_device_that_dies_at_once_cannot_be_used(tmp_path: Path) -> None:
 def test_several_devices_stand_side_by_side(tmp_path: Path) -> None:
     runs = [tried(tmp_path, "draws", device=name) for name in ("one", "other")]
     printed, text = io.StringIO(), io.StringIO()
-    as_json(runs, [], printed.write)
+    as_json(runs, [], printed.write, Options())
     data = json.loads(printed.getvalue())
     jsonschema.Draft202012Validator(SCHEMA).validate(data)
     assert [each["device"]["name"] for each in data["devices"]] == ["one", "other"]
