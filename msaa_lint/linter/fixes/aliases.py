@@ -48,10 +48,10 @@ class Aliases:
         for record in records:
             self._by_node.setdefault(id(record.node), []).append(id(record))
             self._by_mapping.setdefault(_origin(record.node), []).append(id(record))
-            stated = [(name, key, value) for name, (key, value) in record.spelled.items()]
+            members = [(name, key, value) for name, (key, value) in record.spelled.items()]
             if isinstance(record, Command) and record.node.kind == "mapping":
-                stated += [(name, record.node.keys[name], value) for name, value in record.node.value.items()]
-            for name, key, value in stated:
+                members += [(name, record.node.keys[name], value) for name, value in record.node.value.items()]
+            for name, key, value in members:
                 self._by_key.setdefault(id(key), []).append((id(record), name))
                 self._by_value.setdefault(_origin(value), []).append((id(record), name))
 

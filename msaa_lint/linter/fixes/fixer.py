@@ -81,7 +81,7 @@ class _Fixer:
         self.failed_fixes: list[FailedFix] = []
 
     def run(self) -> FixResult:
-        fixed: list[Finding] = []
+        fixed_findings: list[Finding] = []
         for _ in range(MAX_ROUNDS):
             self.failed_fixes = []
             before_round = (self.text, self.result)
@@ -93,8 +93,8 @@ class _Fixer:
                 candidates = [fix for fix in candidates if fix not in group]
             if not applied:
                 break
-            fixed += (finding for fix in applied for finding in fix.findings)
-        return FixResult(self.text, self.result, tuple(fixed), tuple(self.failed_fixes))
+            fixed_findings += (finding for fix in applied for finding in fix.findings)
+        return FixResult(self.text, self.result, tuple(fixed_findings), tuple(self.failed_fixes))
 
     def candidates(self) -> list[_Fix]:
         """The fixes that may be applied, the most severe findings' first. Those that share edits are one."""
@@ -110,7 +110,7 @@ class _Fixer:
         ]
         for document in self.result.documents:
             fixes += self.document_candidates(DocumentFixes(document), findings)
-        return _joined(fixes)
+        return _join(fixes)
 
     def may_fix(self, finding: Finding) -> bool:
         """Whether a finding has a fix that may be applied."""
@@ -119,17 +119,17 @@ class _Fixer:
 
     def document_candidates(self, fixes: DocumentFixes, findings: Iterable[Finding]) -> list[_Fix]:
         """The fixes of one document's findings."""
-        planned: list[tuple[Finding, tuple[Change, ...]]] = []
+        plans: list[tuple[Finding, tuple[Change, ...]]] = []
         for finding in findings:
             if fixes.covers(finding):
                 try:
-                    planned.append((finding, fixes.changes(finding)))
+                    plans.append((finding, fixes.changes(finding)))
                 except NoFix as error:
                     self.failed_fixes.append(FailedFix(finding, str(error)))
-        planned = _leaving_an_entry(planned)
-        requested = requests(change for _, changes in planned for change in changes)
+        plans = _leaving_an_entry(plans)
+        requested = requests(change for _, changes in plans for change in changes)
         candidates = []
-        for finding, changes in planned:
+        for finding, changes in plans:
             try:
                 candidates.append(_Fix((finding,), fixes.edits(changes, requested)))
             except NoFix as error:
@@ -169,25 +169,25 @@ class _Fixer:
         self.failed_fixes += (FailedFix(finding, reason) for fix in fixes for finding in fix.findings)
 
 
-def _leaving_an_entry(planned: Iterable[tuple[Finding, tuple[Change, ...]]]) -> list[tuple[Finding, tuple[Change, ...]]]:
+def _leaving_an_entry(plans: Iterable[tuple[Finding, tuple[Change, ...]]]) -> list[tuple[Finding, tuple[Change, ...]]]:
     """The fixes without those that would remove the last entry of a list after others removed the rest.
 
     An empty list may mean something else than no list. In the next round, the entry is the only one, and its fix accounts for that.
     """
-    dropped: Counter[Member] = Counter()
+    drop_counts: Counter[Member] = Counter()
     remaining = []
-    for finding, changes in planned:
+    for finding, changes in plans:
         drops = [change for change in changes if change.action == "drop"]
         counts = Counter((id(change.record), change.member) for change in drops)
         lengths = {(id(change.record), change.member): len(getattr(change.record, change.member)) for change in drops}
-        if any(dropped[member] and dropped[member] + count >= lengths[member] for member, count in counts.items()):
+        if any(drop_counts[member] and drop_counts[member] + count >= lengths[member] for member, count in counts.items()):
             continue
-        dropped += counts
+        drop_counts += counts
         remaining.append((finding, changes))
     return remaining
 
 
-def _joined(fixes: Sequence[_Fix]) -> list[_Fix]:
+def _join(fixes: Sequence[_Fix]) -> list[_Fix]:
     """The fixes, those that have edits in common joined at the place of the first."""
     parents = list(range(len(fixes)))
 
@@ -212,15 +212,15 @@ def _joined(fixes: Sequence[_Fix]) -> list[_Fix]:
 
 def _without_overlaps(fixes: Iterable[_Fix]) -> list[_Fix]:
     """The fixes that do not overlap an earlier one of those returned."""
-    chosen: list[_Fix] = []
+    selection: list[_Fix] = []
     edits: list[Edit] = []
     for fix in fixes:
         if any(_overlaps(edit, edits) for edit in fix.edits):
             continue
-        chosen.append(fix)
+        selection.append(fix)
         for edit in fix.edits:
             insort(edits, edit)
-    return chosen
+    return selection
 
 
 def _overlaps(edit: Edit, others: Sequence[Edit]) -> bool:
@@ -242,19 +242,19 @@ def _with_suppressed(result: FileResult) -> list[Finding]:
     return [*result.findings, *(suppressed.finding for suppressed in result.suppressed)]
 
 
-def _objection(before: FileResult, after: FileResult, fixed: Sequence[Finding]) -> str:
+def _objection(before: FileResult, after: FileResult, fixed_findings: Sequence[Finding]) -> str:
     """Why the result of fixes cannot be kept; empty if it can."""
-    known = set(map(_kind, before.findings))
-    error = next((finding for finding in after.findings if finding.fatal and _kind(finding) not in known), None)
+    kinds_before = set(map(_kind, before.findings))
+    error = next((finding for finding in after.findings if finding.fatal and _kind(finding) not in kinds_before), None)
     if error is not None:
         return f"the result would have an error: {error.message}"
-    counts_before = Counter(map(_kind, _with_suppressed(before)))
+    before_counts = Counter(map(_kind, _with_suppressed(before)))
     findings = _with_suppressed(after)
     counts = Counter(map(_kind, findings))
-    added = next((kind for kind in counts if counts[kind] > counts_before[kind] and kind[0] != UNUSED_SUPPRESSION), None)
-    if added is not None:
-        finding = next(finding for finding in findings if _kind(finding) == added)
+    new_kind = next((kind for kind in counts if counts[kind] > before_counts[kind] and kind[0] != UNUSED_SUPPRESSION), None)
+    if new_kind is not None:
+        finding = next(finding for finding in findings if _kind(finding) == new_kind)
         return f"it would introduce {finding.rule}: {finding.message}"
-    fixed_counts = Counter(map(_kind, fixed))
-    remaining = any(counts[kind] > counts_before[kind] - count for kind, count in fixed_counts.items() if kind[0] != UNUSED_SUPPRESSION)
+    kinds = Counter(map(_kind, fixed_findings))
+    remaining = any(counts[kind] > before_counts[kind] - count for kind, count in kinds.items() if kind[0] != UNUSED_SUPPRESSION)
     return "it would not remove the finding" if remaining else ""

@@ -80,8 +80,8 @@ class Shorthand:
             if word is None:
                 continue
             for alternative in word.alternatives:
-                changed = self._changed(word, alternative)
-                if changed is not None and after.items() <= changed.items() <= allowed.items():
+                difference = self._difference(word, alternative)
+                if difference is not None and after.items() <= difference.items() <= allowed.items():
                     return WordEdit(Edit(span, alternative), f"{word.keys[-1]}: {alternative}")
         raise NoFix("no other word of the render target makes only this change")
 
@@ -100,7 +100,7 @@ class Shorthand:
             values[place] = flags | {change.value} if change.action == "add" else flags - {change.value}
         return values
 
-    def _changed(self, word: _Word, alternative: str) -> Values | None:
+    def _difference(self, word: _Word, alternative: str) -> Values | None:
         """The values that differ with another word, or None if there are other members then."""
         name = word.keys[0]
         if name not in self._before:
@@ -113,9 +113,8 @@ class Shorthand:
     def _expanded(self, root: Node) -> Values:
         from msaa_lint.input.readers import description
 
-        expanded = description.read(self._source, root).description
         values: Values = {}
-        for path, number, record in _compared_records(expanded):
+        for path, number, record in _compared_records(description.read(self._source, root).description):
             values |= _members(path, number, record)
         return values
 
@@ -152,7 +151,7 @@ def _members(path: str, number: int, record: Record) -> Values:
 def _words(root: Node, text: str) -> dict[Span, _Word]:
     """The words of a description's render targets by place, without those that have an anchor or that several targets share."""
     words: dict[Span, _Word] = {}
-    shared: set[Span] = set()
+    repeated_places: set[Span] = set()
     for name, target in root.value["renderTargets"].value.items():
         structures: list[tuple[tuple[str, ...], type[Record], Node]] = [((name,), RenderTarget, target)]
         structures += [((name, member), _CONFIGS[member], node) for member, node in target.value.items() if member in _CONFIGS]
@@ -162,9 +161,9 @@ def _words(root: Node, text: str) -> dict[Span, _Word]:
                 if shape[0] != "word" or not member.endswith(("Mode", "Action")) or text[value.start : value.end] != value.text:
                     continue
                 if value.span in words:
-                    shared.add(value.span)
+                    repeated_places.add(value.span)
                 words[value.span] = _Word((*keys, member), tuple(word for word in shape[1] if word != value.value))
-    return {span: word for span, word in words.items() if span not in shared}
+    return {span: word for span, word in words.items() if span not in repeated_places}
 
 
 def _only_target(root: Node, name: str, word: _Word | None = None, alternative: str = "") -> Node:

@@ -54,11 +54,11 @@ def in_form(enum: str, name: str, form: Form) -> str:
 
 
 class Spelling:
-    """The spelling of a document. `dumped` says that it is a tool's dump, which has C's names."""
+    """The spelling of a document. `is_dump` says that it is a tool's dump, which has C's names."""
 
-    def __init__(self, records: list[Record], dumped: bool) -> None:
+    def __init__(self, records: list[Record], is_dump: bool) -> None:
         self._records = records
-        self.dumped = dumped
+        self.is_dump = is_dump
         self._document_forms: dict[bool, Form | None] = {}
 
     def scalar(self, shape: Shape, value: Any, model: Node | None, record: Record) -> str:
@@ -68,14 +68,14 @@ class Spelling:
         if isinstance(value, bool):
             if text in _FALSE or text in _TRUE:
                 return _TRUE.get(text, text) if value else _FALSE.get(text, text)
-            return ("VK_TRUE" if value else "VK_FALSE") if self.dumped else str(value).lower()
+            return ("VK_TRUE" if value else "VK_FALSE") if self.is_dump else str(value).lower()
         if kind in ("enum", "flags"):
             return self.name(_enum(shape), str(value), text, record)
         if kind == "samples":
             match = _COUNT.fullmatch(text)
             if match is not None:
                 return f"{match[1]}{value}{match[2]}"
-            return f"VK_SAMPLE_COUNT_{value}_BIT" if self.dumped and model is None else str(value)
+            return f"VK_SAMPLE_COUNT_{value}_BIT" if self.is_dump and model is None else str(value)
         return str(value)
 
     def name(self, enum: str, name: str, model: str, record: Record) -> str:
@@ -88,7 +88,7 @@ class Spelling:
         if model.isdecimal():
             return str(VALUES[enum][name])
         form = form_of(enum, model) if model else None
-        default = Form(0 if self.dumped else None, self.dumped)
+        default = Form(0 if self.is_dump else None, self.is_dump)
         return in_form(enum, name, form or _form(record, is_flag) or self._document_form(is_flag) or default)
 
     @cached_property

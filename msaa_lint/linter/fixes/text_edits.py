@@ -21,7 +21,7 @@ from .changes import Change, NoFix
 from .layout import CollectionEditor
 from .spelling import Spelling
 from .text_scanner import TextScanner
-from .value_writer import ValueWriter, quoted
+from .value_writer import ValueWriter, quote_scalar
 
 _MERGE = re.compile(r"<<[\"']?[ \t]*:")
 _ANCHOR = re.compile(r"&([^\s\[\]{},]+)")
@@ -35,7 +35,7 @@ class TextEditor:
     def __init__(self, document: Document) -> None:
         self.document = document
         self.text = TextScanner(document.source, [document.description.node])
-        self.dumped = not document.whole
+        self.is_dump = not document.whole
 
     @cached_property
     def _records(self) -> list[Record]:
@@ -44,7 +44,7 @@ class TextEditor:
 
     @cached_property
     def _spelling(self) -> Spelling:
-        return Spelling(self._records, self.dumped)
+        return Spelling(self._records, self.is_dump)
 
     @cached_property
     def _aliases(self) -> Aliases | None:
@@ -79,10 +79,10 @@ class TextEditor:
 
     def _on_remaining_lines(self, edits: Sequence[Edit]) -> Iterator[Edit]:
         """The edits, with insertions at the end of a line that another edit removes moved to the end of the line before."""
-        removed = sorted((edit.span for edit in edits if edit.span.start < edit.span.end), reverse=True)
+        removals = sorted((edit.span for edit in edits if edit.span.start < edit.span.end), reverse=True)
         for edit in edits:
             at = edit.span.start
-            for start, end in removed if edit.text and at == edit.span.end else ():
+            for start, end in removals if edit.text and at == edit.span.end else ():
                 if start < at < end and self.text.begins_line(start) and self.text.line_start(start) > 0:
                     at = self.text.line_end(self.text.line_start(self.text.line_start(start) - 1))
             yield edit if at == edit.span.start else Edit(Span(at, at), edit.text)
@@ -116,7 +116,7 @@ class TextEditor:
         return self._flags(group, key, node)
 
     def _unset(self, record: Record, member: str, key: Node, node: Node) -> list[Edit]:
-        if self.dumped:
+        if self.is_dump:
             return [Edit(node.span, '"NULL"')]
         if self._aliases is not None and _MERGE.search(self.text.text, record.node.start, record.node.end):
             raise NoFix(f"a merge key may state `{member}` as well")
@@ -143,7 +143,7 @@ class TextEditor:
         if self._is_block_scalar(node):
             raise NoFix("the value is a block scalar")
         text = self._spelling.scalar(shape, value, None if is_empty else node, record)
-        text = quoted(text, self.text.quote(node), not isinstance(value, str) or text.isdecimal())
+        text = quote_scalar(text, self.text.quote(node), not isinstance(value, str) or text.isdecimal())
         needs_blank = is_empty and self.text.text[start - 1 : start] not in (" ", "\t", "")
         return Edit(Span(start, node.end), f" {text}" if needs_blank else text)
 
@@ -155,20 +155,20 @@ class TextEditor:
         record, member = group[0].record, group[0].member
         shape = record.SHAPE[member]
         enum = shape[1]
-        removed = [change.value for change in group if change.action == "remove"]
-        added = [change.value for change in group if change.action == "add"]
+        removals = [change.value for change in group if change.action == "remove"]
+        additions = [change.value for change in group if change.action == "add"]
         if node.kind != "sequence":
-            return [self._flags_text(enum, removed, added, node, record)]
+            return [self._flags_text(enum, removals, additions, node, record)]
         names = [enumerant(enum, item.text) if item.kind == "scalar" else None for item in node.value]
-        indices = [n for n, name in enumerate(names) if name in removed]
+        indices = [n for n, name in enumerate(names) if name in removals]
         if any(self._is_aliased_outside(node.value[n]) for n in indices):
             raise NoFix("an anchor shares one of the flags with other members")
         edits = []
-        for n, name in zip(indices, added, strict=False):
+        for n, name in zip(indices, additions, strict=False):
             if node.value[n].anchor is not None:
                 raise NoFix("one of the flags is an alias")
             edits.append(self._scalar(node.value[n], shape, name, record))
-        surplus, missing = indices[len(added) :], added[len(indices) :]
+        surplus, missing = indices[len(additions) :], additions[len(indices) :]
         collection = CollectionEditor(self.text, node)
         if surplus and len(surplus) == len(names):
             colon = self.text.colon_end(key)
@@ -180,39 +180,39 @@ class TextEditor:
         elif missing:
             model = node.value[0].text if node.value and node.value[0].kind == "scalar" else ""
             quote = self._writer.item_quote(node)
-            edits += collection.insert([quoted(self._spelling.name(enum, name, model, record), quote) for name in missing])
+            edits += collection.insert([quote_scalar(self._spelling.name(enum, name, model, record), quote) for name in missing])
         return edits
 
-    def _flags_text(self, enum: str, removed: Sequence[str], added: Sequence[str], node: Node, record: Record) -> Edit:
+    def _flags_text(self, enum: str, removals: Sequence[str], additions: Sequence[str], node: Node, record: Record) -> Edit:
         """Changes flags that are one text, `A | B` or a number."""
         start, text = self.text.content(node), node.text.strip()
         if node.kind != "scalar" or start >= node.end or self._is_block_scalar(node) or text.endswith(")"):
             raise NoFix("the form of the flags is not supported")
         span, quote = Span(start, node.end), self.text.quote(node)
         if _NUMBER.fullmatch(text):
-            if not self.dumped:
-                return Edit(span, self._writer.flags(enum, added, record))
+            if not self.is_dump:
+                return Edit(span, self._writer.flags(enum, additions, record))
             mask = int(text, 0)
-            for name in removed:
+            for name in removals:
                 mask &= ~VALUES[enum][name]
-            for name in added:
+            for name in additions:
                 mask |= VALUES[enum][name]
-            return Edit(span, quoted(hex(mask) if text[:2] in ("0x", "0X") else str(mask), quote, True))
+            return Edit(span, quote_scalar(hex(mask) if text[:2] in ("0x", "0X") else str(mask), quote, True))
         parts = [part.strip() for part in text.split("|")]
-        new = [self._spelling.name(enum, name, parts[0], record) for name in added]
+        new = [self._spelling.name(enum, name, parts[0], record) for name in additions]
         remaining = []
         for part in parts:
             known = enumerant(enum, part)
-            if known in removed:
+            if known in removals:
                 remaining += new[:1]
                 del new[:1]
             elif known is not None and (enum not in VALUES or VALUES[enum][known]):
                 remaining.append(part)
         remaining += new
         if not remaining:
-            return Edit(span, quoted("0", quote, True) if self.dumped else "[]")
+            return Edit(span, quote_scalar("0", quote, True) if self.is_dump else "[]")
         separator = "|" if "|" in text and " |" not in text else " | "
-        return Edit(span, quoted(separator.join(remaining), quote, True))
+        return Edit(span, quote_scalar(separator.join(remaining), quote, True))
 
     def _new_value(self, group: Sequence[Change]) -> str:
         """The text of a member's value after the changes."""
@@ -228,7 +228,7 @@ class TextEditor:
     def _insert(self, record: Record, members: Sequence[tuple[str, str]], requested: Requests) -> list[Edit]:
         """Inserts members, with the text of their values, that a record does not state in its own mapping."""
         node = record.node
-        if node.kind != "mapping" or (self.dumped and any(record.SHAPE[member][0] == "list" for member, _ in members)):
+        if node.kind != "mapping" or (self.is_dump and any(record.SHAPE[member][0] == "list" for member, _ in members)):
             raise NoFix("the structure is not written as a mapping of its own")
         order = list(record.SHAPE)
         members = sorted(members, key=lambda entry: order.index(entry[0]))
@@ -252,7 +252,7 @@ class TextEditor:
         """The edits for structural changes of one member, or the member's new value if it has to be inserted."""
         record, member = group[0].record, group[0].member
         shape = record.SHAPE[member]
-        if self.dumped:
+        if self.is_dump:
             raise NoFix("entries of a tool's dump are not edited")
         if not record.states(member):
             if any(change.action != "append" for change in group):
@@ -265,11 +265,11 @@ class TextEditor:
             raise NoFix(f"an anchor shares `{member}` with other structures")
         edits: list[Edit] = []
         new: list[str] = []
-        dropped: list[int] = []
+        drops: list[int] = []
         collection = CollectionEditor(self.text, node)
         for change in group:
             if change.action == "drop":
-                dropped.append(change.value)
+                drops.append(change.value)
             elif change.action == "append":
                 new.append(self._writer.value(shape[1], change.value, record))
             elif change.action == "entry":
@@ -280,8 +280,8 @@ class TextEditor:
                 index, data = change.value
                 text = self._writer.value(shape[1], data, record)
                 edits += collection.insert([text], index) if change.action == "insert-after" else [Edit(node.value[index].span, text)]
-        if dropped:
-            edits += collection.remove(dropped)
+        if drops:
+            edits += collection.remove(drops)
         if new:
             edits += collection.insert(new)
         return edits

@@ -33,7 +33,7 @@ class ValueWriter:
         if isinstance(data, dict):
             shapes = shape[1].SHAPE if shape[0] == "record" else {}
             quote = '"' if self._is_json else ""
-            entries = [f"{quoted(key, quote)}: {self.value(shapes.get(key, ('text',)), item, record)}" for key, item in data.items()]
+            entries = [f"{quote_scalar(key, quote)}: {self.value(shapes.get(key, ('text',)), item, record)}" for key, item in data.items()]
             return "{" + ", ".join(entries) + "}"
         if isinstance(data, (list, tuple)):
             return f"[{', '.join(self.value(shape[1], item, record) for item in data)}]"
@@ -41,18 +41,18 @@ class ValueWriter:
 
     def flags(self, enum: str, names: Sequence[str], record: Record) -> str:
         """A list of flags, or a single text in a tool's dump."""
-        spelled = [self.spelling.name(enum, name, "", record) for name in names]
-        if self.spelling.dumped:
-            return self._scalar(" | ".join(spelled) or "0", record, True)
-        return f"[{', '.join(self._scalar(name, record, False) for name in spelled)}]"
+        names = [self.spelling.name(enum, name, "", record) for name in names]
+        if self.spelling.is_dump:
+            return self._scalar(" | ".join(names) or "0", record, True)
+        return f"[{', '.join(self._scalar(name, record, False) for name in names)}]"
 
     def _scalar(self, text: str, record: Record, is_literal: bool) -> str:
         """A scalar in the quotes of the record's other texts. A literal is a number or a boolean."""
         if self._is_json:
-            return text if is_literal and not self.spelling.dumped else quoted(text, '"')
+            return text if is_literal and not self.spelling.is_dump else quote_scalar(text, '"')
         values = [value for _, value in record.spelled.values() if value.kind == "scalar" and isinstance(value.value, str)]
         all_quoted = bool(values) and not any(value.plain for value in values)
-        return quoted(text, self._text.quote(values[0]) if all_quoted and not is_literal else "", is_literal)
+        return quote_scalar(text, self._text.quote(values[0]) if all_quoted and not is_literal else "", is_literal)
 
     def item_quote(self, sequence: Node) -> str:
         """The quote of a sequence's items."""
@@ -67,7 +67,7 @@ class ValueWriter:
             quote = self._text.quote(first)
         else:
             quote = '"' if self._is_json else ""
-        return f"{quoted(key, quote)}{self._separator(mapping)}{value}"
+        return f"{quote_scalar(key, quote)}{self._separator(mapping)}{value}"
 
     def _separator(self, mapping: Node) -> str:
         for name, key in mapping.keys.items():
@@ -77,7 +77,7 @@ class ValueWriter:
         return ": "
 
 
-def quoted(text: str, quote: str, is_literal: bool = False) -> str:
+def quote_scalar(text: str, quote: str, is_literal: bool = False) -> str:
     """A scalar in quotes. With an empty `quote` it gets quotes only if it needs them; a literal, such as a number, never does."""
     if quote == "'":
         return "'" + text.replace("'", "''") + "'"

@@ -8,7 +8,7 @@ import pytest
 
 from msaa_lint.core.finding import Finding, Fix
 from msaa_lint.core.text.span import Edit, Span
-from msaa_lint.linter.fixes.fixer import MAX_TRIALS, _Fix, _joined, _without_overlaps
+from msaa_lint.linter.fixes.fixer import MAX_TRIALS, _Fix, _join, _without_overlaps
 from tests.linter.fixes.linting import fix_findings, lint, rules
 
 STORED = """\
@@ -156,10 +156,10 @@ def fix(*edits: tuple[int, int, str]) -> _Fix:
 
 def test_fixes_that_share_an_edit_are_joined() -> None:
     one, two, three = fix((0, 1, "a")), fix((5, 6, "b"), (8, 8, "c")), fix((0, 1, "a"), (8, 8, "c"))
-    (joined,) = _joined([one, two, three])
+    (joined,) = _join([one, two, three])
     assert len(joined.findings) == 3
     assert joined.edits == ((Span(0, 1), "a"), (Span(5, 6), "b"), (Span(8, 8), "c"))
-    assert len(_joined([one, two])) == 2
+    assert len(_join([one, two])) == 2
 
 
 @pytest.mark.parametrize(
