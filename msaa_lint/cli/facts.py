@@ -10,7 +10,8 @@ from msaa_lint.core.text.source import Source, Unreadable, decode
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.facts.facts import Subject
-from msaa_lint.frame.facts.table import FACTS, GLOBAL, SUBJECTS, Fact
+from msaa_lint.frame.facts.table import FACTS, GLOBAL, SUBJECTS
+from msaa_lint.frame.facts.words import Fact
 from msaa_lint.input.capture_input import CaptureInput
 from msaa_lint.input.opening import load
 

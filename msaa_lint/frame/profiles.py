@@ -16,7 +16,7 @@ from msaa_lint.core.text.source import Unreadable, decode
 
 from .devices import DeviceProfile, builtin, names
 from .devices.paths import ENDINGS, is_path, split
-from .facts.table import WORDS
+from .facts.words import WORDS
 
 if TYPE_CHECKING:
     from .description.models import Description

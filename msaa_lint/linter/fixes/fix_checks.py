@@ -8,7 +8,8 @@ from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.suggestions import question
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.facts.table import FACTS, SUBJECTS, WORDS
+from msaa_lint.frame.facts.table import FACTS, SUBJECTS
+from msaa_lint.frame.facts.words import WORDS
 from msaa_lint.frame.vulkan.names import nearest_name
 from msaa_lint.linter.rules.rule_file import FixSpec, Rule, Setting
 

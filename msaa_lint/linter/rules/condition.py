@@ -12,7 +12,8 @@ from typing import Any
 
 from cel_expr_python import cel
 
-from msaa_lint.frame.facts.table import FACTS, SUBJECTS, WORDS, Fact
+from msaa_lint.frame.facts.table import FACTS, SUBJECTS
+from msaa_lint.frame.facts.words import WORDS, Fact
 
 # A string literal, or a comment, which may contain quotes.
 _STRING = re.compile(r'''//[^\n]*|(?:\b[rR])?(?P<quote>"""|\'{3}|"|')(?P<text>(?:[^\\]|\\.)*?)(?P=quote)''', re.DOTALL)

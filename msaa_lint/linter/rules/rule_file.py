@@ -181,7 +181,8 @@ class _PageReader:
         self.problems.append(diagnostic("MSAA921", f"rule page `{self.name}`: {message}", self.shown, span, self.name))
 
     def rule(self, root: Node, body: str, path: str) -> Rule | None:
-        from msaa_lint.frame.facts.table import SUBJECTS, WORDS
+        from msaa_lint.frame.facts.table import SUBJECTS
+        from msaa_lint.frame.facts.words import WORDS
 
         members: dict[str, Node] = root.value
         for key in members:

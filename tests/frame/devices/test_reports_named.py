@@ -19,7 +19,7 @@ from msaa_lint.frame.devices.offer import Offer, builtin_offer
 from msaa_lint.frame.devices.paths import is_path, split
 from msaa_lint.frame.devices.reports import MAX_BYTES, read
 from msaa_lint.frame.facts.global_facts import global_facts
-from msaa_lint.frame.facts.table import WORDS
+from msaa_lint.frame.facts.words import WORDS
 from msaa_lint.frame.profiles import Problem, device_for, device_of, profile_of
 from msaa_lint.input.readers import read as read_document
 from tests.frame.devices import reported

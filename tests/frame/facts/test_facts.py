@@ -12,7 +12,8 @@ from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.subjects import subjects
-from msaa_lint.frame.facts.table import FACTS, GLOBAL, SUBJECTS, WORDS, Fact
+from msaa_lint.frame.facts.table import FACTS, GLOBAL, SUBJECTS
+from msaa_lint.frame.facts.words import WORDS, Fact
 from msaa_lint.frame.vulkan.enums import VALUES
 from msaa_lint.input import readers
 from msaa_lint.input.shader_modules import Modules
