@@ -20,7 +20,7 @@ def sections(page: str) -> dict[str, str]:
     """The sections of a page that have a table of mistakes, by their titles."""
     text = (ROOT / "docs" / page).read_text(encoding="utf-8")
     parts = (part.partition("\n") for part in text.split("\n## ")[1:])
-    return {title: body for title, _, body in parts if "what says so" in body}
+    return {title: body for title, _, body in parts if "| found by |" in body}
 
 
 TABLES = {
@@ -33,7 +33,7 @@ ROWS = {
     "A tutorial's chapter, in C++": 11,
     "Notes on that chapter": 5,
     "A note on resolving in a shader": 8,
-    "A vendor's sample, told again": 8,
+    "A vendor's sample, retold": 8,
     "The article's mistakes, one by one": 30,
 }
 
