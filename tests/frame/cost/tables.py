@@ -1,4 +1,4 @@
-"""The tables of docs/cost.md, worked out by the model. `UPDATE=1 python -m pytest tests/frame/cost/test_docs.py` writes them."""
+"""The tables of docs/cost.md, computed by the model. `UPDATE=1 python -m pytest tests/frame/cost/test_docs.py` writes them."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def stored(samples: int, width: int, height: int) -> FrameCost:
 
 
 def separate(width: int, height: int) -> FrameCost:
-    """The Khronos sample's separate resolve of colour at 4x, at another size."""
+    """The Khronos sample's separate resolve of color at 4x, at another size."""
     return example("khronos-msaa/color-separate.msaa.yaml", Terms(60, width, height))
 
 
@@ -47,9 +47,9 @@ def share(milliwatts: float) -> str:
 
 def arithmetic() -> str:
     one, four = stored(1, 2168, 1080).total.write_mb_per_s, stored(4, 2168, 1080).total.write_mb_per_s
-    colour, colour_read, colour_write = between("C", "B")
+    color, color_read, color_write = between("C", "B")
     worst, worst_read, worst_write = between("F", "E")
-    measured, most = (colour_read + colour_write) * MB_PER_MIB, (worst_read + worst_write) * MB_PER_MIB
+    measured, most = (color_read + color_write) * MB_PER_MIB, (worst_read + worst_write) * MB_PER_MIB
     full, wide = separate(1920, 1080).total, separate(2560, 1440).total
     plain = stored(1, 1920, 1080).total.write_mb_per_s
     a, b, d, e = (CONFIGURATIONS[name] for name in "ABDE")
@@ -62,35 +62,35 @@ def arithmetic() -> str:
             f"{one:.2f} MB/s = {one / MB_PER_MIB:.2f} MiB/s",
             "the number is MB/s",
         ),
-        ("2247", "2168 * 1080 * 4 B * 4 * 60 Hz", f"{four:.2f} MB/s = {four / MB_PER_MIB:.2f} MiB/s", "MB/s, cut off, not rounded"),
+        ("2247", "2168 * 1080 * 4 B * 4 * 60 Hz", f"{four:.2f} MB/s = {four / MB_PER_MIB:.2f} MiB/s", "MB/s, truncated, not rounded"),
         ("1685", "the two above", f"{four - one:.2f} MB/s", "MB/s"),
         (
             "3 %",
             "B - A, E - D (measured)",
             f"+{100 * (after / before - 1):.2f} %, +{100 * (resolved / post - 1):.2f} %",
-            "3 % is with post-processing alone; without it 4.5 %",
+            "3 % is with post-processing only; without it, 4.5 %",
         ),
         (
             "+5 GB/s",
             "C - B: 4x written and read again",
-            f"{colour.traffic_mb_per_s / 1000:.3f} GB/s; measured {measured / 1000:.3f} GB/s",
+            f"{color.traffic_mb_per_s / 1000:.3f} GB/s; measured {measured / 1000:.3f} GB/s",
             "rounded up",
         ),
         (
             "500 mW, 20 %",
             "the line above, 100 mW per GB/s, 2.5 W",
-            f"{colour.milliwatts:.0f} mW, {share(colour.milliwatts)}; measured {measured / 10:.0f} mW, {share(measured / 10)}",
-            "follows from 5",
+            f"{color.milliwatts:.0f} mW, {share(color.milliwatts)}; measured {measured / 10:.0f} mW, {share(measured / 10)}",
+            "follows from the line above",
         ),
         (
             "read +2366 MiB/s",
-            "F - E: colour's 4 samples; of depth sample 0 for the resolved one",
+            "F - E: 4 samples of color; sample 0 of depth instead of the resolved depth",
             f"{worst.read_mb_per_s / MB_PER_MIB:.1f} MiB/s; measured {worst_read:.1f} MiB/s",
-            "credited to colour alone",
+            "attributed to color alone",
         ),
         (
             "write +3951 MiB/s = 1685 + 2247",
-            "F - E: colour 4x; depth 4x for 1x",
+            "F - E: color at 4x; depth at 4x instead of 1x",
             f"{worst.write_mb_per_s:.1f} MB/s = {worst.write_mb_per_s / MB_PER_MIB:.1f} MiB/s; measured {worst_write:.1f} MiB/s",
             "the sum is in MB/s, the counter in MiB/s",
         ),
@@ -99,22 +99,22 @@ def arithmetic() -> str:
             "F - E, together",
             f"{worst.traffic_mb_per_s / 1000:.2f} GB/s; measured {worst_read + worst_write:.0f} MiB/s = {most / 1000:.2f} GB/s, "
             f"{100 * (worst_read + worst_write) / resolved:.0f} %, {most / 10:.0f} mW, {share(most / 10)}",
-            "MiB/s called GB/s; and colour and depth together, not depth alone",
+            "MiB/s called GB/s; color and depth together, not depth alone",
         ),
         (
             "3.9 GB/s against 500 MB/s",
             "1920 * 1080 * 4 B * (4 + 4) * 60 Hz against 1",
             f"{(full.traffic_mb_per_s - plain) / 1000:.3f} against {plain / 1000:.3f} GB/s",
-            f"without the resolved picture's own write; with it {full.traffic_mb_per_s / 1000:.3f} GB/s",
+            f"without the write of the resolved picture; with it {full.traffic_mb_per_s / 1000:.3f} GB/s",
         ),
         (
             "7.9 GB/s, 790 mW (Arm)",
             "2560 * 1440 * 4 B * (4 + 4 + 1) * 60 Hz",
             f"{wide.traffic_mb_per_s / 1000:.3f} GB/s, {wide.milliwatts:.0f} mW, {share(wide.milliwatts)}",
-            "counts the write that the line above leaves out",
+            "includes the write that the line above leaves out",
         ),
     ]
-    return table(("printed", "arithmetic", "by the model", "what slips"), rows)
+    return table(("printed", "arithmetic", "model", "mistake"), rows)
 
 
 def counters() -> str:
@@ -134,9 +134,9 @@ def constants() -> str:
     return table(
         ("constant", "read", "write", "from"),
         [
-            ("scene beside its targets", f"{read.base:.1f} MiB/s", f"{write.base:.1f} MiB/s", "fitted to A, B, D, E"),
-            ("1x traffic by arithmetic's", f"{read.ratio:.3f}", f"{write.ratio:.3f}", "fitted to A, B, D, E"),
-            ("4x traffic by arithmetic's", "1", "1", "not fitted: AFBC is for single-sampled images"),
+            ("scene besides its targets", f"{read.base:.1f} MiB/s", f"{write.base:.1f} MiB/s", "fitted to A, B, D, E"),
+            ("1x traffic, relative to arithmetic", f"{read.ratio:.3f}", f"{write.ratio:.3f}", "fitted to A, B, D, E"),
+            ("4x traffic, relative to arithmetic", "1", "1", "not fitted: AFBC applies to single-sampled images"),
         ],
     )
 
@@ -199,7 +199,7 @@ def adreno() -> str:
                 assert use is not None
                 cells.append(str(bins(width, height, use.bytes_per_pixel, model.color_bytes)))
             rows.append(cells)
-    return table(("model", "size", "colour, and 4 B of depth", "1x", "2x", "4x"), rows)
+    return table(("model", "size", "color, plus 4 B of depth", "1x", "2x", "4x"), rows)
 
 
 def shading() -> str:
