@@ -1,4 +1,4 @@
-"""Makes docs/finding.svg, the README's picture of a finding, from a real run: `python docs/finding.py [--check]`."""
+"""Generates docs/finding.svg, the README's picture of a finding, from a real run: `python docs/finding.py [--check]`."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ WIDTH = 140
 
 
 def picture() -> str:
-    """The SVG of a terminal that shows the run."""
+    """The SVG of a terminal with the run."""
     environment = {**os.environ, "COLUMNS": str(WIDTH)}
     done = subprocess.run([sys.executable, "-m", "msaa_lint", *ARGUMENTS], cwd=ROOT, env=environment, capture_output=True, check=False)
     console = Console(record=True, width=WIDTH, file=io.StringIO(), force_terminal=True, color_system="standard", legacy_windows=False)
@@ -27,13 +27,13 @@ def picture() -> str:
 
 
 def main() -> int:
-    """Writes the picture, or with `--check` compares."""
-    made = picture()
+    """Writes the picture, or with `--check` compares it."""
+    svg = picture()
     if "--check" in sys.argv[1:]:
         with open(TARGET, encoding="utf-8") as file:
-            return int(file.read() != made)
+            return int(file.read() != svg)
     with open(TARGET, "w", encoding="utf-8") as file:
-        file.write(made)
+        file.write(svg)
     return 0
 
 

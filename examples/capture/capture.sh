@@ -1,7 +1,7 @@
 #!/bin/sh
-# Captures forward, with its mistakes and without, on lavapipe: forward.jsonl and forward-fixed.jsonl by gfxreconstruct, forward.xml and
-# forward-fixed.xml by RenderDoc where that is installed. Arguments: the folder to write to (this one), what to give forward besides
-# (--mistake 3 leaves out the fixed ones). TOOLS=gfxreconstruct captures with that alone.
+# Captures forward with and without its mistakes on lavapipe: forward.jsonl and forward-fixed.jsonl with gfxreconstruct, forward.xml and
+# forward-fixed.xml with RenderDoc if it is installed. Arguments: the folder to write to (default: this one), then arguments for forward
+# (with --mistake 3, the fixed captures are left out). TOOLS=gfxreconstruct uses only that tool.
 #
 #     apt install gcc libvulkan-dev mesa-vulkan-drivers gfxreconstruct renderdoc
 set -eu
@@ -9,7 +9,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 to=$(cd "${1:-$here}" && pwd)
 [ $# -eq 0 ] || shift
 
-# In a folder of its own: captures hold the names of files.
+# In a separate folder, because captures contain file names.
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 "${CC:-cc}" -std=c99 -O1 -Wall -Wextra -o "$folder/forward" "$here/forward.c" "$here/device.c" -lvulkan -ldl
@@ -19,12 +19,12 @@ for driver in /usr/share/vulkan/icd.d/lvp_icd*.json; do
     [ ! -e "$driver" ] || export VK_DRIVER_FILES="$driver" VK_ICD_FILENAMES="$driver"
 done
 
-gfxreconstruct() { # NAME, what to give forward
+gfxreconstruct() { # NAME, arguments for forward
     name=$1
     shift
     VK_INSTANCE_LAYERS=VK_LAYER_LUNARG_gfxreconstruct GFXRECON_LOG_LEVEL=error GFXRECON_CAPTURE_FILE="$name.gfxr" \
         GFXRECON_CAPTURE_FILE_TIMESTAMP=false ./forward --frames 4 "$@"
-    # Version 1 writes one JSON document unless told otherwise; version 0.9 has lines alone.
+    # Version 1 writes one JSON document by default; version 0.9 only writes lines.
     lines=
     ! gfxrecon-convert --help 2>&1 | grep -q -e --format || lines="--format jsonl"
     # shellcheck disable=SC2086
@@ -32,7 +32,7 @@ gfxreconstruct() { # NAME, what to give forward
     cp "$name.gfxr" "$name.jsonl" "$to"
 }
 
-renderdoc() { # NAME, what to give forward
+renderdoc() { # NAME, arguments for forward
     name=$1
     shift
     renderdoccmd capture --wait-for-exit --working-dir . --capture-file "$name" --opt-ref-all-resources ./forward --frames 1 "$@"

@@ -1,7 +1,7 @@
-/* A small forward renderer without a window, to be captured: gears, their mirror image and a glow, four samples each, put together.
+/* A small forward renderer without a window, to capture: gears, their mirror image, and a glow, with four samples each, composited.
 
-   It makes multisampling mistakes on purpose. Each has a comment "Mistake N, rule, pass: ..." where it is made; `--fixed` draws the same
-   picture without them, `--mistake N` with that one alone. A frame is one vkQueueSubmit. Needs Vulkan 1.3, and no extension. */
+   It makes multisampling mistakes on purpose, each marked by a comment "Mistake N, rule, pass: ..."; `--fixed` renders the same picture
+   without them, and `--mistake N` makes only that one. Each frame is one vkQueueSubmit. Requires Vulkan 1.3 and no extensions. */
 
 #include <stdbool.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@ enum { OPAQUE_PASS, SCENE_PASS, MIRROR_PASS, COMPOSITE_PASS, PASSES };
 enum { OPAQUE, GLASS, MIRRORED, GLOWING, COMPOSITE, PIPELINES };
 enum { GEAR_VERTEX, GEAR_FRAGMENT, COMPOSITE_VERTEX, COMPOSITE_FRAGMENT, SHADERS };
 
-/* Vulkan's words, shorter. */
+/* Shorter names for Vulkan's. */
 #define ONE VK_SAMPLE_COUNT_1_BIT
 #define FOUR VK_SAMPLE_COUNT_4_BIT
 #define CLEAR VK_ATTACHMENT_LOAD_OP_CLEAR
@@ -56,7 +56,7 @@ typedef struct {
     int32_t teeth;
 } Gear;
 
-static bool made[MISTAKES + 1]; /* which mistakes are */
+static bool made[MISTAKES + 1]; /* which mistakes to make */
 static const char *picture;
 
 static Image images[IMAGES];
@@ -107,9 +107,9 @@ static void make_images(void) {
     const VkImageUsageFlags source = VK_IMAGE_USAGE_TRANSFER_SRC_BIT, target = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     const VkFormat rgba = VK_FORMAT_R8G8B8A8_UNORM, d32 = VK_FORMAT_D32_SFLOAT, d32s8 = VK_FORMAT_D32_SFLOAT_S8_UINT;
 
-    /* Mistake 1, multisampled-image-not-transient, mirror: depth is used in one pass, and its samples have memory all the same. */
+    /* Mistake 1, multisampled-image-not-transient, mirror: depth is used in one pass only, but its samples have memory. */
     VkImageUsageFlags once = made[1] ? 0 : transient;
-    /* Mistake 5, multisampled-float-blending, scene: glass is blended into half floats, and nothing is brighter than 1. */
+    /* Mistake 5, multisampled-float-blending, scene: glass is blended into half floats, although nothing is brighter than 1. */
     VkFormat bright = made[5] ? VK_FORMAT_R16G16B16A16_SFLOAT : rgba;
     const Image wanted[IMAGES] = {
         [SCENE_MS] = {"scene color 4x", bright, FOUR, color | transient, 1, 0, 0, 0},
@@ -142,12 +142,12 @@ static void make_framebuffer(int pass, const char *name, uint32_t count, const i
     NAMED(FRAMEBUFFER, framebuffers[pass], name);
 }
 
-/* The scene: a render pass of Vulkan 1.0 that resolves color, or two, of which the second does. */
+/* The scene: a Vulkan 1.0 render pass that resolves color, or two, the second of which does. */
 static void make_scene_pass(int pass, bool first) {
     const bool last = pass == SCENE_PASS;
-    /* Mistake 2, multisampled-attachment-stored, scene: color is resolved in the pass, and its samples are stored as well. */
+    /* Mistake 2, multisampled-attachment-stored, scene: color is resolved in the pass, but its samples are stored as well. */
     VkAttachmentStoreOp color_store = made[2] || !last ? STORE : DISCARD;
-    /* Mistake 3, multisampled-depth-stored, scene: nothing reads the depth that is stored. */
+    /* Mistake 3, multisampled-depth-stored, scene: nothing reads the stored depth. */
     VkAttachmentStoreOp depth_store = made[3] || !last ? STORE : DISCARD;
     VkAttachmentLoadOp load = first ? CLEAR : LOAD;
     VkAttachmentDescription attachments[] = {
@@ -160,7 +160,7 @@ static void make_scene_pass(int pass, bool first) {
         .colorAttachmentCount = 1, .pColorAttachments = &color, .pResolveAttachments = last ? &resolve : NULL,
         .pDepthStencilAttachment = &depth
     };
-    /* Mistake 6, reused-attachment-unsynchronised, scene: what waits for the color drawn before does not wait for its depth. */
+    /* Mistake 6, reused-attachment-unsynchronised, scene: the dependency waits for the previous frame's color, but not for its depth. */
     VkPipelineStageFlags before = made[6] && last ? OUTPUT | SHADING : OUTPUT | SHADING | TESTS;
     VkAccessFlags wrote = made[6] && last ? COLOR_WRITE : COLOR_WRITE | DEPTH_WRITE;
     VkSubpassDependency dependencies[] = {
@@ -174,18 +174,18 @@ static void make_scene_pass(int pass, bool first) {
     make_framebuffer(pass, last ? "scene" : "opaque", create.attachmentCount, (const int[]){SCENE_MS, SCENE_DEPTH, SCENE});
 }
 
-/* The mirror image: a render pass of Vulkan 1.2 that resolves color and depth. */
+/* The mirror image: a Vulkan 1.2 render pass that resolves color and depth. */
 static void make_mirror_pass(void) {
     const VkStructureType description = VK_STRUCTURE_TYPE_ATTACHMENT_DESCRIPTION_2, reference = VK_STRUCTURE_TYPE_ATTACHMENT_REFERENCE_2;
-    /* Mistake 7, multisampled-attachment-stored, mirror: as mistake 2, by vkCreateRenderPass2. */
+    /* Mistake 7, multisampled-attachment-stored, mirror: same as mistake 2, with vkCreateRenderPass2. */
     VkAttachmentStoreOp color_store = made[7] ? STORE : DISCARD;
-    /* Mistake 8, multisampled-stencil-stored, mirror: depth is discarded, and the stencil beside it stored. */
+    /* Mistake 8, multisampled-stencil-stored, mirror: depth is discarded, but its stencil is stored. */
     VkAttachmentStoreOp stencil_store = made[8] ? STORE : DISCARD;
-    /* Mistake 9, depth-averaged, mirror: between two surfaces there is none. */
+    /* Mistake 9, depth-averaged, mirror: there is no surface halfway between two surfaces. */
     VkResolveModeFlagBits depth_mode = made[9] ? VK_RESOLVE_MODE_AVERAGE_BIT : VK_RESOLVE_MODE_SAMPLE_ZERO_BIT;
-    /* Mistake 10, resolve-target-loaded, mirror: what the resolve writes to is cleared before. */
+    /* Mistake 10, resolve-target-loaded, mirror: the resolve target is cleared first. */
     VkAttachmentLoadOp target_load = made[10] ? CLEAR : FORGET;
-    /* Mistake 11, clear-command-instead-of-load-op, mirror: a command clears what the pass could have as it began. */
+    /* Mistake 11, clear-command-instead-of-load-op, mirror: a command clears what the pass could clear when it begins. */
     VkAttachmentLoadOp color_load = made[11] ? FORGET : CLEAR;
     VkAttachmentDescription2 attachments[] = {
         {description, NULL, 0, images[MIRROR_MS].format, FOUR, color_load, color_store, FORGET, DISCARD, UNDEFINED, COLOR},
@@ -204,7 +204,7 @@ static void make_mirror_pass(void) {
         .sType = VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_2, .pNext = &depth_resolve, .colorAttachmentCount = 1, .pColorAttachments = &color,
         .pResolveAttachments = &resolve, .pDepthStencilAttachment = &depth
     };
-    /* A resolve, of depth too, writes where color is written. */
+    /* A resolve, even of depth, writes in the color attachment output stage. */
     const VkStructureType dependency = VK_STRUCTURE_TYPE_SUBPASS_DEPENDENCY_2;
     const VkAccessFlags writes = COLOR_WRITE | DEPTH_WRITE, uses = COLOR_USE | DEPTH_USE;
     VkSubpassDependency2 dependencies[] = {
@@ -219,7 +219,7 @@ static void make_mirror_pass(void) {
     make_framebuffer(MIRROR_PASS, "mirror", 4, (const int[]){MIRROR_MS, MIRROR_DEPTH_MS, MIRROR, MIRROR_DEPTH});
 }
 
-/* The composite: one triangle over all of the picture, of one sample. */
+/* The composite: one triangle that covers the picture, with one sample. */
 static void make_composite_pass(void) {
     VkAttachmentDescription attachment = {0, images[PICTURE].format, ONE, FORGET, STORE, FORGET, DISCARD, UNDEFINED, COLOR};
     VkAttachmentReference color = {0, COLOR};
@@ -230,7 +230,7 @@ static void make_composite_pass(void) {
     make_framebuffer(COMPOSITE_PASS, "composite", 1, (const int[]){PICTURE});
 }
 
-/* What the composite samples, and the layouts of both kinds of pipelines. */
+/* The images that the composite samples, and the layouts of both kinds of pipelines. */
 static void make_layouts(void) {
     const VkDescriptorType kind = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     const int sampled[] = {SCENE, MIRROR, MIRROR_DEPTH, GLOW};
@@ -277,10 +277,10 @@ static void make_shaders(void) {
         CHECK(vkCreateShaderModule(device, &creates[i], NULL, &shaders[i]));
 }
 
-/* What sets our pipelines apart, and room for what their create infos point to. */
+/* The differences between the pipelines, and storage for what their create infos point to. */
 typedef struct {
     const char *name;
-    int pass, target, depth; /* of no pass: dynamic rendering; of no depth: the composite's */
+    int pass, target, depth; /* no pass: dynamic rendering; no depth: the composite */
     bool over, glowing, stencil;
     float sample_shading; /* 0: off */
     VkPipelineShaderStageCreateInfo stages[2];
@@ -346,9 +346,9 @@ static VkGraphicsPipelineCreateInfo described(Look *look) {
 }
 
 static void make_pipelines(void) {
-    /* Mistake 4, sample-shading-everywhere, scene: all of every gear is shaded four times, not its edges alone. */
+    /* Mistake 4, sample-shading-everywhere, scene: gears are shaded four times everywhere, not just at their edges. */
     float everywhere = made[4] ? 1.0f : 0.0f;
-    /* Mistake 16, sample-shading-ineffective, glow: a quarter of four samples is the one that a pixel has anyway. */
+    /* Mistake 16, sample-shading-ineffective, glow: a quarter of four samples is one, which every pixel has anyway. */
     float ineffective = made[16] ? 0.25f : 0.0f;
     const int opaque = made[18] ? OPAQUE_PASS : SCENE_PASS;
     Look looks[PIPELINES] = {
@@ -362,8 +362,8 @@ static void make_pipelines(void) {
         VkGraphicsPipelineCreateInfo create = described(&looks[i]);
         CHECK(vkCreateGraphicsPipelines(device, VK_NULL_HANDLE, 1, &create, NULL, &pipelines[i]));
     }
-    /* Validation layers up to 1.3.239 crash in a check for Arm, which takes every pipeline of a call to have a render pass; it gives up at
-       the first of one sample. So the one without a render pass is created in one call with such a one, after it. */
+    /* Validation layers up to 1.3.239 crash in a check for Arm GPUs, which assumes that all pipelines of a call have a render pass, and which
+       stops at the first pipeline with one sample. So the pipeline without a render pass is created after such a one, in the same call. */
     VkGraphicsPipelineCreateInfo creates[] = {described(&looks[COMPOSITE]), described(&looks[GLOWING])};
     VkPipeline both[COUNT(creates)];
     CHECK(vkCreateGraphicsPipelines(device, VK_NULL_HANDLE, COUNT(creates), creates, NULL, both));
@@ -373,7 +373,7 @@ static void make_pipelines(void) {
         NAMED(PIPELINE, pipelines[i], looks[i].name);
 }
 
-/* Gear `number` at a frame. Neighbours turn against each other. */
+/* Gear `number` at a frame. Neighbors turn in opposite directions. */
 static Gear gear_at(int number, int frame) {
     float way = number % 2 ? -1.0f : 1.0f, side = (float)number / (GEARS - 1);
     return (Gear){
@@ -399,7 +399,7 @@ static void draw_scene(int frame) {
     vkCmdBeginRenderPass(buffer, &begin, VK_SUBPASS_CONTENTS_INLINE);
     for (int i = 0; i < GEARS; i++)
         draw_gear(OPAQUE, gear_at(i, frame));
-    /* Mistake 18, multisampled-attachment-loaded, scene: glass has a pass of its own, for which all samples are stored and loaded. */
+    /* Mistake 18, multisampled-attachment-loaded, scene: glass has its own pass, for which all samples are stored and loaded. */
     if (made[18]) {
         vkCmdEndRenderPass(buffer);
         begin = (VkRenderPassBeginInfo){
@@ -441,7 +441,7 @@ typedef struct {
     VkAccessFlags access;
 } Uses;
 
-/* What is done to an image in a layout; in none, whatever the frame before did. */
+/* How an image is used in a layout; without one, any use by the previous frame. */
 static Uses uses_in(VkImageLayout layout) {
     switch ((int)layout) {
     case UNDEFINED: return (Uses){OUTPUT | TESTS | SHADING | TRANSFER, COLOR_WRITE | DEPTH_WRITE};
@@ -462,12 +462,12 @@ static void barrier(int image, VkImageLayout from, VkImageLayout to) {
     vkCmdPipelineBarrier(buffer, before.stages, after.stages, 0, 0, NULL, 0, NULL, 1, &barrier);
 }
 
-/* Dynamic rendering of the glow of gears from `first` to before `end`. */
+/* Dynamic rendering of the glow of the gears from `first` up to, but not including, `end`. */
 static void render_glow(int frame, int first, int end) {
     const bool last = end == GEARS, resolves = last && !made[12];
     /* Mistake 14, discarded-then-loaded, glow: the first of two renderings discards the depth that the second loads. */
     VkAttachmentStoreOp depth_store = made[14] ? DISCARD : STORE;
-    /* Mistake 15, multisampled-depth-stored, glow: as mistake 3, in dynamic rendering. */
+    /* Mistake 15, multisampled-depth-stored, glow: same as mistake 3, in dynamic rendering. */
     if (last)
         depth_store = made[15] ? STORE : DISCARD;
     VkRenderingAttachmentInfo color = {
@@ -495,14 +495,14 @@ static void draw_glow(int frame) {
     barrier(GLOW_MS, UNDEFINED, COLOR);
     barrier(GLOW_DEPTH, UNDEFINED, DEPTH);
     barrier(GLOW, UNDEFINED, made[12] ? TO : COLOR);
-    /* Mistake 13, multisampled-attachment-loaded, glow: two renderings draw what one could; samples are stored and loaded between them. */
+    /* Mistake 13, multisampled-attachment-loaded, glow: two renderings draw what one could, and samples are stored and loaded between them. */
     if (made[13] || made[14]) {
         render_glow(frame, 0, GEARS / 2);
         barrier(GLOW_MS, COLOR, COLOR);
         barrier(GLOW_DEPTH, DEPTH, DEPTH);
     }
     render_glow(frame, made[13] || made[14] ? GEARS / 2 : 0, GEARS);
-    /* Mistake 12, resolve-outside-pass, glow: a command resolves from memory what the rendering could have resolved itself. */
+    /* Mistake 12, resolve-outside-pass, glow: a command resolves from memory what the rendering could resolve itself. */
     if (made[12]) {
         const VkImageSubresourceLayers layer = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
         VkImageResolve all = {layer, {0, 0, 0}, layer, {0, 0, 0}, {size_of(GLOW).width, size_of(GLOW).height, 1}};
@@ -515,7 +515,7 @@ static void draw_glow(int frame) {
 
 static void draw_composite(void) {
     const VkClearValue clear = {.color = {.float32 = {0, 0, 0, 1}}};
-    /* Mistake 17, clear-value-without-clear, composite: a value to clear to, in a pass that clears nothing. */
+    /* Mistake 17, clear-value-without-clear, composite: a clear value in a pass that clears nothing. */
     uint32_t clears = made[17] ? 1 : 0;
     VkRenderPassBeginInfo begin = {
         VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO, NULL, passes[COMPOSITE_PASS], framebuffers[COMPOSITE_PASS], {{0, 0}, size_of(PICTURE)},
@@ -569,7 +569,7 @@ static void close_frame(void) {
     close_device();
 }
 
-/* How many frames to draw; the rest is left in `made` and `picture`. */
+/* The number of frames to draw; the other options are stored in `made` and `picture`. */
 static int frames_of(int count, char **arguments) {
     int frames = 30;
     memset(made, true, sizeof made);

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes shaders.h from the shaders beside it. glslangValidator is in Debian's glslang-tools.
+# Generates shaders.h from the shaders in this folder. glslangValidator is in Debian's glslang-tools.
 set -eu
 cd "$(dirname "$0")"
 folder=$(mktemp -d)

@@ -1,4 +1,4 @@
-// The multisampled targets of a forward renderer and its pass, with mistakes that no compiler sees.
+// The multisampled targets of a forward renderer and its pass, with mistakes that no compiler reports.
 #include <vulkan/vulkan.h>
 
 #include <algorithm>
