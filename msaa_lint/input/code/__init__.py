@@ -1,10 +1,9 @@
-"""Source code as inputs: which language a file is in, and the documents that its code gives.
+"""Source code as input: detects the language of a file and builds documents from its code.
 
-A language is a module with `trees(code)`: the code's images, passes and pipelines in the form of a description. Nothing of one is imported
-before code in it is met; the grammars are the extra `source`.
+Each language has a module with `trees(code)`, which returns the code's images, passes, and pipelines as a description. Language modules are
+imported only when code in that language is read. The grammars are in the extra `source`.
 """
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 import re
 from collections.abc import Iterator
 from importlib import import_module
@@ -24,7 +23,7 @@ LANGUAGES: dict[str, tuple[str, ...]] = {
     "glsl": (".glsl", ".vert", ".frag", ".comp", ".tesc", ".tese", ".geom", ".mesh", ".task"),
     "markdown": (".md", ".markdown", ".mdx"),
 }
-"""By the name that `--input-format` takes: the endings of its files. Of Markdown the code in fences is read."""
+"""File extensions of each language, by the name that `--input-format` takes. In Markdown, fenced code blocks are read."""
 
 UNREAD = {
     ".m": "Objective-C",
@@ -43,23 +42,24 @@ UNREAD = {
     ".wgsl": "WGSL",
     ".metal": "Metal's shading language",
 }
-"""Endings of languages that programs draw with and that are not read."""
+"""Extensions of languages that are used for graphics but are not supported."""
 
 MODULES = {"c": "c.description_trees", "cpp": "c.description_trees", "swift": "swift.description_trees", "glsl": "glsl.description_trees"}
 """The module of this package that reads each language."""
 
 WORDS = ("sample", "attachment", "resolve", "msaa", "2dms", "inputms")
-"""Code with none of these, in any case, has nothing to read."""
+"""Code that contains none of these words, in any case, is skipped."""
 
 _ENDINGS = {ending: language for language, endings in LANGUAGES.items() for ending in endings}
 _DATA = (".yaml", ".yml", ".json", ".jsonl", ".xml", ".foz", ".rdc", ".toml")
 
 _CPP = re.compile(r"::|\b(?:class|namespace|template|constexpr|nullptr|public|private)\b|^[ \t]*using[ \t]", re.MULTILINE)
-"""What a header of C does not have."""
+"""Matches C++ that a C header does not contain."""
 
 
 class Program(NamedTuple):
-    """What source code is read as: documents, each with lines that say what had to be assumed for it, and the code that they are of."""
+    """The documents of a source file, the assumptions made for each of them as lines for the user, and the code that they were read
+    from."""
 
     documents: "tuple[Document, ...]"
     assumed: tuple[tuple[str, ...], ...]
@@ -67,9 +67,9 @@ class Program(NamedTuple):
 
 
 def language_of(name: str, head: str) -> str | None:
-    """The language of a file by the ending of its name and the beginning of its text; None where it is no source code.
+    """Returns the language of a file by its extension and the start of its text, or None for other files.
 
-    Other texts are read as Markdown is where they have code in fences that speaks of Vulkan or Metal.
+    Any other text with fenced code blocks that mention Vulkan or Metal is read as Markdown.
     """
     ending = name[name.rfind(".") :].lower() if "." in name.rpartition("/")[2] else ""
     language = _ENDINGS.get(ending)
@@ -84,13 +84,13 @@ def language_of(name: str, head: str) -> str | None:
 
 
 def unread(name: str) -> str | None:
-    """A language that is not read, by the ending of a file's name; None where it has no such ending."""
+    """Returns the unsupported language of a file by its extension, or None."""
     base, dot, ending = name.rpartition("/")[2].rpartition(".")
     return UNREAD.get(f".{ending.lower()}") if base and dot else None
 
 
 def installed() -> bool:
-    """Whether the extra is there."""
+    """Returns whether the extra `source` is installed."""
     from importlib.util import find_spec
 
     from .parsing import GRAMMARS
@@ -99,9 +99,9 @@ def installed() -> bool:
 
 
 def read(source: "Source", language: str) -> Program:
-    """The documents of source code, in the order of their places. `Missing` where the extra is not installed.
+    """Returns the documents of source code in source order.
 
-    Nothing raises for what the code holds: what cannot be read of it is left out.
+    Code that is not understood is left out; no code raises. Raises `Missing` if the extra is not installed.
     """
     from .parsing import EXTRA, Code, Missing, ascii_only
 
@@ -128,7 +128,7 @@ def read(source: "Source", language: str) -> Program:
 
 
 def _readings(code: "Code") -> "Iterator[Read]":
-    """What the module of its language reads of code."""
+    """Yields the trees that the module of the language reads from code."""
     from .parsing import Read
 
     lowered = code.text.lower()
@@ -140,11 +140,11 @@ def _readings(code: "Code") -> "Iterator[Read]":
 
 
 MAX_ASSUMED = 3
-"""Assumptions of a document that are told."""
+"""The number of assumptions shown for each document."""
 
 
 def _assumption_lines(assumed: "tuple[tuple[str, Span, str], ...]", source: "Source") -> tuple[str, ...]:
-    """Assumptions in words, the first of them."""
+    """Returns the first assumptions as lines for the user."""
     lines = [f"{what} (line {source.position(at.start).line}) is not known here: judged as {value}" for what, at, value in assumed]
     more = len(lines) - MAX_ASSUMED
     return (*lines[:MAX_ASSUMED], f"{more} more {'is' if more == 1 else 'are'} assumed") if more > 0 else tuple(lines)

@@ -1,4 +1,4 @@
-"""The comments of source code that can hold suppressions, in the form of those of a description: a `#`, and what is said."""
+"""Comments in source code that can contain suppressions, in the form of comments in a description: `#` followed by text."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from .parsing import Code
 
 
 class Comments(NamedTuple):
-    """The comments of a program, a line each, and the numbers of the lines that hold a comment and nothing else."""
+    """The comments of a source file, one for each line, and the numbers of lines that contain only a comment."""
 
     comments: tuple[Comment, ...]
     alone: frozenset[int]
 
 
-# What may hold what looks like a comment and is none: strings, raw strings (C++ [lex.string]), Swift's of several lines and with `#`.
+# Tokens that may contain comment marks: strings, raw strings (C++ [lex.string]), and Swift's multi-line and `#` strings.
 _C = re.compile(
     r"""
     (?P<line>//(?:[^\n\\]|\\(?:\r\n|[^\n])|\\\n)*)
@@ -47,8 +47,11 @@ _BEFORE = re.compile(r"[ \t]*\**[ \t]*")
 
 
 def comments(codes: Sequence[Code]) -> Comments:
-    """The comments of code, in order. One that goes over several lines gives one for each; the `//` or `/*` is a `# ` in them, and what
-    closes one is left out, so that offsets hold."""
+    """Returns the comments of code in order.
+
+    A comment that spans several lines yields one for each line. The `//` or `/*` becomes `# `, and the closing mark is removed, so that
+    offsets are preserved.
+    """
     lines: list[Comment] = []
     alone: set[int] = set()
     for code in codes:
@@ -58,7 +61,7 @@ def comments(codes: Sequence[Code]) -> Comments:
 
 def _read(code: Code, lines: list[Comment], alone: set[int]) -> None:
     text = code.text
-    # Lines count from 1.
+    # Line numbers start at 1.
     starts = [0, 0, *(match.end() for match in re.finditer(r"\r\n|\r|\n", text)), len(text) + 1]
     line, position, clean = 1, 0, True
     for start, end in spans(code):
@@ -80,7 +83,7 @@ def _read(code: Code, lines: list[Comment], alone: set[int]) -> None:
 
 
 def spans(code: Code) -> Iterator[tuple[int, int]]:
-    """Where the comments of code are, with their marks. Linear in the text, whatever it holds."""
+    """Yields the ranges of comments, including their marks, in time linear in the text."""
     text, swift = code.text, code.language == "swift"
     token = _SWIFT if swift else _C
     at = 0
@@ -94,7 +97,7 @@ def spans(code: Code) -> Iterator[tuple[int, int]]:
 
 
 def _block_end(text: str, at: int, nested: bool) -> int:
-    """The end of a block comment that is open at a place; those of Swift stand in each other."""
+    """Returns the end of a block comment, which can nest in Swift."""
     deep = 1
     while deep:
         edge = _EDGE.search(text, at) if nested else None
@@ -109,7 +112,7 @@ def _block_end(text: str, at: int, nested: bool) -> int:
 
 
 def _lines(text: str, start: int, end: int) -> Iterator[Comment]:
-    """The lines of a comment."""
+    """Yields the lines of a comment."""
     stop = end - 2 if text.startswith("/*", start) and end - start >= 4 and text.startswith("*/", end - 2) else end
     for match in re.finditer(r"[^\r\n]+", text[start:stop]):
         at, line = start + match.start(), match[0].rstrip()
@@ -118,7 +121,7 @@ def _lines(text: str, start: int, end: int) -> Iterator[Comment]:
             continue
         before = _BEFORE.match(line)
         assert before is not None
-        # What stands at the margin has nothing before it that could be the `#`.
+        # At the left margin, no character precedes the text that the `#` could replace.
         if 0 < before.end() < len(line):
             at += before.end() - 1
             rest = line[before.end() :]

@@ -1,4 +1,5 @@
-"""What was read of source code as a document: what cannot be bound, and names of nothing, are left out and no mistake of anybody's."""
+"""Builds documents from trees read from source code; members that cannot be bound and names that cannot be resolved are removed, not
+reported."""
 
 from __future__ import annotations
 
@@ -13,11 +14,11 @@ from msaa_lint.frame.description.problems import Problem
 from msaa_lint.input.readers import description
 
 MAX_ROUNDS = 4
-"""How often what is wrong is left out, and the rest read again."""
+"""The maximum number of times that invalid members are removed and the tree is bound again."""
 
 
 def bound(source: Source, tree: Node, pieces: bool = False) -> Document:
-    """The document of a tree in the form of a description; `pieces` says that a page shows pieces of a program."""
+    """Returns the document of a tree. `pieces` is set for fragments of a page."""
     for _ in range(MAX_ROUNDS):
         document = _read(source, tree)
         if not document.problems:
@@ -25,7 +26,7 @@ def bound(source: Source, tree: Node, pieces: bool = False) -> Document:
         tree = _without(tree, document.problems)
     else:
         document = _read(source, mapping([], tree.span))
-    # Swift that makes one encoder after another says in which order.
+    # Swift code that creates one encoder after another states their order.
     ordered = document.metal is not None and document.description.commands is not None
     return document._replace(problems=(), whole=False, tree=tree, ordered=ordered, pieces=pieces)
 
@@ -40,16 +41,16 @@ def _read(source: Source, tree: Node) -> Document:
 
 
 MAX_DEEP = 60
-"""Nesting below which a tree is left out; what code is read as is a few levels deep."""
+"""The maximum nesting of a tree; trees from source code have few levels."""
 
 
 def _without(tree: Node, problems: tuple[Problem, ...]) -> Node:
-    """A tree without the members that are wrong: of an element of a list, the list."""
+    """Returns a tree without its invalid members; a list with an invalid element is removed."""
     return _copy(tree, "", {problem.path for problem in problems}, 0)[0]
 
 
 def _copy(node: Node, path: str, wrong: set[str], depth: int) -> tuple[Node, bool]:
-    """A node without its wrong members, and whether it is itself wrong."""
+    """Returns a node without its invalid members, and whether the node itself is invalid."""
     if (path and path in wrong) or depth > MAX_DEEP:
         return node, True
     if node.kind == "sequence":

@@ -1,6 +1,6 @@
-"""The code in the fences of a Markdown page (CommonMark 0.31, 4.5): everything else is blanked, so that offsets stay.
+"""Extracts fenced code blocks from Markdown (CommonMark 0.31, 4.5). Everything else is blanked, so that offsets are preserved.
 
-All blocks of one language are one code: a page shows a program piece by piece.
+The blocks of one language form one program, since pages present programs piece by piece.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ NAMES = {
     "swift": "swift",
     "glsl": "glsl", "vert": "glsl", "frag": "glsl", "comp": "glsl",
 }  # fmt: skip
-"""The language by the first word of an info string, in lower case."""
+"""Languages by the first word of an info string, in lowercase."""
 
 MAX_NESTED = 32
-"""Lists and quotes within each other that are followed."""
+"""The maximum nesting of lists and block quotes."""
 
 _LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n|\Z)")
 _QUOTE = re.compile(r" {0,3}>[ \t]?")
@@ -32,14 +32,14 @@ _VISIBLE = re.compile(r"[^\r\n]")
 
 
 class Block(NamedTuple):
-    """A fenced block: its language, and the lines of its code as spans without quote marks and indentation of the list around it."""
+    """A fenced block: its language, and the ranges of its lines without quote marks and list indentation."""
 
     language: str
     lines: tuple[tuple[int, int], ...]
 
 
 def codes(text: str) -> tuple[Code, ...]:
-    """The code of a page, one for each language, in the order in which they come; an ellipsis that stands for what is left out is blank."""
+    """Returns the code of a page, one for each language in order of appearance. Ellipses for omitted code are blanked."""
     lines_by_language: dict[str, list[tuple[int, int]]] = {}
     for block in blocks(text):
         lines_by_language.setdefault(block.language, []).extend(block.lines)
@@ -59,8 +59,7 @@ def _only(text: str, lines: list[tuple[int, int]]) -> str:
 
 
 def blocks(text: str) -> Iterator[Block]:
-    """The fenced blocks of a page that are in a language of ours. One without an end reaches to that of the quote or list around it, or of
-    the page."""
+    """Yields the fenced blocks of a page in supported languages. An unclosed block extends to the end of its container or of the page."""
     around: list[int] = []
     fence = ""
     language: str | None = None
@@ -90,12 +89,11 @@ def blocks(text: str) -> Iterator[Block]:
 
 
 QUOTE = -1
-"""A block quote among the containers; a list item is the columns that its content is indented by."""
+"""A block quote among the containers. List items are represented by the indentation of their content."""
 
 
 def _inside(text: str, start: int, end: int, around: list[int]) -> int | None:
-    """Where a line of a block begins within the containers of the block; None where one of them has ended. The containers that have are
-    taken away."""
+    """Returns where a line starts inside the containers of a block, or None if one of them has ended. Removes the ended containers."""
     at = start
     for number, container in enumerate(around):
         if container == QUOTE:
@@ -116,7 +114,7 @@ def _inside(text: str, start: int, end: int, around: list[int]) -> int | None:
 
 
 def _entered(text: str, start: int, end: int, around: list[int]) -> int | None:
-    """Where the content of a line begins, and the containers that it then stands in; None where it is code by its indentation, or empty."""
+    """Returns where the content of a line starts and updates its containers; None for indented code and blank lines."""
     at = start
     number = 0
     while number < len(around):
@@ -147,7 +145,7 @@ def _entered(text: str, start: int, end: int, around: list[int]) -> int | None:
         if item is None:
             return at + indent
         after = _blanks(text, item.end(), end)
-        # An item whose content begins with indented code is indented by one blank.
+        # If an item starts with indented code, its content is indented by one space.
         width = item.end() - at + (after if 1 <= after <= 4 else 1)
         around.append(width)
         at = min(at + width, end)
@@ -155,7 +153,7 @@ def _entered(text: str, start: int, end: int, around: list[int]) -> int | None:
 
 
 def _blanks(text: str, at: int, end: int) -> int:
-    """How many blanks stand at a place; a tab counts as one, as offsets do."""
+    """Returns the number of blanks at an offset. A tab counts as one, as in offsets."""
     n = at
     while n < end and text[n] in " \t":
         n += 1
@@ -163,6 +161,6 @@ def _blanks(text: str, at: int, end: int) -> int:
 
 
 def _closes(line: str, fence: str) -> bool:
-    """Whether a line is the closing fence of a block."""
+    """Returns whether a line is the closing fence of a block."""
     bare = line.strip(" \t")
     return len(bare) >= len(fence) and not bare.strip(fence[0]) and len(line) - len(line.lstrip(" \t")) <= 3

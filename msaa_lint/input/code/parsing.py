@@ -1,6 +1,5 @@
-"""Source code to syntax trees, by tree-sitter: it needs no headers, and what it cannot parse it passes over."""
+"""Parses source code with tree-sitter, which needs no headers and recovers from errors."""
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 import re
 import warnings
 from collections.abc import Mapping
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
 
     SyntaxNode = tree_sitter.Node
 else:
-    # The grammars need not be installed.
+    # The grammars may not be installed.
     SyntaxNode = object
 
 _NOT_ASCII = re.compile(r"[^\x00-\x7f]")
@@ -27,7 +26,7 @@ GRAMMARS = {"c": "tree_sitter_c", "cpp": "tree_sitter_cpp", "swift": "tree_sitte
 
 
 MAX_WORK = 30_000
-"""How often the parser may say how far it is: 4 MB of code as people write it, a minute of what was written to take long."""
+"""The maximum number of progress callbacks of the parser: enough for 4 MB of ordinary code, or a minute of code made to parse slowly."""
 
 _CHUNK = 1 << 16
 
@@ -35,12 +34,15 @@ EXTRA = 'source code needs the extra: pip install "msaa-lint[source]"'
 
 
 class Missing(Unreadable):
-    """The extra is not installed."""
+    """The extra `source` is not installed."""
 
 
 class Code(NamedTuple):
-    """Code of one language, at its offsets in an input: what is of no interest is blanked, and every character beyond ASCII is a `_`, so
-    that a byte of the parser's is a code point of the input's. `fragments` says that it is pieces of a page, not a whole program."""
+    """Code in one language.
+
+    Irrelevant text is blanked, and every non-ASCII character is replaced by `_`, so that the parser's byte offsets are code point offsets
+    in the input. `fragments` is set for pieces of a page rather than a whole program.
+    """
 
     text: str
     language: str
@@ -48,8 +50,10 @@ class Code(NamedTuple):
 
 
 class Read(NamedTuple):
-    """What was read: a tree in the form of a description whose nodes have their places in the input, and what had to be assumed: what
-    is not known, where it stands, and what it was taken for. `modules` are shaders in it, by the names that the tree has."""
+    """A description tree read from code, whose nodes have locations in the input.
+
+    `assumed` lists unknown values, their locations, and the values assumed for them. `modules` are shaders by the names in the tree.
+    """
 
     tree: Node
     assumed: tuple[tuple[str, Span, str], ...] = ()
@@ -57,17 +61,20 @@ class Read(NamedTuple):
 
 
 def span(node: SyntaxNode) -> Span:
-    """The location of a node; a byte of the parser's input is a character of the file."""
+    """Returns the location of a node. A byte of the parser's input is a character of the file."""
     return Span(node.start_byte, node.end_byte)
 
 
 def ascii_only(text: str) -> str:
-    """The text with a `_` for each character beyond ASCII."""
+    """Returns the text with `_` for each non-ASCII character."""
     return text if text.isascii() else _NOT_ASCII.sub("_", text)
 
 
 def tree(code: Code) -> "Tree":
-    """The syntax tree of code. Missing where the grammars are not installed, Unreadable where parsing takes too long."""
+    """Returns the syntax tree of code.
+
+    Raises `Missing` if the grammars are not installed, and `Unreadable` if parsing takes too long.
+    """
     try:
         from tree_sitter import Language, Parser
 
@@ -76,7 +83,7 @@ def tree(code: Code) -> "Tree":
         raise Missing(EXTRA) from None
     data = code.text.encode()
     with warnings.catch_warnings():
-        # tree-sitter-glsl hands over its grammar in the old way.
+        # tree-sitter-glsl still uses the deprecated API.
         warnings.simplefilter("ignore", DeprecationWarning)
         parser = Parser(Language(grammar.language()))
     calls = 0

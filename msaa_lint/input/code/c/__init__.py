@@ -1,1 +1,1 @@
-"""Structures of Vulkan's in C and C++."""
+"""Vulkan structures in C and C++."""

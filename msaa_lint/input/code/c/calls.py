@@ -1,4 +1,4 @@
-"""What calls do: the file's own functions are gone through, and others make what their structures say."""
+"""Calls in C and C++: functions of the file are executed; other functions create what their structures describe."""
 
 from __future__ import annotations
 
@@ -30,20 +30,20 @@ from .values import (
 _CAST = re.compile(
     r"(?:std::)?u?int(?:8|16|32|64|ptr)?_t$|(?:std::)?size_t$|(?:unsigned|int|float|bool)$|(?:Vk|vk::)\w+(?:FlagBits2?|Flags2?|Bool32)(?:KHR|EXT)?$"
 )
-"""Types whose name makes a value of theirs of another."""
+"""Types whose name, used as a function, converts a value."""
 
 
 _OWNED = re.compile(r"(?:std::)?make_(?:unique|shared)<([\w:]+)>$")
 
 OTHERS = Cell()
-"""What stands for an object of a class that is not the method's."""
+"""Stands for an object of a class other than the method's."""
 
 
 class Calls(ObjectCreation):
-    """What the calls of one file make. `made` is in the order in which it was met."""
+    """Evaluates the calls of one file. `objects` is in creation order."""
 
     def call(self, term: Term, scope: Scope) -> Value:
-        """What a call gives."""
+        """Returns the value of a call."""
         function, arguments, place = term[1], term[2], term[3]
         name, owner = _callee(function)
         if function[0] == LAMBDA:
@@ -92,7 +92,7 @@ class Calls(ObjectCreation):
         return None
 
     def find_function(self, name: str, count: int, function: Term, scope: Scope) -> Function | None:
-        """The one function of the file that such a call can mean: of several the one of the same class."""
+        """Returns the only function of the file that a call can refer to; among several, the one in the same class."""
         every = self.run.functions.get(name)
         if not every:
             return None
@@ -112,7 +112,7 @@ class Calls(ObjectCreation):
         return overloads[-1] if len(overloads) == 1 or (overloads and self.run.fragments) else None
 
     def receiver(self, function: Function, owner: Term | None, scope: Scope) -> Cell | None:
-        """The object whose method is called: None where that is not known, OTHERS where it is of another class."""
+        """Returns the object that a method is called on; None if it is unknown, OTHERS if it is of another class."""
         if owner is None or owner[:2] == (NAME, "this"):
             return scope.this_object if function.class_name == scope.class_name else None
         cell = self.run.cell_of(owner, scope) if owner[0] != CALL else None
@@ -126,7 +126,7 @@ class Calls(ObjectCreation):
         return cell if known else None
 
     def construct_class(self, kind: str, term: Term, scope: Scope) -> Value | None:
-        """An object of a class of the file's, by its constructor; None where it is none, or there are several that fit."""
+        """Returns an object of a class in the file, built by its constructor; None for other types and if several constructors match."""
         inner = _OWNED.match(kind)
         class_name = self.run.class_of(inner[1] if inner is not None else kind, scope.namespace)
         if class_name is None:
@@ -145,7 +145,7 @@ class Calls(ObjectCreation):
         return (Alternative(struct, term[3]),)
 
     def may_follow(self, function: Function, place: Span, scope: Scope) -> bool:
-        """Whether a call is followed: not too deep, not in a circle, and not again and again by other ways."""
+        """Returns whether to execute a call: not if calls nest too deeply, recurse, or have been executed too often."""
         if len(scope.calls) >= MAX_CALLS or function.at in scope.active_functions:
             return False
         self.follow_counts[place] = self.follow_counts.get(place, 0) + 1
@@ -187,7 +187,7 @@ class Calls(ObjectCreation):
         function: Function | None = None,
         this_object: Cell | None = None,
     ) -> Value:
-        """Goes through a function with the arguments of a call."""
+        """Executes a function with the arguments of a call."""
         cells: dict[str, Cell] = {}
         for n, parameter in enumerate(parameters):
             if n < len(term[2]):
@@ -210,7 +210,7 @@ class Calls(ObjectCreation):
         return tuple(return_values)
 
     def bind_parameter(self, parameter: Parameter, term: Term, scope: Scope) -> Cell:
-        """The cell of a parameter: the argument's own, where that is handed over by reference."""
+        """Returns the cell of a parameter; for an argument passed by reference, the argument's own cell."""
         if parameter.by_reference and term[0] in (NAME, FIELD, INDEX):
             cell = self.run.cell_of(term, scope)
             if cell is not None and not isinstance(sole_value(cell.writes), Ref):
@@ -233,7 +233,7 @@ class Calls(ObjectCreation):
 
 
 def _callee(function: Term) -> tuple[str, Term | None]:
-    """The name of a function, and the object that it is called on."""
+    """Returns the name of a function and the object that it is called on."""
     if function[0] == NAME:
         return str(function[1]).rpartition("::")[2].partition("<")[0], None
     if function[0] == FIELD:

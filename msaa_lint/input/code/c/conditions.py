@@ -1,4 +1,4 @@
-"""What conditions come to: decided, or what must hold."""
+"""Conditions in C and C++: known, or a set of guards that must hold."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .variables import Variables
 
 
 def negated(guards: Guards) -> Guards:
-    """What holds where not all of some conditions do."""
+    """Returns the guards of the opposite condition."""
     if len(guards) == 1:
         ((text, way),) = guards
         return frozenset({(text, not way)})
@@ -22,7 +22,7 @@ def negated(guards: Guards) -> Guards:
 
 
 def contradicts(left: Guards, right: Guards) -> bool:
-    """Whether two sets of conditions cannot hold together."""
+    """Returns whether two sets of guards contradict each other."""
     return any((text, not way) in right for text, way in left)
 
 
@@ -30,7 +30,7 @@ NO_NAMES: dict[str, str] = {}
 
 
 def canonical_text(term: Term, names: dict[str, str] = NO_NAMES) -> str:
-    """An expression in words that are the same wherever it is the same; `names` has other words for variables."""
+    """Returns the text of an expression, the same for equal expressions. `names` replaces names of variables."""
     tag = term[0]
     if tag == NAME:
         return names.get(term[1]) or str(term[1]).removeprefix("this->")
@@ -62,7 +62,7 @@ def symbol_key(value: Any) -> str:
 
 
 class ConditionEvaluator(Variables):
-    """What conditions come to."""
+    """Evaluates conditions."""
 
     def preprocessor_condition(self, text: str) -> bool | Guards:
         default_value = text[1:].strip()
@@ -71,7 +71,7 @@ class ConditionEvaluator(Variables):
         return frozenset({condition_key(default_value)})
 
     def condition(self, term: Term, scope: Scope) -> bool | Guards:
-        """What a condition comes to: decided, or what must hold."""
+        """Returns the value of a condition if it is known, otherwise the guards under which it holds."""
         kind = term[0]
         if kind == BINARY and term[1] == "&&":
             left, right = self.condition(term[2], scope), self.condition(term[3], scope)
@@ -105,7 +105,7 @@ class ConditionEvaluator(Variables):
         return frozenset({(symbol_key(constant) or self.canonical_condition(term, scope), True)})
 
     def canonical_condition(self, term: Term, scope: Scope) -> str:
-        """A condition in words, the same wherever it is the same: numbers that are known stand for their variables."""
+        """Returns the text of a condition, the same for equal conditions; variables with known numbers are replaced by them."""
         names: dict[str, str] = {}
         stack = [term]
         while stack:
@@ -127,7 +127,7 @@ class ConditionEvaluator(Variables):
     def comparison(self, term: Term, scope: Scope) -> bool | Guards:
         sign = term[1]
         if term[3][0] == NAME and term[3][1].endswith(("VK_SUCCESS", "Result::eSuccess")) and sign in ("==", "!="):
-            # What a program does where Vulkan fails is of no interest.
+            # Assume that Vulkan calls succeed.
             self.value(term[2], scope)
             return bool(sign == "==")
         every = self.value(term[2], scope)
@@ -152,7 +152,7 @@ class ConditionEvaluator(Variables):
             term = (BINARY, sign, term[3], term[2], term[-1])
         subject = symbol_key(left) or self.canonical_condition(term[2], scope)
         if isinstance(right, int) and right == 1 and sign in ("!=", ">", "==", "<="):
-            # All ways to ask whether there is multisampling.
+            # The usual ways to test for multisampling.
             return frozenset({(f"{subject}>1", sign in ("!=", ">"))})
         if isinstance(right, int) and right == 2 and sign in (">=", "<"):
             return frozenset({(f"{subject}>1", sign == ">=")})

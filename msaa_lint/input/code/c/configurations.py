@@ -1,4 +1,4 @@
-"""Where a program renders with one sample or with several: which of its worlds is described."""
+"""The configuration that is described for a program that can render with one sample or with several."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .names import first_version
 from .values import UNKNOWN, Array, Cell, Ref, Struct, Symbol, Value, VulkanObject, possible_writes, sole_value
 
 ASSUMED = 4
-"""The count above 1 that every device offers for colour, depth and stencil (specification, "Required Limits")."""
+"""The sample count above 1 that every device supports for color, depth, and stencil (Vulkan specification, "Required Limits")."""
 
 
 NEEDS = {
@@ -22,7 +22,7 @@ NEEDS = {
     "RenderingAttachmentInfo": ("imageView",),
     "ImageCreateInfo": ("format", "usage"),
 }
-"""What is never zero in a structure that is used: where it is not seen to be stated, what else is zero is not known either."""
+"""Members that are never zero in a valid structure. If one is not set by code that was understood, other members may not be zero either."""
 
 COUNTS = {
     "attachments": "attachmentCount",
@@ -32,16 +32,16 @@ COUNTS = {
     "inputAttachments": "inputAttachmentCount",
     "colorAttachments": "colorAttachmentCount",
 }
-"""The members that say how many there are of another."""
+"""The member with the number of elements of another member."""
 
 
 class Configuration:
-    """One of the worlds of a file, as its values are there."""
+    """The values of a file in one configuration, a set of decided conditions."""
 
     def __init__(self, calls: Calls, fragments: bool, barriers: bool) -> None:
         self.fragments = fragments
         self.barriers = barriers
-        """Whether the file records barriers, which may stand in for the dependencies of its passes."""
+        """Whether the file records barriers, which can replace subpass dependencies."""
         self.current_objects = list(calls.current_objects.values())
         self.resolves = calls.resolves
         self.configuration: dict[str, bool] = {}
@@ -54,10 +54,10 @@ class Configuration:
         self.external_images: dict[str, tuple[str, Span, Node]] = {}
 
     def choose_configuration(self) -> None:
-        """Chooses the conditions under which there are several samples to a pixel."""
+        """Selects the conditions under which the program is multisampled."""
         slots = list(self.sample_slots())
         for value in slots:
-            # Of several counts the one that every device has, else the least.
+            # Prefer the count that every device supports, then the lowest.
             assume_multisampled = [item for item in value if type(item.value) is int and item.value > 1]
             for alternative in sorted(assume_multisampled, key=lambda a: (a.value != ASSUMED, a.value)):
                 self.assume(alternative.guards)
@@ -85,7 +85,7 @@ class Configuration:
             self.configuration.setdefault(f"{symbol.key}>1", True)
 
     def assume(self, guards: Iterable[tuple[str, bool]]) -> bool:
-        """Adds conditions to the world, where they do not contradict it."""
+        """Adds guards to the configuration; returns False if they contradict it."""
         guards = list(guards)
         if any(self.configuration.get(text, way) is not way for text, way in guards):
             return False
@@ -115,7 +115,7 @@ class Configuration:
                 yield state.fields["rasterizationSamples"].writes
 
     def resolved_slots(self) -> Iterator[Value]:
-        """The counts of attachments that are resolved: a program that may do that has several samples there."""
+        """Yields the sample counts of attachments that are resolved, which are multisampled in the configuration that is described."""
         for obj in self.current_objects:
             if obj.kind == "renderPass" and obj.info is not None:
                 attachments = self.structs(obj.info, "attachments") or []
@@ -137,17 +137,20 @@ class Configuration:
                         yield image.info.fields["samples"].writes
 
     def is_excluded(self, obj: VulkanObject) -> bool:
-        """Whether something is only made in another world."""
+        """Returns whether an object is created only in another configuration."""
         return any(self.configuration.get(text, way) is not way for text, way in obj.guards)
 
     def settle(self, value: Value) -> Value:
         return possible_writes(value, self.configuration)
 
     def get(self, struct: Struct, name: str) -> tuple[Any, Span]:
-        """A member and its place; UNKNOWN where it is not known. What nobody set in a zeroed structure is None."""
+        """Returns a member's value and location.
+
+        The value is UNKNOWN if it is not known, and None if a zeroed structure does not set it.
+        """
         cell = struct.fields.get(name)
         if cell is None or not cell.writes:
-            # A structure without what it cannot do without was filled in in some way that is not understood.
+            # Without its required members, the structure was filled in a way that was not understood.
             needs = NEEDS.get(first_version(struct.kind), ())
             is_zero = struct.zeroed and cell is None and all(need in struct.fields for need in needs)
             return (None if is_zero else UNKNOWN), struct.at
@@ -175,8 +178,7 @@ class Configuration:
         return value if isinstance(value, Struct) else None
 
     def structs(self, struct: Struct, name: str) -> list[Struct | None] | None:
-        """The structures that a member lists or points to: empty where it is null, None where they are not known. An element of which
-        nothing is known is None."""
+        """Returns the structures that a member lists or points to: empty for null, None if unknown. Unknown elements are None."""
         value = self.dereference(self.get(struct, name)[0])
         if value is None or (value == 0 and type(value) is int):
             return []
@@ -188,7 +190,7 @@ class Configuration:
         for cell in value.items:
             writes = self.settle(cell.writes)
             if cell.writes and not writes:
-                # Only there in another world.
+                # Present only in another configuration.
                 continue
             if writes and all(write.guards for write in writes):
                 return None
@@ -199,11 +201,11 @@ class Configuration:
         if type(count) is int and 0 <= count <= len(structs):
             return structs[:count]
         count_cell = struct.fields.get(count_value)
-        # How many there are hangs on something else.
+        # The number of elements depends on another condition.
         return None if count_cell is not None and len(self.settle(count_cell.writes)) > 1 else structs
 
     def count_of(self, value: Any, at: Span) -> int | None:
-        """A sample count; an unknown one that is several is taken for the count that every device has."""
+        """Returns a sample count; an unknown count that is above 1 is assumed to be `ASSUMED`."""
         if type(value) is int:
             return value
         if isinstance(value, Symbol) and value.key in self.multisampled:
@@ -220,7 +222,7 @@ class Configuration:
         return (numbers.pop() if len(numbers) == 1 else None), max(at for _, at in counts) if counts else struct.at
 
     def image_of(self, struct: Struct, name: str) -> VulkanObject | None:
-        """The image of a view that a member names."""
+        """Returns the image of the image view in a member."""
         return self.image_in(self.get(struct, name)[0])
 
     def image_in(self, view: Any) -> VulkanObject | None:
@@ -235,12 +237,12 @@ class Configuration:
         return None
 
     def first_duplicate(self, obj: VulkanObject) -> VulkanObject:
-        """The first of the objects that one call makes alike, wherever the function around it is called."""
+        """Returns the first object that is identical to this one; calling a function twice creates two."""
         return self.duplicates.setdefault((obj.name, obj.signature()), obj)
 
 
 def _inner(cell: Cell, depth: int) -> Iterator[Struct]:
-    """The structures that a member lists or points to, in any world."""
+    """Yields the structures that a member lists or points to in any configuration."""
     for write in cell.writes if depth < 6 else ():
         if isinstance(write.value, Struct):
             yield write.value

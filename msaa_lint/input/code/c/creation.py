@@ -1,7 +1,7 @@
-"""What calls do: the file's own functions, constructors and setters, lists, and Vulkan's functions that make an object.
+"""Vulkan objects that calls create.
 
-A call makes what its structure says, whatever the function is called: vkCreateImage, a dispatch table's, vmaCreateImage, vulkan.hpp's
-`createImage` and vk::raii::Image all take a VkImageCreateInfo. The structure is copied as it is at that moment.
+A call creates what its structure describes, whatever the function is called: vkCreateImage, the entry of a dispatch table, vmaCreateImage,
+vulkan.hpp's `createImage`, and vk::raii::Image all take a VkImageCreateInfo. The structure is copied at the call.
 """
 
 from __future__ import annotations
@@ -48,10 +48,10 @@ CREATE_INFOS = {
     "MemoryAllocateInfo": "memory",
     "DeviceCreateInfo": "device",
 }
-"""What is made with a structure, by its name."""
+"""The kind of object that each structure creates."""
 
 STANDALONE_INFOS = ("PipelineMultisampleStateCreateInfo",)
-"""Structures that say something even where no call is seen to take them."""
+"""Structures that are described even if no call takes them."""
 
 _QUERIES = re.compile(r"[gG]et|Requirement|[pP]ropert|[fF]ind|[lL]og|[pP]rint|assert|Supported|[hH]ash|validate|setDebug|Name$")
 
@@ -63,7 +63,7 @@ COUNTS = re.compile(
 _HARMLESS = re.compile(
     r"[dD]estroy|[dD]elete|[fF]ree|[rR]elease|[nN]ame|[lL]og|[pP]rint|[aA]ssert|[cC]heck|CHECK|[mM]emory|[rR]equire|push_back|emplace"
 )
-"""What is done with an object there, and does not use it."""
+"""Functions that do not use the objects passed to them."""
 
 _MEMORY = re.compile(r"mem.*(?:type|index)", re.IGNORECASE)
 
@@ -87,10 +87,10 @@ _MEMORY_BITS = VALUES["VkMemoryPropertyFlagBits"]
 
 
 class ObjectCreation(ListMethods):
-    """Objects of one file."""
+    """Creates the Vulkan objects of one file."""
 
     def external_call(self, term: Term, name: str, owner: Term | None, values: Sequence[Value], scope: Scope) -> Value:
-        """A function that is not the file's: what it makes, by the structures that it takes."""
+        """Returns the result of a function outside the file: the object that the structures among its arguments create."""
         place = term[3]
         if name in ("vkCmdResolveImage", "resolveImage", "vkCmdResolveImage2", "vkCmdResolveImage2KHR", "resolveImage2"):
             self.record_resolve(name, values, place)
@@ -118,13 +118,13 @@ class ObjectCreation(ListMethods):
                 cell = self.run.cell_of(argument[1], scope)
                 content = pointee(sole_value(cell.read(scope.guards))) if cell is not None else None
                 if isinstance(content, Struct):
-                    # What only asks Vulkan fills the structure in.
+                    # Functions that only query Vulkan fill the structure.
                     is_input = name.startswith(("vk", "vma")) and not name.startswith(("vkGet", "vkEnumerate"))
                     if not is_input and not self.takes_const(name, argument, term):
                         content.zeroed = False
                         content.fields.clear()
                 elif cell is not None and not isinstance(content, (Array, VulkanObject)):
-                    # The function gives it a value that is not known here.
+                    # The function assigns an unknown value.
                     cell.write((Alternative(UNKNOWN, place),), place, scope.guards)
             elif not name.startswith(("vk", "vma")):
                 self.escape_argument(name, argument, term, scope)
@@ -140,13 +140,13 @@ class ObjectCreation(ListMethods):
         return (Alternative(Symbol(canonical_text(term), name, bool(COUNTS.search(name))), place),)
 
     def takes_const(self, name: str, argument: Term, term: Term) -> bool:
-        """Whether a function is declared not to change what an argument points to."""
+        """Returns whether a function is declared to take a pointer to const."""
         parameters = self.run.unit.prototypes.get(name, ())
         position = term[2].index(argument)
         return bool(position < len(parameters) and parameters[position].fixed)
 
     def escape_argument(self, name: str, argument: Term, term: Term, scope: Scope) -> None:
-        """A list, or a structure, that is handed to somebody else's function, which may change it if it takes a reference."""
+        """Handles a list or a structure that is passed to an external function, which may change it through a reference."""
         for constant in [item.value for item in self.run.value(argument, scope)]:
             if isinstance(constant, Closure):
                 forget_captures(constant)
@@ -157,14 +157,15 @@ class ObjectCreation(ListMethods):
             parameters = self.run.unit.prototypes.get(name, ())
             position = term[2].index(argument)
             if isinstance(constant, Struct) and name not in _MOVES:
-                # C++ may take a reference where nothing looks like it, and a macro may do anything.
+                # In C++, any argument may be passed by reference; a macro may do anything.
                 by_reference = parameters[position].by_reference if position < len(parameters) else self.run.is_cpp or name.isupper()
                 if not by_reference:
                     continue
             forget(value)
 
     def initializer(self, term: Term, name: str, values: Sequence[Value], place: Span) -> Value | None:
-        """The helpers of Sascha Willems's examples, which many samples use: a structure by its name, zeroed but for its arguments."""
+        """Returns the structure made by a helper of Sascha Willems's examples, which many samples use: named after it, zeroed except for
+        its arguments."""
         function = term[1]
         if function[0] != NAME or "initializers::" not in function[1]:
             return None
@@ -198,11 +199,11 @@ class ObjectCreation(ListMethods):
                 cell = pointee_value.cell
             if cell is not None:
                 self.run.store(cell, result, term[3], scope)
-        # What the function itself gives is a VkResult.
+        # The function itself returns a VkResult.
         return (Alternative(0, term[3]),) if plain else result
 
     def create(self, kind: str, info: Struct, term: Term, scope: Scope) -> VulkanObject:
-        """The object that a call makes."""
+        """Returns the object that a call creates."""
         key = (kind, term[3], scope.calls, scope.iterations)
         obj = self.objects.get(key)
         if obj is None:
@@ -216,7 +217,7 @@ class ObjectCreation(ListMethods):
         return obj
 
     def vma_memory(self, info: Struct) -> Value:
-        """The memory that VMA is asked for (VmaAllocationCreateInfo)."""
+        """Returns the memory properties that a VmaAllocationCreateInfo requests."""
         usage = sole_value(info.fields["usage"].writes) if "usage" in info.fields else None
         if isinstance(usage, Symbol) and usage.name == "VMA_MEMORY_USAGE_GPU_LAZILY_ALLOCATED":
             return (Alternative("LAZILY_ALLOCATED", info.fields["usage"].writes[-1].at),)
@@ -235,7 +236,7 @@ class ObjectCreation(ListMethods):
             image.memory = index if index and all(_of_memory(a.value) for a in index) else ()
 
     def view_of_argument(self, values: Sequence[Value], term: Term, scope: Scope) -> Value | None:
-        """A view of the one image among some arguments."""
+        """Returns a view of the only image among the arguments, or None."""
         images = [v for v in values if any(isinstance(a.value, VulkanObject) and a.value.kind == "image" for a in v)]
         if len(images) != 1:
             return None
@@ -255,14 +256,14 @@ class ObjectCreation(ListMethods):
 
     @staticmethod
     def name_objects(value: Value, name: str, scope: Scope) -> None:
-        """Names what a call made after the variable that it goes to: the outermost function's."""
+        """Names objects after the variable that they are assigned to; the outermost function takes precedence."""
         for alternative in value:
             obj = alternative.value
             if isinstance(obj, VulkanObject) and name and len(scope.calls) < obj.name_depth:
                 obj.name, obj.name_depth = name, len(scope.calls)
 
     def create_unused(self, scope: Scope) -> None:
-        """At the end of a beginning: structures that no call was seen to take."""
+        """Creates objects for the structures of an entry point that no call takes."""
         for info, guards in self.declared_structs:
             kind = first_version(info.kind)
             if info.used or not info.fields or not (kind in STANDALONE_INFOS or (self.run.fragments and kind in CREATE_INFOS)):
@@ -274,7 +275,7 @@ class ObjectCreation(ListMethods):
         self.declared_structs.clear()
 
     def create_from_fragments(self, overlay: dict[str, Cell]) -> None:
-        """Of a page's pieces: structures that none of them declares, told by a member that only they have."""
+        """On a page of code fragments, creates objects for undeclared structures, identified by a member that only they have."""
         keys = {key for key in (*self.run.summary, *overlay) if key.count(".") == 1}
         for key in sorted(keys):
             owner, _, name = key.partition(".")
@@ -296,7 +297,7 @@ class ObjectCreation(ListMethods):
         return any(isinstance(item, VulkanObject) and item.kind == "view" for item in items)
 
     def image_by_types(self, function: Function, term: Term, scope: Scope) -> Value | None:
-        """An image that a function makes whose body a page leaves out: its parameters' types say what they are."""
+        """Returns the image created by a function whose body a page leaves out, based on the types of its parameters."""
         info, out = Struct("ImageCreateInfo", term[3], False), None
         memory: Value = ()
         for parameter, argument in zip(function.parameters, term[2], strict=False):

@@ -1,4 +1,4 @@
-"""C and C++ declarations to terms."""
+"""Converts C and C++ declarations to terms."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .terms import BRACES, CALL, DECLARE, LITERAL, NAME, Parameter, Term
 
 
 class Declarations(Expressions):
-    """Declarations of one text."""
+    """The declarations of one file."""
 
     def parameters(self, list_node: SyntaxNode | None) -> tuple[Parameter, ...]:
         parameters = []
@@ -30,7 +30,7 @@ class Declarations(Expressions):
         return tuple(parameters)
 
     def declarator(self, node: SyntaxNode | None) -> tuple[str, SyntaxNode | None, bool]:
-        """The name that a declarator gives, the array's size, and whether it is a reference or a pointer."""
+        """Returns a declarator's name, its array size, and whether it is a reference or pointer."""
         size: SyntaxNode | None = None
         indirect = False
         for _ in range(MAX_DEPTH):
@@ -47,7 +47,7 @@ class Declarations(Expressions):
         return "", size, indirect
 
     def declared(self, node: SyntaxNode, depth: int = 0) -> list[Term]:
-        """The variables that a declaration declares."""
+        """Returns the variables of a declaration as terms."""
         kind = node.child_by_field_name("type")
         text = self.type_text(kind) if kind is not None else ""
         fixed = any(c.type == "type_qualifier" and self.text_of(c) in ("const", "constexpr") for c in node.named_children)
@@ -87,7 +87,7 @@ class Declarations(Expressions):
         return terms
 
     def is_construction(self, node: SyntaxNode) -> bool:
-        """Whether what looks like the declaration of a function is an object made with arguments: `Image image(device, info);`"""
+        """Returns whether an apparent function declaration constructs an object: `Image image(device, info);`"""
         list_node = node.child_by_field_name("parameters")
         children = list_node.named_children if list_node is not None else []
         return bool(children) and all(
@@ -98,7 +98,7 @@ class Declarations(Expressions):
         )
 
     def macro_constant(self, node: SyntaxNode) -> list[Term]:
-        """A macro that stands for a value, as a constant."""
+        """Returns a macro that stands for a value, as a constant."""
         name, value = node.child_by_field_name("name"), node.child_by_field_name("value")
         if name is None or value is None:
             return []
@@ -115,7 +115,7 @@ class Declarations(Expressions):
         return [(DECLARE, "auto", self.text_of(name), term, False, True, at)]
 
     def enumerators(self, node: SyntaxNode) -> list[Term]:
-        """The enumerators of an enum, as constants by their own name and by the enum's."""
+        """Returns the enumerators of an enum as constants, with and without the name of the enum."""
         list_node, owner = node.child_by_field_name("body"), node.child_by_field_name("name")
         terms: list[Term] = []
         next_node = 0
@@ -133,7 +133,7 @@ class Declarations(Expressions):
         return terms
 
     def value(self, node: SyntaxNode, kind: str, depth: int) -> Term:
-        """What a declaration is given: braces and parentheses make an object of its type."""
+        """Returns the term of an initializer; braces and parentheses construct the declared type."""
         at = span(node)
         if node.type == "argument_list":
             return (CALL, (NAME, kind, at), tuple(self.expression(c, depth + 1) for c in without_comments(node)), at)

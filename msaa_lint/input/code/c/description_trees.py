@@ -1,4 +1,4 @@
-"""C and C++ that fills in Vulkan's structures, as trees in the form of a description."""
+"""Reads C and C++ that fills in Vulkan structures as descriptions."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from .syntax import unit
 from .tree_writer import DescriptionWriter
 
 _WAITS = re.compile(r"ipelineBarrier|Queue(?:Submit|Present)[^}]{0,1500}WaitIdle")
-"""What may stand in for the dependencies of a pass, frame by frame."""
+"""Synchronization that can replace the dependencies of a render pass between frames."""
 
 _FRAMES = re.compile(r"cquireNextImage")
-"""Where the frames of a program follow each other."""
+"""Where a program starts its frames."""
 
 
 def trees(code: Code) -> list[Read]:
-    """What a file, or the pieces of a page, makes: one tree, or none. Missing where the grammar is not installed."""
+    """Returns the tree of a file or of a page's fragments: one or none. Raises `Missing` if the grammar is not installed."""
     root = tree(code).root_node
     text, sections = clear_list_directives(code.text, root)
     if sections:
@@ -33,7 +33,7 @@ def trees(code: Code) -> list[Read]:
     read = DescriptionWriter(
         interpreter.program, code.fragments, _WAITS.search(code.text) is not None or _FRAMES.search(code.text) is None
     ).read()
-    # Masks of sample counts have such a name, wherever they come from.
+    # Sample count masks have this in their name, whatever their source.
     chosen = choices(root, code) if "ampleCounts" in code.text else []
     if not chosen:
         return [read] if read is not None else []

@@ -1,5 +1,7 @@
-"""Conditions of the preprocessor within braces and calls, which the grammar does not know: it takes `#ifdef` for a mistake, and what
-follows for something else."""
+"""Preprocessor conditions inside braces and calls.
+
+The grammar does not support them: it reports `#ifdef` as an error and misreads what follows.
+"""
 
 from __future__ import annotations
 
@@ -15,16 +17,16 @@ _COMMENT = re.compile(r"//.*|/\*.*?(?:\*/|$)", re.DOTALL)
 _BLOCK = re.compile(
     r"\b(?:class|struct|union|enum|namespace|else|do|try|const|noexcept|override|final|extern|mutable)\b[^=(]*$|\)\s*$|^\s*$"
 )
-"""What stands before the brace of a block, not of a list."""
+"""What precedes the brace of a block rather than a list."""
 
 _DEFINED = re.compile(r"(!?)\s*defined\s*(?:\(\s*(\w+)\s*\)|(\w+))")
 
 MAX_LIST_LENGTH = 20_000
-"""Characters that a list may have before a directive in it."""
+"""The maximum distance in characters between the start of a list and a directive in it."""
 
 
 class Section(NamedTuple):
-    """A part of the text that is there if a condition holds, or (`way`) does not, as a number of characters from the beginning."""
+    """A range of the text that exists only if a condition holds, or, for `way` False, does not. Offsets are in characters."""
 
     start: int
     end: int
@@ -33,13 +35,13 @@ class Section(NamedTuple):
 
 
 def condition_key(text: str, way: bool = True) -> tuple[str, bool]:
-    """A condition of the preprocessor in words that are the same for #ifdef and #if defined, and which way it goes."""
+    """Returns the key of a preprocessor condition, the same for #ifdef and #if defined, and its value."""
     match = _DEFINED.fullmatch(text.strip())
     return (f"#{match[2] or match[3]}", way is not bool(match[1])) if match is not None else (f"#{text.strip()}", way)
 
 
 def clear_list_directives(text: str, root: SyntaxNode) -> tuple[str, tuple[Section, ...]]:
-    """The text without the directives that stand within lists and that the parser stumbled over, and what hangs on each of them."""
+    """Returns the text without the directives inside lists that cause parse errors, and the sections that depend on them."""
     if not root.has_error or "#if" not in text.replace(" ", ""):
         return text, ()
     has_directives = sorted(_error_ranges(root))
@@ -68,7 +70,7 @@ def clear_list_directives(text: str, root: SyntaxNode) -> tuple[str, tuple[Secti
 
 
 def _error_ranges(root: SyntaxNode) -> Iterator[tuple[int, int]]:
-    """Where the parser found what it does not know."""
+    """Yields the ranges of parse errors."""
     stack = [root]
     while stack:
         node = stack.pop()
@@ -78,14 +80,14 @@ def _error_ranges(root: SyntaxNode) -> Iterator[tuple[int, int]]:
 
 
 def _is_error(has_directives: list[tuple[int, int]], match: re.Match[str]) -> bool:
-    """Whether a mistake begins or ends on the line of a directive, or is around it and short."""
+    """Returns whether a parse error starts or ends on the line of a directive, or surrounds it closely."""
     start, end = match.span()
     at = bisect_left(has_directives, (start, 0))
     return any(a < end and b > start and (a >= start or b - a < MAX_LIST_LENGTH) for a, b in has_directives[max(at - 8, 0) : at + 8])
 
 
 def _in_a_list(text: str, at: int) -> bool:
-    """Whether the innermost bracket that is open at a place is one of a call, or of a list of values."""
+    """Returns whether the innermost open bracket at an offset belongs to a call or a list of values."""
     depth = 0
     for n in range(at - 1, max(at - MAX_LIST_LENGTH, 0) - 1, -1):
         character = text[n]
@@ -98,7 +100,7 @@ def _in_a_list(text: str, at: int) -> bool:
                 before, sign = _before(text, n)
                 if before.strip() or sign != "{":
                     return _BLOCK.search(before) is None
-                # Braces at the beginning of others are what those are.
+                # Nested braces have the kind of the outer ones.
                 depth += 1
             depth -= 1
         elif character == ";" and depth == 0:
@@ -107,13 +109,14 @@ def _in_a_list(text: str, at: int) -> bool:
 
 
 def _before(text: str, at: int) -> tuple[str, str]:
-    """What stands between the end of the statement before and a place, without comments, and the sign at that end."""
+    """Returns the text from the end of the previous statement to an offset, without comments, and the character that ends that
+    statement."""
     start = max(text.rfind(sign, 0, at) for sign in ";{}")
     return _COMMENT.sub("", text[max(start + 1, at - 400) : at]), text[start : start + 1] if start >= 0 else ""
 
 
 def _of_group(group: list[re.Match[str]]) -> Iterator[Section]:
-    """What hangs on the directives from an #if to its #endif."""
+    """Yields the sections of the directives from an #if to its #endif."""
     failed: list[tuple[str, bool]] = []
     for n, match in enumerate(group[:-1]):
         start, end = match.end(), group[n + 1].start()

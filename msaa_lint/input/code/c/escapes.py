@@ -1,4 +1,4 @@
-"""Values that leave the code that is read: what calls outside the file may change or keep."""
+"""Values that external code may change or keep."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from .terms import NAME
 from .values import Array, Closure, Struct, VulkanObject, inner_cells, pointee, possible_writes, sole_value
 
 MAX_DEPTH = 10
-"""Levels of structures, lists and pointers that are followed."""
+"""The maximum nesting of structures, lists, and pointers."""
 
 
 def mark_escaped(value: Any, depth: int = 0) -> None:
-    """Marks the Vulkan objects in a value as used by code outside the file, and the image of an image view with it."""
+    """Marks the Vulkan objects in a value, and the images of image views, as used by external code."""
     if isinstance(value, VulkanObject):
         value.escaped = True
         if value.kind == "view" and value.info is not None and "image" in value.info.fields:
@@ -28,7 +28,7 @@ def mark_escaped(value: Any, depth: int = 0) -> None:
 
 
 def forget(value: Any) -> None:
-    """Forgets what is known of a structure or a list."""
+    """Discards what is known of a structure or a list."""
     if isinstance(value, Array):
         value.complete = False
     for struct in (
@@ -40,7 +40,7 @@ def forget(value: Any) -> None:
 
 
 def forget_captures(closure: Closure) -> None:
-    """Forgets the variables that a lambda names: a function outside the file may call it and change them."""
+    """Discards the values of variables that a lambda names, which an external function may call."""
     names: set[str] = set()
     stack: list[Any] = list(closure.body)
     while stack:
@@ -57,7 +57,7 @@ def forget_captures(closure: Closure) -> None:
 
 
 def mark_used(value: Any, depth: int = 0) -> None:
-    """Marks the structures that a value contains or points to as used by a call."""
+    """Marks the structures in a value, including the ones that it points to, as used by a call."""
     if isinstance(value, Struct):
         value.used = True
     for cell in inner_cells(value) if depth < 8 else ():
@@ -66,7 +66,7 @@ def mark_used(value: Any, depth: int = 0) -> None:
 
 
 def settled_under(value: Any, conditions: Mapping[str, bool], depth: int = 0) -> Any:
-    """Reduces every cell of a value, in place, to the writes that are possible under some conditions; returns the value."""
+    """Reduces the cells of a value, in place, to the writes that are possible under some conditions. Returns the value."""
     if depth <= MAX_DEPTH and conditions:
         for cell in inner_cells(value):
             cell.writes = possible_writes(cell.writes, conditions)

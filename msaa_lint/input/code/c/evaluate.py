@@ -1,4 +1,4 @@
-"""What expressions may be."""
+"""Evaluates C and C++ expressions."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ from .variables import is_element_access
 
 
 class Evaluator(ConditionEvaluator):
-    """What expressions may be."""
+    """Evaluates expressions."""
 
     def value(self, term: Term, scope: Scope, kind: str = "") -> Value:
-        """What an expression may be. `kind` is the type that it is for, where braces need one."""
+        """Returns the possible values of an expression. `kind` is the target type, which braces need."""
         self.step()
         tag = term[0]
         place = term[-1]
@@ -66,7 +66,7 @@ class Evaluator(ConditionEvaluator):
         if tag == CALL:
             result = self.calls.call(term, scope)
             if is_element_access(term):
-                # A reference, which counts as what it refers to.
+                # A reference stands for its target.
                 result = tuple(b for a in result for b in (a.value.cell.read(scope.guards) if isinstance(a.value, Ref) else (a,)))
             return result
         if tag == BRACES:
@@ -77,7 +77,7 @@ class Evaluator(ConditionEvaluator):
 
     @abstractmethod
     def block(self, statements: Sequence[Term], scope: Scope) -> None:
-        """Goes through statements."""
+        """Executes statements."""
 
     def read(self, term: Term, scope: Scope) -> Value:
         cell = self.cell_of(term, scope)
@@ -89,7 +89,7 @@ class Evaluator(ConditionEvaluator):
         if not value:
             return (Alternative(Symbol(cell.key, cell.name.rpartition("::")[2]), term[-1]),) if cell.key else UNKNOWN_VALUE
         if cell.key and cell.kind != MEMBER:
-            # A parameter: what it was called with stands where it was called.
+            # For a parameter, keep the location of the argument.
             return value
         return tuple(a._replace(at=term[-1]) if not isinstance(a.value, (Struct, Array)) else a for a in value)
 
@@ -97,12 +97,12 @@ class Evaluator(ConditionEvaluator):
         if operand[0] == INDEX:
             rest = self.offset_pointer(self.value(operand[1], scope), self.value(operand[2], scope), place)
             if rest is not None:
-                # A pointer: what is written through it is written to the list.
+                # Writes through the pointer change the list.
                 return (Alternative(Ref(Cell(writes=rest)), place),)
         cell = self.cell_of(operand, scope)
         if cell is not None:
             if self.fragments and cell.kind == MEMBER and not cell.writes:
-                # Of a structure that a page does not show there is the name.
+                # A page may not show the structure, only its name.
                 struct = self.gathered_struct(cell.name, place) or (
                     Alternative(Struct("", place, False, cell.name.rpartition("::")[2]), place),
                 )
@@ -132,7 +132,7 @@ class Evaluator(ConditionEvaluator):
         return tuple(alternatives) if 0 < len(alternatives) <= MAX_ALTERNATIVES else UNKNOWN_VALUE
 
     def offset_pointer(self, left: Value, right: Value, place: Span) -> Value | None:
-        """A pointer into a list, some elements further."""
+        """Returns a pointer to an element of a list plus an offset, or None."""
         array, count = pointee(sole_value(left)), sole_value(right)
         if not isinstance(array, Array) or type(count) is not int or not 0 <= count < len(array.items):
             return None
@@ -169,7 +169,7 @@ class Evaluator(ConditionEvaluator):
         return value if sign == "+" else UNKNOWN_VALUE
 
     def next(self, cell: Cell, before: Ref, sign: str, place: Span, scope: Scope) -> Value:
-        """A pointer into a list, one element further."""
+        """Increments a pointer to an element of a list."""
         array = pointee(before)
         after: Any = UNKNOWN
         if isinstance(array, Array) and len(array.items) > 1:
@@ -197,7 +197,7 @@ class Evaluator(ConditionEvaluator):
         cell = self.cell_of(target, scope)
         kind = cell.kind if cell is not None else ""
         if source[0] == CALL and source[1][:2] == (NAME, "") and cell is not None:
-            # A member that a constructor makes before its body.
+            # A member initialized by a constructor before its body.
             instance = self.calls.construct_class(self.type_of(cell), source, scope)
             if instance is not None:
                 self.store(cell, instance, place, scope)
@@ -224,7 +224,7 @@ class Evaluator(ConditionEvaluator):
         return value
 
     def as_pointer(self, name: str, value: Value, term: Term, scope: Scope) -> Value:
-        """A list that is given to a member which is a pointer: what is written to the list later counts as well."""
+        """Returns a pointer to a list that is assigned to a pointer member, so that later writes to the list are seen."""
         if name[:1] != "p" or not name[1:2].isupper() or term[0] not in (NAME, FIELD, INDEX):
             return value
         if not isinstance(sole_value(value), Array):
@@ -233,7 +233,7 @@ class Evaluator(ConditionEvaluator):
         return value if cell is None else (Alternative(Ref(cell), term[-1]),)
 
     def store(self, cell: Cell, value: Value, place: Span, scope: Scope) -> None:
-        """Writes to a cell. A structure that goes to a member goes to the members of that."""
+        """Writes to a cell. A structure assigned to a member is written member by member."""
         has_single_images = sole_value(value)
         if cell.kind == MEMBER and isinstance(has_single_images, Struct) and not has_single_images.kind:
             for name, inner in has_single_images.fields.items():

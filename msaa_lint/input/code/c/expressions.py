@@ -1,4 +1,4 @@
-"""C and C++ expressions to terms."""
+"""Converts C and C++ expressions to terms."""
 
 from __future__ import annotations
 
@@ -37,41 +37,41 @@ CASTS = frozenset({"static_cast", "reinterpret_cast", "const_cast", "bit_cast"})
 
 
 class Expressions(ABC):
-    """Expressions of one text."""
+    """The expressions of one file."""
 
     text: str
     current: str
     aliases: dict[str, str]
-    """By name, what a file calls otherwise."""
+    """The types that aliases stand for."""
     called_names: set[str]
     sections: tuple[Section, ...]
 
     @abstractmethod
     def parameters(self, node: SyntaxNode | None) -> tuple[Parameter, ...]:
-        """The parameters of a function."""
+        """Returns the parameters of a function."""
 
     @abstractmethod
     def block(self, node: SyntaxNode, depth: int) -> list[Term]:
-        """The statements of a block."""
+        """Returns the statements of a block."""
 
     def text_of(self, node: SyntaxNode) -> str:
         return self.text[node.start_byte : node.end_byte]
 
     def type_text(self, node: SyntaxNode) -> str:
-        """A type as it is written, without blanks, `const`, `struct`."""
+        """Returns the text of a type without whitespace, `const`, and `struct`."""
         if node.type in CLASSES or node.type == "enum_specifier":
             name = node.child_by_field_name("name")
             return self.text_of(name) if name is not None else ""
         return self.resolve_aliases(BLANKS.sub("", re.sub(r"\b(?:const|struct|typename|class)\b", " ", self.text_of(node))))
 
     def resolve_aliases(self, name: str) -> str:
-        """A name with what an alias stands for in the alias's place: of `namespace v = vk;` and `using Samples = ...;`."""
+        """Returns a name with aliases resolved: those of `namespace v = vk;` and `using Samples = ...;`."""
         if not self.aliases:
             return name
         return WORD.sub(lambda match: self.aliases.get(match[0], match[0]), name)
 
     def expression(self, node: SyntaxNode | None, depth: int) -> Term:
-        """An expression's term."""
+        """Returns the term of an expression."""
         if node is None or depth > MAX_DEPTH:
             return (UNPARSED, "", span(node) if node is not None else Span(0, 0))
         kind = node.type
@@ -195,10 +195,10 @@ class Expressions(ABC):
         return (CALL, term, arguments, at)
 
     def items(self, node: SyntaxNode, depth: int) -> Iterator[tuple[tuple[str | int, ...] | None, Term]]:
-        """The items of braces: the members that a designator names, or None, and what stands there."""
+        """Yields the items in braces: the designated members or None, and the term."""
         nodes = node.named_children
         if self.has_directives(nodes):
-            # What the preprocessor makes of them is not known.
+            # The result of the preprocessor is unknown.
             at = span(node)
             yield None, (SOME, "#", True, (UNPARSED, "", at), at)
             return
@@ -222,11 +222,11 @@ class Expressions(ABC):
             yield tuple(member_cell), self.conditional_item(child, self.expression(value_node, depth))
 
     def has_directives(self, nodes: list[SyntaxNode]) -> bool:
-        """Whether a directive of the preprocessor is left between the items of a list."""
+        """Returns whether a preprocessor directive remains between the items of a list."""
         return any(child.is_error and self.text.startswith("#", child.start_byte) for child in nodes)
 
     def conditional_item(self, node: SyntaxNode, term: Term) -> Term:
-        """An item of a list with the conditions that it is there under; of one that is half of it under some, nothing is known."""
+        """Returns the term of a list item with the conditions under which it exists; an item that is only partly conditional is unknown."""
         for section in self.sections:
             if node.start_byte < section.start < node.end_byte and term[0] not in (BRACES, CALL, LAMBDA):
                 return (UNPARSED, "", term[-1])
@@ -235,7 +235,7 @@ class Expressions(ABC):
         return term
 
     def ordered_arguments(self, nodes: list[SyntaxNode], terms: Iterator[Term]) -> Iterator[Term]:
-        """Arguments; none is known from the first on that is there only under a condition."""
+        """Yields arguments; from the first conditional argument on, they are unknown."""
         shifted = self.has_directives(nodes)
         for node, term in zip(nodes, terms, strict=True):
             argument = self.conditional_item(node, term)

@@ -1,8 +1,8 @@
-"""C and C++ functions gone through from top to bottom, as far as they fill in structures of Vulkan's.
+"""An abstract interpreter of C and C++ that tracks the Vulkan structures a program fills in.
 
-Every function that none of the file calls is a beginning; a call of the file's own functions is followed with its arguments. Conditions
-are not decided, but kept with what was written under them. What members hold is the union of what all functions write to them: the file is
-gone through again with what the first time found. A value that is not known stays so.
+Each function that no other function of the file calls is an entry point. Calls of functions in the file are executed with their arguments.
+Conditions are not decided; they are recorded with the values written under them. The value of a class member is the union of what all
+functions write to it, so the file is executed repeatedly, each time with the members found before. Unknown values stay unknown.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from .variables import is_element_access
 
 
 class Interpreter(Evaluator):
-    """One file while it is gone through."""
+    """Executes one file."""
 
     def __init__(self, unit: Unit, fragments: bool, is_cpp: bool = True) -> None:
         super().__init__(unit, fragments, is_cpp)
@@ -47,7 +47,7 @@ class Interpreter(Evaluator):
         self.calls = self.program
 
     def run(self) -> None:
-        """Goes through the file until what members hold is the same as before."""
+        """Executes the file until the values of members no longer change."""
         entry_points = self.entry_points()
         try:
             for _ in range(MAX_PASSES):
@@ -73,7 +73,7 @@ class Interpreter(Evaluator):
             return
 
     def entry_points(self) -> list[Function]:
-        # A constructor runs where the object is made: as a member, it has no call of its own.
+        # The constructor of a member runs where the object is created; no call of it appears.
         types = {term[1] for terms in self.members.values() for term in terms.values()}
         constructors = {
             f.name for f in self.unit.functions if f.class_name.rpartition("::")[2] == f.name and f.parameters and f.name in types
@@ -100,7 +100,7 @@ class Interpreter(Evaluator):
             self.statement(statement, scope)
 
     def run_block(self, statements: Sequence[Term], scope: Scope, guards: Guards, scoped: bool = True) -> bool:
-        """Goes through a block under conditions, with variables of its own; whether it leaves what is around it."""
+        """Executes a block under guards with its own variables. Returns whether the block leaves the enclosing one."""
         read_declarations, scopes = scope.guards, scope.scopes
         scope.guards = read_declarations | guards
         scope.scopes = (*scopes, {}) if scoped else scopes
@@ -137,7 +137,7 @@ class Interpreter(Evaluator):
 
     def test(self, condition: bool | Guards, term: Term, scope: Scope) -> None:
         then, otherwise = term[2], term[3]
-        # What the preprocessor leaves stands where it stood.
+        # Preprocessor conditions do not open a scope.
         scoped = term[0] == IF
         if isinstance(condition, bool):
             scope.unreachable = self.run_block(then if condition else otherwise, scope, ALWAYS, scoped)
@@ -193,7 +193,7 @@ class Interpreter(Evaluator):
         scope.scopes = scopes
 
     def iteration_range(self, declared: Sequence[Term], body: Sequence[Term], scope: Scope) -> tuple[int, int] | None:
-        """From where to where a counter goes, where that is known and short."""
+        """Returns the range of a loop counter if it is known and short, or None."""
         if len(declared) != 1 or declared[0][3] is None or not body or body[0][0] != DO:
             return None
         test, name = body[0][1], declared[0][2]
@@ -209,14 +209,14 @@ class Interpreter(Evaluator):
         return (first_duplicate, last) if 0 <= last - first_duplicate <= MAX_TURNS else None
 
     def list_elements(self, over: Term, scope: Scope) -> list[Cell] | None:
-        """The elements of a list that is known whole."""
+        """Returns the elements of a list if all are known, or None."""
         value = pointee(sole_value(self.value(over, scope)))
         return value.items if isinstance(value, Array) and value.complete else None
 
     def declare(self, term: Term, scope: Scope) -> None:
         _, kind, name, initializer, indirect, _, place = term
         if self.fragments and len(scope.scopes) == 1 and not scope.calls and f"::{name}" in self.summary:
-            # A page's other pieces give it a value.
+            # Other fragments of the page assign it.
             scope.scopes[-1][name] = self.member_cell(f"::{name}")
             return
         if indirect and initializer is not None:
@@ -238,7 +238,7 @@ class Interpreter(Evaluator):
 
     @staticmethod
     def other_branch_variable(name: str, kind: str, scope: Scope) -> Cell | None:
-        """A variable that the preprocessor has declared in the other branch of an #if."""
+        """Returns a variable that the other branch of an #if declares, or None."""
         before = scope.scopes[-1].get(name)
         if before is None or before.kind.partition("[")[0] != kind.partition("[")[0] or not scope.guards or not before.writes:
             return None
@@ -253,7 +253,7 @@ def _mark(write: Alternative) -> tuple[Any, ...]:
 
 
 def _joined(key: str, writes: list[Alternative]) -> Value:
-    """What all functions write to a member: that it is null until then, and again in the end, is no news."""
+    """Returns the union of what all functions write to a member. Null is ignored if the member is assigned an object."""
     objects = [write for write in writes if isinstance(write.value, (VulkanObject, Struct, Array))]
     joined = tuple(objects or writes)
     return joined if len(joined) <= MAX_ALTERNATIVES else (Alternative(Symbol(key, key.rpartition("::")[2]), joined[0].at),)

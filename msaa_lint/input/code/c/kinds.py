@@ -1,4 +1,4 @@
-"""Kinds of nodes of the syntax trees of C and C++, and what is read of single ones."""
+"""Node types of the C and C++ grammars, and functions that read single nodes."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ import re
 from msaa_lint.input.code.parsing import SyntaxNode
 
 MAX_DEPTH = 120
-"""Levels of an expression, or of blocks, that are read: what nests deeper was not written by people."""
+"""The maximum nesting of expressions and blocks."""
 
 
 WORD = re.compile(r"(?<![\w:])[A-Za-z_]\w*")
-"""A word that no other qualifies."""
+"""An unqualified identifier."""
 
 BLANKS = re.compile(r"\s+")
 
@@ -44,7 +44,7 @@ def function_declarator(node: SyntaxNode | None) -> SyntaxNode | None:
 
 
 def without_comments(node: SyntaxNode) -> list[SyntaxNode]:
-    """The children that are no comments."""
+    """Returns the named children that are not comments."""
     return [child for child in node.named_children if child.type != "comment"]
 
 

@@ -34,10 +34,10 @@ SELF = frozenset({"get", "value", "data", "begin", "as_span", "handle", "ptr", "
 
 
 class ListMethods(Structures):
-    """Lists of one file."""
+    """The list methods of one file."""
 
     def method(self, owner: Term, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value | None:
-        """A method of a structure or a list; None where it is another's."""
+        """Returns the result of a method of a structure or list, or None for other objects."""
         cell = self.run.cell_of(owner, scope) if owner[0] != CALL else None
         content = cell.read(scope.guards) if cell is not None else self.run.value(owner, scope)
         value = pointee(sole_value(content))
@@ -63,13 +63,13 @@ class ListMethods(Structures):
         if name in SELF and not arguments:
             return content
         if cell is not None and cell.writes == () and name in APPEND and len(arguments) == 1:
-            # A list that was not declared here, or whose type says nothing.
+            # The list was declared elsewhere, or its type is unknown.
             self.run.value(arguments[0], scope)
             return UNKNOWN_VALUE
         return None
 
     def on_alternatives(self, value: Value, name: str, place: Span) -> Value:
-        """What a method gives of a list that is one or another: nobody can tell which of them others change."""
+        """Returns the result of a method on a list that has several alternatives. Which of them a change affects is unknown."""
         alternatives: list[Alternative] = []
         for alternative in value:
             array = pointee(alternative.value)
@@ -111,7 +111,7 @@ class ListMethods(Structures):
             if type(index) is int and 0 <= index < len(array.items):
                 return (Alternative(Ref(array.items[index]), place),)
         if name in ("at", "rbegin", "rend"):
-            # Of which element it is, nobody can tell what is written to it.
+            # The element is unknown, so writes to it make the list unknown.
             array.complete = False
             return UNKNOWN_VALUE
         if name in ("clear",):
@@ -143,7 +143,7 @@ class ListMethods(Structures):
         return Alternative(value, alternative.at, alternative.guards)
 
     def forget_target(self, target: Term, scope: Scope) -> None:
-        """Something was written to a place that cannot be told: of a list's element, the list is no longer known."""
+        """Handles a write to an unknown target: if it is an element, its list becomes unknown."""
         if target[0] in (FIELD, INDEX):
             for alternative in self.run.value(target[1], scope):
                 value = pointee(alternative.value)

@@ -1,4 +1,4 @@
-"""Members of structures as nodes of a description."""
+"""Converts members of structures to nodes of a description."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ ZERO = {
     "resolveMode": "NONE", "sampleShadingEnable": False, "alphaToCoverageEnable": False, "alphaToOneEnable": False, "minSampleShading": 0.0,
     "srcAccessMask": (), "dstAccessMask": (), "blendEnable": False,
 }  # fmt: skip
-"""What zero is, where it says something."""
+"""What zero means for members where it is a valid value."""
 
 
 class Members(Configuration):
-    """Members of structures as nodes."""
+    """Converts members of structures to nodes."""
 
     def item(self, struct: Struct, name: str) -> Iterator[Item]:
-        """A member that is an enumerant, flags, a truth value or a number, where it is known."""
+        """Yields a member that is an enumerant, flags, a boolean, or a number, if its value is known."""
         value, at = self.get(struct, name)
         if value is None and name in ZERO:
             value = ZERO[name]
@@ -55,7 +55,7 @@ class Members(Configuration):
             if value == 0 and type(value) is int and name in ZERO:
                 value = ZERO[name]
             short = parse_enum(ENUMS[name], value) if isinstance(value, str) else None
-            # A format that is undefined is one that nobody knows.
+            # An undefined format means that the format is unknown.
             return scalar(short, at) if short is not None and (short != "UNDEFINED" or name != "format") else None
         if isinstance(value, bool) or (isinstance(value, (int, float)) and name == "minSampleShading"):
             return scalar(value, at)
@@ -64,7 +64,7 @@ class Members(Configuration):
         return None
 
     def object_name(self, obj: VulkanObject, otherwise: str) -> str:
-        """A name that no other object of the tree has."""
+        """Returns a unique name for an object."""
         if id(obj) not in self.object_names:
             self.object_names[id(obj)] = self.unique(obj.name.rpartition("::")[2].strip("*&") or otherwise)
         return self.object_names[id(obj)]
@@ -78,7 +78,7 @@ class Members(Configuration):
 
 
 def flags_of(enum: str, value: Any, at: Span) -> Node | None:
-    """A list of flags; None where one of them is not known."""
+    """Returns a list of flags, or None if any of them is unknown."""
     if value == () or (type(value) is int and value == 0) or (isinstance(value, Array) and value.complete and not value.items):
         return sequence([], at)
     bits = value.bits if isinstance(value, Flags) else ((value, at),) if isinstance(value, str) else ()
@@ -93,5 +93,5 @@ def flags_of(enum: str, value: Any, at: Span) -> Node | None:
 
 
 def head_of(at: Span) -> Span:
-    """Where something long begins."""
+    """Returns the location of the start of a long construct."""
     return at if at.end - at.start <= 80 else Span(at.start, at.start + 1)

@@ -1,7 +1,7 @@
-"""Vulkan's names as C and C++ spell them: `VK_ATTACHMENT_STORE_OP_STORE`, `vk::AttachmentStoreOp::eStore`, `VkImageCreateInfo`,
+"""Vulkan names as C and C++ spell them: `VK_ATTACHMENT_STORE_OP_STORE`, `vk::AttachmentStoreOp::eStore`, `VkImageCreateInfo`,
 `vk::ImageCreateInfo`, `pAttachments`, `setAttachments`.
 
-The order of members is the registry's (vk.xml); a test holds it to that.
+Members are in the order of the Vulkan registry (vk.xml); a test checks that.
 """
 
 from __future__ import annotations
@@ -86,13 +86,13 @@ MEMBERS: dict[str, tuple[str, ...]] = {
     "Extent3D": ("width", "height", "depth"),
     "Extent2D": ("width", "height"),
 }  # fmt: skip
-"""The members of structures in their order, without sType and pNext."""
+"""The members of structures in order, without sType and pNext."""
 
 WITHOUT_TYPE = frozenset({
     "AttachmentDescription", "AttachmentReference", "SubpassDescription", "SubpassDependency", "PipelineColorBlendAttachmentState",
     "PhysicalDeviceFeatures", "Extent3D", "Extent2D",
 })  # fmt: skip
-"""Those that have no sType and no pNext."""
+"""Structures without sType and pNext."""
 
 VERSIONED = {
     "AttachmentDescription2": "AttachmentDescription",
@@ -101,7 +101,7 @@ VERSIONED = {
     "SubpassDependency2": "SubpassDependency",
     "AttachmentReference2": "AttachmentReference",
 }
-"""Second versions and the first, which says the same to a rule."""
+"""The first version of each second-version structure; rules treat them alike."""
 
 MEMBERS["AttachmentDescription2"] = MEMBERS["AttachmentDescription"]
 
@@ -123,7 +123,7 @@ _TABLES = {
 
 
 def vulkan_struct(type_text: str) -> str:
-    """The structure that a type is, without `Vk` and a vendor's suffix; empty where it is none that we read."""
+    """Returns the name of a Vulkan structure type without `Vk` and vendor suffix, or an empty string for other types."""
     match = _STRUCTURE.match(type_text.removeprefix("VULKAN_HPP_NAMESPACE::"))
     if match is None:
         return ""
@@ -132,12 +132,12 @@ def vulkan_struct(type_text: str) -> str:
 
 
 def is_scalar(type_text: str) -> bool:
-    """Whether a type of Vulkan's is an enum, flags or a number, whose braces hold nothing but a value."""
+    """Returns whether a Vulkan type is an enum, flags, or a number, whose braces contain a single value."""
     return _SCALAR.search(type_text) is not None or not type_text.startswith(("Vk", "vk::", "VULKAN"))
 
 
 def element_type(type_text: str) -> str | None:
-    """The type of an array's elements; None where a type is no array or list."""
+    """Returns the element type of an array or list type, or None."""
     if type_text.endswith("]"):
         return type_text.partition("[")[0]
     match = _LISTED.match(type_text)
@@ -145,7 +145,7 @@ def element_type(type_text: str) -> str | None:
 
 
 def array_size(type_text: str) -> str:
-    """How many elements an array has, as it is written; empty where its type does not say."""
+    """Returns the size of an array type as written, or an empty string."""
     if type_text.endswith("]"):
         return type_text.partition("[")[2].rstrip("]")
     match = _FIXED.match(type_text)
@@ -153,13 +153,15 @@ def array_size(type_text: str) -> str:
 
 
 def first_version(kind: str) -> str:
-    """A structure's name without the 2 of its second version."""
+    """Returns the name of a structure without the 2 of its second version."""
     return VERSIONED.get(kind, kind)
 
 
 def constant(name: str) -> int | str | bool | None:
-    """What a name of Vulkan's stands for: a sample count as a number, a truth value, or an enumerant by a name that a description takes;
-    None where it is no such name."""
+    """Returns the value of a Vulkan constant: a sample count as a number, a boolean, or an enumerant as descriptions spell it;
+
+    None for other names.
+    """
     if name.startswith("VK_"):
         count = _COUNT.match(name)
         if count is not None:
@@ -190,12 +192,12 @@ _squashed: dict[str, dict[str, str]] = {}
 
 
 def member(name: str) -> str:
-    """A member's name without the `p` of a pointer: what descriptions call it. `pNext` is `next`."""
+    """Returns the name that descriptions give a member: without the `p` of pointers. `pNext` is `next`."""
     return name[1].lower() + name[2:] if len(name) > 1 and name[0] == "p" and name[1].isupper() else name
 
 
 def setter_member(method: str) -> str | None:
-    """The member that a setter of vulkan.hpp sets, by the name above; None where it is none."""
+    """Returns the member that a setter of vulkan.hpp sets, spelled as in descriptions, or None."""
     if len(method) < 4 or not method.startswith("set") or not method[3].isupper():
         return None
     name = method[3].lower() + method[4:]

@@ -1,4 +1,4 @@
-"""Render passes as nodes of a description."""
+"""Converts render passes to nodes of a description."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ EMPTY = mapping((), Span(0, 0))
 
 
 class Passes(Members):
-    """Render passes as nodes."""
+    """Converts render passes to nodes."""
 
     def bind(self, passes: Sequence[VulkanObject]) -> None:
-        """The images that framebuffers give to the attachments of render passes."""
+        """Assigns the images of framebuffers to the attachments of render passes."""
         for obj in self.current_objects:
             if obj.kind != "framebuffer" or obj.info is None:
                 continue
@@ -84,7 +84,7 @@ class Passes(Members):
             image = images[n] if n < len(images) else None
             nodes[n] = (*nodes[n][:2], self.attachment(struct, image, attached, nodes[n][1], names[n] in sources))
         if type(self.known_value(info, "attachmentCount")) is not int:
-            # How many there are is not known: those at the end that nothing refers to need not be there.
+            # The count is unknown: trailing attachments that nothing references may not exist.
             referred = {reference.text for node in written if node is not None for reference in _leaves(node)}
             while nodes and nodes[-1][0] not in referred:
                 nodes.pop()
@@ -101,7 +101,10 @@ class Passes(Members):
         return self.object_name(obj, "renderPass"), head, mapping(items, head)
 
     def has_single_images(self, structs: Sequence[Struct | None], images: Sequence[VulkanObject | None]) -> bool:
-        """Whether the multisampled images of a pass are known, and one each: with one for each frame in flight none waits for another."""
+        """Returns whether each multisampled image of a pass is known and single.
+
+        With one image per frame in flight, no frame waits for another.
+        """
         for n, struct in enumerate(structs):
             image = images[n] if n < len(images) else None
             if struct is None or ((self.samples(struct)[0] or 2) > 1 and (image is None or "[" in image.name)):
@@ -109,7 +112,7 @@ class Passes(Members):
         return True
 
     def place_of(self, struct: Struct | None, otherwise: Span) -> Span:
-        """Where a structure begins: what declares it, or the first that is written to it."""
+        """Returns where a structure starts: its declaration, or the first write to it."""
         if struct is None:
             return otherwise
         if struct.name and not self.fragments and struct.zeroed:
@@ -117,15 +120,17 @@ class Passes(Members):
         return min((cell.writes[0].at for cell in struct.fields.values() if cell.writes), default=struct.at)
 
     def assumed_store(self, struct: Struct, resolved: bool) -> Iterator[Item]:
-        """On a page that makes an attachment multisampled and resolves it, and says nothing of its store operation: the one that zero is,
-        and that whoever shows the attachment on the screen until then needs."""
+        """Yields an assumed store operation on pages that resolve a multisampled attachment without stating one:
+
+        STORE, which is zero and which earlier steps of the page needed to present the attachment.
+        """
         if self.fragments and resolved and "storeOp" not in struct.fields and not struct.zeroed and "samples" in struct.fields:
             at = struct.fields["samples"].writes[0].at
             self.assumed.setdefault(f"{struct.name}.storeOp", (f"{struct.name}.storeOp", at, "STORE"))
             yield "storeOp", at, scalar("STORE", at)
 
     def subpass(self, struct: Struct | None, names: Sequence[str]) -> Node | None:
-        """A subpass; None where some of what it lists is not known, as what is absent would be none."""
+        """Returns a subpass, or None if any of its lists is unknown."""
         if struct is None:
             return None
         head = head_of(struct.at)
@@ -193,7 +198,7 @@ class Passes(Members):
     def reference(self, struct: Struct, names: Sequence[str]) -> Node | None:
         index, at = self.get(struct, "attachment")
         if index is UNKNOWN and self.fragments:
-            # A page that changes a program does not repeat that `colorAttachmentRef` is of `colorAttachment`.
+            # Pages that modify a program do not repeat that `colorAttachmentRef` refers to `colorAttachment`.
             indices = [n for n, name in enumerate(names) if struct.name and struct.name.startswith(name) and struct.name != name]
             index = indices[-1] if len(indices) == 1 else UNKNOWN
         if index is None:
@@ -224,7 +229,7 @@ class Passes(Members):
 
 
 def _leaves(node: Node) -> Iterator[Node]:
-    """All scalars of a subpass."""
+    """Yields the scalars of a subpass."""
     stack = [node]
     while stack:
         inner = stack.pop()
@@ -235,7 +240,7 @@ def _leaves(node: Node) -> Iterator[Node]:
 
 
 def _resolved(subpasses: Sequence[Node]) -> set[str]:
-    """The names of the colour attachments that subpasses resolve."""
+    """Returns the names of the color attachments that subpasses resolve."""
     names = set()
     for subpass in subpasses:
         colors, targets = (subpass.value[key].value if key in subpass.value else [] for key in ("colorAttachments", "resolveAttachments"))

@@ -1,4 +1,4 @@
-"""Dynamic renderings and resolve commands as nodes of a description."""
+"""Converts dynamic renderings and resolve commands to nodes of a description."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from .values import UNKNOWN, Struct, Symbol, Value, VulkanObject, sole_value
 
 
 class Commands(Members):
-    """Renderings and resolves as nodes."""
+    """Converts dynamic renderings and resolve commands to nodes."""
 
     def rendering(self, obj: VulkanObject, attached: dict[int, VulkanObject]) -> Node | None:
-        """A dynamic rendering."""
+        """Returns a dynamic rendering, or None if its attachments are unknown."""
         info = obj.info
         assert info is not None
         colors = self.structs(info, "colorAttachments")
@@ -40,7 +40,7 @@ class Commands(Members):
         return mapping([("beginRendering", head, mapping(items, head))], head)
 
     def rendered(self, struct: Struct, attached: dict[int, VulkanObject]) -> Node | None:
-        """An attachment of a rendering; None where it is not known whether it resolves."""
+        """Returns an attachment of a rendering, or None if it is unknown whether it is resolved."""
         head = head_of(struct.at)
         view, at = self.get(struct, "imageView")
         if view in (None, 0):
@@ -62,7 +62,7 @@ class Commands(Members):
         return mapping(items, head)
 
     def image_name(self, view: Any, at: Span, attached: dict[int, VulkanObject]) -> Node:
-        """The name of the image of a view; an image of which nothing is known has one of its own."""
+        """Returns the name of the image of a view; an unknown image gets a name of its own."""
         image = self.image_in(view)
         if image is None:
             return scalar(self.external_image(view, at), at)
@@ -70,7 +70,7 @@ class Commands(Members):
         return scalar(self.object_name(image, "image"), at)
 
     def external_image(self, value: Any, at: Span) -> str:
-        """The name of an image that the file does not make."""
+        """Returns the name of an image that the file does not create."""
         value = self.dereference(value)
         key = (
             value.key
@@ -86,7 +86,7 @@ class Commands(Members):
         return self.external_images[key][0]
 
     def resolve(self, at: Span, ends: tuple[Value, Value], attached: dict[int, VulkanObject]) -> Node | None:
-        """A vkCmdResolveImage of an image that the file makes."""
+        """Returns a vkCmdResolveImage of an image that the file creates, or None."""
         head = head_of(at)
         items: list[Item] = []
         for name, value in zip(("srcImage", "dstImage"), ends, strict=True):

@@ -1,4 +1,4 @@
-"""What functions are gone through in, and how far."""
+"""The scope in which functions are executed, and its limits."""
 
 from __future__ import annotations
 
@@ -7,38 +7,38 @@ from msaa_lint.core.text.span import Span
 from .values import Alternative, Cell, Guards
 
 MAX_STEPS = 80_000
-"""Terms that are evaluated in one file: with more, the rest of it is not followed."""
+"""The maximum number of terms evaluated in a file; execution stops at the limit."""
 
 
 MAX_TURNS = 16
-"""Turns of a loop over a list, or with a counter, that are gone through one by one."""
+"""The maximum number of loop iterations that are executed individually."""
 
 
 MAX_PASSES = 3
-"""Times that a file is gone through: what a member holds may come from another, which holds what a third does."""
+"""The maximum number of times that a file is executed. A member's value may depend on another member, which depends on a third."""
 
 
 MEMBER = "member"
-"""The kind of a cell that is a member of some object, or a variable outside of functions."""
+"""The kind of a cell for a class member or a global variable."""
 
 
 Scopes = tuple[dict[str, Cell], ...]
 
 
 MAX_CALLS = 5
-"""How deep calls of the file's own functions are followed."""
+"""The maximum depth of calls that are executed."""
 
 
 MAX_WAYS = 4
-"""How often one call is followed, by whatever other calls it is come to."""
+"""The maximum number of times that a call is executed."""
 
 
 class StepLimitExceeded(Exception):
-    """There is too much of it."""
+    """The file exceeds the limit of evaluated terms."""
 
 
 class Scope:
-    """What a function is gone through in: its variables, its class, the calls that lead to it."""
+    """The scope of a function call: its variables, its class, and the calls that lead to it."""
 
     __slots__ = (
         "active_functions",
@@ -63,13 +63,13 @@ class Scope:
         self.return_values: list[Alternative] = []
         self.return_type = ""
         self.namespace = ""
-        """The namespace, with `::` at its end."""
+        """The namespace, with a trailing `::`."""
         self.unreachable = False
-        """Whether what follows is not reached."""
+        """Whether the following statements are unreachable."""
         self.unknown_loops = 0
         self.iterations: tuple[int, ...] = ()
-        """Which turns of loops it is in, of those that are gone through one by one."""
+        """The current iterations of the enclosing loops that are executed individually."""
         self.this_object: Cell | None = None
-        """The object whose method it is, where that is known."""
+        """The object that the method is called on, if known."""
         self.active_functions: tuple[Span, ...] = ()
-        """The functions that are being gone through."""
+        """The functions that are being executed."""

@@ -1,4 +1,4 @@
-"""C and C++ statements to terms."""
+"""Converts C and C++ statements to terms."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .terms import BINARY, BLOCK, DECLARE, DO, IF, LEAVE, LOOP, RETURN, SOME, UN
 
 
 class Statements(Declarations):
-    """Statements of one text."""
+    """The statements of one file."""
 
     def block(self, node: SyntaxNode, depth: int) -> list[Term]:
         terms: list[Term] = []
@@ -70,7 +70,7 @@ class Statements(Declarations):
         if kind == "preproc_def":
             return self.macro_constant(node)
         if kind == "function_definition":
-            # Within a function: what a macro made of the text, or a lambda's remains.
+            # Inside a function, this is the result of a macro or a misparsed lambda.
             body = node.child_by_field_name("body")
             return self.block(body, depth) if body is not None and depth < MAX_DEPTH else []
         if kind in (
@@ -90,7 +90,7 @@ class Statements(Declarations):
         return self.statement(node, depth + 1) if node is not None and depth < MAX_DEPTH else []
 
     def if_chain(self, node: SyntaxNode, depth: int) -> list[Term]:
-        """An if with all its else ifs, which nest in the tree and not in the text."""
+        """Returns an `if` with its `else if`s, which nest in the syntax tree but not in the text."""
         links: list[tuple[Term, tuple[Term, ...], list[Term], Span]] = []
         otherwise: list[Term] = []
         current: SyntaxNode | None = node
@@ -116,7 +116,7 @@ class Statements(Declarations):
         return otherwise
 
     def preprocessor_block(self, node: SyntaxNode, depth: int) -> list[Term]:
-        """A block of the preprocessor within a function."""
+        """Returns a preprocessor block inside a function."""
         test = node.child_by_field_name("condition") or node.child_by_field_name("name")
         other = node.child_by_field_name("alternative")
         negated = node.type == "preproc_ifdef" and self.text.startswith("#ifndef", node.start_byte)
@@ -132,7 +132,7 @@ class Statements(Declarations):
         return [(SOME, text, tuple(then), tuple(otherwise), at)]
 
     def switch_cases(self, node: SyntaxNode, depth: int) -> list[Term]:
-        """A switch, as blocks each under the condition that the value is the case's."""
+        """Returns a switch as one `if` for each case."""
         test, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
         value = self.expression(test, depth) if test is not None else (UNPARSED, "", Span(0, 0))
         terms: list[Term] = []

@@ -1,4 +1,4 @@
-"""Structures and lists that expressions make."""
+"""Structures and lists that expressions construct."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from .values import (
 
 
 def member_type(kind: str, name: str) -> str:
-    """The type of a member, where braces may give it."""
+    """Returns the type of a member that can be initialized with braces."""
     return MEMBER_TYPES.get(member(name), "") if kind else ""
 
 
@@ -46,7 +46,7 @@ MEMBER_TYPES = {
 
 
 def _hpp_defaults(struct: Struct) -> None:
-    """Sample counts of vulkan.hpp's structures are 1 from the beginning, not 0."""
+    """Sets the members of vulkan.hpp structures that default to a sample count of 1 rather than 0."""
     if struct.kind in ("AttachmentDescription", "AttachmentDescription2", "ImageCreateInfo"):
         struct.cell("samples").writes = (Alternative(1, struct.at),)
     elif struct.kind == "PipelineMultisampleStateCreateInfo":
@@ -54,7 +54,7 @@ def _hpp_defaults(struct: Struct) -> None:
 
 
 class Structures(ABC):
-    """What the calls of one file make: its structures and lists."""
+    """Constructs the structures and lists of one file."""
 
     def __init__(self, run: Evaluator) -> None:
         self.run = run
@@ -65,7 +65,7 @@ class Structures(ABC):
         self.follow_counts: dict[Span, int] = {}
 
     def begin(self) -> None:
-        """Forgets what an earlier turn made, but not which object is which."""
+        """Discards the results of the previous execution of the file, but keeps the identity of objects."""
         self.current_objects = {}
         self.declared_structs.clear()
         self.resolves.clear()
@@ -73,10 +73,10 @@ class Structures(ABC):
 
     @abstractmethod
     def construct_class(self, kind: str, term: Term, scope: Scope) -> Value | None:
-        """An object of a class of the file's, by its constructor."""
+        """Returns an object of a class in the file, built by its constructor."""
 
     def construct(self, kind: str, arguments: Sequence[Term], place: Span, scope: Scope, hpp: bool) -> Value:
-        """A structure made with arguments in the order of its members. vulkan.hpp takes lists for a count and a pointer."""
+        """Returns a structure constructed with members in order. vulkan.hpp takes a list in place of a count and a pointer."""
         struct = Struct(kind, place, True)
         if hpp:
             _hpp_defaults(struct)
@@ -103,7 +103,7 @@ class Structures(ABC):
             if n >= len(names):
                 return
             if term[0] == SOME:
-                # Which member is which hangs on a condition.
+                # Which member an item initializes depends on a condition.
                 for name in names[n:]:
                     struct.cell(member(name)).write(UNKNOWN_VALUE, term[-1], ALWAYS)
                 return
@@ -117,7 +117,7 @@ class Structures(ABC):
             n += 1
 
     def initialize_designated(self, struct: Struct, member_cell: Sequence[str | int], term: Term, scope: Scope) -> None:
-        """`.extent.width = 4`."""
+        """Initializes a designated member: `.extent.width = 4`."""
         guards = ALWAYS
         if term[0] == SOME:
             guards, term = self.unwrap_conditions(term)
@@ -134,7 +134,7 @@ class Structures(ABC):
         target.cell(member(name)).write(copy_alternatives(value), term[-1], guards)
 
     def unwrap_conditions(self, term: Term) -> tuple[Guards, Term]:
-        """The conditions of an item of braces, and the item."""
+        """Returns the guards of a list item, and the item."""
         guards = ALWAYS
         for _ in range(8):
             if term[0] != SOME:
@@ -143,7 +143,7 @@ class Structures(ABC):
         return guards, term
 
     def braced_value(self, term: Term, scope: Scope, kind: str) -> Value:
-        """What braces make, by the type that they are for."""
+        """Returns the value of a braced list for a target type."""
         kind, items, place = term[1] or kind, term[2], term[3]
         struct_name = vulkan_struct(kind)
         hpp = kind.startswith(("vk::", "VULKAN"))
@@ -166,7 +166,7 @@ class Structures(ABC):
                 self.initialize_designated(struct, member_cell, item, scope)
             return (Alternative(struct, place),)
         if not items and kind in ("", "auto") and not struct_name:
-            # `{}` for flags is none of them.
+            # `{}` stands for no flags.
             return (Alternative(Array("", place), place),)
         if inner is None and kind and kind != "auto":
             if len(items) == 1 and items[0][0] is None and is_scalar(kind) and self.run.class_of(kind, scope.namespace) is None:
@@ -184,7 +184,7 @@ class Structures(ABC):
         array = Array(kind, place)
         if len(items) == 1 and items[0][0] is None and items[0][1][0] == BRACES and not items[0][1][1]:
             inner = items[0][1][2]
-            # The second pair of braces of a std::array, unless it is the one element itself.
+            # A std::array may have a second pair of braces; an element may have braces too.
             if (
                 inner
                 and (inner[0][1][0] in (BRACES, CALL, NAME, FIELD, INDEX) and not inner[0][0])
@@ -219,7 +219,7 @@ class Structures(ABC):
         return (Alternative(array, place),)
 
     def sized_list(self, kind: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value:
-        """`std::vector<T> list(3)`, and `(3, value)`."""
+        """Returns `std::vector<T> list(3)` or `list(3, value)`."""
         array = Array(kind, place)
         count = sole_value(self.run.value(arguments[0], scope)) if arguments else 0
         if type(count) is not int or not 0 <= count <= 64 or len(arguments) > 2:
@@ -238,7 +238,7 @@ class Structures(ABC):
         return (Alternative(array, place),)
 
     def class_value(self, kind: str, items: Sequence[tuple[Any, Term]], place: Span, scope: Scope) -> Value:
-        """An object of a class of the file's, by its constructor or given its members in their order."""
+        """Returns an object of a class in the file, built by its constructor or from its members in order."""
         arguments = tuple(item for _, item in items)
         built = self.construct_class(kind, (CALL, (NAME, kind, place), arguments, place), scope)
         if built is not None:
@@ -262,7 +262,7 @@ class Structures(ABC):
         return (Alternative(len(value.items), place),) if isinstance(value, Array) and value.complete else UNKNOWN_VALUE
 
     def zero_memory(self, arguments: Sequence[Term], scope: Scope) -> Value:
-        """`memset(&x, 0, sizeof x)`."""
+        """Executes `memset(&x, 0, sizeof x)`."""
         if sole_value(self.run.value(arguments[1], scope)) == 0:
             value = pointee(sole_value(self.run.value(arguments[0], scope)))
             first_duplicate = arguments[0]
@@ -281,6 +281,6 @@ class Structures(ABC):
                     element.zeroed = True
                     element.fields.clear()
             if isinstance(value, Array) and vulkan_struct(value.kind):
-                # Elements that come later are zero as well.
+                # Elements added later are zero too.
                 value.zeroed = True
         return UNKNOWN_VALUE

@@ -1,7 +1,7 @@
-"""C and C++ syntax trees to terms.
+"""Converts C and C++ syntax trees to terms.
 
-What no rule asks for stays UNPARSED, and what the parser could not make sense of is passed over: macros break the grammar in most real
-files, and hardly ever where a structure is filled in.
+Constructs that no rule depends on stay UNPARSED, and parse errors are skipped: macros cause parse errors in most real files, but rarely
+where a structure is filled in.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .terms import ASSIGN, CALL, DO, NAME, Function, Parameter, Term, Unit
 RELEVANT = re.compile(
     r"[sS]ample|SAMPLE|[aA]ttachment|ATTACHMENT|[mM]saa|MSAA|[rR]esolve|RESOLVE|[fF]ramebuffer|[rR]enderPass|CreateImage|createImage|ImageCreateInfo|TRANSIENT|ImageView"
 )
-"""A function without any of these says nothing of multisampling, unless it calls one that does."""
+"""Functions without any of these are irrelevant unless they call one that is relevant."""
 
 VIRTUAL = re.compile(r"\b(?:virtual|override)\b")
 
@@ -30,32 +30,31 @@ CONTAINERS = frozenset({
 
 
 def unit(code: Code, root: SyntaxNode, sections: tuple[Section, ...] = ()) -> Unit:
-    """The functions of a file, what its classes declare, and what stands outside. `sections` are parts of lists that are there only
-    under conditions."""
+    """Returns the functions, class members, and global declarations of a file. `sections` are the conditional parts of lists."""
     return _Reader(code.text, code.fragments, sections).unit(root)
 
 
 class _Reader(Statements):
-    """One file while it is read."""
+    """Reads one file."""
 
     def __init__(self, text: str, fragments: bool, sections: tuple[Section, ...]) -> None:
         self.text = text
         self.sections = sections
         self.fragments = fragments
         self.found: list[tuple[str, str, SyntaxNode]] = []
-        """Functions: the namespace and the class that they are in, and where."""
+        """The namespace, the class, and the node of each function."""
         self.members: dict[str, list[Term]] = {}
         self.prototypes: dict[str, tuple[Parameter, ...]] = {}
-        """By name, the parameters of functions that are declared."""
+        """The parameters of declared functions by name."""
         self.outside: list[Term] = []
         self.current = ""
         self.public: set[int] = set()
-        """Where members are declared that are public."""
+        """The start offsets of public member declarations."""
         self.virtual: set[str] = set()
-        """The names of methods that a derived class may have others of."""
+        """The names of virtual methods."""
         self.aliases: dict[str, str] = {}
         self.called_names: set[str] = set()
-        """The names of functions that another function calls."""
+        """The names of functions that other functions call."""
 
     def unit(self, root: SyntaxNode) -> Unit:
         self.read_declarations(root)
@@ -66,7 +65,7 @@ class _Reader(Statements):
         )
 
     def read_declarations(self, root: SyntaxNode) -> None:
-        """Goes through what holds functions: namespaces, classes, blocks of the preprocessor."""
+        """Reads everything that can contain functions: namespaces, classes, and preprocessor blocks."""
         stack: list[tuple[str, str, SyntaxNode, int]] = [("", "", root, 0)]
         while stack:
             namespace, class_name, node, depth = stack.pop()
@@ -91,7 +90,7 @@ class _Reader(Statements):
                 if class_name:
                     terms = self.declared(node)
                     if node.start_byte in self.public:
-                        # Anybody may change it: what it begins with says nothing.
+                        # Any code may change a public member, so its initial value says nothing.
                         terms = [term if term[5] else (*term[:3], None, *term[4:]) for term in terms]
                     self.members.setdefault(class_name, []).extend(terms)
                     self.note_prototype(node)
@@ -105,7 +104,7 @@ class _Reader(Statements):
                 name_node = parent.child_by_field_name("name") if parent is not None and parent.type == "preproc_ifdef" else None
                 macro = node.child_by_field_name("name")
                 if name_node is not None and macro is not None and self.text_of(name_node) == self.text_of(macro):
-                    # The build may say otherwise.
+                    # The build may define another value.
                     continue
                 self.outside += self.macro_constant(node)
             elif kind == "type_definition":
@@ -116,7 +115,7 @@ class _Reader(Statements):
             elif kind == "enum_specifier":
                 self.outside += [(*term[:2], namespace + term[2], *term[3:]) for term in self.enumerators(node)]
             elif self.fragments:
-                # A page shows statements without the function that they are of.
+                # Pages show statements without their function.
                 self.outside += self.statement(node, 0)
 
     @staticmethod
@@ -126,7 +125,7 @@ class _Reader(Statements):
             stack.append((namespace, class_name, kind, depth + 1))
 
     def relevant_functions(self) -> list[tuple[str, str, SyntaxNode]]:
-        """The functions that matter: those that say something of multisampling, and those that call them, over and over."""
+        """Returns the relevant functions: those that mention multisampling, and their callers, transitively."""
         texts = [self.text_of(node) for _, _, node in self.found]
         relevant_functions = [RELEVANT.search(text) is not None for text in texts]
         fresh = relevant_functions
@@ -140,7 +139,7 @@ class _Reader(Statements):
         return [item for item, matters in zip(self.found, relevant_functions, strict=True) if matters]
 
     def note_public_members(self, node: SyntaxNode) -> None:
-        """Notes which members of a class are public."""
+        """Records which members of a class are public."""
         parent = node.parent
         public = parent is not None and parent.type != "class_specifier"
         for child in node.named_children:
@@ -211,7 +210,7 @@ class _Reader(Statements):
         return Function(short, owner, kind, parameters, statements, at, namespace, overridden)
 
     def initializer(self, node: SyntaxNode) -> Iterator[Term]:
-        """What a constructor gives its members before its body."""
+        """Yields the assignments of a constructor's initializer list."""
         match = next((c for c in node.named_children if c.type == "field_initializer_list"), None)
         for child in match.named_children if match is not None else ():
             if child.type == "field_initializer" and child.named_child_count == 2:

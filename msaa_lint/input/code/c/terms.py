@@ -38,18 +38,18 @@ DECLARE, DO, RETURN, LEAVE, IF, LOOP, SOME, BLOCK = range(20, 28)
 
 
 class Parameter(NamedTuple):
-    """A parameter: its type without `const`, `&` and `*`; `name` is empty where it has none; `default` a term."""
+    """A parameter: its type without `const`, `&`, and `*`; its name, if any; its default as a term."""
 
     type: str
     name: str
     by_reference: bool
     default: Term | None
     fixed: bool = False
-    """What it refers to is const."""
+    """Whether it points or refers to const."""
 
 
 class Function(NamedTuple):
-    """A function with a body. `class_name` is the class that it belongs to, or empty; `return_type` its type, or empty."""
+    """A function definition: `class_name` is the class that it belongs to, `return_type` its return type; both may be empty."""
 
     name: str
     class_name: str
@@ -58,14 +58,14 @@ class Function(NamedTuple):
     body: tuple[Term, ...]
     at: Span
     namespace: str = ""
-    """The namespace that it is in, with `::` at its end."""
+    """The enclosing namespace, with a trailing `::`."""
     open: bool = False
-    """Whether a derived class may have another in its place."""
+    """Whether a derived class may override it."""
 
 
 class Unit(NamedTuple):
-    """All of a file: functions in their order; by class the members that it declares; what stands outside of functions; by name the
-    parameters of functions that are declared; the names of the functions that others call."""
+    """The contents of a file: its functions in order, the members of each class, global declarations, the parameters of declared
+    functions by name, and the names of functions that others call."""
 
     functions: tuple[Function, ...]
     members: dict[str, tuple[Term, ...]]
@@ -75,6 +75,6 @@ class Unit(NamedTuple):
 
 
 def at(term: Term) -> Span:
-    """The place of a term."""
+    """Returns the location of a term."""
     place: Span = term[-1]
     return place

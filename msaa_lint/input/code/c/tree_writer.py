@@ -1,7 +1,7 @@
-"""What a program makes, as a tree in the form of a description.
+"""Writes what a program creates as a description.
 
-Where a program renders with one sample or with several, by a setting, the world with several is described: the one in which what is said
-of multisampling matters. Everything under other conditions that this does not settle stays unknown, unless it is the same either way.
+For a program that renders with one sample or with several, depending on a setting, the multisampled configuration is described. Values that
+depend on other conditions are unknown unless they are the same either way.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from .values import UNKNOWN, Array, Flags, Struct, Symbol, VulkanObject, sole_va
 
 
 class DescriptionWriter(Passes, Commands):
-    """The tree of one file while it is written."""
+    """Writes the description of one file."""
 
     def read(self) -> Read | None:
-        """The tree; None where the file makes nothing that can be described."""
+        """Returns the description, or None if the file creates nothing that can be described."""
         self.choose_configuration()
         self.current_objects = [obj for obj in self.current_objects if not self.is_excluded(obj)]
         passes = [obj for obj in self.current_objects if obj.kind == "renderPass" and obj.info is not None]
@@ -70,7 +70,7 @@ class DescriptionWriter(Passes, Commands):
         items: list[Item] = []
         for name in ("format", "imageType", "tiling", "sharingMode", "usage"):
             if name == "usage" and obj.escaped and not self.is_transient(info):
-                # Other code may use it as it likes.
+                # External code may use the image in any way.
                 continue
             if name == "imageType" and info.zeroed and name not in info.fields:
                 continue
@@ -104,7 +104,7 @@ class DescriptionWriter(Passes, Commands):
         if count is not None:
             items.append(("rasterizationSamples", at, scalar(count, at)))
         for name in ("sampleShadingEnable", "minSampleShading", "alphaToCoverageEnable", "alphaToOneEnable"):
-            # What some fraction of a count comes to is not known where the count is not.
+            # A value that is a fraction of the count is unknown if the count is.
             if name != "minSampleShading" or not self.has_assumed_count(state) or self.known_value(state, name) in (None, 0, 1):
                 items += self.item(state, name)
         items += self.mask(state)
@@ -114,7 +114,7 @@ class DescriptionWriter(Passes, Commands):
         members: list[Item] = []
         if obj.kind == "pipeline":
             target = self.dereference(self.get(info, "renderPass")[0])
-            # Of a page the listings come one after the other, and need not be of one program.
+            # The listings of a page need not belong to one program.
             if isinstance(target, VulkanObject) and id(target) in passes and not self.fragments:
                 at = self.get(info, "renderPass")[1]
                 members.append(("renderPass", at, scalar(passes[id(target)], at)))
@@ -130,12 +130,12 @@ class DescriptionWriter(Passes, Commands):
         yield self.object_name(obj, state.name or "pipeline"), head, mapping(members, head)
 
     def has_assumed_count(self, state: Struct) -> bool:
-        """Whether the count of a pipeline is only taken for what it is."""
+        """Returns whether the sample count of a pipeline is assumed."""
         cell = state.fields.get("rasterizationSamples")
         return cell is not None and any(isinstance(item.value, Symbol) for item in self.settle(cell.writes))
 
     def mask(self, state: Struct) -> Iterator[Item]:
-        """The sample mask, where all its words are known."""
+        """Yields the sample mask if all its words are known."""
         value, at = self.get(state, "sampleMask")
         known = self.dereference(value)
         words = [sole_value(self.settle(cell.writes)) for cell in known.items] if isinstance(known, Array) and known.complete else [known]
@@ -143,7 +143,7 @@ class DescriptionWriter(Passes, Commands):
             yield "sampleMask", at, sequence([scalar(word, at) for word in words], at)
 
     def enabled(self) -> Iterator[Item]:
-        """What the file's one device is created with: of its features only whether sample shading is among them."""
+        """Yields the features that the only device of the file enables; only sampleRateShading is read."""
         devices = [obj for obj in self.current_objects if obj.kind == "device" and obj.info is not None]
         if len(devices) != 1 or devices[0].info is None:
             return
@@ -153,7 +153,7 @@ class DescriptionWriter(Passes, Commands):
         if features is None and isinstance(chained, Struct) and chained.kind == "PhysicalDeviceFeatures2":
             features = self.struct(chained, "features")
         elif chained is not None and chained != 0:
-            # Some other structure of the chain may enable it.
+            # Another structure in the pNext chain may enable it.
             return
         if features is None:
             return
@@ -163,7 +163,7 @@ class DescriptionWriter(Passes, Commands):
             yield "enabled", head_of(info.at), mapping([("features", at, sequence(names, at))], head_of(info.at))
 
     def dynamic(self, info: Struct) -> list[Item] | None:
-        """Dynamic states; None where they are not known, as the sample count may be one."""
+        """Returns the dynamic states, or None if they are unknown, since the sample count may be dynamic."""
         value, at = self.get(info, "dynamicState")
         if value is None:
             return []
@@ -190,7 +190,7 @@ class DescriptionWriter(Passes, Commands):
 
 
 def _distinct(items: Sequence[Item]) -> list[Item]:
-    """Of items that say the same from the same places the first: a function that is called twice makes one thing twice."""
+    """Removes items with equal content and location: calling a function twice creates them twice."""
     distinct: dict[str, Item] = {}
     for item in items:
         distinct.setdefault(f"{item[1]} {_signature(item[2])}", item)

@@ -1,26 +1,25 @@
-"""What C and C++ expressions come to, as far as a file says.
+"""Values of C and C++ expressions.
 
-A value is a tuple of alternatives, empty where nothing is known. Each has the conditions under which it is the value. A world is a choice
-of conditions; in one world a value may come down to one alternative.
+A value is a tuple of alternatives, empty if nothing is known. Each alternative has the conditions under which it is the value. In a
+configuration, which decides conditions, a value may have a single alternative.
 """
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from msaa_lint.core.text.span import Span
 
 Guards = frozenset[tuple[str, bool]]
-"""Conditions that all hold: their texts, and which way."""
+"""Conditions that all hold, each as its text and its value."""
 
 ALWAYS: Guards = frozenset()
 
 MAX_ALTERNATIVES = 12
-"""Alternatives of a value that are followed; with more, nothing is known."""
+"""The maximum number of alternatives of a value; with more, it is unknown."""
 
 
 class Symbol(NamedTuple):
-    """A value that is not known, and is the same wherever it stands. `chosen`: it comes from a function that looks for a sample count."""
+    """An unknown value that is the same wherever it occurs. `chosen` is set if it comes from a function that selects a sample count."""
 
     key: str
     name: str
@@ -28,13 +27,13 @@ class Symbol(NamedTuple):
 
 
 class Flags(NamedTuple):
-    """Bits, each with its place."""
+    """Flag bits with their locations."""
 
     bits: tuple[tuple[str, Span], ...]
 
 
 class Alternative(NamedTuple):
-    """One of the values that an expression may have: what it is, where that stands, and when it is so."""
+    """A possible value of an expression, its location, and the conditions under which it applies."""
 
     value: Any
     at: Span
@@ -47,7 +46,7 @@ UNKNOWN_VALUE: Value = ()
 
 
 class Cell:
-    """A variable or member: what was written to it, in order."""
+    """A variable or member: the writes to it, in order."""
 
     __slots__ = ("key", "kind", "name", "writes")
 
@@ -56,23 +55,23 @@ class Cell:
         self.name = name
         self.writes = writes
         self.key = key
-        """What a value in it is known by that is not known itself: a parameter's, a member's."""
+        """The key of the symbol that stands for an unknown value in it, for a parameter or member."""
 
     def write(self, value: Value, at: Span, guards: Guards) -> None:
-        """A write under conditions, which ends what was there wherever they hold."""
+        """Writes under conditions; replaces earlier writes that these conditions imply."""
         fresh = tuple(Alternative(a.value, a.at, a.guards | guards) for a in value) or (Alternative(UNKNOWN, at, guards),)
         before = tuple(w for w in self.writes if not guards <= w.guards) if guards else ()
         writes = (*before, *fresh)
-        # Without its earliest alternatives, a value would be known where it is not.
+        # If only the earliest writes were dropped, the value could seem known.
         self.writes = writes if len(writes) <= MAX_ALTERNATIVES else (Alternative(UNKNOWN, at),)
 
     def read(self, guards: Guards) -> Value:
-        """What may be in it where some conditions hold."""
+        """Returns the possible values under some conditions."""
         return possible_writes(self.writes, dict(guards)) if self.writes else UNKNOWN_VALUE
 
 
 class Unknown:
-    """What is known of a value of which nothing is known; it stands beside others that are."""
+    """Marks an alternative whose value is unknown."""
 
     def __repr__(self) -> str:
         return "UNKNOWN"
@@ -82,7 +81,7 @@ UNKNOWN = Unknown()
 
 
 def possible_writes(writes: Value, configuration: Mapping[str, bool]) -> Value:
-    """The writes that may be seen in a world: from the last one back to the first that certainly happened."""
+    """Returns the writes that are visible in a configuration: from the last back to the first that certainly happens."""
     if len(writes) == 1 and not writes[0].guards:
         return writes
     alternatives: list[Alternative] = []
@@ -102,7 +101,7 @@ def possible_writes(writes: Value, configuration: Mapping[str, bool]) -> Value:
 
 
 class Struct:
-    """A structure, Vulkan's or the program's. `zeroed`: what no one set is zero. `name` is the variable's that it was first in."""
+    """A structure of Vulkan or the program. In a zeroed structure, unset members are zero. `name` is the first variable that held it."""
 
     __slots__ = ("at", "fields", "kind", "name", "used", "zeroed")
 
@@ -116,14 +115,14 @@ class Struct:
         self.fields: dict[str, Cell] = {}
 
     def cell(self, name: str) -> Cell:
-        """The member's cell."""
+        """Returns the cell of a member."""
         if name not in self.fields:
             self.fields[name] = Cell(name=name)
         return self.fields[name]
 
 
 class Array:
-    """A list. `complete`: these are all its elements, in their places. `zeroed`: further structures in it are zero."""
+    """A list. `complete` means that all its elements are known; `zeroed` that further elements are zero."""
 
     __slots__ = ("at", "complete", "items", "kind", "name", "zeroed")
 
@@ -143,7 +142,7 @@ class Ref(NamedTuple):
 
 
 class VulkanObject:
-    """An object of Vulkan's that a call made: an image, a view, a render pass. `info` is what it was made with, copied at the call."""
+    """A Vulkan object created by a call: an image, a view, a render pass. `info` is a copy of its creation structure."""
 
     __slots__ = ("at", "escaped", "guards", "info", "key", "kind", "memory", "name", "name_depth")
 
@@ -153,15 +152,15 @@ class VulkanObject:
         self.at = at
         self.name = ""
         self.name_depth = 99
-        """How many calls deep it was named."""
+        """The call depth at which it was named."""
         self.escaped = False
-        """Whether it is handed to code that is not the file's."""
+        """Whether it is passed to external code."""
         self.info: Struct | None = None
         self.memory: Value = ()
         self.guards: Guards = ALWAYS
 
     def signature(self) -> tuple[Any, ...]:
-        """What it has in common with what the same call makes again alike."""
+        """Returns what identical objects created by the same call have in common."""
         fields = self.info.fields if self.info is not None else {}
         members = [(name, tuple(_said(write.value) for write in cell.writes)) for name, cell in fields.items()]
         return (self.kind, self.at, tuple(sorted(members)))
@@ -174,7 +173,7 @@ def _said(value: Any) -> str:
 
 
 class Closure(NamedTuple):
-    """A lambda, and the variables around it."""
+    """A lambda and its enclosing variables."""
 
     parameters: tuple[Any, ...]
     body: tuple[Any, ...]
@@ -182,7 +181,7 @@ class Closure(NamedTuple):
 
 
 def inner_cells(value: Any) -> list[Cell]:
-    """The cells that a value leads to: a structure's members, a list's elements, what a pointer points to."""
+    """Returns the cells in a value: members of a structure, elements of a list, the target of a pointer."""
     if isinstance(value, Struct):
         return list(value.fields.values())
     if isinstance(value, Array):
@@ -194,12 +193,12 @@ MAX_DEPTH = 10
 
 
 def copy_alternatives(value: Value, guards: Guards = ALWAYS) -> Value:
-    """The alternatives of a value, with structures and lists copied, under further conditions."""
+    """Returns copies of the alternatives of a value, under additional conditions."""
     return tuple(Alternative(copy_value(a.value), a.at, a.guards | guards) for a in value)
 
 
 def copy_value(value: Any, depth: int = 0, follow_pointers: bool = False) -> Any:
-    """A copy of what is in a value. `follow_pointers` follows pointers as well: what a call is handed, as it is at that moment."""
+    """Returns a deep copy of a structure or list; other values are returned as is. `follow_pointers` copies the targets of pointers too."""
     if depth > MAX_DEPTH:
         return UNKNOWN
     if isinstance(value, Struct):
@@ -227,7 +226,7 @@ def copy_cell(cell: Cell, depth: int = 0, follow_pointers: bool = False) -> Cell
 
 
 def sole_value(value: Value) -> Any:
-    """What a value is, where it is one thing alone; UNKNOWN otherwise."""
+    """Returns the value if there is only one, otherwise UNKNOWN."""
     if len(value) == 1:
         return value[0].value
     if value and all(are_equal(a.value, value[0].value) for a in value):
@@ -236,7 +235,7 @@ def sole_value(value: Value) -> Any:
 
 
 def pointee(value: Any) -> Any:
-    """What a pointer points to; any other value is itself."""
+    """Returns the target of a pointer; any other value is returned as is."""
     for _ in range(4):
         if not isinstance(value, Ref):
             return value
@@ -245,7 +244,7 @@ def pointee(value: Any) -> Any:
 
 
 def are_equal(left: Any, right: Any) -> bool:
-    """Whether two values are alike for sure."""
+    """Returns whether two values are certainly equal."""
     if isinstance(left, Flags) and isinstance(right, Flags):
         return {bit for bit, _ in left.bits} == {bit for bit, _ in right.bits}
     if isinstance(left, (Struct, Array, Unknown)):

@@ -1,4 +1,4 @@
-"""The variables and members that expressions name."""
+"""The variables and members that expressions refer to."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from .values import ALWAYS, UNKNOWN_VALUE, Alternative, Array, Cell, Flags, Ref,
 
 
 def _lasts(value: object) -> bool:
-    """Whether a value that a variable begins with is taken for the one that it has: a format, a count above one, an object."""
+    """Returns whether a variable's initial value is taken as its value: a format, a sample count above 1, an object."""
     if isinstance(value, str):
         return parse_enum("VkFormat", value) not in (None, "UNDEFINED")
     return value is not None and not isinstance(value, (bool, float, Flags)) and (not isinstance(value, int) or value > 1)
 
 
 def is_element_access(term: Term) -> bool:
-    """Whether an expression calls a method that gives a reference to an element of a list."""
+    """Returns whether an expression calls a method that returns a reference to an element of a list."""
     return bool(term[0] == CALL and term[1][0] == FIELD and term[1][2] in ("front", "back", "at"))
 
 
@@ -46,41 +46,41 @@ class CallHandler(Protocol):
 
 
 class Variables(ABC):
-    """The variables and members of one file, and what expressions name of them."""
+    """The variables and members of one file."""
 
     calls: CallHandler
 
     def __init__(self, unit: Unit, fragments: bool, is_cpp: bool) -> None:
         self.unit = unit
         self.fragments = fragments
-        """Whether it is pieces of a page, not a whole program."""
+        """Whether the code consists of fragments of a page, not a whole program."""
         self.is_cpp = is_cpp
-        """Whether it is C++, where an argument may be a reference."""
+        """Whether the code is C++, where arguments may be passed by reference."""
         self.functions: dict[str, list[Function]] = {}
         for function in unit.functions:
             self.functions.setdefault(function.name, []).append(function)
         self.globals: dict[str, Term] = {}
         for term in unit.outside:
             if term[0] == DECLARE:
-                # Of two, under different conditions of the preprocessor for one, neither is known.
+                # Conflicting declarations, for example under different preprocessor conditions, make the value unknown.
                 before = self.globals.get(term[2])
                 again = before is not None and before[3] is not None and term[3] is not None and before[3][:-1] != term[3][:-1]
                 self.globals[term[2]] = (*term[:3], None, *term[4:]) if again and not fragments else term
         self.members = {name: {term[2]: term for term in terms if term[0] == DECLARE} for name, terms in unit.members.items()}
         self.summary: dict[str, Value] = {}
-        """What members hold, by what all functions write to them."""
+        """The values of members: the union of what all functions write."""
         self.overlay: dict[str, Cell] = {}
-        """What they hold in the function that is gone through."""
+        """The cells of members in the current entry point."""
         self.initial: dict[str, Value] = {}
-        """What the members of the overlay held when the function began."""
+        """The values of those members before the entry point was executed."""
         self.declared_values: dict[str, Value] = {}
         self.parts: dict[str, dict[str, None]] = {}
-        """By a member, the members of it that are named anywhere."""
+        """The names of members used with each member."""
         self.steps = 0
 
     @abstractmethod
     def value(self, term: Term, scope: Scope, kind: str = "") -> Value:
-        """What an expression may be. `kind` is the type that it is for, where braces need one."""
+        """Returns the possible values of an expression. `kind` is the target type, which braces need."""
 
     def step(self) -> None:
         self.steps += 1
@@ -89,7 +89,7 @@ class Variables(ABC):
 
     @staticmethod
     def stored_value(value: Any, kind: str, name: str) -> Any:
-        """A value as a variable has it: structures are copied, and called by the variable's name."""
+        """Returns a value as a variable holds it: structures and lists are copied and take the variable's name."""
         value = copy_value(value)
         if isinstance(value, Struct):
             value.kind = value.kind or vulkan_struct(kind)
@@ -100,7 +100,7 @@ class Variables(ABC):
         return value
 
     def cell_of(self, term: Term, scope: Scope) -> Cell | None:
-        """The cell that an expression names; None where it names none that can be told."""
+        """Returns the cell that an expression refers to, or None if it is unknown."""
         self.step()
         kind = term[0]
         if kind == NAME:
@@ -134,7 +134,7 @@ class Variables(ABC):
         return self.member_cell(self.member_key(name, scope))
 
     def own_member(self, name: str, this_object: Cell, scope: Scope) -> Cell:
-        """A member of the object whose method is gone through."""
+        """Returns a member of the object whose method is executed."""
         value = pointee(sole_value(this_object.read(scope.guards)))
         if isinstance(value, Struct):
             return value.cell(name)
@@ -143,7 +143,7 @@ class Variables(ABC):
         return self.member_cell(f"{scope.class_name}::{name}")
 
     def type_of(self, cell: Cell) -> str:
-        """The type that a variable or member is declared with; empty where that is not known."""
+        """Returns the declared type of a variable or member, or an empty string."""
         if cell.kind != MEMBER:
             return cell.kind
         class_name, _, name = cell.name.rpartition("::")
@@ -151,7 +151,7 @@ class Variables(ABC):
         return str(term[1]) if term is not None else ""
 
     def member_key(self, name: str, scope: Scope) -> str:
-        """What a name that no function declares is called: a member of the class, or a variable outside."""
+        """Returns the key of a name that is not a local variable: a class member or a global variable."""
         namespace = scope.namespace
         while True:
             if namespace + name in self.globals and name not in self.members.get(scope.class_name, ()):
@@ -164,7 +164,7 @@ class Variables(ABC):
         return f"{scope.class_name}::{short}" if scope.class_name and not self.fragments else f"::{short}"
 
     def member_cell(self, key: str) -> Cell:
-        """The cell of a member of some object, by the words that lead to it."""
+        """Returns the cell of a member of an object by its path."""
         cell = self.overlay.get(key)
         if cell is None:
             cell = self.overlay[key] = Cell(MEMBER, key, (), key)
@@ -178,7 +178,7 @@ class Variables(ABC):
         return cell
 
     def gathered_struct(self, key: str, place: Span) -> Value:
-        """A structure that nobody declares here, from the members that are written to."""
+        """Returns an undeclared structure built from the members that are written."""
         names = self.parts.get(key)
         if not names:
             return UNKNOWN_VALUE
@@ -188,7 +188,7 @@ class Variables(ABC):
         return (Alternative(struct, place),)
 
     def declared(self, key: str) -> Value:
-        """What a member or a variable outside is given where it is declared."""
+        """Returns the initial value of a class member or a global variable."""
         if key in self.declared_values:
             return self.declared_values[key]
         self.declared_values[key] = UNKNOWN_VALUE
@@ -204,7 +204,7 @@ class Variables(ABC):
             and class_name == ""
             and (vulkan_struct(term[1]) or vulkan_struct(element_type(term[1]) or ""))
         ):
-            # What stands outside of functions is zero from the beginning.
+            # Global variables are zero-initialized.
             initial = self.default_value(term[1], term[2].rpartition("::")[2], term[-1], False, Scope("", ({},), ALWAYS, ()))
             for alternative in initial:
                 for value in (
@@ -227,7 +227,7 @@ class Variables(ABC):
             value = self.value(term[3], scope, term[1])
             lasting = [a for a in value if not (isinstance(a.value, Struct) and not a.value.kind and not a.value.fields)]
             if not term[5]:
-                # Who may change it elsewhere changes what it is until then: one sample, nothing, no, an operation.
+                # Other code may change the value; discard values that are typical placeholders: one sample, null, false, an operation.
                 lasting = [a for a in lasting if _lasts(a.value)]
             self.declared_values[key] = tuple(Alternative(self.stored_value(a.value, term[1], name), a.at, a.guards) for a in lasting)
         return self.declared_values[key]
@@ -244,7 +244,7 @@ class Variables(ABC):
             return value.cell(name) if isinstance(value, Struct) else None
         value = pointee(sole_value(cell.read(scope.guards)))
         if isinstance(value, Array) and value.items:
-            # A pointer to the first of a list.
+            # A pointer to the first element of a list.
             value = pointee(sole_value(value.items[0].writes))
         if isinstance(value, Struct):
             return value.cell(name)
@@ -264,7 +264,7 @@ class Variables(ABC):
         return None
 
     def class_of(self, kind: str, namespace: str) -> str | None:
-        """The class of the file that a type is; None where it is none."""
+        """Returns the class in the file that a type refers to, or None."""
         if f"{namespace}{kind}" in self.members:
             return f"{namespace}{kind}"
         if kind in self.members:
@@ -274,7 +274,7 @@ class Variables(ABC):
         return members[0] if len(members) == 1 else None
 
     def pointed_class(self, key: str) -> str:
-        """Of a member that points to an object of a class of the file's: the class, with `::`, as no one knows which object it is."""
+        """Returns the class, with a trailing `::`, that a pointer member refers to; which object it points to is unknown."""
         class_name, _, name = key.rpartition("::")
         term = self.members.get(class_name, {}).get(name)
         if term is None or not term[4]:
@@ -306,7 +306,7 @@ class Variables(ABC):
         return None
 
     def fill_array(self, array: Array, kind: str, scope: Scope) -> None:
-        """Gives an array as many elements as its type has."""
+        """Adds elements to an array up to the size of its type."""
         size = array_size(kind)
         count = (int(size) if size.isdecimal() else sole_value(self.value((NAME, size, array.at), scope))) if size else 0
         if not size:
@@ -322,7 +322,7 @@ class Variables(ABC):
             array.items.append(item)
 
     def default_value(self, kind: str, name: str, place: Span, indirect: bool, scope: Scope) -> Value:
-        """A variable without a value. vulkan.hpp's structures are as their constructors leave them."""
+        """Returns the value of a variable without an initializer. vulkan.hpp structures have default constructors."""
         if indirect:
             return UNKNOWN_VALUE
         struct_name = vulkan_struct(kind)

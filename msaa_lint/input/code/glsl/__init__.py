@@ -1,1 +1,1 @@
-"""What shaders in GLSL say of multisampling."""
+"""Multisampling in GLSL shaders."""

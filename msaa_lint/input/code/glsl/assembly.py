@@ -1,4 +1,7 @@
-"""SPIR-V in the making: ids, types, constants, sections. As much of it as `msaa_lint.frame.spirv` reads; it is not for a driver."""
+"""Assembles SPIR-V: ids, types, constants, sections.
+
+The modules contain what `msaa_lint.frame.spirv` reads. They are not meant for drivers.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +18,7 @@ _DECORATE_MEMBER = op.MEMBER_DECORATE
 
 
 class Assembly:
-    """A module. `code` is what is being written of the current function, `variables` what its first block begins with."""
+    """A module. `code` is the current function, and `variables` are the declarations at the start of its first block."""
 
     def __init__(self) -> None:
         self.with_binding = 1
@@ -32,20 +35,20 @@ class Assembly:
         self.extended = self.id()
 
     def id(self) -> int:
-        """A number that nothing has."""
+        """Returns a new id."""
         self.with_binding += 1
         return self.with_binding - 1
 
     def declare(self, number: int, *operands: int) -> None:
-        """An instruction outside of functions."""
+        """Adds an instruction outside of functions."""
         self.declared += (len(operands) + 1 << 16 | number, *operands)
 
     def emit(self, number: int, *operands: int) -> None:
-        """An instruction of the current function."""
+        """Adds an instruction to the current function."""
         self.code += (len(operands) + 1 << 16 | number, *operands)
 
     def instruction(self, number: int, kind: Type, *operands: int) -> int:
-        """The result of an instruction."""
+        """Adds an instruction and returns the id of its result."""
         result = self.id()
         self.emit(number, self.type(kind), result, *operands)
         return result
@@ -57,7 +60,7 @@ class Assembly:
         self.decorations += (len(operands) + 4 << 16 | _DECORATE_MEMBER, target, member, number, *operands)
 
     def type(self, kind: Type) -> int:
-        """The id of a type."""
+        """Returns the id of a type."""
         type_id = self._types.get(kind)
         if type_id is not None:
             return type_id
@@ -83,7 +86,7 @@ class Assembly:
         return type_id
 
     def pointer(self, storage: int, kind: Type) -> int:
-        """The id of the type of pointers to a type."""
+        """Returns the id of a pointer type."""
         key = ("pointer", storage, kind)
         if key not in self._types:
             holds = self.type(kind)
@@ -92,7 +95,7 @@ class Assembly:
         return self._types[key]
 
     def number(self, kind: Type, value: float | bool, specialisation: int | None = None) -> int:
-        """The id of a constant; of a specialisation constant with its number a new one."""
+        """Returns the id of a constant. Each specialization constant is new."""
         key = (kind, type(value), value)
         if specialisation is None and key in self._constants:
             return self._constants[key]
@@ -114,7 +117,7 @@ class Assembly:
         return constant_id
 
     def variable(self, storage: int, kind: Type) -> int:
-        """A variable: outside of functions, or of the current one."""
+        """Adds a variable, global or of the current function, and returns its id."""
         pointer, variable_id = self.pointer(storage, kind), self.id()
         words = (4 << 16 | op.VARIABLE, pointer, variable_id, storage)
         if storage == op.FUNCTION_LOCAL:
@@ -126,11 +129,11 @@ class Assembly:
         return variable_id
 
     def begin(self) -> None:
-        """Begins the body of a function."""
+        """Starts the body of a function."""
         self.code, self.variables = [], []
 
     def end(self, identity: int, returns: Type, parameters: Sequence[tuple[int, int]]) -> None:
-        """Ends a function: its parameters are pairs of types and ids."""
+        """Ends a function. `parameters` are pairs of a type and an id."""
         result = self.type(returns)
         self.functions += (5 << 16 | op.FUNCTION, result, identity, 0, result)
         for kind, parameter in parameters:
@@ -138,7 +141,7 @@ class Assembly:
         self.functions += (2 << 16 | op.LABEL, self.id(), *self.variables, *self.code, 1 << 16 | op.FUNCTION_END)
 
     def module(self, model: int, main: int, name: str) -> bytes:
-        """The module with its one entry point."""
+        """Returns the module, which has one entry point."""
         text = name.encode() + b"\0" * (4 - len(name) % 4)
         named = struct.unpack(f"<{len(text) // 4}I", text)
         words = [_MAGIC, _VERSION, 0, self.with_binding, 0]

@@ -1,4 +1,4 @@
-"""Calls of GLSL as SPIR-V: constructors, fetches of samples, built-in functions, the shader's own."""
+"""Lowers GLSL calls to SPIR-V: constructors, sample fetches, built-in functions, functions of the shader."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from .values import Function, Place, Value
 _QUERIES = ("textureSamples", "imageSamples")
 _WRITES = ("atomic", "imageAtomic", "imageStore")
 _OUT = {"modf": 1, "frexp": 1}
-"""Functions that write to an argument: its index."""
+"""Functions with an output argument, and its index."""
 
 
 def evaluate_call(expressions: Expressions, node: SyntaxNode, depth: int) -> Value:
-    """What a call gives."""
+    """Returns the value of a call."""
     function, list_node = expressions.parts(node, "function", "arguments")
     arguments = [child for child in list_node.named_children if child.type != "comment"]
     if function.type == "subscript_expression":
@@ -39,7 +39,7 @@ def evaluate_call(expressions: Expressions, node: SyntaxNode, depth: int) -> Val
 
 def _constructor(expressions: Expressions, kind: Type, arguments: list[SyntaxNode], depth: int) -> Value:
     if kind[0] == "opaque":
-        # A texture and a sampler of Vulkan's put together: the texture is the image.
+        # In Vulkan, a texture combined with a sampler is the image.
         return expressions.value(arguments[0], depth) if arguments else expressions.opaque("sampler", kind, ())
     values = [expressions.value(item, depth) for item in arguments]
     if size_of(kind):
@@ -55,7 +55,7 @@ def _constructor(expressions: Expressions, kind: Type, arguments: list[SyntaxNod
 
 
 def _array(expressions: Expressions, function: SyntaxNode, arguments: list[SyntaxNode], depth: int) -> Value:
-    """`float[4](...)`."""
+    """Lowers `float[4](...)`."""
     named = function.child_by_field_name("argument")
     inner = expressions.kind(expressions.text_of(named)) if named is not None else None
     if inner is None or not arguments:
@@ -67,7 +67,7 @@ def _array(expressions: Expressions, function: SyntaxNode, arguments: list[Synta
 
 
 def _length(expressions: Expressions, function: SyntaxNode, depth: int) -> Value:
-    """`array.length()`."""
+    """Lowers `array.length()`."""
     argument, field = function.child_by_field_name("argument"), function.child_by_field_name("field")
     if argument is None or field is None or expressions.text_of(field) != "length":
         raise expressions.unsupported(function, "is not followed")
@@ -80,7 +80,7 @@ def _length(expressions: Expressions, function: SyntaxNode, depth: int) -> Value
 
 
 def _image(expressions: Expressions, arguments: list[SyntaxNode], depth: int) -> Place | Value | None:
-    """The image that a function takes first."""
+    """Returns the image that a function takes as its first argument."""
     if not arguments:
         return None
     place = expressions.place(arguments[0], depth)
@@ -90,7 +90,7 @@ def _image(expressions: Expressions, arguments: list[SyntaxNode], depth: int) ->
 def _sample_access(
     expressions: Expressions, node: SyntaxNode, name: str, arguments: list[SyntaxNode], image: Place | Value, depth: int
 ) -> Value:
-    """A fetch of a sample, or a query for how many there are."""
+    """Lowers a sample fetch or a query for the number of samples."""
     load = expressions.load(image) if isinstance(image, Place) else image
     if name in _QUERIES:
         return expressions.result(op.IMAGE_QUERY_SAMPLES, INT, load.id)
@@ -130,7 +130,7 @@ def _built_in(expressions: Expressions, node: SyntaxNode, name: str, arguments: 
     if kind is None:
         raise expressions.unsupported(node, "is not defined in it")
     if kind == VOID or name.startswith(_WRITES):
-        # What is stored to an image is used, and the result is nothing that is the same again.
+        # Values stored to an image are used; the result differs at each call.
         for operand in values:
             expressions.opaque("used", operand.type if size_of(operand.type) else INT, (operand,))
         return expressions.load(expressions.temporary(INT if kind == VOID else kind))
@@ -138,7 +138,7 @@ def _built_in(expressions: Expressions, node: SyntaxNode, name: str, arguments: 
 
 
 def _call_function(expressions: Expressions, node: SyntaxNode, name: str, arguments: list[SyntaxNode], depth: int) -> Value:
-    """A call of a function of the shader's own."""
+    """Lowers a call of a function of the shader."""
     kinds: list[tuple[Place | None, Value | None]] = []
     for argument in arguments:
         place = expressions.place(argument, depth)
@@ -184,7 +184,7 @@ def _type(place: Place | None, value: Value | None) -> Type:
 
 
 def _matching_overload(functions: list[Function], types: list[Type]) -> Function | None:
-    """The function for arguments of some types: the one that has them, or that they can be made into."""
+    """Returns the overload whose parameters have the argument types, or the types that they can be converted to."""
     same = [function for function in functions if [kind for kind, _, _ in function.parameters] == types]
     if same:
         return same[0]

@@ -1,4 +1,4 @@
-"""Declarations of GLSL as SPIR-V: variables, blocks, structures, constants, the heads of functions."""
+"""Lowers GLSL declarations to SPIR-V: variables, blocks, structures, constants, function headers."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .types import BOOL, FLOAT, INPUTS, INT, OUTPUTS, UINT, VOID, Type, multisam
 from .values import Function, Place, Value
 
 MAX_PARTS = 1000
-"""Types that a structure is made of, those of its members included."""
+"""The maximum number of types in a structure, including those of nested structures."""
 
 _WORD = re.compile(r"\w+")
 _ENTRY = re.compile(r"(\w+)(?:\s*=\s*(\w+))?")
@@ -36,19 +36,19 @@ class Declarations(Expressions):
         self.call = partial(evaluate_call, self)
         self.root = tree(Code(source.text, "glsl")).root_node
         self.starts: list[tuple[Place, SyntaxNode]] = []
-        """Variables outside of functions with what they begin with."""
+        """Global variables and their initializers."""
         self.images: dict[str, tuple[int, int]] = {}
         self.bindings: dict[str, tuple[int, int | None]] = {}
         self.counts: dict[int, tuple[int, int]] = {}
-        """Where each whole number that a constant has stands first."""
+        """The first location of each integer value of a constant."""
         self.weights: dict[str, int] = {}
         self.outputs_without_location: list[int] = []
         self.integer_constants: dict[int, int] = {}
-        """The whole numbers that constants are, by their ids."""
+        """The values of integer constants by id."""
         self.specialised = False
 
     def global_declaration(self, node: SyntaxNode, depth: int = 0) -> None:
-        """What stands outside of functions."""
+        """Lowers a global declaration."""
         kind = node.type
         if kind == "function_definition":
             self.function_header(node)
@@ -72,13 +72,13 @@ class Declarations(Expressions):
         return struct_type
 
     def weight(self, kind: Type) -> int:
-        """How many types a type is made of."""
+        """Returns the number of types in a type."""
         while kind[0] == "array" and isinstance(kind[1], tuple):
             kind = kind[1]
         return self.weights.get(str(kind[1]), 1) if kind[0] == "struct" else 1
 
     def members(self, body: SyntaxNode) -> list[tuple[str, Type, set[str]]]:
-        """The members of a structure or block: name, type, qualifiers."""
+        """Returns the name, type, and qualifiers of the members of a structure or block."""
         members: list[tuple[str, Type, set[str]]] = []
         for field in body.named_children:
             if field.type != "field_declaration":
@@ -94,7 +94,7 @@ class Declarations(Expressions):
         return members
 
     def declarator(self, node: SyntaxNode, kind: Type) -> tuple[str, Type]:
-        """The name that a declarator gives, and the type with its arrays."""
+        """Returns a declarator's name, and its type including array dimensions."""
         sizes: list[int] = []
         while node.type == "array_declarator":
             size_node, inner = node.child_by_field_name("size"), node.child_by_field_name("declarator")
@@ -107,7 +107,7 @@ class Declarations(Expressions):
         return self.text_of(node), kind
 
     def size(self, node: SyntaxNode) -> int:
-        """The size of an array, as far as it is a plain number or a constant that is one."""
+        """Returns the size of an array if it is a literal or an integer constant."""
         number = whole(self.text_of(node))
         if number is None:
             constant = self.lookup(self.text_of(node)) if node.type == "identifier" else None
@@ -117,7 +117,7 @@ class Declarations(Expressions):
         return number
 
     def qualifiers(self, node: SyntaxNode, end: int) -> tuple[set[str], dict[str, int | None]]:
-        """What stands before a type: words, and the entries of `layout`."""
+        """Returns the qualifiers before a type: words, and the entries of `layout`."""
         layouts = [child for child in node.children if child.type == "layout_specification"]
         text = self.text[node.start_byte : end]
         for layout in reversed(layouts):
@@ -151,7 +151,7 @@ class Declarations(Expressions):
             raise self.unsupported(node, "is of no type that is known")
 
     def declared(self, node: SyntaxNode, kind: Type, words: set[str], layout: dict[str, int | None]) -> None:
-        """A variable outside of functions."""
+        """Declares a global variable."""
         initializer = node.child_by_field_name("value") if node.type == "init_declarator" else None
         target = node.child_by_field_name("declarator") if node.type == "init_declarator" else node
         if target is None:
@@ -177,14 +177,14 @@ class Declarations(Expressions):
             self.out.capabilities.add(op.SAMPLE_RATE_SHADING)
 
     def with_binding(self, name: str, layout: dict[str, int | None]) -> dict[str, int | None]:
-        """The layout of a multisampled image; one that has no binding, as OpenGL's, gets one that tells it from others."""
+        """Returns the layout of a multisampled image. Images without a binding, as in OpenGL, get a unique one."""
         if layout.get("binding") is None:
             layout = {**layout, "binding": 1000 + len(self.bindings)}
         self.bindings[name] = (layout.get("set") or 0, layout.get("binding"))
         return layout
 
     def sized_by_values(self, node: SyntaxNode, kind: Type) -> Type:
-        """The type of an array whose size its values say."""
+        """Returns an array type whose size is the number of its initial values."""
         list_node = node.child_by_field_name("arguments") or node
         return ("array", kind, sum(child.type != "comment" for child in list_node.named_children))
 
@@ -201,7 +201,7 @@ class Declarations(Expressions):
     def constant(
         self, name: str, kind: Type, initializer: SyntaxNode | None, layout: dict[str, int | None], node: SyntaxNode, fixed: bool
     ) -> None:
-        """A constant, or a variable that begins with something."""
+        """Declares a constant or an initialized variable."""
         if initializer is None:
             raise self.unsupported(node, "is not understood")
         special = layout.get("constant_id")
@@ -233,7 +233,7 @@ class Declarations(Expressions):
         self.starts.append((made_place, initializer))
 
     def block(self, node: SyntaxNode, body: SyntaxNode) -> None:
-        """A block of inputs, outputs, uniforms or a buffer."""
+        """Declares a block of inputs, outputs, uniforms, or a buffer."""
         children = node.named_children
         at = children.index(body)
         named = children[at - 1] if at and children[at - 1].type in ("identifier", "type_identifier") else None
@@ -260,7 +260,7 @@ class Declarations(Expressions):
             self.scopes[0][name] = variable
 
     def built_in_variable(self, name: str) -> Place | None:
-        """A built-in variable, declared where it is first used."""
+        """Declares a built-in variable on its first use."""
         storage = op.INPUT if name in INPUTS else op.OUTPUT
         built_in = INPUTS.get(name) or OUTPUTS.get(name)
         if name == "gl_FragColor":
@@ -300,5 +300,5 @@ class Declarations(Expressions):
 
 
 def is_unsized(node: SyntaxNode) -> bool:
-    """Whether a declarator is of an array whose size its values say."""
+    """Returns whether a declarator is of an array sized by its initializer."""
     return node.type == "array_declarator" and node.child_by_field_name("size") is None

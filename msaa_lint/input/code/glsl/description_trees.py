@@ -1,7 +1,7 @@
-"""GLSL that reads multisampled images, as trees in the form of a description: the images, a pipeline with the shader, the reads of a frame.
+"""Reads GLSL shaders that fetch samples as descriptions: the images, a pipeline with the shader, and the reads of a frame.
 
-What the shader does with the samples is asked of it as of a module of SPIR-V: `shader`. Of images nothing is known
-but that they are read; where a page shows code that makes them too, their sample count may be.
+How the shader uses the samples is determined from its SPIR-V (see `shader`). All that is known of the images is that they are read; on a
+page that also shows code that creates them, their sample count may be known.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from .text import UnsupportedShader, blank
 RELEVANT = re.compile(r"\b[iu]?(?:sampler2DMS|texture2DMS|image2DMS|subpassInputMS)")
 
 NO_COLOUR = re.compile(r"depth|stencil|normal|position|velocity|motion|shadow|(?:^|_)ids?(?:_|$)", re.IGNORECASE)
-"""Names of images whose samples are not to be averaged, or whose average is no resolve of a colour."""
+"""Names of images whose samples must not be averaged, or whose average is not a color resolve."""
 
 MAX_SHADERS = 50
-"""Shaders of one page that are read."""
+"""The maximum number of shaders read on a page."""
 
 _APART = re.compile(r"(?:[ \t\r]*\n){3,}")
 _MAIN = re.compile(r"\bvoid\s+main\s*\(")
@@ -33,7 +33,7 @@ _VERSION = re.compile(r"^\s*#\s*version\b", re.MULTILINE)
 
 
 def trees(code: Code) -> list[Read]:
-    """What each shader reads, where it reads multisampled images. Missing where the grammar is not installed."""
+    """Returns a tree for each shader that reads multisampled images. Raises `Missing` if the grammar is not installed."""
     if RELEVANT.search(code.text) is None:
         return []
     readings: list[Read] = []
@@ -55,7 +55,7 @@ def trees(code: Code) -> list[Read]:
 
 
 def _shaders(code: Code) -> Iterator[tuple[int, int]]:
-    """Where each shader stands: a file is one; those of a page are told by `#version`, by `main`, and by what is between its blocks."""
+    """Yields the range of each shader. A file is one shader; on a page, `#version`, `main`, and the gaps between blocks separate them."""
     if not code.fragments:
         yield 0, len(code.text)
         return
@@ -80,7 +80,7 @@ def _shaders(code: Code) -> Iterator[tuple[int, int]]:
 
 
 def _tree(lowered: Shader, reflected: Reflected, module: str) -> Node | None:
-    """A shader as the frame that it is of: images that it reads, the reads, and the draw that does them."""
+    """Returns a shader as a frame: the images, their reads, and the draw that performs them."""
     named = [(name, image) for name, image in _images(lowered, reflected) if NO_COLOUR.search(name) is None]
     if not named or len(named) != len(reflected.images):
         return None
@@ -113,7 +113,7 @@ def _tree(lowered: Shader, reflected: Reflected, module: str) -> Node | None:
 
 
 def _images(lowered: Shader, reflected: Reflected) -> list[tuple[str, Multisampled]]:
-    """The images that are fetched from, by their names; none where it is not known which is which, or they are input attachments."""
+    """Returns the fetched images by name; an empty list if they cannot be identified or are input attachments."""
     if any(image.image.input_attachment is not None or image.image.element is not None for image in reflected.images):
         return []
     if len(reflected.images) == 1 and len(lowered.images) == 1:
@@ -124,18 +124,18 @@ def _images(lowered: Shader, reflected: Reflected) -> list[tuple[str, Multisampl
 
 
 def _fetched(lowered: Shader, name: str) -> Span:
-    """Where an image is first fetched from: by its own name, else by any."""
+    """Returns where an image is first fetched: by its own name, otherwise by any name."""
     match = next((fetch for fetch in lowered.fetches if fetch.image == name), lowered.fetches[0])
     return Span(match.start, match.end)
 
 
-# Beside other code
+# Shaders next to other code
 
 
 def with_page_counts(by_code: list[tuple[Code, list[Read]]]) -> list[tuple[Code, list[Read]]]:
-    """What is read of a page: images of its shaders with the sample count that all multisampled ones which its other code makes have.
+    """Sets the sample count of images in a page's shaders to the only multisampled count that its other code uses.
 
-    Where that code sets specialisation constants, the shaders' own values of them are not known to count.
+    If that code sets specialization constants, the values in the shaders may not apply, and nothing is changed.
     """
     others = [(code, entry) for code, item in by_code if code.language != "glsl" for entry in item]
     counts: dict[int, Span] = {}
@@ -151,7 +151,8 @@ def with_page_counts(by_code: list[tuple[Code, list[Read]]]) -> list[tuple[Code,
 
 
 def _counts(tree: Node) -> dict[int, Span]:
-    """The sample counts above one of a tree's images, attachments and pipelines, and where each is stated; 0 for one that is unknown."""
+    """Returns the sample counts above 1 of a tree's images, attachments, and pipelines, and their locations; 0 stands for an unknown
+    count."""
     counts: dict[int, Span] = {}
     stack = [tree.value[name] for name in ("images", "renderPasses", "pipelines") if tree.kind == "mapping" and name in tree.value]
     while stack:
@@ -173,7 +174,7 @@ def _counts(tree: Node) -> dict[int, Span]:
 
 
 def _with_count(tree: Node, count: int, at: Span) -> Node:
-    """A shader's tree whose images have a sample count."""
+    """Returns a shader's tree whose images have a sample count."""
     images = tree.value["images"]
     counted = [(name, images.keys[name].span, mapping([("samples", at, scalar(count, at))], at)) for name in images.value]
     sections = [(key, tree.keys[key].span, value) for key, value in tree.value.items() if key != "images"]

@@ -1,4 +1,4 @@
-"""Expressions of GLSL as SPIR-V: what glslang makes of them, where that matters to samples."""
+"""Lowers GLSL expressions to SPIR-V as glslang does, as far as it matters for samples."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ class Expressions(Values):
     """The expressions of one shader."""
 
     ended = False
-    """Whether the current block has its last instruction."""
+    """Whether the current block has its terminator."""
     call: Callable[[SyntaxNode, int], Value]
     """Evaluates a call."""
 
     def value(self, node: SyntaxNode, depth: int = 0) -> Value:
-        """What an expression gives."""
+        """Returns the value of an expression."""
         if depth > MAX_DEPTH:
             raise UnsupportedShader("its expressions are too deep")
         kind, deeper = node.type, depth + 1
@@ -60,7 +60,7 @@ class Expressions(Values):
         raise self.unsupported(node, "is not followed")
 
     def extract(self, node: SyntaxNode, depth: int) -> Value:
-        """A part of a value."""
+        """Returns a component or member of a value."""
         (argument,) = self.parts(node, "argument")
         base = self.value(argument, depth)
         if node.type == "subscript_expression":
@@ -98,7 +98,7 @@ class Expressions(Values):
         return self.arithmetic(operator, one, other)
 
     def has_effects(self, node: SyntaxNode) -> bool:
-        """Whether it matters that an expression is worked out: something is called or assigned in it."""
+        """Returns whether evaluating an expression has effects: it calls a function or assigns a variable."""
         stack = [node]
         while stack:
             inner = stack.pop()
@@ -113,7 +113,7 @@ class Expressions(Values):
         return False
 
     def short_circuit(self, one: Value, operator: str, right: SyntaxNode, depth: int) -> Value:
-        """`&&` and `||` whose second part is worked out only where it decides."""
+        """Lowers `&&` and `||` whose second operand must only be evaluated if it decides the result."""
         result = self.temporary(BOOL)
         self.store(result, one)
         condition = one.id if operator == "&&" else self.out.instruction(LOGICAL_NOT, BOOL, one.id)
@@ -121,7 +121,7 @@ class Expressions(Values):
         return self.load(result)
 
     def branch(self, condition: int, then: Callable[[], None], other: Callable[[], None] | None) -> None:
-        """What is done where a condition holds, and where it does not."""
+        """Lowers a selection with one or two branches."""
         yes, unsupported, merge = self.out.id(), self.out.id(), self.out.id()
         self.out.emit(op.SELECTION_MERGE, merge, 0)
         self.terminate(op.BRANCH_CONDITIONAL, condition, yes, unsupported if other is not None else merge)
@@ -135,13 +135,13 @@ class Expressions(Values):
         self.label(merge)
 
     def terminate(self, number: int, *operands: int) -> None:
-        """Ends a block, unless it has ended."""
+        """Adds the terminator of a block unless it has one."""
         if not self.ended:
             self.out.emit(number, *operands)
         self.ended = True
 
     def label(self, label: int) -> None:
-        """Begins a block; the one before leads to it, unless it has ended."""
+        """Starts a block; the previous one branches to it unless it has a terminator."""
         if not self.ended:
             self.out.emit(op.BRANCH, label)
         self.out.emit(op.LABEL, label)
@@ -213,7 +213,7 @@ class Expressions(Values):
         return self.constant_value(kind, self.real(node))
 
     def real(self, node: SyntaxNode) -> float:
-        """The number that a literal is."""
+        """Returns the number in a literal."""
         text = self.text_of(node)
         match = _REAL.match(text)
         if match is None or text[match.end() :] not in ("", "f", "F", "lf", "LF", "hf", "HF", "u", "U"):

@@ -1,9 +1,8 @@
-"""A shader's text as SPIR-V: declarations, functions, statements. What is asked of it is then asked as of a module (`frame.spirv`).
+"""Lowers GLSL shaders to SPIR-V: declarations, functions, statements. The module can then be analyzed by `frame.spirv`.
 
-It is read as glslang reads it without options. What is not understood ends the reading: nothing is said of such a shader.
+Shaders are read as glslang reads them without options. Anything unsupported raises; nothing is reported for such a shader.
 """
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 import re
 from typing import NamedTuple
 
@@ -24,7 +23,7 @@ _FRAGMENT, _COMPUTE = 4, 5
 
 
 class Fetch(NamedTuple):
-    """Where samples are fetched: the image as it is named there, and the place of the call in the original text."""
+    """A sample fetch: the name of the image, and the range of the call in the original text."""
 
     image: str
     start: int
@@ -32,10 +31,10 @@ class Fetch(NamedTuple):
 
 
 class Shader(NamedTuple):
-    """A shader: its module, its stage, the name of what was taken for its entry point, and where it fetches samples.
+    """A shader: its module, its stage, the name of its entry point, and its sample fetches.
 
-    `images` are its multisampled images and where they are declared, `bindings` their descriptor sets and bindings; `constants` has where
-    the constants of a value stand, by that value; `specialised` says that some are specialisation constants.
+    `images` are the locations of its multisampled images, `bindings` their descriptor sets and bindings, `constants` the locations of
+    constants by value. `specialised` is set if it has specialization constants.
     """
 
     code: bytes
@@ -49,15 +48,15 @@ class Shader(NamedTuple):
 
 
 def shader(text: str, part: bool = False) -> Shader:
-    """A shader's text as a module. `part` says that it may lack `main`: then the function that fetches samples is its entry point.
+    """Lowers a shader. `part` allows a shader without `main`; its entry point is then the function that fetches samples.
 
-    NotRead where it cannot be followed; `parsing.Missing` where the extra is not installed.
+    Raises UnsupportedShader if the shader cannot be lowered, and `parsing.Missing` if the extra is not installed.
     """
     return _ShaderLowering(preprocess(ascii_only(text))).shader(part)
 
 
 class _ShaderLowering(Statements):
-    """One shader while it is read."""
+    """Lowers one shader."""
 
     @property
     def compute(self) -> bool:
@@ -103,7 +102,10 @@ class _ShaderLowering(Statements):
         return Shader(code, stage, name, fetches, images, self.bindings, constants, self.specialised)
 
     def call_uncalled_functions(self) -> str:
-        """Calls the functions of a part of a shader that nothing in it calls, each with images and values of its own; the first's name."""
+        """Calls the uncalled functions of a shader without `main`, passing images and values of their own.
+
+        Returns the name of the first.
+        """
         texts = {name: self.text_of(entry.node) for name, item in self.functions.items() for entry in item}
         first_name = ""
         for name, functions in self.functions.items():

@@ -1,4 +1,4 @@
-"""Statements of GLSL as SPIR-V, in the structured form in which glslang writes them."""
+"""Lowers GLSL statements to SPIR-V, with the structured control flow that glslang emits."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .types import BOOL, VOID, Type, is_image, size_of
 from .values import Function, Place, Value
 
 MAX_DEPTH = 60
-"""Levels of blocks that are read."""
+"""The maximum nesting of blocks."""
 
 
 class Statements(Declarations):
@@ -21,11 +21,11 @@ class Statements(Declarations):
     def __init__(self, source: PreprocessedText) -> None:
         super().__init__(source)
         self.jump_targets: list[tuple[int, int]] = []
-        """Of the loops and switches around: where `break` and `continue` lead."""
+        """The targets of `break` and `continue` in the enclosing loops and switches."""
         self.returns: Type = VOID
 
     def function(self, function: Function) -> None:
-        """The body of a function."""
+        """Lowers the body of a function."""
         body = function.node.child_by_field_name("body")
         if body is None:
             raise self.unsupported(function.node, "has no body")
@@ -55,7 +55,7 @@ class Statements(Declarations):
         self.out.end(function.id, function.returns, passed)
 
     def ensure_block(self) -> None:
-        """What follows an end is a block that nothing leads to."""
+        """Starts an unreachable block if the current one has ended."""
         if self.ended:
             self.out.emit(op.LABEL, self.out.id())
             self.ended = False
@@ -118,7 +118,7 @@ class Statements(Declarations):
             self.value(child)
 
     def local(self, node: SyntaxNode) -> None:
-        """Variables of a function."""
+        """Declares the variables of a function."""
         type_node = node.child_by_field_name("type")
         kind = self.kind(self.text_of(type_node)) if type_node is not None else None
         if kind is None or kind[0] == "opaque":
@@ -141,7 +141,7 @@ class Statements(Declarations):
                 raise self.unsupported(initializer, "is not followed")
 
     def condition_id(self, node: SyntaxNode | None) -> int:
-        """The id of a condition."""
+        """Returns the id of a condition."""
         if node is None:
             return self.out.number(BOOL, True)
         value = self.value(node)

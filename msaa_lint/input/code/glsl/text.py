@@ -1,21 +1,20 @@
-"""GLSL before it is parsed: comments and directives blanked, conditions decided, macros expanded (GLSL 4.60, 3.3).
+"""Preprocesses GLSL: blanks comments and directives, evaluates conditions, expands macros (GLSL 4.60, 3.3).
 
-What the file does not define is not defined: as for glslang without options.
+As with glslang without options, nothing is defined except what the file defines.
 """
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 import re
 from bisect import bisect_right
 from typing import NamedTuple
 
 MAX_TEXT = 1 << 20
-"""Characters of a shader, and of what its macros make of it."""
+"""The maximum length of a shader before and after macro expansion, in characters."""
 
 MAX_EXPANDED = 1 << 17
-"""Characters of what one macro stands for."""
+"""The maximum length of a macro expansion, in characters."""
 
 MAX_NESTED = 16
-"""Macros within macros."""
+"""The maximum nesting of macros."""
 
 MAX_MACROS = 500
 
@@ -31,25 +30,25 @@ _ALONE = re.compile(
 
 
 class UnsupportedShader(Exception):
-    """The shader cannot be followed: why, in words."""
+    """The shader uses something unsupported; the message says what."""
 
 
 class Macro(NamedTuple):
-    """What stands for a name; `parameters` is None where it takes none."""
+    """The replacement of a macro. `parameters` is None for an object-like macro."""
 
     parameters: tuple[str, ...] | None
     body: str
 
 
 class PreprocessedText(NamedTuple):
-    """What is parsed: the text, where its pieces stand in the original (their offsets in both), and what `layout(...) in;` says."""
+    """The text to parse, pairs of offsets in it and in the original text, and the contents of `layout(...) in;`."""
 
     text: str
     pieces: tuple[tuple[int, int], ...]
     layouts: tuple[str, ...]
 
     def place(self, offset: int) -> int:
-        """Where an offset stands in the original."""
+        """Returns the offset in the original text."""
         index = bisect_right(self.pieces, (offset, 1 << 60)) - 1
         start, original = self.pieces[index] if index >= 0 else (0, 0)
         next_node = self.pieces[index + 1][1] if index + 1 < len(self.pieces) else 1 << 60
@@ -57,12 +56,12 @@ class PreprocessedText(NamedTuple):
 
 
 def blank(text: str) -> str:
-    """A text with a blank for each character but line ends."""
+    """Returns a text with every character replaced by a space, except line ends."""
     return _VISIBLE.sub(" ", text)
 
 
 def preprocess(text: str) -> PreprocessedText:
-    """A shader as it is parsed. NotRead where a directive is not understood."""
+    """Returns a preprocessed shader. Raises UnsupportedShader if a directive is not understood."""
     if len(text) > MAX_TEXT:
         raise UnsupportedShader("it is too long")
     text = _COMMENT.sub(lambda match: blank(match[0]), text.replace("\r", " "))
@@ -71,7 +70,7 @@ def preprocess(text: str) -> PreprocessedText:
     length = at = 0
     macros: dict[str, Macro] = {"GL_core_profile": Macro(None, "1"), "VULKAN": Macro(None, "100"), "__VERSION__": Macro(None, "450")}
     branches: list[tuple[bool, bool]] = []
-    """Of each condition around: whether this part is taken, and whether one of it was."""
+    """For each enclosing condition, whether the current branch is active and whether any branch was."""
     lines = re.findall(r"(?:[^\n\\]|\\\n|\\)*(?:\n|\Z)", text)
     for line in lines:
         directive = _DIRECTIVE.match(line) if "#" in line else None
@@ -101,7 +100,7 @@ def preprocess(text: str) -> PreprocessedText:
 
 
 def _apply_directive(name: str, rest: str, macros: dict[str, Macro], branches: list[tuple[bool, bool]]) -> None:
-    """A directive."""
+    """Applies a directive."""
     ensure_block = all(item for item, _ in branches)
     if name in ("ifdef", "ifndef"):
         word = rest.split()[0] if rest.split() else ""
@@ -126,11 +125,11 @@ def _apply_directive(name: str, rest: str, macros: dict[str, Macro], branches: l
                 raise UnsupportedShader("it has too many macros")
     elif name == "undef" and ensure_block:
         macros.pop(rest, None)
-    # What `include` has may be anything; what is missing then ends the reading where it is used.
+    # An `include` may define anything; a missing definition is reported where it is used.
 
 
 def _condition_holds(condition: str, macros: dict[str, Macro]) -> bool:
-    """Whether a condition of `#if` holds; NotRead where that is not plain."""
+    """Returns whether the condition of an `#if` holds. Raises UnsupportedShader if it is too complex."""
     text = _DEFINED.sub(lambda match: "1" if (match[1] or match[2]) in macros else "0", condition)
     text = _expand(text, macros, 0)
     text = re.sub(r"\b[A-Za-z_]\w*\b", "0", text)
@@ -143,7 +142,7 @@ def _condition_holds(condition: str, macros: dict[str, Macro]) -> bool:
 
 
 def _expanded(line: str, at: int, length: int, macros: dict[str, Macro], pieces: list[tuple[int, int]], out: list[str]) -> tuple[int, str]:
-    """Puts out the pieces of a line up to its last macro; gives how much was put out, and the rest, blanked where it is done."""
+    """Outputs a line up to its last macro; returns the length of the output and the rest of the line, empty if it was output."""
     if not any(name in line for name in macros):
         return length, line
     position = 0
@@ -179,7 +178,7 @@ def _expanded(line: str, at: int, length: int, macros: dict[str, Macro], pieces:
 
 
 def _arguments(tokens: list[tuple[str, int, int]], index: int) -> tuple[list[str], int] | None:
-    """The arguments of a macro in parentheses, and the token after them."""
+    """Returns the arguments of a macro in parentheses, and the index of the token after them."""
     while index < len(tokens) and tokens[index][0].isspace():
         index += 1
     if index >= len(tokens) or tokens[index][0] != "(":
@@ -205,7 +204,7 @@ def _filled(macro: Macro, arguments: list[str] | None) -> str:
 
 
 def _expand(text: str, macros: dict[str, Macro], depth: int) -> str:
-    """A text with its macros expanded."""
+    """Returns a text with its macros expanded."""
     if len(text) > MAX_EXPANDED:
         raise UnsupportedShader("its macros make too much of it")
     tokens = [(match[0], match.start(), match.end()) for match in _TOKEN.finditer(text)]

@@ -1,12 +1,12 @@
-"""GLSL's types, built-in variables and built-in functions, as far as a shader's samples can be followed through them."""
+"""GLSL's types, built-in variables, and built-in functions that sample values can pass through."""
 
 from __future__ import annotations
 
 import re
 
 Type = tuple[object, ...]
-"""(name,) of a scalar; ("vec", scalar, n); ("mat", columns, rows); ("array", of, n or 0); ("struct", name, ((member, type), ...));
-("opaque", name) of samplers and images."""
+"""(name,) for a scalar; ("vec", scalar, n); ("mat", columns, rows); ("array", element, n or 0); ("struct", name, ((member, type), ...));
+("opaque", name) for samplers and images."""
 
 VOID, BOOL, INT, UINT, FLOAT, DOUBLE = ("void",), ("bool",), ("int",), ("uint",), ("float",), ("double",)
 SCALARS = {"void": VOID, "bool": BOOL, "int": INT, "uint": UINT, "float": FLOAT, "double": DOUBLE, "float16_t": FLOAT, "uint32_t": UINT}
@@ -27,12 +27,12 @@ _PREFIXES = {"": FLOAT, "b": BOOL, "i": INT, "u": UINT, "d": DOUBLE}
 
 
 def vector(scalar: Type, count: int) -> Type:
-    """A vector, or the scalar itself for one component."""
+    """Returns a vector type, or the scalar itself for one component."""
     return ("vec", scalar, count) if count > 1 else scalar
 
 
 def named(name: str) -> Type | None:
-    """The type of a name of the language's; None where it has none such."""
+    """Returns the built-in type of a name, or None."""
     if name in SCALARS:
         return SCALARS[name]
     match = _VECTOR.fullmatch(name)
@@ -45,31 +45,31 @@ def named(name: str) -> Type | None:
 
 
 def texel(kind: Type) -> Type:
-    """What a sampler or image holds."""
+    """Returns the type of the texels of a sampler or image."""
     name = str(kind[1]) if kind[0] == "opaque" else ""
     return ("vec", _PREFIXES.get(name[:1] if name[:1] in "iu" and not name.startswith("image") else "", FLOAT), 4)
 
 
 def multisampled(kind: Type) -> bool:
-    """Whether it is a sampler or image of several samples a texel."""
+    """Returns whether a type is a multisampled sampler or image."""
     return kind[0] == "opaque" and _MULTISAMPLED.fullmatch(str(kind[1])) is not None
 
 
 def is_image(kind: Type) -> bool:
-    """Whether it is a sampler or image, or an array of them."""
+    """Returns whether a type is a sampler or image, or an array of them."""
     inner = kind[1] if kind[0] == "array" else kind
     return isinstance(inner, tuple) and inner[0] == "opaque"
 
 
 def scalar_of(kind: Type) -> Type:
-    """The type of the components of a scalar, vector or matrix."""
+    """Returns the component type of a scalar, vector, or matrix."""
     inner = kind[1] if kind[0] == "vec" else FLOAT if kind[0] == "mat" else kind
     assert isinstance(inner, tuple)
     return inner
 
 
 def size_of(kind: Type) -> int:
-    """The components of a scalar or vector; 0 of anything else."""
+    """Returns the number of components of a scalar or vector; 0 for other types."""
     if kind[0] == "vec":
         assert isinstance(kind[2], int)
         return kind[2]
@@ -84,13 +84,13 @@ INPUTS: dict[str, tuple[Type, int]] = {
     "gl_WorkGroupID": (("vec", UINT, 3), 26), "gl_LocalInvocationID": (("vec", UINT, 3), 27),
     "gl_GlobalInvocationID": (("vec", UINT, 3), 28), "gl_LocalInvocationIndex": (UINT, 29),
 }  # fmt: skip
-"""Built-in inputs of fragment and compute shaders, with SPIR-V's numbers."""
+"""Built-in inputs of fragment and compute shaders, with their SPIR-V numbers."""
 
 OUTPUTS: dict[str, tuple[Type, int]] = {"gl_FragDepth": (FLOAT, 22), "gl_SampleMask": (("array", INT, 1), 20)}
 
 EXTREMES = {"min": {"float": 37, "uint": 38, "int": 39}, "max": {"float": 40, "uint": 41, "int": 42}}
 FUSED = 50
-"""Of GLSL.std.450."""
+"""The number of Fma in GLSL.std.450."""
 
 _SAME = _words(
     """abs sign floor ceil fract sqrt inversesqrt exp log exp2 log2 pow sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh degrees
@@ -117,11 +117,11 @@ _NOTHING = _words(
     beginInvocationInterlockARB endInvocationInterlockARB beginInvocationInterlockNV endInvocationInterlockNV demote"""
 )
 LAST = ("smoothstep", "step")
-"""Whose result is of the type of their last argument."""
+"""Functions whose result has the type of the last argument."""
 
 
 def result(name: str, kinds: list[Type]) -> Type | None:
-    """The type of what a built-in function gives for arguments of some types; None where it is not known."""
+    """Returns the result type of a built-in function for argument types, or None if it is unknown."""
     if name in _NOTHING:
         return VOID
     if name in _FIXED:
@@ -154,4 +154,4 @@ def result(name: str, kinds: list[Type]) -> Type | None:
 
 
 _WHOLE = _words("abs sign clamp bitfieldExtract bitfieldInsert bitfieldReverse subgroupAdd subgroupMin subgroupMax mix")
-"""Functions of whole numbers too."""
+"""Functions that also accept integers."""

@@ -1,6 +1,5 @@
-"""Values and places of GLSL as SPIR-V: what is loaded and stored, conversions, constructors, arithmetic."""
+"""Values and lvalues of GLSL in SPIR-V: loads and stores, conversions, constructors, arithmetic."""
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 import zlib
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
@@ -13,14 +12,14 @@ from .text import UnsupportedShader
 from .types import BOOL, DOUBLE, FLOAT, INT, UINT, Type, named, scalar_of, size_of, vector
 
 MAX_DEPTH = 80
-"""Levels of an expression that are read."""
+"""The maximum nesting of expressions."""
 
 SIGNS: dict[str, tuple[int, int, int]] = {
     "+": (128, 128, 129), "-": (130, 130, 131), "*": (132, 132, 133), "/": (135, 134, 136), "%": (139, 137, 141),
     "<": (177, 176, 184), ">": (173, 172, 186), "<=": (179, 178, 188), ">=": (175, 174, 190), "==": (170, 170, 180), "!=": (171, 171, 182),
     "<<": (196, 196, 196), ">>": (195, 194, 194), "&": (199, 199, 199), "|": (197, 197, 197), "^": (198, 198, 198),
 }  # fmt: skip
-"""The instructions of an operator for int, uint and float."""
+"""The instructions of an operator for int, uint, and float."""
 
 _COMPARES = ("<", ">", "<=", ">=", "==", "!=")
 _LETTERS = {letter: n % 4 for n, letter in enumerate("xyzwrgbastpq")}
@@ -35,7 +34,7 @@ class Value(NamedTuple):
 
 
 class Place(NamedTuple):
-    """What a pointer points to, of which only some components may be meant."""
+    """The target of a pointer, or some of its components."""
 
     pointer: int
     type: Type
@@ -44,7 +43,8 @@ class Place(NamedTuple):
 
 
 class Function(NamedTuple):
-    """A function of the shader: its syntax, its type, and for each parameter the type, whether it is written back, and its name."""
+    """A function of the shader: its node, its return type, its id, and for each parameter the type, whether it is an output, and the
+    name."""
 
     node: SyntaxNode
     returns: Type
@@ -57,7 +57,7 @@ Named = Place | Value | tuple[Place, int]
 
 
 class Values:
-    """The values of one shader. `scopes` are the names that are known, the innermost last."""
+    """The values of one shader. `scopes` are the declared names, innermost last."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -66,9 +66,9 @@ class Values:
         self.structs: dict[str, Type] = {}
         self.functions: dict[str, list[Function]] = {}
         self.called_functions: list[Function] = []
-        """Functions in the order in which they were first called."""
+        """Functions in the order of their first calls."""
         self.fetches: list[tuple[str, int, int]] = []
-        """Where samples are fetched: the name of the image, and the place of the call."""
+        """Sample fetches: the name of the image, and the range of the call."""
         self.built_in: Callable[[str], Place | None] = lambda name: None
 
     def text_of(self, node: SyntaxNode) -> str:
@@ -78,29 +78,29 @@ class Values:
         return UnsupportedShader(f"`{' '.join(self.text_of(node)[:40].split())}` {why}")
 
     def parts(self, node: SyntaxNode, *fields: str) -> "list[SyntaxNode]":
-        """The children of a node in some fields. NotRead where one is missing."""
+        """Returns the children of a node in some fields. Raises UnsupportedShader if one is missing."""
         children = [child for field in fields if (child := node.child_by_field_name(field)) is not None]
         if len(children) < len(fields):
             raise self.unsupported(node, "is not followed")
         return children
 
     def result(self, number: int, kind: Type, *operands: int) -> Value:
-        """The result of an instruction."""
+        """Adds an instruction and returns its result."""
         return Value(self.out.instruction(number, kind, *operands), kind)
 
     def constant_value(self, kind: Type, number: float | bool) -> Value:
         return Value(self.out.number(kind, number), kind)
 
     def variable(self, storage: int, kind: Type) -> Place:
-        """A new variable."""
+        """Returns a new variable."""
         return Place(self.out.variable(storage, kind), kind, storage)
 
     def temporary(self, kind: Type) -> Place:
-        """A new variable of the current function."""
+        """Returns a new variable of the current function."""
         return self.variable(op.FUNCTION_LOCAL, kind)
 
     def kind(self, name: str) -> Type | None:
-        """The type of a name."""
+        """Returns the type with a name."""
         return self.structs.get(name) or named(name)
 
     def lookup(self, name: str) -> Named | None:
@@ -110,13 +110,13 @@ class Values:
         return self.built_in(name)
 
     def value(self, node: SyntaxNode, depth: int = 0) -> Value:
-        """What an expression gives."""
+        """Returns the value of an expression."""
         raise NotImplementedError
 
-    # Places
+    # Lvalues
 
     def place(self, node: SyntaxNode, depth: int = 0) -> Place | None:
-        """What can be assigned to, or loaded; None where it is a value alone."""
+        """Returns the lvalue that an expression denotes, or None for an rvalue."""
         if depth > MAX_DEPTH:
             raise UnsupportedShader("its expressions are too deep")
         if node.type == "parenthesized_expression" and node.named_child_count == 1:
@@ -160,7 +160,7 @@ class Values:
         return Place(pointer, kind, base.storage)
 
     def element(self, kind: Type, node: SyntaxNode) -> Type:
-        """The type of what an index takes."""
+        """Returns the element type of an indexed type."""
         if kind[0] in ("array", "vec"):
             inner = kind[1]
             assert isinstance(inner, tuple)
@@ -170,7 +170,7 @@ class Values:
         raise self.unsupported(node, "is not followed")
 
     def index(self, kind: Type, name: str, node: SyntaxNode) -> int:
-        """The number of a structure's member."""
+        """Returns the index of a structure member."""
         members = kind[2]
         assert isinstance(members, tuple)
         for n, (member, _) in enumerate(members):
@@ -179,7 +179,7 @@ class Values:
         raise self.unsupported(node, "names no member")
 
     def swizzle_parts(self, name: str, kind: Type, node: SyntaxNode) -> tuple[int, ...]:
-        """The components that a swizzle takes."""
+        """Returns the components of a swizzle."""
         size = size_of(kind)
         parts = tuple(_LETTERS.get(letter, 9) for letter in name)
         if not 0 < len(parts) <= 4 or any(part >= size for part in parts):
@@ -220,7 +220,7 @@ class Values:
     # Values
 
     def as_type(self, value: Value, kind: Type) -> Value:
-        """A value by GLSL's conversions, or a constructor's, of scalars and vectors of one size."""
+        """Converts a value by GLSL's conversions or constructors between scalars and vectors of the same size."""
         if value.type == kind:
             return value
         one, other = scalar_of(value.type), scalar_of(kind)
@@ -246,7 +246,7 @@ class Values:
         return self.result(op.COMPOSITE_CONSTRUCT, kind, *[value.id] * size)
 
     def construct(self, kind: Type, values: Sequence[Value]) -> Value:
-        """What a constructor of a scalar or vector makes."""
+        """Returns a scalar or vector built by a constructor."""
         size, scalar = size_of(kind), scalar_of(kind)
         if not values or any(not size_of(item.type) for item in values):
             return self.opaque("construct", kind, values)
@@ -264,15 +264,15 @@ class Values:
         return self.result(op.COMPOSITE_CONSTRUCT, kind, *(part.id for part in parts))
 
     def opaque(self, name: str, kind: Type, values: Sequence[Value]) -> Value:
-        """What is made of values in a way that is not followed, the same of the same."""
-        # Not one of the numbers that mean something to those who follow.
+        """Returns the result of an operation that is not modeled; equal operands give equal results."""
+        # Avoid the numbers that the analysis knows.
         number = 1000 + zlib.crc32(name.encode()) % 1_000_000
         if len(values) > 64:
             raise UnsupportedShader("a function has too many arguments")
         return self.result(op.EXT_INST, kind, self.out.extended, number, *(item.id for item in values))
 
     def arithmetic(self, sign: str, one: Value, other: Value) -> Value:
-        """What an operator gives."""
+        """Returns the result of an operator."""
         if "mat" in (one.type[0], other.type[0]):
             return self.opaque(sign, _of_matrix(sign, one.type, other.type), (one, other))
         if not size_of(one.type) or not size_of(other.type):
@@ -301,7 +301,7 @@ class Values:
         return self.result(SIGNS[sign][column(scalar)], kind, one.id, other.id)
 
     def common_type(self, one: Value, other: Value) -> tuple[Value, Value]:
-        """Two values made of one type."""
+        """Converts two values to a common type."""
         if one.type == other.type or not size_of(one.type):
             return one, other
         kinds = [scalar_of(item.type) for item in (one, other)]
@@ -319,7 +319,7 @@ def literal_of(scalar: Type, number: int) -> float | bool:
 
 
 def _of_matrix(sign: str, one: Type, other: Type) -> Type:
-    """The type of what an operator makes of a matrix and something."""
+    """Returns the result type of an operator with a matrix operand."""
     if sign in ("==", "!="):
         return BOOL
     if sign == "*" and one[0] == "mat" and other[0] == "vec":
@@ -332,5 +332,5 @@ def _of_matrix(sign: str, one: Type, other: Type) -> Type:
 
 
 def type_text(kind: Type) -> str:
-    """A type in words."""
+    """Returns the text of a type."""
     return f"{kind[1][0] if isinstance(kind[1], tuple) else kind[1]} {kind[0]}" if len(kind) > 1 else str(kind[0])

@@ -1,4 +1,4 @@
-"""Whole numbers as C, C++ and GLSL write them, and what their operators make of them."""
+"""Integer literals and operators of C, C++, and GLSL."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ _NUMBER = re.compile(r"([-+]?)(0[xX][0-9a-fA-F]+|0[bB][01]+|[0-9]+)[uUlL]*")
 
 
 def whole(text: str) -> int | None:
-    """The whole number that a literal is, up to 2^32 or so."""
+    """Returns the value of an integer literal of up to about 2^32, or None."""
     match = _NUMBER.fullmatch(text)
     if match is None or len(match[2]) > 12:
         return None
@@ -22,7 +22,7 @@ def whole(text: str) -> int | None:
 
 
 def arithmetic(operator: str, left: int, right: int) -> int | None:
-    """Whole numbers, as sample counts and the indices of their bits need them."""
+    """Returns the result of an operator on sample counts or bit indices, or None."""
     if operator in ("<<", ">>"):
         return (left << right if operator == "<<" else left >> right) if 0 <= right < 32 and 0 <= left < 1 << 32 else None
     if operator == "/":
@@ -39,11 +39,11 @@ def arithmetic(operator: str, left: int, right: int) -> int | None:
 _TOKENS = re.compile(r"\s*(\d\w*|&&|\|\||[<>=!]=|<<|>>|[-+*/%<>!()&|^])")
 _LEVELS = (("||",), ("&&",), ("|",), ("^",), ("&",), ("==", "!="), ("<", ">", "<=", ">="), ("<<", ">>"), ("+", "-"), ("*", "/"))
 MAX_TOKENS = 60
-"""Of a condition of the preprocessor."""
+"""The maximum number of tokens in a preprocessor condition."""
 
 
 def condition_holds(text: str) -> bool | None:
-    """Whether a condition of whole numbers holds; None where it is none."""
+    """Returns whether a condition of integers holds; None if it is not one."""
     tokens: list[str] = []
     at = 0
     text = text.rstrip()

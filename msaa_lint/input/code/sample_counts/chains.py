@@ -1,6 +1,5 @@
-"""The tests that a program makes of the bits of a mask of sample counts, and the count that comes of them."""
+"""Chains of tests of the bits of a sample count mask, and the counts that they select."""
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
@@ -8,11 +7,11 @@ from msaa_lint.core.text.span import Span
 from .masks import Mask
 
 MAX_TESTS = 64
-"""Tests of one chain; no mask has more than seven bits."""
+"""The maximum number of tests in a chain; masks have seven bits."""
 
 
 class Test(NamedTuple):
-    """A test of the bit of a count: what it gives, where it stands, which `if` it is of, and whether the chain ends where it holds."""
+    """A test of a bit: the count that it selects, its location, the `if` that it belongs to, and whether the chain ends if it holds."""
 
     mask: Mask
     bit: int
@@ -24,7 +23,7 @@ class Test(NamedTuple):
 
 
 class Chain:
-    """The tests that give their counts to one variable, or return them; `pure` says that nothing else gives it one."""
+    """The tests that assign counts to a variable or return them. `pure` is set if nothing else assigns it."""
 
     def __init__(self) -> None:
         self.tests: list[Test] = []
@@ -32,10 +31,10 @@ class Chain:
         self.groups = 0
 
     def ordered(self) -> list[Test]:
-        """The tests, the one that decides first."""
+        """Returns the tests in the order of precedence."""
         if self.groups < 2 or all(test.leaves for test in self.tests):
             return self.tests
-        # Each that holds writes over those before.
+        # Later tests overwrite the results of earlier ones.
         tests_by_bit: dict[int, Test] = {}
         for test in sorted(self.tests, key=lambda test: -test.group):
             tests_by_bit.setdefault(test.bit, test)
@@ -43,7 +42,7 @@ class Chain:
 
 
 def greatest(tests: list[Test]) -> int:
-    """The greatest count that a chain gives: none behind the test of a count that every device offers."""
+    """Returns the highest count that a chain selects; tests after one of a count that every device supports are unreachable."""
     counts = []
     for test in tests:
         counts.append(test.gives)

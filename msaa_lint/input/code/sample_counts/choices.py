@@ -1,7 +1,7 @@
-"""How C and C++ find their sample count in the masks of VkPhysicalDeviceLimits, as the section `sampleCountChoices` of a description.
+"""Reads how C and C++ choose a sample count from the masks of VkPhysicalDeviceLimits, as section `sampleCountChoices` of a description.
 
-Masks are followed through variables, functions and members; the bits that are tested through chains of `if`, conditional expressions and
-loops over counts that are known. What hangs on anything else, a setting for one, gives no count.
+Masks are tracked through variables, functions, and members; tests of their bits through `if` chains, conditional expressions, and loops
+over known counts. Choices that depend on anything else, such as a setting, are left out.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ if TYPE_CHECKING:
 RELEVANT = re.compile(r"[sS]ampleCount|SAMPLE_COUNT")
 
 NOBODY = Owner("", None, "")
-"""Of statements outside of all functions."""
+"""The owner of statements outside of functions."""
 
 
 def choices(root: SyntaxNode, code: Code) -> list[tuple[str, Span, Node]]:
-    """The choices of a sample count that a syntax tree of C or C++ holds: what each is called, where it stands, and its entry."""
+    """Returns the sample count choices in a C or C++ syntax tree: name, location, and entry."""
     if RELEVANT.search(code.text) is None:
         return []
     functions, outside = _functions_and_statements(root)
@@ -38,7 +38,7 @@ def choices(root: SyntaxNode, code: Code) -> list[tuple[str, Span, Node]]:
     before = ChoiceReader(code.text)
     for reading in (before, ChoiceReader(code.text)):
         if reading is not before:
-            # What functions return and members hold is known by now.
+            # The results of functions and the values of members are known by now.
             reading.expressions.members |= before.expressions.members
             reading.expressions.returns |= before.expressions.returns
         bindings: Bindings = {}
@@ -57,7 +57,7 @@ def choices(root: SyntaxNode, code: Code) -> list[tuple[str, Span, Node]]:
 
 
 def _functions_and_statements(root: SyntaxNode) -> tuple[list[SyntaxNode], list[SyntaxNode]]:
-    """The functions of a file, and the statements outside of them all."""
+    """Returns the functions of a file, and the statements outside of them."""
     functions: list[SyntaxNode] = []
     outside: list[SyntaxNode] = []
     stack = [root]
@@ -75,7 +75,7 @@ def _functions_and_statements(root: SyntaxNode) -> tuple[list[SyntaxNode], list[
 
 
 def _entry(choice: Choice, uses: Uses) -> Node:
-    """A choice as an entry of the section."""
+    """Returns the entry of a choice."""
     members = list(_of_mask(choice.mask))
     cap = uses.cap(choice.name)
     most = choice.at_most if cap is None else min(cap, choice.at_most or cap) if cap else None
@@ -103,12 +103,12 @@ def _of_mask(mask: Mask) -> Iterator[tuple[str, Span, Node]]:
 
 
 def _alone(mask: Mask) -> Node:
-    """Masks that are combined, of which no count is seen to be taken."""
+    """Returns the entry of combined masks from which no count is selected."""
     return mapping(list(_of_mask(mask)), mask.at)
 
 
 def _named(entries: list[tuple[str, Span, Node]]) -> list[tuple[str, Span, Node]]:
-    """The entries in order, each by a name of its own."""
+    """Returns the entries in source order with unique names."""
     named: dict[str, tuple[str, Span, Node]] = {}
     for name, at, node in sorted(entries, key=lambda entry: entry[1]):
         unique, n = name or "samples", 2

@@ -1,6 +1,5 @@
-"""Loops of C and C++ over sample counts that are known: a list of them, or one that is halved until its bit is set."""
+"""Loops in C and C++ over known sample counts: over a list, or halving a count until its bit is set."""
 
-# No `from __future__ import annotations`: it would make names that are only for annotations ones of the module.
 import re
 from collections.abc import Iterator
 
@@ -10,13 +9,13 @@ from msaa_lint.input.code.parsing import SyntaxNode, span
 from .masks import Bindings, Expressions, Mask, Order, Value
 
 MAX_ROUNDS = 16
-"""Rounds that are gone through; there are seven counts."""
+"""The maximum number of iterations; there are seven counts."""
 
 _TO_THE_END = re.compile(r"size|Size|count|Count|_countof|end\b|ARRAY")
 
 
 def loop_iterations(node: SyntaxNode, expressions: Expressions, bindings: Bindings) -> Iterator[Bindings]:
-    """What is known in each round of a loop over counts; none where its bounds are not known."""
+    """Yields the values of variables in each iteration of a loop over counts; nothing if its bounds are unknown."""
     if node.type == "for_range_loop":
         order = expressions.value(node.child_by_field_name("right"), bindings)
         name = expressions.name(_declared_name(node.child_by_field_name("declarator")))
@@ -41,7 +40,7 @@ def loop_iterations(node: SyntaxNode, expressions: Expressions, bindings: Bindin
 
 
 def halving_loop(node: SyntaxNode, expressions: Expressions, bindings: Bindings) -> tuple[str, list[tuple[Mask, int, Span]]] | None:
-    """`while (!(counts & c)) c >>= 1;`: the variable, and the counts that are asked, one after the other."""
+    """Returns the variable of `while (!(counts & c)) c >>= 1;` and the tested counts in order, or None."""
     condition, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
     update = node.child_by_field_name("update") if node.type == "for_statement" else _only(body)
     if condition is None or update is None or (node.type == "for_statement" and _only(body) is not None):
@@ -83,7 +82,7 @@ def _declared_name(node: SyntaxNode | None) -> SyntaxNode | None:
 
 
 def _loop_start(node: SyntaxNode, expressions: Expressions, bindings: Bindings) -> tuple[str, int] | None:
-    """The variable of a `for` and what it begins with."""
+    """Returns the variable of a `for` loop and its initial value."""
     first = node.child_by_field_name("initializer")
     declarator = first.child_by_field_name("declarator") if first is not None and first.type == "declaration" else first
     if declarator is None or declarator.type not in ("init_declarator", "assignment_expression"):
@@ -99,7 +98,7 @@ def _target(node: SyntaxNode) -> SyntaxNode | None:
 
 
 def _loop_step(node: SyntaxNode, expressions: Expressions, bindings: Bindings) -> tuple[str, int] | None:
-    """The variable that a step changes, and what it is then."""
+    """Returns the variable that a step changes, and its new value."""
     name = expressions.name(_target(node))
     value = bindings.get(name)
     sign = node.child_by_field_name("operator")
@@ -120,7 +119,7 @@ def _loop_step(node: SyntaxNode, expressions: Expressions, bindings: Bindings) -
 
 
 def _only(body: SyntaxNode | None) -> SyntaxNode | None:
-    """The one expression of a loop's body."""
+    """Returns the only expression in the body of a loop."""
     if body is not None and body.type == "compound_statement":
         statements = [child for child in body.named_children if child.type != "comment"]
         body = statements[0] if len(statements) == 1 else None
@@ -144,7 +143,7 @@ def _conjuncts(node: SyntaxNode) -> list[SyntaxNode]:
 
 
 def _negated(node: SyntaxNode, expressions: Expressions) -> SyntaxNode | None:
-    """What a condition asks not to hold."""
+    """Returns the operand of a negated condition."""
     if node.type == "unary_expression" and expressions.text_of(node)[:1] == "!":
         inner = node.child_by_field_name("argument")
     elif (

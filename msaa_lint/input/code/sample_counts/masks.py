@@ -1,6 +1,5 @@
-"""What expressions of C and C++ say of masks of sample counts: which limits they are taken from, and how they are combined."""
+"""Evaluates C and C++ expressions of sample count masks: the limits that they come from and how they are combined."""
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 import re
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -16,14 +15,14 @@ LIMITS = frozenset({
     "framebufferNoAttachmentsSampleCounts", "framebufferIntegerColorSampleCounts", "sampledImageColorSampleCounts",
     "sampledImageIntegerSampleCounts", "sampledImageDepthSampleCounts", "sampledImageStencilSampleCounts", "storageImageSampleCounts",
 })  # fmt: skip
-"""The members of VkPhysicalDeviceLimits, and of VkPhysicalDeviceVulkan12Properties, that are masks of counts."""
+"""The members of VkPhysicalDeviceLimits and VkPhysicalDeviceVulkan12Properties that are sample count masks."""
 
 COUNTS = (64, 32, 16, 8, 4, 2, 1)
 EVERY = 127
 """The mask with every count."""
 
 RANK = ("NONE", "AND", "LOGICAL_AND", "LOGICAL_OR", "OR", "MAX", "MIN")
-"""How masks are combined, what is more wrong after what is less."""
+"""Ways to combine masks, from correct to wrong."""
 
 _ENUMERANT = re.compile(r"VK_SAMPLE_COUNT_(\d{1,2})_BIT")
 _HPP = re.compile(r"(?:(?:vk::)?SampleCountFlagBits::)?e(1|2|4|8|16|32|64)")
@@ -38,8 +37,11 @@ _POWERS = frozenset({"pow", "exp2", "ldexp"})
 
 
 class Mask(NamedTuple):
-    """A mask of counts: the limits that it is taken from, each where it stands; how they are combined, and where; the counts that it may
-    have. `bindings` says that those limits are all."""
+    """A sample count mask: the limits that it comes from with their locations, how and where they are combined, and the counts that it may
+    contain.
+
+    `known` is set if those are all its limits.
+    """
 
     limits: tuple[tuple[str, Span], ...]
     combined: str
@@ -49,30 +51,30 @@ class Mask(NamedTuple):
 
     @property
     def bit(self) -> int | None:
-        """The count that is asked, where all but one bit are masked out."""
+        """The count that is tested if only one bit is left, or None."""
         return self.allowed if self.allowed.bit_count() == 1 else None
 
 
 class Highest(NamedTuple):
-    """Of a mask the highest bit (COUNT), its index (INDEX), that plus one (WIDTH), or the zeros before it (ZEROS)."""
+    """The highest bit of a mask (COUNT), its index (INDEX), the index plus one (WIDTH), or the number of zeros above it (ZEROS)."""
 
     mask: Mask
     form: str
 
 
 class Order(NamedTuple):
-    """Counts one after the other: a list, an array."""
+    """A list of counts."""
 
     counts: tuple[int, ...]
 
 
 Value = Mask | Highest | Order | int
 Bindings = dict[str, Value | None]
-"""What names stand for; None where that is not known."""
+"""The values of names; None if unknown."""
 
 
 def combine(masks: Iterable[Mask], how: str, at: Span) -> Mask:
-    """Several masks combined."""
+    """Returns the combination of masks."""
     every = list(masks)
     limits: dict[str, Span] = {}
     allowed = EVERY if how == "AND" else 0
@@ -87,7 +89,7 @@ def combine(masks: Iterable[Mask], how: str, at: Span) -> Mask:
 
 
 class Expressions:
-    """The values of expressions of one file. `returns` has what functions return, `members` what is kept beyond a function."""
+    """Evaluates the expressions of one file. `returns` are the results of functions, `members` the values kept outside of functions."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -98,13 +100,13 @@ class Expressions:
         return self.text[node.start_byte : node.end_byte]
 
     def name(self, node: SyntaxNode | None) -> str:
-        """The last part of a name, without its object, scope or template arguments."""
+        """Returns the last part of a name, without object, scope, and template arguments."""
         while node is not None and node.type in ("field_expression", "template_function", "qualified_identifier", "template_method"):
             node = node.child_by_field_name("field") or node.child_by_field_name("name")
         return self.text_of(node) if node is not None and node.end_byte - node.start_byte < 200 else ""
 
     def value(self, node: SyntaxNode | None, bindings: Bindings, depth: int = 0) -> Value | None:
-        """What an expression gives; None where that is not known."""
+        """Returns the value of an expression, or None if it is unknown."""
         if node is None or depth > MAX_DEPTH:
             return None
         kind, deeper = node.type, depth + 1
@@ -186,7 +188,10 @@ class Expressions:
         return EVERY & ~value if operator == "~" and isinstance(value, int) else None
 
     def comparison(self, node: SyntaxNode | None, bindings: Bindings, depth: int = 0) -> tuple[Mask, Mask, bool, Span] | None:
-        """Two masks that a condition compares as numbers: both, whether it holds where the first is less, and where it does so."""
+        """Returns two masks that a condition compares as numbers, whether it holds if the first is less, and its location;
+
+        None for other conditions.
+        """
         node = unwrapped(node)
         if node is None or node.type != "binary_expression":
             return None
@@ -200,7 +205,7 @@ class Expressions:
         return left, right, operator[0] == "<", span(node)
 
     def minimum(self, comparison: tuple[Mask, Mask, bool, Span], then: Value | None, other: Value | None) -> Mask | None:
-        """The lesser or the greater of two masks, by what is taken where the one or the other is less."""
+        """Returns the minimum or maximum of two compared masks, by the branch that is taken; None for other values."""
         left, right, less, at = comparison
         if not (isinstance(then, Mask) and isinstance(other, Mask)):
             return None
@@ -273,7 +278,7 @@ _FORMS = ((_FLOORS, "COUNT"), (_ZEROS, "ZEROS"), (_HIGHEST - {"floor"}, "INDEX")
 
 
 def _highest_bit_arithmetic(operator: str, left: Value, right: Value) -> Value | None:
-    """Arithmetic on the place of a mask's highest bit."""
+    """Returns the result of arithmetic on the index of a mask's highest bit."""
     if isinstance(right, Highest) and isinstance(left, int):
         if operator == "<<" and left == 1 and right.form == "INDEX":
             return Highest(right.mask, "COUNT")

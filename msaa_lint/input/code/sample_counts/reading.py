@@ -1,10 +1,8 @@
-"""How C and C++ find their sample count in the masks of VkPhysicalDeviceLimits: the functions of a file, read statement by statement.
+"""Reads how the functions of a C or C++ file choose their sample count, statement by statement.
 
-Masks are followed through variables, functions and members; the bits that are tested through chains of `if`, conditional expressions and
-loops over counts that are known. What hangs on anything else, a setting for one, gives no count.
+See `choices` for what is tracked.
 """
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 import re
 from typing import NamedTuple
 
@@ -17,17 +15,17 @@ from .masks import COUNTS, Bindings, Expressions, Highest, Mask, Value, combine
 from .statements import links, statements, unwrapped
 
 MAX_DEPTH = 40
-"""Levels of blocks that are read."""
+"""The maximum nesting of blocks."""
 
 RETURN = ""
-"""What a chain gives its count to: a variable's name, or this."""
+"""The target of a chain that returns its count; other targets are variables."""
 
 _MASK_TYPE = re.compile(r"SampleCountFlags\b")
 _SPELLED = re.compile(r"SAMPLE_COUNT_\d|SampleCountFlagBits|\be(?:2|4|8|16|32|64)\b")
 
 
 class Owner(NamedTuple):
-    """The function or lambda that statements are of, its name's place, and what it returns; nameless outside of all."""
+    """The function or lambda that contains statements: its name, the location of the name, and its return type. Empty for global code."""
 
     name: str
     at: Span | None
@@ -35,7 +33,7 @@ class Owner(NamedTuple):
 
 
 class Choice(NamedTuple):
-    """A choice: who makes it and where, the mask, the tests, the greatest count that it gives (None: not known), and what holds it."""
+    """A choice: its name and location, the mask, the tests, the highest count that it selects if known, and whether it is returned."""
 
     name: str
     at: Span
@@ -46,16 +44,16 @@ class Choice(NamedTuple):
 
 
 class ChoiceReader:
-    """The functions of a file while they are read."""
+    """Reads the functions of a file."""
 
     def __init__(self, text: str) -> None:
         self.expressions = Expressions(text)
         self.choices: list[Choice] = []
         self.combined: dict[Span, tuple[str, Mask]] = {}
-        """Masks that are combined in a way that is none, by the place of it: what holds them."""
+        """Masks that are combined incorrectly, by the location of the operator: the name of the target, and the mask."""
 
     def function(self, node: SyntaxNode) -> None:
-        """A function's definition."""
+        """Reads a function definition."""
         declarator = node.child_by_field_name("declarator")
         while declarator is not None and declarator.type != "function_declarator":
             declarator = declarator.child_by_field_name("declarator") or next(
@@ -70,7 +68,7 @@ class ChoiceReader:
         self.block(body, self.parameters(declarator), owner, 0)
 
     def parameters(self, declarator: SyntaxNode) -> Bindings:
-        """Parameters whose type says that they are masks."""
+        """Returns the parameters; those whose type is a mask are unknown masks."""
         bindings: Bindings = {}
         list_node = declarator.child_by_field_name("parameters")
         for child in list_node.named_children if list_node is not None else ():
@@ -81,7 +79,7 @@ class ChoiceReader:
         return bindings
 
     def block(self, node: SyntaxNode, bindings: Bindings, owner: Owner, depth: int) -> None:
-        """Statements, one after the other."""
+        """Reads a sequence of statements."""
         chains: dict[str, Chain] = {}
         if depth < MAX_DEPTH:
             for child in statements(node):
@@ -106,7 +104,7 @@ class ChoiceReader:
             self.lambdas(node, bindings, owner, depth)
 
     def plain(self, node: SyntaxNode, bindings: Bindings, owner: Owner, chains: dict[str, Chain]) -> None:
-        """A declaration, an assignment, a return."""
+        """Reads a declaration, an assignment, or a return."""
         of = self.expressions.text_of
         if node.type == "return_statement":
             match = next((child for child in node.named_children if child.type != "comment"), None)
@@ -139,7 +137,7 @@ class ChoiceReader:
                     bindings[name] = Mask((), "NONE", span(child), bindings=False) if _MASK_TYPE.search(type_node) else None
 
     def assign(self, target: str, node: SyntaxNode | None, typed: str, bindings: Bindings, owner: Owner, chains: dict[str, Chain]) -> None:
-        """What an expression gives to a variable, or returns."""
+        """Assigns the value of an expression to a variable, or returns it."""
         value = self.expressions.value(node, bindings)
         if value is None and node is not None and _MASK_TYPE.search(typed) and target:
             value = Mask((), "NONE", span(node), bindings=False)
@@ -162,7 +160,7 @@ class ChoiceReader:
         self.conditional(target, node, bindings, chains)
 
     def conditional(self, target: str, node: SyntaxNode | None, bindings: Bindings, chains: dict[str, Chain]) -> None:
-        """A chain of conditional expressions."""
+        """Reads a chain of conditional expressions."""
         tests: list[Test] = []
         for _ in range(MAX_TESTS):
             node = unwrapped(node)
@@ -182,7 +180,7 @@ class ChoiceReader:
             chain.tests += tests
 
     def lambdas(self, node: SyntaxNode, bindings: Bindings, owner: Owner, depth: int) -> None:
-        """Functions within an expression."""
+        """Reads the lambdas in an expression."""
         stack = [(node, "")]
         while stack:
             expression, name = stack.pop()
@@ -200,7 +198,7 @@ class ChoiceReader:
             stack += [(child, name) for child in expression.named_children]
 
     def branches(self, node: SyntaxNode, bindings: Bindings, owner: Owner, chains: dict[str, Chain], depth: int) -> None:
-        """An `if` with its `else if`s: tests of a chain, and the blocks behind them."""
+        """Reads an `if` chain: its tests and its blocks."""
         self.read_tests(node, bindings, chains)
         for condition, then in links(node):
             if condition is None or then.type != "else_clause":
@@ -208,7 +206,7 @@ class ChoiceReader:
             self.block(then, bindings, owner, depth)
 
     def comparison(self, condition: SyntaxNode | None, then: SyntaxNode, node: SyntaxNode, bindings: Bindings, owner: Owner) -> None:
-        """`if (a < b) counts = a; else counts = b;`, and the same with returns."""
+        """Reads `if (a < b) counts = a; else counts = b;` and the same with returns."""
         comparison = self.expressions.comparison(condition, bindings) if condition is not None else None
         other = node.child_by_field_name("alternative")
         if comparison is None:
@@ -226,7 +224,7 @@ class ChoiceReader:
             self.combined.setdefault(minimum.at, (first[0] or owner.name, minimum))
 
     def assignment_of(self, node: SyntaxNode | None) -> "tuple[str, SyntaxNode] | None":
-        """What a branch gives to what: the target and the expression."""
+        """Returns the target and the value that a branch assigns or returns."""
         for child in statements(node) if node is not None else ():
             if child.type == "return_statement" and child.named_child_count:
                 return RETURN, child.named_children[0]
@@ -237,7 +235,7 @@ class ChoiceReader:
         return None
 
     def read_tests(self, node: SyntaxNode, bindings: Bindings, chains: dict[str, Chain]) -> bool:
-        """The tests of an `if`; whether it gives a count at all."""
+        """Reads the tests of an `if`. Returns whether it selects a count."""
         gave = False
         touched: set[str] = set()
         for condition, then in links(node):
@@ -265,7 +263,7 @@ class ChoiceReader:
         return gave
 
     def loop(self, node: SyntaxNode, bindings: Bindings, chains: dict[str, Chain]) -> bool:
-        """A loop over counts that are known, gone through; whether it is one."""
+        """Reads a loop over known counts. Returns whether it is one."""
         is_loop = False
         waited = halving_loop(node, self.expressions, bindings)
         if waited is not None:
@@ -286,28 +284,28 @@ class ChoiceReader:
         return is_loop
 
     def finish(self, target: str, chain: Chain, owner: Owner) -> None:
-        """A chain of a block that has ended."""
+        """Adds the choice of a chain at the end of its block."""
         tests = chain.ordered()
         if not tests or not (tests[0].mask.bindings or all(test.spelled for test in tests)):
             return
         mask = tests[0].mask
         if len({(tuple(name for name, _ in test.mask.limits), test.mask.combined) for test in tests}) > 1:
-            # The variable was given another mask in between.
+            # The variable was assigned another mask in between.
             return
         at = owner.at if target == RETURN and owner.at is not None else tests[0].at
-        # The greatest of a mask that comes from elsewhere is the device's only if that is the device's.
+        # The maximum of a mask from elsewhere is the device's maximum only if the mask is the device's.
         most = greatest(tests) if chain.pure and mask.limits else None
         self.choices.append(Choice(target or owner.name or "samples", at, mask, tuple(tests), most, target == RETURN))
 
 
 def _apply_mask(value: Value | None, other: Value | None, at: Span) -> Value | None:
-    """What `&=` leaves of a mask."""
+    """Returns the result of `&=` on a mask."""
     if isinstance(value, Mask) and isinstance(other, Mask):
         return combine((value, other), "AND", at)
     return value._replace(allowed=value.allowed & other) if isinstance(value, Mask) and isinstance(other, int) else None
 
 
 def _is_plain_assignment(node: SyntaxNode, expressions: Expressions) -> bool:
-    """Whether an assignment is one by `=`."""
+    """Returns whether an assignment uses `=`."""
     sign = node.child_by_field_name("operator")
     return sign is None or expressions.text_of(sign) == "="

@@ -1,4 +1,4 @@
-"""Statements and expressions of C and C++ as syntax trees have them: blocks, chains of `if`, parentheses and casts."""
+"""Statements and expressions in C and C++ syntax trees: blocks, `if` chains, parentheses, and casts."""
 
 from __future__ import annotations
 
@@ -7,23 +7,23 @@ from collections.abc import Iterator
 from msaa_lint.input.code.parsing import SyntaxNode
 
 MAX_DEPTH = 60
-"""Levels of an expression that are read."""
+"""The maximum nesting of parentheses and casts."""
 
 MAX_LINKS = 64
-"""Conditions of one chain of `if` and `else if` that are read."""
+"""The maximum number of conditions in an `if` chain."""
 
 _SPLICED = ("preproc_if", "preproc_ifdef", "preproc_else", "preproc_elif", "ERROR")
 
 
 def unwrapped(node: SyntaxNode | None) -> SyntaxNode | None:
-    """An expression without the parentheses and C casts around it."""
+    """Returns an expression without surrounding parentheses and C casts."""
     for _ in range(MAX_DEPTH):
         if node is None:
             return None
         if node.type in ("parenthesized_expression", "condition_clause", "cast_expression") and node.named_child_count:
             node = node.child_by_field_name("value") or node.named_children[-1]
             continue
-        # `(Type)(value)` reads as a call where the grammar knows no types.
+        # Without type information, the grammar parses `(Type)(value)` as a call.
         function, list_node = node.child_by_field_name("function"), node.child_by_field_name("arguments")
         if function is None or list_node is None or function.type != "parenthesized_expression" or list_node.named_child_count != 1:
             return node
@@ -32,7 +32,7 @@ def unwrapped(node: SyntaxNode | None) -> SyntaxNode | None:
 
 
 def statements(node: SyntaxNode) -> Iterator[SyntaxNode]:
-    """The statements of a block, or the one that stands for it; those of the preprocessor's blocks among them."""
+    """Yields the statements of a block or a single statement, including those in preprocessor blocks."""
     stack = [node]
     while stack:
         inner = stack.pop()
@@ -44,7 +44,7 @@ def statements(node: SyntaxNode) -> Iterator[SyntaxNode]:
 
 
 def links(node: SyntaxNode) -> Iterator[tuple[SyntaxNode | None, SyntaxNode]]:
-    """The conditions of an `if` and its `else if`s, each with what stands behind it; None for a last `else`."""
+    """Yields the conditions of an `if` chain with their branches; the condition of a final `else` is None."""
     current: SyntaxNode | None = node
     for _ in range(MAX_LINKS):
         if current is None:

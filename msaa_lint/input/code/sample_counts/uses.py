@@ -1,4 +1,4 @@
-"""What a program does with the sample count that it has found: what caps it, and the formats of the images that get it."""
+"""How a program uses the sample count that it chooses: what caps it, and the formats of the images that have it."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from msaa_lint.input.code.parsing import SyntaxNode, span
 from .masks import COUNTS, Expressions
 
 MAX_USES = 200
-"""Uses of one name that are looked at; of one that is used more often nothing is said."""
+"""The maximum number of uses of a name; names used more often are skipped."""
 
 MAX_STEPS = 300_000
-"""Nodes of a file that are looked at for formats."""
+"""The maximum number of nodes searched for formats in a file."""
 
 MAX_MEMBERS = 2000
-"""Uses of a member that are looked through for those of one structure."""
+"""The maximum number of uses of a member name searched for one structure."""
 
 MAX_NAMES = 12
-"""Names that a count goes by."""
+"""The maximum number of names that hold a count."""
 
 _CAPS = frozenset({"min", "MIN", "Min", "clamp", "Clamp", "CLAMP", "qMin", "qBound", "SDL_min"})
 _NOTHING_ELSE = frozenset({"parenthesized_expression", "cast_expression", "static_cast", "initializer_list", "condition_clause"})
@@ -30,7 +30,7 @@ _SAMPLES = ("samples", "rasterizationSamples", "sampleCount")
 
 
 class Uses:
-    """The names of a file by where they are used, and the functions that it defines."""
+    """The uses of each name in a file, and the functions that it defines."""
 
     def __init__(self, root: SyntaxNode, expressions: Expressions) -> None:
         self.expressions = expressions
@@ -53,7 +53,7 @@ class Uses:
             stack += reversed(node.named_children)
 
     def holders(self, name: str) -> list[str]:
-        """A function or variable that has a count, and what is given its value."""
+        """Returns the names that hold a count: a function or variable, and the variables that receive its value."""
         if name in self._held:
             return self._held[name]
         holders = self._held[name] = [name]
@@ -62,14 +62,14 @@ class Uses:
                 receiver = _receiver(node)
                 target = self.expressions.name(receiver)
                 if receiver is not None and target in _SAMPLES:
-                    # Many structures have such a member, those that describe an image among them.
+                    # Many structures have a member of that name, including the ones that describe images.
                     target = "" if receiver.type == "field_expression" and self._beside(node) else self.expressions.text_of(receiver)
                 if target and target not in holders and len(holders) < MAX_NAMES:
                     holders.append(target)
         return holders
 
     def _uses(self, name: str) -> list[SyntaxNode]:
-        """Where a name is used; a member with what it is of, where that is written alike."""
+        """Returns the uses of a name; those of a member only where its object is written the same way."""
         if name in self._used:
             return self._used[name]
         short = re.split(r"->|\.", name)[-1]
@@ -83,7 +83,7 @@ class Uses:
         return uses
 
     def cap(self, name: str) -> int | None:
-        """The count that caps it; 0 where something caps it that is not known; None where nothing does."""
+        """Returns the count that caps it, 0 if the cap is unknown, and None if there is none."""
         caps: list[int] = []
         for holder in self.holders(name):
             uses = self._uses(holder)
@@ -96,7 +96,7 @@ class Uses:
         return min(caps) if caps else None
 
     def _capped(self, node: SyntaxNode) -> int | None:
-        """What a use of a count says of its cap, as `cap`."""
+        """Returns the cap in a use of a count, as `cap` does."""
         value, parent = _enclosing_use(node)
         if parent is None:
             return None
@@ -116,7 +116,7 @@ class Uses:
         return None
 
     def formats(self, name: str) -> dict[str, Span]:
-        """The formats with depth or stencil of images that get the count, and where each is named, as far as that is seen."""
+        """Returns the depth and stencil formats of images that have the count, and where each is named."""
         formats: dict[str, Span] = {}
         for holder in self.holders(name):
             for node in self._uses(holder)[:MAX_USES]:
@@ -125,7 +125,7 @@ class Uses:
         return formats
 
     def _beside(self, node: SyntaxNode) -> list[SyntaxNode]:
-        """What may be the format where a count is an image's: the other arguments of a call, the member `format` of the same structure."""
+        """Returns expressions that may be the format where a count is used for an image: other call arguments, the member `format`."""
         value, parent = _enclosing_use(node)
         if parent is None:
             return []
@@ -138,7 +138,7 @@ class Uses:
             structure = left.child_by_field_name("argument")
             name = self.expressions.text_of(structure) if structure is not None else ""
             if len(self._member(parent, name, "samples")) > 1:
-                # The structure is used for several images: which format goes with the count is not seen.
+                # The structure describes several images; which format goes with the count is unknown.
                 return []
             return self._member(parent, name, "format")
         if parent.type == "initializer_pair" and parent.parent is not None:
@@ -148,7 +148,7 @@ class Uses:
         return []
 
     def _member(self, node: SyntaxNode, structure: str, member: str) -> list[SyntaxNode]:
-        """What a member of a structure is given in the function around a node."""
+        """Returns the values assigned to a member of a structure in the enclosing function."""
         around = node.parent
         while around is not None and around.type not in ("function_definition", "lambda_expression", "translation_unit"):
             around = around.parent
@@ -165,7 +165,7 @@ class Uses:
         return values
 
     def _formats(self, node: SyntaxNode, formats: dict[str, Span], depth: int, names: set[str]) -> None:
-        """The formats that an expression may be: named in it, given to a variable of it, or returned by a function that it calls."""
+        """Adds the formats that an expression names, or that its variables and functions can hold or return."""
         stack = [node]
         while stack and self._left > 0:
             inner = stack.pop()
@@ -190,7 +190,7 @@ class Uses:
             stack += reversed(inner.named_children)
 
     def _sources(self, name: str, at: SyntaxNode) -> list[SyntaxNode]:
-        """What a name is given in the file, or what the function of that name says."""
+        """Returns the values assigned to a name, or the body of the function with that name."""
         parent = at.parent
         called = parent is not None and parent.type == "call_expression" and parent.child_by_field_name("function") == at
         if name in self._functions and (called or (parent is not None and parent.type in ("field_expression", "qualified_identifier"))):
@@ -211,7 +211,7 @@ class Uses:
 
 
 def _enclosing_use(node: SyntaxNode) -> tuple[SyntaxNode, SyntaxNode | None]:
-    """A name with its object, call, parentheses and casts around it, and what that stands in."""
+    """Returns a name with its surrounding object, call, parentheses, and casts, and the node that contains all of it."""
     for _ in range(12):
         parent = node.parent
         if parent is None:
@@ -239,21 +239,21 @@ def _is_cast(node: SyntaxNode) -> bool:
 
 
 def _receiver(node: SyntaxNode) -> SyntaxNode | None:
-    """What is given the value of a use."""
+    """Returns the node that receives the value of a use, or None."""
     value, parent = _enclosing_use(node)
     if parent is not None and parent.type == "init_declarator" and parent.child_by_field_name("value") == value:
         return parent.child_by_field_name("declarator")
     if parent is not None and parent.type == "assignment_expression" and parent.child_by_field_name("right") == value:
         return parent.child_by_field_name("left")
     if parent is not None and parent.type == "argument_list" and parent.named_child_count == 1:
-        # A constructor's `samples(pick())`.
+        # `samples(pick())` in a constructor.
         around = parent.parent
         return around.named_children[0] if around is not None and around.type == "field_initializer" else None
     return None
 
 
 def _format(text: str) -> str | None:
-    """The format that a name is, in either spelling."""
+    """Returns the format that a name denotes, in either spelling."""
     if text.startswith(_FORMAT):
         return text[len(_FORMAT) :]
     if "Format::e" not in text or len(text) > 80:
@@ -267,6 +267,6 @@ def _format(text: str) -> str | None:
 
 
 def _breaks(short: str, n: int) -> bool:
-    """Whether an underscore stands before a letter of vulkan.hpp's spelling: `D24UnormS8Uint` is D24_UNORM_S8_UINT."""
+    """Returns whether an underscore precedes a letter of vulkan.hpp's spelling: `D24UnormS8Uint` is D24_UNORM_S8_UINT."""
     next_node = short[n + 1 : n + 2]
     return next_node.islower() or (short[n - 1].islower() and next_node.isdigit()) or short[n - 1].islower()

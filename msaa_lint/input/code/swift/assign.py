@@ -1,4 +1,4 @@
-"""What Swift's assignments change."""
+"""Assignments in Swift."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .values import UNKNOWN, Aggregate, Instance, Symbol
 
 
 def set_target(interpreter: Interpreter, sign: str, target: Term, value: Term, frame: CallFrame) -> None:
-    """What an assignment changes."""
+    """Executes an assignment."""
     new_value = evaluate(interpreter, value, frame)
     if sign != "=":
         new_value = UNKNOWN

@@ -1,4 +1,4 @@
-"""Which way Swift's conditions go, and the names that they bind."""
+"""Decides conditions in Swift and binds their names."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _FAMILY = re.compile(r"(?:apple|mac|common|metal)\d{1,2}")
 
 
 def truth(interpreter: Interpreter, conditions: tuple[Term, ...], frame: CallFrame) -> bool | None:
-    """What conditions are by the values in them; their names are bound as they are come by."""
+    """Returns the value of conditions and binds their names; None if it is unknown."""
     whole: bool | None = True
     for condition in conditions:
         one = _bound(interpreter, condition, frame) if condition[0] == BIND else _truth(interpreter, condition, frame)
@@ -26,7 +26,7 @@ def truth(interpreter: Interpreter, conditions: tuple[Term, ...], frame: CallFra
 
 
 def _bound(interpreter: Interpreter, condition: Term, frame: CallFrame) -> bool | None:
-    """Binds a name; that it is bound is sure of Metal's objects alone."""
+    """Binds a name. Only Metal objects are known not to be nil."""
     _, name, term, _ = condition
     if term is None:
         variable = frame.find(name)
@@ -51,7 +51,7 @@ def _truth(interpreter: Interpreter, condition: Term, frame: CallFrame) -> bool 
 
 
 def decide(interpreter: Interpreter, conditions: tuple[Term, ...], then: object, otherwise: object, frame: CallFrame) -> bool | None:
-    """Which way conditions go; None where it cannot be told."""
+    """Returns whether conditions are taken as true; None if undecided."""
     if not conditions:
         return None
     path = truth(interpreter, conditions, frame)
@@ -71,7 +71,7 @@ def decide(interpreter: Interpreter, conditions: tuple[Term, ...], then: object,
 
 
 def note_capabilities(interpreter: Interpreter, conditions: tuple[Term, ...]) -> None:
-    """What conditions that hold say of the device."""
+    """Records what conditions that hold say about the device."""
     for condition in conditions:
         if condition[0] != CALL or not condition[2]:
             continue

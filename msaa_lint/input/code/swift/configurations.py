@@ -1,4 +1,4 @@
-"""Which way a condition goes where the file cannot tell: the way in which there is multisampling, and the same way for the same words."""
+"""Decides unknown conditions in favor of the multisampled configuration; equal conditions are decided alike."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from typing import Any
 from .terms import BINARY, CALL, LITERAL, MEMBER, NAME, NOT, OTHER, SET, Term
 
 MAX_TERMS = 2000
-"""So many terms of a branch are looked at for signs of multisampling."""
+"""The maximum number of terms of a branch searched for multisampling."""
 
 ALWAYS_OFFERED = (1, 2, 4)
-"""Counts that a guard by supportsTextureSampleCount lets through: 4 on every device, 2 on nearly all."""
+"""Counts that a check with supportsTextureSampleCount accepts: every device supports 4, and nearly all support 2."""
 
 _ABOUT_SAMPLES = re.compile(r"sample|msaa|antialias", re.IGNORECASE)
 _SWITCHED = re.compile(r"msaa|multisampl|antialias", re.IGNORECASE)
@@ -22,7 +22,7 @@ _WORDS = frozenset({"type2DMultisample", "type2DMultisampleArray", "multisampleR
 
 
 def by_words(condition: Term) -> bool | None:
-    """What a condition is by its words alone, in a world with multisampling."""
+    """Returns the value of a condition in the multisampled configuration, based on its names."""
     turned = False
     while condition[0] == NOT:
         condition, turned = condition[1], not turned
@@ -52,13 +52,13 @@ def _by_words(condition: Term) -> bool | None:
 
 
 def by_branches(then: Any, otherwise: Any) -> bool | None:
-    """What a condition is in a world with multisampling, by what it guards: only one of its branches speaks of multisampling."""
+    """Returns the value of a condition in the multisampled configuration if only one branch sets up multisampling."""
     one, other = mentions_multisampling(then), mentions_multisampling(otherwise)
     return one if one != other else None
 
 
 def mentions_multisampling(term: Any) -> bool:
-    """Whether a branch sets up multisampling."""
+    """Returns whether a branch sets up multisampling."""
     stack = [term]
     left = MAX_TERMS
     while stack and left:
@@ -79,17 +79,17 @@ def mentions_multisampling(term: Any) -> bool:
 
 
 def about_samples(name: str) -> bool:
-    """Whether a name is one of a sample count, or of a switch for multisampling."""
+    """Returns whether a name suggests a sample count or a switch for multisampling."""
     return _ABOUT_SAMPLES.search(name) is not None
 
 
 def last_name(term: Term) -> str:
-    """The last name of an expression, as `count` of `a.b.count`; empty where it has none."""
+    """Returns the last name in an expression, `count` for `a.b.count`, or an empty string."""
     return str(term[2]) if term[0] == MEMBER else str(term[1]) if term[0] == NAME else last_name(term[1]) if term[0] == CALL else ""
 
 
 def words_of(conditions: tuple[Term, ...], text: str) -> str:
-    """The words of conditions, by which they are known again."""
+    """Returns the text that identifies conditions."""
     first, last = conditions[0][-1], conditions[-1][-1]
     if conditions[0][0] == OTHER:
         return str(conditions[0][1])

@@ -1,4 +1,4 @@
-"""What a Swift file declares: its types with their extensions, its functions, its statements outside of them."""
+"""The declarations of a Swift file: types with their extensions, functions, and global statements."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .terms import LET, Function, Member, Term, Type, Unit
 
 
 def unit(root: SyntaxNode, syntax: Syntax) -> Unit:
-    """All of a file."""
+    """Returns the contents of a file."""
     types: dict[str, Type] = {"": Type("", {}, {}, {}, {}, set())}
     outside: list[SyntaxNode] = []
     stack: list[tuple[SyntaxNode, str]] = [(root, "")]
@@ -36,7 +36,7 @@ def unit(root: SyntaxNode, syntax: Syntax) -> Unit:
 
 
 def _type(node: SyntaxNode, syntax: Syntax, types: dict[str, Type]) -> Type:
-    """The type that a declaration or an extension is of."""
+    """Returns the type that a declaration or extension belongs to."""
     name = node.child_by_field_name("name")
     written = syntax.text_of(name).partition("<")[0].rpartition(".")[2] if name is not None else "?"
     declaring_type = types.setdefault(written, Type(written, {}, {}, {}, {}, set()))
@@ -47,7 +47,7 @@ def _type(node: SyntaxNode, syntax: Syntax, types: dict[str, Type]) -> Type:
 
 
 def _member(node: SyntaxNode, declaring_type: Type, syntax: Syntax) -> None:
-    """Adds what is declared in a type's braces."""
+    """Adds a declaration in the body of a type."""
     kind = node.type
     if kind in ("function_declaration", "init_declaration"):
         _add(declaring_type, syntax.function(node, declaring_type.name))
@@ -82,7 +82,7 @@ def _add(declaring_type: Type, function: Function) -> None:
 
 
 def term_name(terms: list[Term]) -> str:
-    """The name that declarations bind first."""
+    """Returns the first name that declarations bind."""
     return terms[0][1][0] if terms else ""
 
 

@@ -1,8 +1,8 @@
-"""Swift that builds Metal's descriptors, as descriptions of frames in Metal's words.
+"""Reads Swift that builds Metal descriptors as descriptions in Metal's terms.
 
-Statements are gone through in order, so that a texture is what its descriptor was when it was made, and a pass what its descriptor was
-when it was encoded. What cannot be known is left out. Of a condition that cannot be told the way with multisampling is taken
-where only one is; else what its branches do differently is unknown.
+Statements are executed in order, so that a texture has the state of its descriptor when it was created, and a pass that of its descriptor
+when it was encoded. Unknown values are left out. For an undecided condition, the branch with multisampling is taken if only one has it;
+otherwise differences between the branches are unknown.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from .tree_writer import DescriptionWriter
 from .values import Aggregate, Texture, Value, join
 
 MAX_TUPLES = 20
-"""Functions that give labelled tuples, where those that take them are looked for."""
+"""The maximum number of functions with labeled tuples for which the functions that take them are searched."""
 
 _SPEAKS = re.compile(r"MTL|[aA]ttachment|[sS]ampleCount")
 _CALLED = re.compile(r"(?<![\w.])(func\s+)?([A-Za-z_]\w*)\s*\(|\.([A-Za-z_]\w*)\s*[({]")
@@ -33,7 +33,7 @@ _OTHERS_TOO = re.compile(r"#if|^[ \t]*import[ \t]+(?:AppKit|Cocoa)\b", re.MULTIL
 
 
 def trees(code: Code) -> list[Read]:
-    """The frame that a Swift file, or the fragments of a page, have to do with: one tree with the section `metal`, or none."""
+    """Returns the description of a Swift file or a page's fragments: one tree with the section `metal`, or none."""
     if not _SPEAKS.search(code.text):
         return []
     interpreter = interpret(code)
@@ -45,7 +45,7 @@ def trees(code: Code) -> list[Read]:
 
 
 def interpret(code: Code) -> Interpreter:
-    """A file after it was gone through twice."""
+    """Executes a file twice, the second time with the properties found in the first."""
     syntax = Syntax(code.text)
     parsed = tree(code)
     interpreter = Interpreter(code.text, unit(parsed.root_node, syntax), syntax)
@@ -77,7 +77,7 @@ def interpret(code: Code) -> Interpreter:
 
 
 def _begin(interpreter: Interpreter) -> None:
-    """What stands outside of functions, and the values that properties begin with."""
+    """Executes global statements and the initial values of properties."""
     interpreter.root += 1
     top = CallFrame("", "", 0, 0)
     _guarded(interpreter, lambda: run_statements(interpreter, interpreter.unit.outside, top))
@@ -95,7 +95,7 @@ def _members(interpreter: Interpreter, type_: Type) -> None:
 
 
 def _root(interpreter: Interpreter, function: Function) -> None:
-    """Goes through a function that nothing in the file calls, or that is called on objects whose type is not known."""
+    """Executes a function that is not called in the file, or is called on objects of unknown type."""
     interpreter.inlined.add(function.at.start)
     interpreter.root += 1
     interpreter.undecided_depth = 0
@@ -118,7 +118,7 @@ def _entered(interpreter: Interpreter, function: Function, frame: CallFrame) -> 
 
 
 def _of_one_tuple(interpreter: Interpreter, function: Function) -> dict[str, Value]:
-    """The textures that a function is meant to take: those of a tuple of the file with the same labels, two at least."""
+    """Returns the textures that a function is meant to take: those of the only tuple in the file with the same labels, at least two."""
     textures = [parameter.name for parameter in function.parameters if parameter.type == "MTLTexture"]
     if len(textures) < 2 or len(interpreter.tuples) > MAX_TUPLES:
         return {}
@@ -127,7 +127,7 @@ def _of_one_tuple(interpreter: Interpreter, function: Function) -> dict[str, Val
 
 
 def _guarded(interpreter: Interpreter, goes: object) -> None:
-    """Goes through a part of a file; one that goes deeper than Python does is left where it was."""
+    """Executes part of a file; stops if it exceeds Python's recursion limit."""
     assert callable(goes)
     try:
         goes()

@@ -1,4 +1,4 @@
-"""Members of a tree in Metal's words, at their places in Swift; names that are each used once."""
+"""Members of a Metal description with their locations in Swift, and unique names."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _USAGES = frozenset({"renderTarget", "shaderRead", "shaderWrite", "pixelFormatVi
 
 
 class Names:
-    """Names that are each used once: qualified by what they are in where two have the same."""
+    """Unique names; equal names are qualified by their context."""
 
     def __init__(self) -> None:
         self.of: dict[int, str] = {}
@@ -24,7 +24,7 @@ class Names:
         self.numbers: dict[str, int] = {}
 
     def set_field(self, items: list[tuple[object, str, str]]) -> None:
-        """Names things by what they are called and what they are in."""
+        """Assigns names to items by their own name and context."""
         often: dict[str, int] = {}
         for _, name, _ in items:
             often[name] = often.get(name, 0) + 1
@@ -45,14 +45,14 @@ def type_of(fields: dict[str, Field]) -> object:
 
 
 def word(name: str, field: Field, allowed: frozenset[str]) -> list[Entry]:
-    """A member that holds one of these words."""
+    """Returns a member that has one of some values, or nothing."""
     if isinstance(field.value, Constant) and isinstance(field.value.value, str) and field.value.value in allowed:
         return [(name, field.key, scalar(field.value.value, field.at))]
     return []
 
 
 def plain(name: str, field: Field) -> list[Entry]:
-    """A member that holds a number above 0, a truth value or a word."""
+    """Returns a member that is a positive number, a boolean, or a word, or nothing."""
     value = field.value.value if isinstance(field.value, Constant) else None
     if isinstance(value, str) and value.isidentifier():
         return [(name, field.key, scalar(value, field.at))]
@@ -62,7 +62,7 @@ def plain(name: str, field: Field) -> list[Entry]:
 
 
 def usage(field: Field) -> list[Entry]:
-    """The usage that is stated; `unknown` is 0, and alone allows everything."""
+    """Returns the stated usage, or nothing. `unknown` is 0, and alone it allows every usage."""
     value = field.value.value if isinstance(field.value, Constant) else None
     usages = (value,) if isinstance(value, str) else value if isinstance(value, tuple) else ()
     named = [word for word in dict.fromkeys(usages) if word != "unknown"]

@@ -1,4 +1,4 @@
-"""Swift's expressions, as far as their values can be known."""
+"""Evaluates Swift expressions."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _LARGEST = 1 << 40
 
 
 def evaluate(interpreter: Interpreter, term: Term, frame: CallFrame) -> Value:
-    """The value of an expression."""
+    """Returns the value of an expression."""
     kind = term[0]
     if kind == LITERAL:
         return Constant(term[1])
@@ -80,7 +80,7 @@ def _name(interpreter: Interpreter, name: str, at: Span, frame: CallFrame) -> Va
 
 
 def _declared(interpreter: Interpreter, type_name: str, name: str, at: Span, frame: CallFrame) -> Value | None:
-    """The value of a property, or of a constant outside of types."""
+    """Returns the value of a property or a global constant, or None."""
     declaring_type = interpreter.type_of(type_name)
     if declaring_type is not None and name in declaring_type.computed:
         return interpreter.call(interpreter, declaring_type.computed[name], {}, frame, at, None)
@@ -96,8 +96,8 @@ def _declared(interpreter: Interpreter, type_name: str, name: str, at: Span, fra
 
 
 def _may_change(interpreter: Interpreter, type_name: str, name: str, value: Value | None, open_: bool) -> bool:
-    """Whether a variable property is more likely something else when it is used: a switch, a size, a count that begins as 1; what other
-    files choose."""
+    """Returns whether a variable property probably changes before it is used: a switch, a size, a count that starts as 1, or a value
+    that other files choose."""
     field = interpreter.current_properties.get(type_name, {}).get(name)
     if field is not None and field.by == interpreter.root:
         return False
@@ -135,7 +135,7 @@ def _member(interpreter: Interpreter, term: Term, frame: CallFrame) -> Value:
 
 
 def owner_of(interpreter: Interpreter, target: Term, name: str, frame: CallFrame) -> Value:
-    """What a member is of: of `self`, the type where it declares the member."""
+    """Returns the owner of a member; for `self`, the type if it declares the member."""
     if target[:2] == (NAME, "self"):
         declaring_type = interpreter.type_of(frame.type_name)
         if declaring_type is not None and (name in declaring_type.members or name in declaring_type.computed):
@@ -148,7 +148,7 @@ def _drawable_texture(interpreter: Interpreter, at: Span, frame: CallFrame) -> V
 
 
 def _raw(interpreter: Interpreter, name: str, frame: CallFrame) -> Value:
-    """The raw value of an enumeration's case; an option set's are as good as its names."""
+    """Returns the raw value of an enumeration case. For option sets, the names are enough."""
     of, _, case = name.rpartition(".")
     declaring_type = interpreter.type_of(of) if of else None
     if declaring_type is None:
@@ -171,7 +171,7 @@ def _choice(interpreter: Interpreter, term: Term, frame: CallFrame) -> Value:
 
 
 def _counts(one: Value, other: Value) -> bool:
-    """Whether a choice is between one sample and several."""
+    """Returns whether a choice is between one sample and several."""
     values = {value.value for value in (one, other) if isinstance(value, Constant) and type(value.value) is int}
     return 1 in values and bool(values & {2, 4, 8})
 
@@ -211,7 +211,7 @@ def _options(value: str | tuple[str, ...]) -> tuple[str, ...]:
 
 
 def _list(interpreter: Interpreter, term: Term, frame: CallFrame) -> Value:
-    """An option set, where every item is one."""
+    """Returns an option set if every item is an option."""
     names: list[str] = []
     whole = True
     for item in term[1]:
@@ -239,7 +239,7 @@ def _index(interpreter: Interpreter, term: Term, frame: CallFrame) -> Value:
 
 
 def cell(term: Term, frame: CallFrame) -> tuple[str, str] | None:
-    """The property that stands for all items of a collection."""
+    """Returns the property that stands for all elements of a collection, or None."""
     if term[0] == NAME and frame.find(term[1]) is None:
         return frame.type_name, f"{term[1]}[]"
     if term[0] == MEMBER and term[1] is not None and term[1][:2] == (NAME, "self"):
@@ -248,6 +248,6 @@ def cell(term: Term, frame: CallFrame) -> tuple[str, str] | None:
 
 
 def declares(interpreter: Interpreter, type_name: str, name: str) -> bool:
-    """Whether a type has a stored property of that name."""
+    """Returns whether a type declares a stored property."""
     declaring_type = interpreter.type_of(type_name)
     return declaring_type is not None and name in declaring_type.members

@@ -1,4 +1,4 @@
-"""Swift's statements, gone through in order: what they leave in variables and members."""
+"""Executes Swift statements."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from .terms import BIND, BLOCK, CALL, CASES, CLOSURE, DO, FUNC, GUARD, IF, LEAVE
 from .values import NIL, UNKNOWN, Aggregate, Code, Constant, Symbol, Value
 
 MAX_DEPTH_CALL = 3
-"""Calls within calls that are followed."""
+"""The maximum depth of function calls that are executed."""
 
 MAX_DEPTH_CLOSURE = 8
-"""Closures and calls within each other that are gone through."""
+"""The maximum depth of closures and calls that are executed."""
 
 
 def run_statements(interpreter: Interpreter, statements: tuple[Term, ...], frame: CallFrame) -> bool:
-    """Goes through statements; whether they end in a return or a jump."""
+    """Executes statements. Returns whether they end in a return or a jump."""
     for term in statements:
         interpreter.steps -= 1
         if interpreter.steps < 0:
@@ -81,20 +81,20 @@ def _declare(interpreter: Interpreter, term: Term, frame: CallFrame) -> None:
     else:
         type_node = interpreter.typed_object(kind, names[0], at, frame.path)
         if type_node is None and not frame.function and not frame.type_name:
-            return  # of a fragment, maybe a property that a function of it sets
+            return  # In a fragment, it may be a property that a function sets.
         initial = type_node if type_node is not None else NIL
     interpreter.variable(frame, names[0], initial)
 
 
 def _begun(kind: str, value: Term) -> Term:
-    """`.init()` with the type that is declared."""
+    """Returns `.init()` with the declared type."""
     if value[0] == CALL and value[1][:3] == (MEMBER, None, "init") and kind in OBJECTS:
         return CALL, (NAME, kind, value[1][-1]), value[2], value[3], value[-1]
     return value
 
 
 def _branch(interpreter: Interpreter, term: Term, frame: CallFrame) -> bool:
-    """An `if`: the way that it goes, or both; the names that it binds end with it."""
+    """Executes the branch of an `if` that is taken, or both. The names that it binds go out of scope."""
     bound = [(condition[1], frame.locals.get(condition[1])) for condition in term[1] if condition[0] == BIND]
     goes = decide(interpreter, term[1], term[2], term[3], frame)
     left = (
@@ -108,7 +108,7 @@ def _branch(interpreter: Interpreter, term: Term, frame: CallFrame) -> bool:
 
 
 def _both(interpreter: Interpreter, then: tuple[Term, ...], otherwise: tuple[Term, ...], frame: CallFrame) -> bool:
-    """Goes through both branches, from the same beginning; what they leave differently is unknown."""
+    """Executes both branches from the same state; values that differ afterwards are unknown."""
     undo_log = interpreter.undo_log
     interpreter.undecided_depth += 1
     mark = undo_log.mark()
@@ -151,7 +151,7 @@ def _cases(interpreter: Interpreter, term: Term, frame: CallFrame) -> bool:
 def call(
     interpreter: Interpreter, function: Function, arguments: dict[str, Value], frame: CallFrame, site: Span, self_value: Value | None = None
 ) -> Value:
-    """What a function of the file gives for arguments, by going through it where it is called."""
+    """Returns the result of a function of the file, which is executed."""
     interpreter.inlined.add(function.at.start)
     interpreter.called_functions.add(function.at.start)
     if frame.rank >= MAX_DEPTH_CALL or frame.depth >= MAX_DEPTH_CLOSURE or interpreter.steps < 0:
@@ -164,7 +164,7 @@ def call(
 
 
 def with_labels(interpreter: Interpreter, function: Function, result: Value) -> Value:
-    """What a function gives, with the labels of the tuple that it says it gives."""
+    """Returns a result with the labels of the declared tuple."""
     if not isinstance(result, Aggregate) or len(function.gives) < 2:
         return result
     items = {label: result.items.get(str(index), UNKNOWN) for index, label in enumerate(function.gives)}
@@ -173,7 +173,7 @@ def with_labels(interpreter: Interpreter, function: Function, result: Value) -> 
 
 
 def bind_parameters(interpreter: Interpreter, function: Function, arguments: dict[str, Value], frame: CallFrame) -> None:
-    """Gives a function's parameters their values."""
+    """Binds the parameters of a function."""
     for parameter in function.parameters:
         value = arguments.get(parameter.name)
         if value is None or value is UNKNOWN:
@@ -187,7 +187,7 @@ def bind_parameters(interpreter: Interpreter, function: Function, arguments: dic
 
 
 def run_body(interpreter: Interpreter, statements: tuple[Term, ...], frame: CallFrame) -> Value:
-    """What a body gives: its single expression, or what it returns."""
+    """Returns the result of a body: its single expression, or the returned value."""
     if len(statements) == 1 and statements[0][0] == DO:
         return evaluate(interpreter, statements[0][1], frame)
     run_statements(interpreter, statements, frame)
@@ -197,7 +197,7 @@ def run_body(interpreter: Interpreter, statements: tuple[Term, ...], frame: Call
 def call_closure(
     interpreter: Interpreter, code: Code, arguments: tuple[Value, ...] | dict[str, Value], frame: CallFrame, site: Span
 ) -> Value:
-    """What a closure gives for arguments, or a function in a function for its parameters."""
+    """Returns the result of a closure for arguments, or of a nested function for parameters by name."""
     if interpreter.steps < 0 or frame.depth >= MAX_DEPTH_CLOSURE:
         return UNKNOWN
     inner = CallFrame(frame.type_name, frame.function, frame.rank, interpreter.call_path(frame, site.start), frame, frame.self_value)

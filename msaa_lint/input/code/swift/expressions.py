@@ -1,4 +1,4 @@
-"""The expressions of Swift's syntax tree to terms. What nests deeper than anybody writes is of the kind OTHER."""
+"""Converts Swift expressions to terms. Expressions that nest too deeply become OTHER."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from msaa_lint.input.code.parsing import SyntaxNode, span
 from .terms import BINARY, CALL, CHOICE, CLOSURE, DO, IF, INDEX, LIST, LITERAL, MEMBER, NAME, NOT, OTHER, TUPLE, Term
 
 MAX_DEPTH = 40
-"""How deep expressions and statements nest that are read."""
+"""The maximum nesting of expressions and statements."""
 
 _NUMBER = re.compile(r"0[xX][0-9a-fA-F_]{1,16}|0[bB][01_]{1,64}|0[oO][0-7_]{1,22}|[0-9][0-9_]{0,18}")
 _WRAPPERS = {"try_expression": "expr", "as_expression": "expr", "await_expression": "expr", "postfix_expression": "target"}
@@ -21,7 +21,7 @@ _BINARY = frozenset({
 
 
 class Expressions:
-    """Reads the expressions of one text's syntax tree."""
+    """Reads the expressions of one file."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -32,10 +32,8 @@ class Expressions:
     def other(self, node: SyntaxNode) -> Term:
         return OTHER, self.text_of(node)[:200], span(node)
 
-    # Expressions
-
     def expression(self, node: SyntaxNode | None, depth: int = 0) -> Term:
-        """The term of an expression."""
+        """Returns the term of an expression."""
         if node is None:
             return OTHER, "", Span(0, 0)
         kind = node.type
@@ -169,7 +167,7 @@ class Expressions:
         return CLOSURE, tuple(names), self.statements(block(node), depth + 1), span(node)
 
     def choice(self, node: SyntaxNode, depth: int) -> Term:
-        """`if` where a value is due."""
+        """Returns an `if` that is used as an expression."""
         branch = self.branches(node, depth)
         if branch[0] == IF and all(len(arm) == 1 and arm[0][0] == DO for arm in (branch[2], branch[3])):
             return CHOICE, branch[1], branch[2][0][1], branch[3][0][1], branch[-1]
@@ -183,10 +181,10 @@ class Expressions:
 
 
 def block(node: SyntaxNode) -> list[SyntaxNode]:
-    """The statements in a node's braces."""
+    """Returns the statements in the braces of a node."""
     return [item for child in node.named_children if child.type == "statements" for item in child.named_children]
 
 
 def last_named(node: SyntaxNode) -> SyntaxNode | None:
-    """The last child that is no token."""
+    """Returns the last named child."""
     return node.named_children[-1] if node.named_children else None

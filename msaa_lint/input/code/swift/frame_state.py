@@ -1,4 +1,4 @@
-"""A run of a function, and what is seen of a frame: passes that are encoded, pipelines that are made, in their order."""
+"""Call frames, and the passes and pipelines that code encodes or creates."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .values import Field, MetalObject, Value
 
 
 class CallFrame:
-    """A run of a function: its variables, those of what it is written in, whose `self` it has, how deep in calls, by which way."""
+    """A call frame: its variables, the enclosing frame of a closure, `self`, the call depth, and the call path."""
 
     __slots__ = ("depth", "enclosing", "function", "locals", "path", "rank", "returned", "self_value", "type_name")
 
@@ -29,11 +29,11 @@ class CallFrame:
 
     @property
     def function_name(self) -> str:
-        """The function that it runs, as names in it are told from others."""
+        """The name of the function, which qualifies the names in it."""
         return f"{self.type_name}.{self.function}".lstrip(".")
 
     def find(self, name: str) -> tuple[CallFrame, Value] | None:
-        """The variable of that name, and the run that has it."""
+        """Returns a variable and the frame that holds it, or None."""
         frame: CallFrame | None = self
         while frame is not None:
             value = frame.locals.get(name)
@@ -44,7 +44,10 @@ class CallFrame:
 
 
 class Encoded(NamedTuple):
-    """What was seen of a frame: a pass, a copy, a read or a drawable shown, by which function; `sure` where no condition decides it."""
+    """A step of a frame: a pass, copy, read, or presented drawable, and the function that encodes it.
+
+    `sure` is set if it is unconditional.
+    """
 
     kind: str
     what: tuple[object, ...]
@@ -54,7 +57,7 @@ class Encoded(NamedTuple):
 
 
 class Pass:
-    """A render pass as it is encoded: its descriptor, and what its attachments were given."""
+    """A render pass when it was encoded: its descriptor and attachments."""
 
     __slots__ = ("at", "attachments", "complete", "descriptor")
 
@@ -66,7 +69,7 @@ class Pass:
 
 
 class Pipeline:
-    """A pipeline as it is made: its descriptor, its name, what it was given."""
+    """A pipeline when it was created: its descriptor, name, and state."""
 
     __slots__ = ("at", "colors", "descriptor", "fields", "name", "passes", "type_name")
 

@@ -1,4 +1,4 @@
-"""What a frame of a Swift file does, in order."""
+"""The commands of a frame in Swift."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .values import Constant, Field, Texture
 
 
 def commands(interpreter: Interpreter, textures: Textures, passes: list[Pass], names: dict[int, str]) -> Node | None:
-    """What a frame does, where one function encodes all passes and shows the drawable, and nothing of it is hidden."""
+    """Returns the commands of a frame if one function encodes all passes and presents the drawable, and every step is known."""
     encodings = [item for item in interpreter.encoded if item.kind == "pass"]
     roots = {encoding.by for encoding in encodings}
     if len(roots) != 1 or len(encodings) != len(passes) or roots & interpreter.incomplete:
@@ -43,7 +43,7 @@ def commands(interpreter: Interpreter, textures: Textures, passes: list[Pass], n
 
 
 def _read_elsewhere(texture: Texture) -> bool:
-    """Whether other files may read a texture, as far as its usage goes."""
+    """Returns whether other files may read a texture, judging by its usage."""
     if not texture.open:
         return False
     return not texture.made or any(not _drawn_only(fields.get("usage")) for fields in texture.made)

@@ -1,4 +1,4 @@
-"""What a reading of a Swift file goes through with: variables, properties, objects, and what the code was seen to do with them."""
+"""The state of an abstract interpreter of Swift: variables, properties, objects, and encoded commands."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .terms import Function, Term, Type, Unit
 from .values import NIL, UNKNOWN, Aggregate, Code, Field, Instance, MetalObject, Symbol, Texture, UndoLog, Value, join
 
 MAX_STEPS_PER_LINE = 20
-"""Statements that are gone through for each line of the file: functions that call each other often cost no more."""
+"""The maximum number of statements executed for each line of the file, which bounds the cost of nested calls."""
 
 OBJECTS = {
     "MTLTextureDescriptor": "texture",
@@ -32,10 +32,10 @@ OBJECTS = {
     "MTLDrawable": "drawable",
     "MTLCommandBuffer": "commands",
 }
-"""By type: the kind of object that is followed."""
+"""The kind of object for each Metal type that is tracked."""
 
 SHARED = frozenset({"view", "layer", "drawable"})
-"""Of these a file has one, under several names."""
+"""Kinds of which a file has a single object, with several names."""
 
 _PLAIN = re.compile(r"^(?:any |some |inout )*([A-Za-z_][\w.]*)")
 
@@ -45,7 +45,7 @@ def _not_followed(*_: Any) -> Value:
 
 
 class Interpreter:
-    """All that is known of a file while it is gone through, twice: the second time with what the first found of every property."""
+    """The state of the interpreter. A file is executed twice, the second time with the properties found in the first."""
 
     def __init__(self, text: str, unit: Unit, syntax: Syntax) -> None:
         self.text = text
@@ -79,7 +79,7 @@ class Interpreter:
         self.begin()
 
     def begin(self) -> None:
-        """Begins to go through the file."""
+        """Resets the state before the file is executed."""
         self.current_properties: dict[str, dict[str, Field]] = {}
         self.new_property_values: dict[tuple[str, str], Value] = {}
         self.new_member_values: dict[tuple[int, str], Value] = {}
@@ -102,7 +102,7 @@ class Interpreter:
         self.undo_log.writes.clear()
 
     def end(self) -> None:
-        """Keeps what was found of properties and members for the next time."""
+        """Keeps the values of properties and members for the next execution."""
         self.property_values, self.member_values, self.call_arguments = (
             self.new_property_values,
             self.new_member_values,
@@ -114,13 +114,11 @@ class Interpreter:
         return self.unit.types.get(name)
 
     def call_path(self, frame: CallFrame, site: int) -> int:
-        """A number for the way of calls that leads to a place."""
+        """Returns a number that identifies the call path to a location."""
         return self.ways.setdefault((frame.path, site), len(self.ways) + 1)
 
-    # Objects
-
     def object_at(self, kind: str, name: str, at: Span, path: object, complete: bool) -> MetalObject:
-        """The object that a place makes; it begins anew there."""
+        """Returns the object that is created at a location."""
         key = (kind,) if kind in SHARED else (kind, at.start, at.end, path)
         metal_object = self.objects.get(key)
         if metal_object is None:
@@ -128,12 +126,12 @@ class Interpreter:
         return metal_object
 
     def reset(self, item: MetalObject) -> None:
-        """An object begins anew, where the code that makes it is gone through again."""
+        """Resets an object whose creation is executed again."""
         for name in list(item.fields):
             self.undo_log.write(item.fields, name, None)
 
     def typed_object(self, kind: str, name: str, at: Span, path: object) -> Value | None:
-        """The object that a variable of a type holds whose value is not seen."""
+        """Returns the object in a variable whose value is unknown, based on its type."""
         plain = _PLAIN.match(kind)
         if plain is None:
             return None
@@ -147,26 +145,26 @@ class Interpreter:
         return self.object_at(object_kind, name, at, (path, name), False) if object_kind is not None else None
 
     def is_view(self, name: str) -> bool:
-        """Whether a type of the file is an MTKView."""
+        """Returns whether a type in the file is an MTKView."""
         type_ = self.unit.types.get(name)
         return type_ is not None and any(supertype == "MTKView" for supertype in type_.inherits)
 
     def self_value(self, type_name: str) -> Value | None:
-        """What `self` is in a type's functions, where that is one of Metal's objects."""
+        """Returns `self` in the functions of a Metal type."""
         if type_name in OBJECTS or self.is_view(type_name):
             kind = OBJECTS.get(type_name, "view")
             return self.object_at(kind, kind, Span(0, 0), type_name, False) if kind in SHARED else None
         return None
 
     def set_field(self, item: MetalObject, name: str, value: Value, key: Span, at: Span) -> None:
-        """An object's member is set."""
+        """Sets a member of an object."""
         self.undo_log.write(item.fields, name, Field(value, key, at, self.root))
         place = (id(item), name)
         before = self.new_member_values.get(place)
         self.new_member_values[place] = value if before is None else join(before, value, name)
 
     def field(self, item: MetalObject, name: str) -> Field | None:
-        """What an object's member holds: what this function set, else what agrees with all functions that set it."""
+        """Returns a member of an object: the value set by the current function, otherwise the value on which all functions agree."""
         field = item.fields.get(name)
         if field is None or field.by == self.root:
             return field
@@ -174,17 +172,15 @@ class Interpreter:
         return field if join_all == field.value else field._replace(value=join_all)
 
     def snapshot(self, item: MetalObject) -> dict[str, Field]:
-        """All that an object holds now."""
+        """Returns the current members of an object."""
         return {name: field for name in item.fields if (field := self.field(item, name)) is not None}
 
     def invalidate(self, item: MetalObject) -> None:
-        """Code that is not read may change an object: a texture's descriptor holds what it is given afterwards."""
+        """Marks an object that external code may change. A texture descriptor keeps only what is set afterwards."""
         item.loose = True
         if item.kind == "texture":
             for name, field in list(item.fields.items()):
                 self.undo_log.write(item.fields, name, field._replace(value=UNKNOWN))
-
-    # Properties
 
     def set_property(self, type_name: str, name: str, value: Value, at: Span) -> None:
         self.name_value(value, "" if name.endswith("[]") else name, type_name, -1)
@@ -195,7 +191,7 @@ class Interpreter:
         self.hold_property(type_name, name, value, at)
 
     def hold_property(self, type_name: str, name: str, value: Value, at: Span) -> None:
-        """A property is set, and what it holds keeps its name."""
+        """Sets a property without naming its value."""
         self.undo_log.write(self.current_properties.setdefault(type_name, {}), name, Field(value, at, at, self.root))
         place = (type_name, name)
         before = self.new_property_values.get(place)
@@ -205,7 +201,7 @@ class Interpreter:
         self.new_property_values[place] = value if before is None else join(before, value, name, optional=True)
 
     def property(self, type_name: str, name: str) -> Value | None:
-        """What a property holds; None where nothing in the file sets it."""
+        """Returns the value of a property, or None if the file does not set it."""
         field = self.current_properties.get(type_name, {}).get(name)
         if field is not None and field.by == self.root:
             return field.value
@@ -214,10 +210,8 @@ class Interpreter:
             return field.value if field is not None else None
         return value
 
-    # Names
-
     def variable(self, frame: CallFrame, name: str, value: Value) -> None:
-        """A variable is declared."""
+        """Declares a variable."""
         if not name or name == "_":
             return
         if value is UNKNOWN:
@@ -226,7 +220,7 @@ class Interpreter:
         self.undo_log.write(frame.locals, name, value)
 
     def name_value(self, value: Value, name: str, type_name: str, rank: int) -> None:
-        """What holds a value gives it its name; a property's outdoes a variable's, and a caller's a called function's."""
+        """Names a value after what holds it. Properties take precedence over variables, and callers over called functions."""
         if isinstance(value, Texture):
             if rank < value.rank and name and not value.drawable and value.owner is None:
                 value.name, value.type_name, value.rank = name, type_name, rank
@@ -243,7 +237,7 @@ class Interpreter:
                 value.name, value.type_name = name, type_name
 
     def named_texture(self, text: str, function_name: str, at: Span) -> Texture:
-        """A texture of which only the name is known."""
+        """Returns a texture of which only the name is known."""
         key = ("named", function_name, text)
         texture = self.textures.get(key)
         if texture is None:
@@ -251,7 +245,7 @@ class Interpreter:
         return texture
 
     def body(self, function: Function) -> tuple[Term, ...]:
-        """The statements of a function, read when they are first asked for."""
+        """Returns the statements of a function, which are parsed on demand."""
         from .expressions import block
 
         key = function.at.start
@@ -262,13 +256,13 @@ class Interpreter:
 
 
 def _made_for(first: Texture, second: Texture, type_name: str, name: str) -> bool:
-    """Whether two textures are made for one property: the same one, made again."""
+    """Returns whether two textures are the same property, created again."""
     named = all((item.name, item.type_name) == (name, type_name) for item in (first, second))
     return named and first.multisampled == second.multisampled
 
 
 def join_all(values: list[Value]) -> Value:
-    """What a function returns, of all that it may."""
+    """Returns the result of a function from all its possible return values."""
     agreed_value: Value | None = None
     for value in values:
         agreed_value = value if agreed_value is None else join(agreed_value, value, optional=True)

@@ -1,4 +1,4 @@
-"""Members of Metal's objects: what reading one gives, and what setting one changes."""
+"""Reads and sets the members of Metal objects."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .terms import MEMBER, NAME, Term
 from .values import NIL, UNKNOWN, Aggregate, Constant, Field, MetalObject, Symbol, Texture, Value
 
 ANY = "color?"
-"""The colour attachment whose index is not known."""
+"""The color attachment with an unknown index."""
 
 MAX_COLORS = 8
 
@@ -26,14 +26,14 @@ _KEPT = frozenset(
         *("colorPixelFormat", "depthStencilPixelFormat", *_ATTACHMENTS),
     }
 )
-"""Members that are followed."""
+"""Members that are tracked."""
 
 _PASSES = ("currentRenderPassDescriptor", "currentMTL4RenderPassDescriptor")
 _STORAGE = {f"storageMode{mode.capitalize()}": mode for mode in ("shared", "managed", "private", "memoryless")}
 
 
 def member_of(interpreter: Interpreter, value: Value, name: str, at: Span, frame: CallFrame) -> Value | None:
-    """What a member of a value holds; None where it is no value that is followed."""
+    """Returns a member of a value, or None if the value is not tracked."""
     if isinstance(value, MetalObject):
         return _of_object(interpreter, value, name, at, frame)
     if isinstance(value, Texture):
@@ -75,7 +75,7 @@ def _of_object(interpreter: Interpreter, metal_object: MetalObject, name: str, a
 
 
 def attachment_slots(interpreter: Interpreter, metal_object: MetalObject, at: Span) -> MetalObject:
-    """A descriptor's array of colour attachments."""
+    """Returns the color attachment array of a descriptor."""
     key = ("slots", id(metal_object))
     slots = interpreter.objects.get(key)
     if slots is None:
@@ -85,7 +85,7 @@ def attachment_slots(interpreter: Interpreter, metal_object: MetalObject, at: Sp
 
 
 def attachment_slot(interpreter: Interpreter, metal_object: MetalObject, name: str, at: Span) -> Value:
-    """An attachment of a descriptor, there from its beginning."""
+    """Returns an attachment of a descriptor, which always exists."""
     field = interpreter.field(metal_object, name)
     if field is not None:
         return field.value
@@ -101,7 +101,7 @@ def attachment_slot(interpreter: Interpreter, metal_object: MetalObject, name: s
 
 
 def index_of(interpreter: Interpreter, value: Value, index: Value, at: Span) -> Value | None:
-    """What an index into a value gives; None where it is no value that is followed."""
+    """Returns an element of a value, or None if the value is not tracked."""
     if isinstance(value, MetalObject) and value.kind == "slots":
         return attachment_slot(interpreter, value.of, color_slot(index), at)
     if isinstance(value, Aggregate) and isinstance(index, Constant):
@@ -116,7 +116,7 @@ def color_slot(index: Value) -> str:
 
 
 def set_index(interpreter: Interpreter, owner: Value, index: Value, value: Value, key: Span, at: Span) -> bool:
-    """Sets an attachment as a whole; whether the value was one that is followed."""
+    """Sets a whole attachment. Returns whether the owner is tracked."""
     if not isinstance(owner, MetalObject) or owner.kind != "slots":
         return False
     interpreter.set_field(owner.of, color_slot(index), value if isinstance(value, MetalObject) else UNKNOWN, key, at)
@@ -124,7 +124,7 @@ def set_index(interpreter: Interpreter, owner: Value, index: Value, value: Value
 
 
 def set_member(interpreter: Interpreter, owner: Value, name: str, value: Value, key: Span, at: Span) -> bool:
-    """Sets a member; whether its owner is followed."""
+    """Sets a member. Returns whether its owner is tracked."""
     if isinstance(owner, Aggregate):
         interpreter.undo_log.write(owner.items, name, value)
         return True
@@ -149,7 +149,7 @@ def set_member(interpreter: Interpreter, owner: Value, name: str, value: Value, 
 
 
 def as_texture(interpreter: Interpreter, value: Value, at: Span) -> Value:
-    """The texture that a value is, one of which only the name is known at least."""
+    """Returns a value as a texture; of an unknown value, at least the name is known."""
     if isinstance(value, Texture) or value == NIL:
         return value
     if isinstance(value, Symbol):
@@ -161,7 +161,7 @@ _TEXTURE_MEMBERS = frozenset({"textureType", "usage", "storageMode", "sampleCoun
 
 
 def adopt_descriptor(interpreter: Interpreter, symbol: Symbol, term: Term, member: str, frame: CallFrame) -> Value:
-    """The object that code builds up which is begun elsewhere, told by its name and the member that is set."""
+    """Returns the descriptor that a symbol stands for, identified by its name and the member that is set."""
     if term[0] != NAME and not (term[0] == MEMBER and term[1] is not None and term[1][:2] == (NAME, "self")):
         return symbol
     low = last_name(term).lower()
@@ -188,11 +188,8 @@ def _hold(interpreter: Interpreter, term: Term, metal_object: MetalObject, frame
         interpreter.set_property(frame.type_name, name, metal_object, term[-1])
 
 
-# What MTKView makes
-
-
 def drawable(interpreter: Interpreter, at: Span) -> Texture:
-    """The texture of the drawable of the file."""
+    """Returns the texture of the file's drawable."""
     texture = interpreter.textures.get(("drawable",))
     if texture is None:
         texture = interpreter.textures["drawable",] = Texture("drawable", "", at)
@@ -201,7 +198,7 @@ def drawable(interpreter: Interpreter, at: Span) -> Texture:
 
 
 def view_texture(interpreter: Interpreter, view: MetalObject, name: str, at: Span) -> Texture:
-    """A texture that the view makes and keeps."""
+    """Returns a texture that the view creates and keeps."""
     texture = interpreter.textures.get((name, "view"))
     if texture is None:
         texture = interpreter.textures[name, "view"] = Texture(name, "", at)
@@ -210,8 +207,11 @@ def view_texture(interpreter: Interpreter, view: MetalObject, name: str, at: Spa
 
 
 def view_pass(interpreter: Interpreter, at: Span, frame: CallFrame) -> MetalObject:
-    """The descriptor that MTKView makes for its drawable: with multisampling it clears the multisampled texture and resolves it into the
-    drawable's; depth and stencil are cleared and not stored (Apple's documentation of currentRenderPassDescriptor)."""
+    """Returns the descriptor that MTKView creates for its drawable.
+
+    With multisampling, it clears the multisampled texture and resolves it to the drawable's texture. Depth and stencil are cleared and not
+    stored (Apple's documentation of currentRenderPassDescriptor).
+    """
     descriptor = interpreter.object_at("pass", "", at, frame.path, True)
     view = interpreter.object_at("view", "view", at, 0, False)
     descriptor.of = view

@@ -1,4 +1,4 @@
-"""What Metal's own functions make of descriptors: textures, passes, pipelines."""
+"""Metal functions that use descriptors: textures, passes, pipelines."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def record(interpreter: Interpreter, kind: str, what: tuple[object, ...], at: Sp
 def create_texture_descriptor(
     interpreter: Interpreter, arguments: list[tuple[str, Value]], terms: tuple[tuple[str, Term], ...], at: Span, frame: CallFrame, name: str
 ) -> MetalObject:
-    """A texture's descriptor by one of the class's functions."""
+    """Returns a texture descriptor created by a class method."""
     descriptor = interpreter.object_at("texture", "", at, frame.path, True)
     interpreter.reset(descriptor)
     for (label, value), (_, term) in zip(arguments, terms, strict=True):
@@ -43,7 +43,7 @@ def create_texture_descriptor(
 def change_options(
     interpreter: Interpreter, owner: Value, target: Term, name: str, arguments: list[tuple[str, Value]], at: Span, frame: CallFrame
 ) -> None:
-    """`insert` and the like on an option set."""
+    """Executes `insert` and similar methods of option sets."""
     if not isinstance(owner, MetalObject) or not arguments:
         return
     field = interpreter.field(owner, target[2])
@@ -58,7 +58,7 @@ def change_options(
 
 
 def copy_descriptor(interpreter: Interpreter, original: MetalObject, at: Span, frame: CallFrame) -> MetalObject:
-    """A copy of a descriptor, and of its attachments."""
+    """Returns a copy of a descriptor and its attachments."""
     copy = interpreter.object_at(original.kind, "", at, frame.path, original.complete)
     interpreter.reset(copy)
     interpreter.superseded.add(id(original))
@@ -77,7 +77,7 @@ def copy_descriptor(interpreter: Interpreter, original: MetalObject, at: Span, f
 
 
 def make_texture(interpreter: Interpreter, descriptor: Value, at: Span, frame: CallFrame) -> Value:
-    """A texture, of the descriptor as it is now."""
+    """Returns a texture with the current state of its descriptor."""
     if not isinstance(descriptor, MetalObject) or descriptor.kind != "texture":
         return UNKNOWN
     key: tuple[object, ...] = ("made", at.start, frame.path)
@@ -95,7 +95,10 @@ def make_texture(interpreter: Interpreter, descriptor: Value, at: Span, frame: C
 
 
 def encode_pass(interpreter: Interpreter, buffer: Value, descriptor: Value, at: Span, frame: CallFrame) -> Value:
-    """The encoder of a render pass, of the descriptor as it is now. Into a buffer that is begun elsewhere others may encode too."""
+    """Returns the encoder of a pass with the current state of its descriptor.
+
+    Other code may also encode to a buffer that was created elsewhere.
+    """
     if not (isinstance(buffer, MetalObject) and buffer.kind == "commands" and buffer.complete):
         interpreter.incomplete.add(interpreter.root)
     encoder = interpreter.object_at("encoder", "", at, frame.path, True)
@@ -112,7 +115,7 @@ def encode_pass(interpreter: Interpreter, buffer: Value, descriptor: Value, at: 
 
 
 def pass_of(interpreter: Interpreter, descriptor: MetalObject, at: Span) -> Pass:
-    """A descriptor's attachments as they are now."""
+    """Returns a pass with the current attachments of a descriptor."""
     attachments: dict[str, dict[str, Field]] = {}
     unknown: set[str] = set()
     for name, field in interpreter.snapshot(descriptor).items():
@@ -131,7 +134,7 @@ def pass_of(interpreter: Interpreter, descriptor: MetalObject, at: Span) -> Pass
 
 
 def make_pipeline(interpreter: Interpreter, descriptor: Value, at: Span, frame: CallFrame) -> Value:
-    """The state of a pipeline, of the descriptor as it is now."""
+    """Returns a pipeline state with the current state of its descriptor."""
     state = interpreter.object_at("state", "", at, frame.path, True)
     if not isinstance(descriptor, MetalObject) or descriptor.kind != "pipeline":
         return state
@@ -143,7 +146,7 @@ def make_pipeline(interpreter: Interpreter, descriptor: Value, at: Span, frame: 
 
 
 def pipeline_of(interpreter: Interpreter, descriptor: MetalObject, at: Span, type_name: str) -> Pipeline:
-    """A pipeline's descriptor as it is now."""
+    """Returns a pipeline with the current state of a descriptor."""
     colors: dict[str, dict[str, Field]] = {}
     fields: dict[str, Field] = {}
     for name, field in interpreter.snapshot(descriptor).items():

@@ -1,4 +1,4 @@
-"""Swift's syntax tree to terms: statements and declarations."""
+"""Converts Swift statements and declarations to terms."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from .expressions import MAX_DEPTH, Expressions, block
 from .terms import BIND, BLOCK, CALL, CASES, DO, FUNC, GUARD, IF, LEAVE, LET, LOOP, NAME, OTHER, RETURN, SET, Function, Parameter, Term
 
 MAX_ARMS = 50
-"""Of one chain of else-ifs."""
+"""The maximum number of branches in an `if` chain."""
 
 _LABELS = re.compile(r"[(,]\s*([A-Za-z_]\w*)\s*:")
 _LEAVING = frozenset({"fatalError", "preconditionFailure", "abort", "exit"})
 
 _Open = tuple[list[Term], Span, list[tuple[str, list[Term]]]]
-"""An `#if` that is open: the list around it, its place, and the arms so far, each with its text."""
+"""An open `#if`: the enclosing list, its location, and its branches with their conditions."""
 
 
 class Syntax(Expressions):
-    """Reads one text's syntax tree."""
+    """Reads one file."""
 
     def statements(self, nodes: list[SyntaxNode], depth: int = 0) -> tuple[Term, ...]:
-        """The terms of statements; `#if` is put together from its directives."""
+        """Returns the terms of statements; `#if` blocks are assembled from their directives."""
         if depth > MAX_DEPTH:
             return ()
         terms: list[Term] = []
@@ -39,7 +39,7 @@ class Syntax(Expressions):
         return tuple(terms)
 
     def directive(self, node: SyntaxNode, terms: list[Term], open_: list[_Open]) -> list[Term]:
-        """What statements after a directive are added to."""
+        """Handles a directive; returns the list that the following statements belong to."""
         written = self.text_of(node)
         arm: list[Term] = []
         if written.startswith("#if") and len(open_) < MAX_DEPTH:
@@ -64,7 +64,7 @@ class Syntax(Expressions):
             if inner is not None and sign is not None:
                 terms.append((SET, self.text_of(sign), self.expression(inner, depth), self.expression(value, depth), span(node)))
         elif kind == "infix_expression" and node.child_count == 3 and self.text_of(node.children[1]).endswith("="):
-            # The grammar knows `+=` as an assignment, `<<=` and its like only as operators of somebody's own.
+            # The grammar parses `+=` as an assignment, but `<<=` and similar as custom operators.
             target, sign, value = node.children
             terms.append((SET, self.text_of(sign), self.expression(target, depth), self.expression(value, depth), span(node)))
         elif kind == "if_statement":
@@ -95,7 +95,7 @@ class Syntax(Expressions):
             terms.append((LEAVE, span(node)) if leaves else (DO, term, span(node)))
 
     def branches(self, node: SyntaxNode, depth: int) -> Term:
-        """An `if` with all its else-ifs."""
+        """Returns an `if` chain."""
         arms: list[tuple[tuple[Term, ...], tuple[Term, ...], Span]] = []
         otherwise: tuple[Term, ...] = ()
         while len(arms) < MAX_ARMS:
@@ -111,7 +111,7 @@ class Syntax(Expressions):
         return otherwise[0]
 
     def conditions(self, node: SyntaxNode, depth: int) -> tuple[tuple[Term, ...], list[tuple[Term, ...]]]:
-        """The conditions of an `if` or a `guard`, and the statements between each pair of its braces."""
+        """Returns the conditions of an `if` or `guard`, and the statements in each of its blocks."""
         terms: list[Term] = []
         bodies: list[tuple[Term, ...]] = []
         name: SyntaxNode | None = None
@@ -144,7 +144,7 @@ class Syntax(Expressions):
             terms.append((BIND, self.text_of(name), self.expression(value, depth) if value is not None else None, place))
 
     def declared(self, node: SyntaxNode, depth: int, terms: list[Term]) -> None:
-        """`let` and `var`, each of its names."""
+        """Adds the names declared by `let` or `var`."""
         names: tuple[str, ...] = ()
         kind = ""
         value: Term | None = None
@@ -162,14 +162,14 @@ class Syntax(Expressions):
             terms.append((LET, names, kind, value, span(node)))
 
     def names(self, node: SyntaxNode) -> tuple[str, ...]:
-        """The names that a pattern binds; empty ones are passed over."""
+        """Returns the names that a pattern binds; empty ones are ignored."""
         bound = node.child_by_field_name("bound_identifier")
         if bound is not None:
             return (self.text_of(bound),)
         return tuple(self.text_of(child) for child in node.named_children if child.type in ("pattern", "simple_identifier")) or ("",)
 
     def function(self, node: SyntaxNode, type_name: str) -> Function:
-        """A function or an initialiser, its body unread."""
+        """Returns a function or an initializer without parsing its body."""
         name = node.child_by_field_name("name")
         parameters: list[Parameter] = []
         gives: tuple[str, ...] = ()
@@ -194,7 +194,7 @@ class Syntax(Expressions):
 
 
 def _closed(terms: list[Term], open_: list[_Open]) -> list[Term]:
-    """Ends the innermost `#if`: the list around it, with what it says."""
+    """Closes the innermost `#if` and returns the enclosing list."""
     enclosing, place, arms = open_.pop()
     otherwise: tuple[Term, ...] = ()
     for text, arm in reversed(arms):

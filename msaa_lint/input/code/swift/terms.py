@@ -43,7 +43,7 @@ LET, SET, DO, RETURN, LEAVE, IF, GUARD, CASES, BLOCK, LOOP, FUNC = range(20, 31)
 
 
 class Parameter(NamedTuple):
-    """A parameter: the label that a call gives it (empty for `_`), its name, its type as written, its default."""
+    """A parameter: its argument label (empty for `_`), its name, its type as written, its default."""
 
     label: str
     name: str
@@ -66,7 +66,7 @@ class Function(NamedTuple):
 
 
 class Member(NamedTuple):
-    """A property that is stored: its type as written, its value, whether it may be set again, whether other files see it."""
+    """A stored property: its type as written, its initial value, whether it is a variable, whether other files can access it."""
 
     type: str
     value: Term | None
@@ -75,8 +75,7 @@ class Member(NamedTuple):
 
 
 class Type(NamedTuple):
-    """A class, a structure or an enumeration with all its extensions: what it declares, what it inherits from, its cases with their raw
-    values."""
+    """A class, structure, or enumeration with its extensions: its declarations, supertypes, and cases with raw values."""
 
     name: str
     members: dict[str, Member]
@@ -90,19 +89,19 @@ class Type(NamedTuple):
 
 
 class Unit(NamedTuple):
-    """All of a file: its types by name (the one without a name has what stands outside of types), its statements outside of functions."""
+    """The contents of a file: its types by name, with global declarations under the empty name, and its global statements."""
 
     types: dict[str, Type]
     outside: tuple[Term, ...]
 
 
 def at(term: Term) -> Span:
-    """The place of a term."""
+    """Returns the location of a term."""
     place: Span = term[-1]
     return place
 
 
 def name_at(member: Term) -> Span:
-    """The place of the name of a member: where it ends, as many characters before."""
+    """Returns the location of a member's name, which ends where the term ends."""
     end = member[-1].end
     return Span(end - len(member[2]), end)

@@ -1,4 +1,4 @@
-"""The textures of a Swift file as members of a tree; what has to be assumed of their sample counts."""
+"""Converts the textures of a Swift file, with the sample counts that must be assumed."""
 
 from __future__ import annotations
 
@@ -10,14 +10,17 @@ from .interpreter import Interpreter
 from .values import MULTISAMPLED_TYPES, Constant, Field, MetalObject, Symbol, Texture, join_fields
 
 ASSUMED_COUNT = 4
-"""The only count above 1 that every device has (Apple's documentation of supportsTextureSampleCount)."""
+"""The only count above 1 that every device supports (Apple's documentation of supportsTextureSampleCount)."""
 
 _STORAGE = frozenset({"shared", "managed", "private", "memoryless"})
 
 
 class Textures:
-    """The textures of a file. `assumed` has what is not known: where it stands, what it is taken for; `symbols` the counts that values are
-    taken for; `attached` the textures that a pass draws to, `resolved` those that it resolves, `alike` those beside others."""
+    """The textures of a file.
+
+    `assumed` are unknown values with their locations and the values assumed; `symbols` the counts assumed for symbols; `attached` the
+    textures that passes draw to, `resolved` those that they resolve; `alike` the counts taken from other attachments of the pass.
+    """
 
     def __init__(self, interpreter: Interpreter, defaults: bool) -> None:
         self.interpreter = interpreter
@@ -41,7 +44,7 @@ class Textures:
         self.assumed.setdefault(" ".join(what.split())[:80], (at, value))
 
     def fields(self, texture: Texture) -> dict[str, Field]:
-        """What a texture is made with: what agrees each time, and of those with several samples where it ever has several."""
+        """Returns the members on which all creations of a texture agree; of those, only the multisampled ones if there are any."""
         join_all = self.given.get(id(texture))
         if join_all is None:
             several = [fields for fields in texture.made if type_of(fields) in MULTISAMPLED_TYPES]
@@ -52,7 +55,7 @@ class Textures:
         return join_all
 
     def add_pass(self, textures: list[Texture]) -> None:
-        """Notes the textures of a pass, which all have the same sample count: what is known of one is known of the others."""
+        """Records the textures of a pass. They all have the same sample count, so a count known for one applies to all."""
         counts = {self.stated_count(texture) for texture in textures} - {None}
         self.attached.update(map(id, textures))
         if len(counts) == 1:
@@ -62,14 +65,14 @@ class Textures:
                     self.alike.setdefault(id(texture), count)
 
     def stated_count(self, texture: Texture) -> int | None:
-        """The sample count that the file states."""
+        """Returns the sample count that the file states."""
         fields = self.fields(texture) if texture.owner is None else self.interpreter.snapshot(texture.owner)
         count = fields.get("sampleCount")
         value = count.value.value if count is not None and isinstance(count.value, Constant) else None
         return value if type(value) is int and value in COUNTS else None
 
     def members(self, texture: Texture) -> list[Entry]:
-        """The members of a texture."""
+        """Returns the members of a texture."""
         if texture.drawable:
             return [("drawable", texture.at, scalar(True, texture.at)), *self.drawable_format()]
         if texture.owner is not None:
@@ -82,13 +85,13 @@ class Textures:
         entries.extend(self.count(texture, fields))
         if "usage" in fields:
             entries.extend(usage(fields["usage"]))
-        # Of a texture that no pass of the file has, passes elsewhere may ask what only memory can give.
+        # Passes in other files may need memory for a texture that no pass of this file uses.
         if "storageMode" in fields and (id(texture) in self.attached or fields["storageMode"].value == Constant("memoryless")):
             entries.extend(word("storageMode", fields["storageMode"], _STORAGE))
         return entries
 
     def count(self, texture: Texture, fields: dict[str, Field]) -> list[Entry]:
-        """The texture's type and its sample count, which is assumed where it is above 1 and not known."""
+        """Returns the texture type and the sample count; a count above 1 that is unknown is assumed."""
         kind, count = fields.get("textureType"), fields.get("sampleCount")
         number = count.value.value if count is not None and isinstance(count.value, Constant) else None
         if kind is not None and kind.default and count is not None and not count.default:
@@ -108,7 +111,7 @@ class Textures:
         return entries
 
     def assumed_count(self, texture: Texture, count: Field | None, kind: Field | None) -> Entry:
-        """A count that is that of its pass's other textures, or the one that every device has."""
+        """Returns a count taken from the pass's other textures, or the one that every device supports."""
         value = self.alike.get(id(texture), ASSUMED_COUNT)
         if count is None:
             place = kind.at if kind is not None else self.resolved.get(id(texture), texture.at)
@@ -122,7 +125,7 @@ class Textures:
         return "sampleCount", count.key, scalar(value, count.at)
 
     def drawable_format(self) -> list[Entry]:
-        """The pixel format of the drawable, as the layer or the view is given it."""
+        """Returns the pixel format of the drawable from its layer or view."""
         fields = [
             field
             for item in self.interpreter.objects.values()
@@ -132,7 +135,7 @@ class Textures:
         return plain("pixelFormat", fields[0]) if fields and all(entry.value == fields[0].value for entry in fields) else []
 
     def view_members(self, texture: Texture, view: MetalObject) -> list[Entry]:
-        """What is known of a texture that MTKView makes."""
+        """Returns what is known of a texture that MTKView creates."""
         fields = self.interpreter.snapshot(view)
         entries: list[Entry] = []
         pixels = fields.get("colorPixelFormat" if texture.name == "multisampleColorTexture" else "depthStencilPixelFormat")

@@ -1,4 +1,4 @@
-"""What was found of a Swift file to a tree with the section `metal`, every member at its place in the source."""
+"""Writes a Metal description from a Swift file; each member has its location in the source."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ _FILTERS = {
     "stencilResolveFilter": frozenset({"sample0", "depthResolvedSample"}),
 }
 _DEFAULTS = {"color": ("dontCare", "store"), "depth": ("clear", "dontCare"), "stencil": ("clear", "dontCare")}
-"""Load and store actions of attachments that are never given any (Apple's documentation of loadAction and storeAction)."""
+"""The default load and store actions of attachments (Apple's documentation of loadAction and storeAction)."""
 
 _SWITCHES = ("isAlphaToCoverageEnabled", "alphaToCoverageEnabled", "isAlphaToOneEnabled", "alphaToOneEnabled", "isRasterizationEnabled")
 
 
 class DescriptionWriter:
-    """Writes the tree of one file."""
+    """Writes the description of one file."""
 
     def __init__(self, interpreter: Interpreter, defaults: bool) -> None:
         self.interpreter = interpreter
@@ -37,7 +37,7 @@ class DescriptionWriter:
         self.maybe_loaded: set[int] = set()
 
     def tree(self, whole: Span) -> Node | None:
-        """The tree; None where the file has nothing of Metal's multisampling."""
+        """Returns the description, or None if the file does not use Metal multisampling."""
         passes = [(render_pass, written) for render_pass in self.passes() if (written := self.used(render_pass))]
         interpreter = self.interpreter
         for texture in interpreter.textures.values():
@@ -79,10 +79,8 @@ class DescriptionWriter:
         place = sections[-1][1]
         return mapping([("metal", place, mapping([*self.device(), *sections], place))], whole)
 
-    # Passes
-
     def passes(self) -> list[Pass]:
-        """Every pass that is encoded, and every descriptor that is only built up; of one that is encoded alike twice, one."""
+        """Returns the passes that are encoded, without duplicates, and descriptors that are only filled in."""
         interpreter = self.interpreter
         render_passes: list[Pass] = []
         values_by_descriptor: dict[int, list[dict[str, dict[str, Value]]]] = {}
@@ -104,7 +102,7 @@ class DescriptionWriter:
         return sorted(render_passes, key=lambda render_pass: render_pass.at.start)
 
     def used(self, render_pass: Pass) -> dict[str, dict[str, Field]]:
-        """The attachments of a pass of which enough is known, in the order of their slots."""
+        """Returns the attachments of a pass of which enough is known, in the order of their slots."""
         used: dict[str, dict[str, Field]] = {}
         drawn: list[Texture] = []
         for name in sorted(render_pass.attachments):
@@ -115,7 +113,7 @@ class DescriptionWriter:
             action = store.value.value if store is not None and isinstance(store.value, Constant) else None
             if resolve is not None and not isinstance(resolve.value, (Texture, Constant)):
                 continue
-            # Other code may give it what it resolves to.
+            # Other code may set the resolve texture.
             if resolve is None and (
                 not render_pass.complete if action in RESOLVING else action is None and not render_pass.descriptor.complete
             ):
@@ -158,7 +156,7 @@ class DescriptionWriter:
         for index, (name, allowed) in enumerate((("loadAction", _LOADS), ("storeAction", _STORES))):
             field = fields.get(name)
             if field is not None:
-                # What is stored for a load that only some frames do has its reader.
+                # If some frames load the texture, its stored samples are read.
                 stores = field.value in (Constant("store"), Constant("storeAndMultisampleResolve"))
                 if not (stores and id(fields["texture"].value) in self.maybe_loaded):
                     entries.extend(word(name, field, allowed))
@@ -170,8 +168,6 @@ class DescriptionWriter:
             if field is not None and name.startswith(kind):
                 entries.extend(word(name, field, allowed))
         return entries
-
-    # Pipelines
 
     def pipelines(self, pipelines: list[Pipeline], passes: dict[int, str]) -> list[Entry]:
         names = Names()
@@ -210,8 +206,6 @@ class DescriptionWriter:
             entries.append(("colorAttachments", colors[0][1], mapping(colors, colors[0][1])))
         return mapping(entries, pipeline.descriptor.at)
 
-    # The frame
-
     def device(self) -> list[Entry]:
         interpreter = self.interpreter
         entries: list[Entry] = []
@@ -230,7 +224,7 @@ class DescriptionWriter:
         return entries
 
     def family(self) -> Span | None:
-        """Where the file shows that it is for Apple's own GPUs."""
+        """Returns where the file shows that it targets Apple GPUs."""
         place = self.interpreter.imports
         if place is not None:
             return place

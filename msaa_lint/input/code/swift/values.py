@@ -1,4 +1,4 @@
-"""What Swift's variables hold, as far as a reading of the source can tell, and the objects of Metal among them."""
+"""Values of Swift variables, and the Metal objects among them."""
 
 from __future__ import annotations
 
@@ -12,29 +12,29 @@ Scalar = str | bool | int | float | None | tuple[str, ...]
 
 
 class Constant(NamedTuple):
-    """A value that is known: an enumerant's name, a number, None for nil, the names in an option set."""
+    """A known value: the name of an enumerant, a number, None for nil, the names in an option set."""
 
     value: Scalar
 
 
 class Symbol(NamedTuple):
-    """A value that only the run knows: what it is called, and whose it is."""
+    """A value that is known only at run time: its name and context."""
 
     text: str
     function_name: str
 
 
 class OneOf(NamedTuple):
-    """A value that is not known: one of these enumerants, or something else."""
+    """An unknown value that may be one of these enumerants."""
 
     names: frozenset[str]
 
 
 class MetalObject:
-    """An object that code builds up or hands on: a descriptor, an attachment, a view, a drawable, an encoder.
+    """A Metal object that code creates or uses: a descriptor, attachment, view, drawable, or encoder.
 
-    `fields` has what it was given, each with its places and the function that gave it; `complete` says that its beginning is seen, so
-    that what it was never given has Metal's default; `loose` that code which is not read may have changed it.
+    `fields` are the members that are set, with their locations and the function that set them. `complete` is set if the object is created
+    in the file, so that unset members have Metal's defaults; `loose` if external code may have changed it.
     """
 
     __slots__ = ("at", "complete", "fields", "kind", "loose", "name", "of", "type_name")
@@ -51,8 +51,10 @@ class MetalObject:
 
 
 class Texture:
-    """A texture: what it is made with, each time that the code makes it; `rank` is the depth of the calls in which it got its name. One
-    that is `open` other files may read."""
+    """A texture: its members at each creation, and `rank`, the call depth at which it was named.
+
+    An `open` texture can be read by other files.
+    """
 
     __slots__ = ("at", "drawable", "key", "made", "name", "open", "owner", "rank", "type_name")
 
@@ -69,13 +71,13 @@ class Texture:
 
     @property
     def multisampled(self) -> bool:
-        """Whether it is seen to be made with several samples."""
+        """Whether it is created with several samples."""
         types = [fields["textureType"].value for fields in self.made if "textureType" in fields]
         return any(isinstance(type_, Constant) and type_.value in MULTISAMPLED_TYPES for type_ in types)
 
 
 MAX_ITEMS = 32
-"""Items of a tuple or a structure that are followed."""
+"""The maximum number of items in a tuple or structure."""
 
 
 class Aggregate(NamedTuple):
@@ -85,7 +87,7 @@ class Aggregate(NamedTuple):
 
 
 class Code(NamedTuple):
-    """A closure in a variable, or a function that is declared in another."""
+    """A closure in a variable, or a nested function."""
 
     term: Term
     function: Function | None = None
@@ -98,7 +100,7 @@ class Instance(NamedTuple):
 
 
 class Unknown:
-    """Nothing is known."""
+    """An unknown value."""
 
     __slots__ = ()
 
@@ -110,7 +112,7 @@ Value = Constant | Symbol | OneOf | MetalObject | Texture | Aggregate | Code | I
 
 
 class Field(NamedTuple):
-    """What a member holds; the places of its name and of its value; the function that gave it; whether nothing gave it."""
+    """The value of a member, the locations of its name and value, the function that set it, and whether it is a default."""
 
     value: Value
     key: Span
@@ -127,10 +129,9 @@ def _is_known(field: Field | None) -> bool:
 
 
 def join(first: Value, second: Value, name: str = "", optional: bool = False) -> Value:
-    """What a variable holds that has one of two values.
+    """Returns the value of a variable that has one of two values.
 
-    Where a sample count or a texture type is one thing with multisampling and another without, it is what it is with. An `optional` that is
-    sometimes nil counts as what it is else.
+    If a sample count or texture type differs with multisampling, the multisampled value is returned. For `optional`, nil is ignored.
     """
     if first is second or first == second:
         return first
@@ -160,7 +161,7 @@ def join(first: Value, second: Value, name: str = "", optional: bool = False) ->
 
 
 MAX_NAMES = 8
-"""Of enumerants that a value may be."""
+"""The maximum number of enumerants in `OneOf`."""
 
 
 def _names(value: Value) -> frozenset[str]:
@@ -170,7 +171,7 @@ def _names(value: Value) -> frozenset[str]:
 
 
 def join_fields(first: dict[str, Field], second: dict[str, Field]) -> dict[str, Field]:
-    """What an object has been given that was given the one or the other."""
+    """Returns the members of an object that has one of two states."""
     fields: dict[str, Field] = {}
     for name in {**first, **second}:
         one, other = first.get(name), second.get(name)
@@ -185,13 +186,14 @@ def join_fields(first: dict[str, Field], second: dict[str, Field]) -> dict[str, 
 
 
 Writes = dict[tuple[int, str], tuple[dict[str, Any], Any]]
-"""By the variables and the name: what a branch left there."""
+"""The state that a branch left, by variables and name."""
 
 
 class UndoLog:
-    """Writes to variables and members that can be taken back, so that both branches of a condition start alike and are then joined.
+    """A log of writes to variables and members.
 
-    Every write costs the same, however much there is.
+    Writes can be undone, so that both branches of a condition start from the same state and are then joined. The cost of a write is
+    constant.
     """
 
     def __init__(self) -> None:
@@ -208,7 +210,7 @@ class UndoLog:
         return len(self.writes)
 
     def undo(self, mark: int) -> Writes:
-        """Takes back what was written since the mark; gives what it was, by place."""
+        """Undoes the writes since a mark. Returns what they had written."""
         last: Writes = {}
         while len(self.writes) > mark:
             where, name, before = self.writes.pop()
@@ -220,7 +222,7 @@ class UndoLog:
         return last
 
     def join(self, then: Writes, otherwise: Writes) -> None:
-        """Writes what is left after one of two branches."""
+        """Writes the joined state of two branches."""
         for key, (where, _) in {**then, **otherwise}.items():
             name = key[1]
             one = then[key][1] if key in then else where.get(name)
@@ -233,7 +235,7 @@ class UndoLog:
                 self.write(where, name, join(one or NIL, other or NIL, name, optional=True))
 
     def redo(self, writes: Writes) -> None:
-        """Writes what one branch left."""
+        """Repeats the writes of a branch."""
         for (_, name), (where, value) in writes.items():
             self.write(where, name, value)
 
