@@ -28,7 +28,7 @@ SOURCES = (
 PAGES = (".md", ".markdown", ".mdx")
 """Of those whose code is read where they are asked for."""
 
-EXTRA = 'source code needs the extra: pip install "msaa-lint[source]"'
+EXTRA = 'reading source code requires an extra; install it with `pip install "msaa-lint[source]"`'
 
 HEAD_BYTES = 64 << 10
 MAX_DEPTH = 64

@@ -145,6 +145,6 @@ MAX_ASSUMED = 3
 
 def _assumption_lines(assumed: "tuple[tuple[str, Span, str], ...]", source: "Source") -> tuple[str, ...]:
     """Returns the first assumptions as lines for the user."""
-    lines = [f"{what} (line {source.position(at.start).line}) is not known here: judged as {value}" for what, at, value in assumed]
+    lines = [f"{what} (line {source.position(at.start).line}) is unknown; assumed to be {value}" for what, at, value in assumed]
     more = len(lines) - MAX_ASSUMED
-    return (*lines[:MAX_ASSUMED], f"{more} more {'is' if more == 1 else 'are'} assumed") if more > 0 else tuple(lines)
+    return (*lines[:MAX_ASSUMED], f"{more} more assumption{'' if more == 1 else 's'}") if more > 0 else tuple(lines)

@@ -30,7 +30,7 @@ MAX_WORK = 30_000
 
 _CHUNK = 1 << 16
 
-EXTRA = 'source code needs the extra: pip install "msaa-lint[source]"'
+EXTRA = 'reading source code requires an extra; install it with `pip install "msaa-lint[source]"`'
 
 
 class Missing(Unreadable):
@@ -96,4 +96,4 @@ def tree(code: Code) -> "Tree":
     try:
         return parser.parse(lambda offset, _point: data[offset : offset + _CHUNK], progress_callback=stop)
     except ValueError:
-        raise Unreadable("there is more code in it, or harder to parse, than is read") from None
+        raise Unreadable("the code is too long or too complex to parse") from None

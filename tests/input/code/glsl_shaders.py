@@ -120,7 +120,7 @@ FUNCTIONS = {
         void main() { vec4 sum = vec4(0.0); for (int i = 0; i < N; ++i) sum += texelFetch(scene, @, i); color = sum * SHARE; }""",
     "a global": """vec4 total = vec4(0.0);
         void main() { for (int i = 0; i < 4; ++i) total += texelFetch(scene, @, i); color = total / 4.0; }""",
-    "specialised": """layout(constant_id = 3) const int N = 4;
+    "specialized": """layout(constant_id = 3) const int N = 4;
         void main() { vec4 sum = vec4(0.0); for (int i = 0; i < N; ++i) sum += texelFetch(scene, @, i); color = sum / float(N); }""",
     "unused": """vec4 never() { return texelFetch(scene, ivec2(0), gl_SampleID); } void main() { color = vec4(0.0); }""",
     "push constants": """layout(push_constant) uniform Push { int n; };

@@ -74,9 +74,9 @@ def test_sums_are_followed_alike(term: Term) -> None:
         assert said(reflect(shader(text).code)) == said(reflect(compiled(path)))
 
 
-def test_specialisation() -> None:
-    made = shader(STYLES["specialised"])
-    assert made.specialised
+def test_specialization() -> None:
+    made = shader(STYLES["specialized"])
+    assert made.specialized
     assert reflect(made.code).images[0].total == 4
     assert reflect(made.code, None, {3: 8}).images[0].total == 8
 
@@ -146,7 +146,7 @@ def test_what_is_more_than_an_average(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["sceneDepth", "normals_ms", "g_Position", "velocityBuffer", "object_id"])
-def test_what_is_no_colour(name: str) -> None:
+def test_names_of_images_without_color(name: str) -> None:
     assert findings(AVERAGES.replace("scene", name)) == []
 
 
@@ -293,7 +293,7 @@ def test_a_text_that_cannot_be_followed(tmp_path: Path) -> None:
     (tmp_path / "resolve.frag").write_text("void main() { nothing(); }", encoding="utf-8")
     ((code, severity, message),) = of_frame(tmp_path, "resolve.frag")
     assert (code, severity) == ("MSAA903", "warning")
-    assert message == "`resolve.frag` cannot be analyzed: `nothing()` is not defined in it"
+    assert message == "`resolve.frag` cannot be analyzed: `nothing()` is not defined"
     assert of_frame(tmp_path, "gone.frag")[0][0] == "MSAA904"
     assert of_frame(tmp_path, "../../outside.frag")[0][2] == "`../../outside.frag` is outside the project"
 

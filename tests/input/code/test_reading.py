@@ -206,7 +206,7 @@ def test_code_is_not_fixed(tmp_path: Path) -> None:
     for flag in ("--fix", "--diff"):
         done = run(tmp_path, "check", *ONLY, "--unsafe-fixes", flag, "a.cpp")
         assert done.returncode == 0
-        assert "a.cpp is source code, and stays as it is" in done.stderr
+        assert "a.cpp is source code and is not fixed" in done.stderr
     assert (tmp_path / "a.cpp").read_text() == CODE
     for text in (CODE, "// µ\r\nint samples;\r\n"):
         done = run(tmp_path, "check", *ONLY, "--fix", "-", "--stdin-filename", "a.cpp", stdin=text.encode())
@@ -268,7 +268,7 @@ def test_places_count_characters(tmp_path: Path) -> None:
 
 # Without the extra.
 
-MISSING = 'source code needs the extra: pip install "msaa-lint[source]"'
+MISSING = 'reading source code requires an extra; install it with `pip install "msaa-lint[source]"`'
 
 
 @pytest.mark.parametrize("name", ["a.cpp", "a.c", "a.swift", "a.vert", "a.md"])
@@ -529,7 +529,7 @@ def test_code_is_not_drawn(tmp_path: Path, command: str) -> None:
     write(tmp_path, "a.cpp")
     done = run(tmp_path, command, "a.cpp")
     assert done.returncode == 2
-    assert "a.cpp: source code states too little to be drawn: `msaa-lint convert` writes what is read of it" in done.stderr
+    assert "a.cpp: source code does not describe a complete frame: complete the description that `msaa-lint convert` writes" in done.stderr
 
 
 # What is assumed.
@@ -552,10 +552,10 @@ def test_what_is_assumed_is_a_note(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(__import__("sys").modules, "msaa_lint.input.code.stand_in", stand_in)
     monkeypatch.setitem(programs.MODULES, "cpp", "stand_in")
     program = read_source_file(b"// samples\nint m_samples;\n", "a.cpp", "cpp").program
-    first = "the sample count `m_0` (line 2) is not known here: judged as 0"
+    first = "the sample count `m_0` (line 2) is unknown; assumed to be 0"
     assert program.assumed[0] == (first,)
     assert program.assumed[1][0] == first
-    assert program.assumed[1][3:] == ("1 more is assumed",)
+    assert program.assumed[1][3:] == ("1 more assumption",)
 
 
 @pytest.mark.parametrize(("name", "language"), [("view.mm", "Objective-C++"), ("shader.HLSL", "HLSL"), ("main.rs", "Rust")])

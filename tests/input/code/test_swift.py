@@ -58,7 +58,7 @@ def written(text: str, *path: str) -> tuple[str, str]:
 
 
 def color(text: str) -> Any:
-    """The first colour attachment of the only pass."""
+    """The first color attachment of the only pass."""
     (only,) = metal(text)["renderPasses"].values()
     return only["colorAttachments"]["0"]
 
@@ -749,7 +749,7 @@ def test_a_frame_of_which_something_is_hidden_has_no_commands(old: str, new: str
 def test_the_family_by_what_a_file_imports() -> None:
     phone = "import UIKit\n" + MADE
     assert metal(phone)["family"] == "apple3"
-    assert [what for what, _, _ in found(phone).assumed] == ["the GPU's family"]
+    assert [what for what, _, _ in found(phone).assumed] == ["the GPU family"]
     for other in ("import MetalKit\n", "import UIKit\nimport AppKit\n", "#if canImport(UIKit)\nimport UIKit\n#endif\n"):
         assert "family" not in metal(other + MADE)
 

@@ -94,13 +94,13 @@ class Assembly:
             self.declare(op.TYPE_POINTER, self._types[key], storage, holds)
         return self._types[key]
 
-    def number(self, kind: Type, value: float | bool, specialisation: int | None = None) -> int:
+    def number(self, kind: Type, value: float | bool, specialization: int | None = None) -> int:
         """Returns the id of a constant. Each specialization constant is new."""
         key = (kind, type(value), value)
-        if specialisation is None and key in self._constants:
+        if specialization is None and key in self._constants:
             return self._constants[key]
         type_id, constant_id = self.type(kind), self.id()
-        special = 0 if specialisation is None else op.SPEC_CONSTANT_TRUE - op.CONSTANT_TRUE
+        special = 0 if specialization is None else op.SPEC_CONSTANT_TRUE - op.CONSTANT_TRUE
         if kind == BOOL:
             self.declare((op.CONSTANT_TRUE if value else op.CONSTANT_FALSE) + special, type_id, constant_id)
         elif kind == DOUBLE:
@@ -110,10 +110,10 @@ class Assembly:
             self.declare(op.CONSTANT + special, type_id, constant_id, struct.unpack("<I", struct.pack("<f", value))[0])
         else:
             self.declare(op.CONSTANT + special, type_id, constant_id, int(value) & 0xFFFFFFFF)
-        if specialisation is None:
+        if specialization is None:
             self._constants[key] = constant_id
         else:
-            self.decorate(constant_id, op.SPEC_ID, specialisation)
+            self.decorate(constant_id, op.SPEC_ID, specialization)
         return constant_id
 
     def variable(self, storage: int, kind: Type) -> int:

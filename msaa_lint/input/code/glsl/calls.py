@@ -48,7 +48,7 @@ def _constructor(expressions: Expressions, kind: Type, arguments: list[SyntaxNod
         members = kind[2]
         assert isinstance(members, tuple)
         if len(members) != len(values):
-            raise UnsupportedShader("a structure is made of too little")
+            raise UnsupportedShader("a structure constructor has too few arguments")
         components = [expressions.as_type(v, t) if size_of(t) else v for v, (_, t) in zip(values, members, strict=True)]
         return expressions.result(op.COMPOSITE_CONSTRUCT, kind, *(item.id for item in components))
     return expressions.opaque("construct", kind, values)
@@ -59,7 +59,7 @@ def _array(expressions: Expressions, function: SyntaxNode, arguments: list[Synta
     named = function.child_by_field_name("argument")
     inner = expressions.kind(expressions.text_of(named)) if named is not None else None
     if inner is None or not arguments:
-        raise expressions.unsupported(function, "is not followed")
+        raise expressions.unsupported(function, "is not supported")
     values = [expressions.value(item, depth) for item in arguments]
     kind: Type = ("array", inner, len(values))
     elements = [expressions.as_type(value, inner) if size_of(inner) else value for value in values]
@@ -70,7 +70,7 @@ def _length(expressions: Expressions, function: SyntaxNode, depth: int) -> Value
     """Lowers `array.length()`."""
     argument, field = function.child_by_field_name("argument"), function.child_by_field_name("field")
     if argument is None or field is None or expressions.text_of(field) != "length":
-        raise expressions.unsupported(function, "is not followed")
+        raise expressions.unsupported(function, "is not supported")
     place = expressions.place(argument, depth)
     kind = place.type if place is not None else expressions.value(argument, depth).type
     size = size_of(kind) or (kind[2] if kind[0] == "array" else 0)
@@ -101,7 +101,7 @@ def _sample_access(
         at = expressions.value(arguments[1], depth) if len(arguments) == 3 else expressions.opaque("", INT, ())
         sample = expressions.value(arguments[2], depth) if len(arguments) == 3 else None
     if sample is None:
-        raise expressions.unsupported(node, "is not followed")
+        raise expressions.unsupported(node, "is not supported")
     expressions.fetches.append((expressions.text_of(arguments[0]), node.start_byte, node.end_byte))
     kind = texel(image.type)
     number = op.IMAGE_FETCH if name.startswith("texel") else op.IMAGE_READ
@@ -124,11 +124,11 @@ def _built_in(expressions: Expressions, node: SyntaxNode, name: str, arguments: 
     if name in _OUT:
         target = expressions.place(arguments[1], depth)
         if target is None:
-            raise expressions.unsupported(node, "is not followed")
+            raise expressions.unsupported(node, "is not supported")
         expressions.store(target, expressions.opaque(name, target.type, values[:1]))
         return expressions.opaque(f"{name} whole", vector(FLOAT, size_of(values[0].type)), values[:1])
     if kind is None:
-        raise expressions.unsupported(node, "is not defined in it")
+        raise expressions.unsupported(node, "is not defined")
     if kind == VOID or name.startswith(_WRITES):
         # Values stored to an image are used; the result differs at each call.
         for operand in values:
@@ -146,7 +146,7 @@ def _call_function(expressions: Expressions, node: SyntaxNode, name: str, argume
     types = [_type(place, value) for place, value in kinds]
     function = _matching_overload(expressions.functions[name], types)
     if function is None:
-        raise expressions.unsupported(node, "fits no function of it")
+        raise expressions.unsupported(node, "matches no function of the shader")
     if function not in expressions.called_functions:
         expressions.called_functions.append(function)
     passed: list[int] = []
@@ -154,7 +154,7 @@ def _call_function(expressions: Expressions, node: SyntaxNode, name: str, argume
     for (place, value), (kind, written, _) in zip(kinds, function.parameters, strict=True):
         if is_image(kind):
             if place is None:
-                raise expressions.unsupported(node, "is not followed")
+                raise expressions.unsupported(node, "is not supported")
             passed.append(place.pointer)
             continue
         if value is None:
@@ -164,7 +164,7 @@ def _call_function(expressions: Expressions, node: SyntaxNode, name: str, argume
             passed.append((expressions.as_type(value, kind) if size_of(kind) else value).id)
             continue
         if place is None:
-            raise expressions.unsupported(node, "is not followed")
+            raise expressions.unsupported(node, "is not supported")
         copy = expressions.temporary(kind)
         expressions.store(copy, expressions.as_type(value, kind) if size_of(kind) else value)
         passed.append(copy.pointer)

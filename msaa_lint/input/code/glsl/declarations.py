@@ -45,7 +45,7 @@ class Declarations(Expressions):
         self.outputs_without_location: list[int] = []
         self.integer_constants: dict[int, int] = {}
         """The values of integer constants by id."""
-        self.specialised = False
+        self.specialized = False
 
     def global_declaration(self, node: SyntaxNode, depth: int = 0) -> None:
         """Lowers a global declaration."""
@@ -57,7 +57,7 @@ class Declarations(Expressions):
         elif kind == "declaration":
             self.declaration(node)
         elif kind == "ERROR" or kind.endswith("statement"):
-            raise self.unsupported(node, "is not understood")
+            raise self.unsupported(node, "is not supported")
 
     def structure(self, node: SyntaxNode) -> Type | None:
         name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
@@ -86,7 +86,7 @@ class Declarations(Expressions):
             type_node = field.child_by_field_name("type")
             kind = self.kind(self.text_of(type_node)) if type_node is not None else None
             if type_node is None or kind is None:
-                raise self.unsupported(field, "is not understood")
+                raise self.unsupported(field, "is not supported")
             words = set(_WORD.findall(self.text[field.start_byte : type_node.start_byte]))
             for declarator in field.children_by_field_name("declarator"):
                 name, member_kind = self.declarator(declarator, kind)
@@ -100,7 +100,7 @@ class Declarations(Expressions):
             size_node, inner = node.child_by_field_name("size"), node.child_by_field_name("declarator")
             sizes.append(self.size(size_node) if size_node is not None else 0)
             if inner is None or len(sizes) > 4:
-                raise self.unsupported(node, "is not understood")
+                raise self.unsupported(node, "is not supported")
             node = inner
         for size in sizes:
             kind = ("array", kind, size)
@@ -113,7 +113,7 @@ class Declarations(Expressions):
             constant = self.lookup(self.text_of(node)) if node.type == "identifier" else None
             number = self.integer_constants.get(constant.id) if isinstance(constant, Value) else None
         if number is None or not 0 < number <= 65536:
-            raise self.unsupported(node, "is no size that is understood")
+            raise self.unsupported(node, "is not a supported array size")
         return number
 
     def qualifiers(self, node: SyntaxNode, end: int) -> tuple[set[str], dict[str, int | None]]:
@@ -133,7 +133,7 @@ class Declarations(Expressions):
 
     def declaration(self, node: SyntaxNode) -> None:
         if any(child.type == "ERROR" for child in node.children):
-            raise self.unsupported(node, "is not understood")
+            raise self.unsupported(node, "is not supported")
         body = next((child for child in node.named_children if child.type == "field_declaration_list"), None)
         type_node = node.child_by_field_name("type")
         if body is not None and type_node is None:
@@ -148,14 +148,14 @@ class Declarations(Expressions):
                 continue
             self.declared(declarator, kind, words, layout)
         if kind is None and self.text_of(type_node) not in ("precision",):
-            raise self.unsupported(node, "is of no type that is known")
+            raise self.unsupported(node, "has an unknown type")
 
     def declared(self, node: SyntaxNode, kind: Type, words: set[str], layout: dict[str, int | None]) -> None:
         """Declares a global variable."""
         initializer = node.child_by_field_name("value") if node.type == "init_declarator" else None
         target = node.child_by_field_name("declarator") if node.type == "init_declarator" else node
         if target is None:
-            raise self.unsupported(node, "is not understood")
+            raise self.unsupported(node, "is not supported")
         if initializer is not None and is_unsized(target):
             kind = self.sized_by_values(initializer, kind)
             target = target.child_by_field_name("declarator") or target
@@ -203,7 +203,7 @@ class Declarations(Expressions):
     ) -> None:
         """Declares a constant or an initialized variable."""
         if initializer is None:
-            raise self.unsupported(node, "is not understood")
+            raise self.unsupported(node, "is not supported")
         special = layout.get("constant_id")
         negative = initializer.type == "unary_expression" and self.text_of(initializer)[:1] == "-"
         literal = initializer.child_by_field_name("argument") if negative else initializer
@@ -215,7 +215,7 @@ class Declarations(Expressions):
             number = whole(text)
             value: float | bool = text == "true"
             if kind in (INT, UINT) and number is None:
-                raise self.unsupported(node, "is not understood")
+                raise self.unsupported(node, "is not supported")
             if kind != BOOL:
                 value = float(number) if number is not None else self.real(literal)
                 value = -value if negative else value
@@ -224,10 +224,10 @@ class Declarations(Expressions):
             if kind in (INT, UINT) and number is not None:
                 self.integer_constants[constant_id] = number
                 self.counts.setdefault(number, (literal.start_byte, literal.end_byte))
-            self.specialised = self.specialised or special is not None
+            self.specialized = self.specialized or special is not None
             return
         if special is not None:
-            raise self.unsupported(node, "is not understood")
+            raise self.unsupported(node, "is not supported")
         made_place = self.variable(op.PRIVATE, kind)
         self.scopes[0][name] = made_place
         self.starts.append((made_place, initializer))
@@ -283,13 +283,13 @@ class Declarations(Expressions):
         list_node = declarator.child_by_field_name("parameters") if declarator is not None else None
         returns = self.kind(self.text_of(type_node)) if type_node is not None else None
         if name is None or list_node is None or returns is None:
-            raise self.unsupported(node, "is not understood")
+            raise self.unsupported(node, "is not supported")
         parameters: list[tuple[Type, bool, str]] = []
         for child in list_node.named_children:
             parameter_type, target = child.child_by_field_name("type"), child.child_by_field_name("declarator")
             kind = self.kind(self.text_of(parameter_type)) if parameter_type is not None else None
             if child.type != "parameter_declaration" or parameter_type is None or kind is None:
-                raise self.unsupported(child, "is not understood")
+                raise self.unsupported(child, "is not supported")
             if kind == VOID:
                 continue
             words = set(_WORD.findall(self.text[child.start_byte : parameter_type.start_byte]))

@@ -21,7 +21,7 @@ from .text import UnsupportedShader, blank
 
 RELEVANT = re.compile(r"\b[iu]?(?:sampler2DMS|texture2DMS|image2DMS|subpassInputMS)")
 
-NO_COLOUR = re.compile(r"depth|stencil|normal|position|velocity|motion|shadow|(?:^|_)ids?(?:_|$)", re.IGNORECASE)
+NOT_COLOR = re.compile(r"depth|stencil|normal|position|velocity|motion|shadow|(?:^|_)ids?(?:_|$)", re.IGNORECASE)
 """Names of images whose samples must not be averaged, or whose average is not a color resolve."""
 
 MAX_SHADERS = 50
@@ -81,7 +81,7 @@ def _shaders(code: Code) -> Iterator[tuple[int, int]]:
 
 def _tree(lowered: Shader, reflected: Reflected, module: str) -> Node | None:
     """Returns a shader as a frame: the images, their reads, and the draw that performs them."""
-    named = [(name, image) for name, image in _images(lowered, reflected) if NO_COLOUR.search(name) is None]
+    named = [(name, image) for name, image in _images(lowered, reflected) if NOT_COLOR.search(name) is None]
     if not named or len(named) != len(reflected.images):
         return None
     places = {name: _fetched(lowered, name) for name, _ in named}

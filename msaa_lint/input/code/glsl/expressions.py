@@ -28,7 +28,7 @@ class Expressions(Values):
     def value(self, node: SyntaxNode, depth: int = 0) -> Value:
         """Returns the value of an expression."""
         if depth > MAX_DEPTH:
-            raise UnsupportedShader("its expressions are too deep")
+            raise UnsupportedShader("expressions nest too deeply")
         kind, deeper = node.type, depth + 1
         if kind == "number_literal":
             return self.literal(node)
@@ -57,7 +57,7 @@ class Expressions(Values):
             for child in node.named_children[:-1]:
                 self.value(child, deeper)
             return self.value(node.named_children[-1], deeper)
-        raise self.unsupported(node, "is not followed")
+        raise self.unsupported(node, "is not supported")
 
     def extract(self, node: SyntaxNode, depth: int) -> Value:
         """Returns a component or member of a value."""
@@ -94,7 +94,7 @@ class Expressions(Values):
         if operator == "^^":
             return self.result(LOGICAL_NOT_EQUAL, BOOL, one.id, other.id)
         if operator not in SIGNS:
-            raise self.unsupported(node, "is not followed")
+            raise self.unsupported(node, "is not supported")
         return self.arithmetic(operator, one, other)
 
     def has_effects(self, node: SyntaxNode) -> bool:
@@ -186,7 +186,7 @@ class Expressions(Values):
         if operator in ("++", "--"):
             place = self.place(inner, depth)
             if place is None:
-                raise self.unsupported(node, "is not followed")
+                raise self.unsupported(node, "is not supported")
             before = self.load(place)
             one = Value(self.out.number(scalar_of(before.type), literal_of(scalar_of(before.type), 1)), scalar_of(before.type))
             after = self.arithmetic(operator[0], before, one)
@@ -217,8 +217,8 @@ class Expressions(Values):
         text = self.text_of(node)
         match = _REAL.match(text)
         if match is None or text[match.end() :] not in ("", "f", "F", "lf", "LF", "hf", "HF", "u", "U"):
-            raise self.unsupported(node, "is no number")
+            raise self.unsupported(node, "is not a number")
         real = float(match[0])
         if abs(real) > 3e38:
-            raise self.unsupported(node, "is too large a number")
+            raise self.unsupported(node, "is too large")
         return real

@@ -34,7 +34,7 @@ class Shader(NamedTuple):
     """A shader: its module, its stage, the name of its entry point, and its sample fetches.
 
     `images` are the locations of its multisampled images, `bindings` their descriptor sets and bindings, `constants` the locations of
-    constants by value. `specialised` is set if it has specialization constants.
+    constants by value. `specialized` is set if it has specialization constants.
     """
 
     code: bytes
@@ -44,7 +44,7 @@ class Shader(NamedTuple):
     images: dict[str, tuple[int, int]]
     bindings: dict[str, tuple[int, int | None]]
     constants: dict[int, tuple[int, int]]
-    specialised: bool
+    specialized: bool
 
 
 def shader(text: str, part: bool = False) -> Shader:
@@ -70,7 +70,7 @@ class _ShaderLowering(Statements):
         if entry is None or entry.node.child_by_field_name("body") is None:
             entry = None
         if entry is None and not part:
-            raise UnsupportedShader("it has no function `main`")
+            raise UnsupportedShader("the shader has no function `main`")
         main = self.out.id()
         self.out.begin()
         for place, node in self.starts:
@@ -88,7 +88,7 @@ class _ShaderLowering(Statements):
             self.function(self.called_functions[position])
             position += 1
         if len(self.outputs_without_location) > 1:
-            raise UnsupportedShader("several of its outputs have no location")
+            raise UnsupportedShader("several outputs have no location")
         for output in self.outputs_without_location:
             self.out.decorate(output, op.LOCATION, 0)
         for layout in self.source.layouts:
@@ -99,7 +99,7 @@ class _ShaderLowering(Statements):
         images = {image: (at(start), at(end - 1) + 1) for image, (start, end) in self.images.items()}
         constants = {count: (at(start), at(end - 1) + 1) for count, (start, end) in self.counts.items()}
         stage = "COMPUTE" if self.compute else "FRAGMENT"
-        return Shader(code, stage, name, fetches, images, self.bindings, constants, self.specialised)
+        return Shader(code, stage, name, fetches, images, self.bindings, constants, self.specialized)
 
     def call_uncalled_functions(self) -> str:
         """Calls the uncalled functions of a shader without `main`, passing images and values of their own.
@@ -129,5 +129,5 @@ class _ShaderLowering(Statements):
                 self.store(output, Value(result, function.returns))
             first_name = first_name or name
         if not first_name:
-            raise UnsupportedShader("nothing in it fetches samples")
+            raise UnsupportedShader("the shader fetches no samples")
         return first_name

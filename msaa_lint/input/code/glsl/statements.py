@@ -62,7 +62,7 @@ class Statements(Declarations):
 
     def statements(self, node: SyntaxNode, depth: int) -> None:
         if depth > MAX_DEPTH:
-            raise UnsupportedShader("its blocks are too deep")
+            raise UnsupportedShader("blocks nest too deeply")
         if node.type == "compound_statement":
             self.scopes.append({})
             for child in node.named_children:
@@ -98,13 +98,13 @@ class Statements(Declarations):
             self.switch(node, depth)
         elif kind in ("break_statement", "continue_statement"):
             if not self.jump_targets:
-                raise self.unsupported(node, "is not understood")
+                raise self.unsupported(node, "is not supported")
             ways = [way[kind == "continue_statement"] for way in self.jump_targets if way[kind == "continue_statement"]]
             if not ways:
-                raise self.unsupported(node, "is not understood")
+                raise self.unsupported(node, "is not supported")
             self.terminate(op.BRANCH, ways[-1])
         else:
-            raise self.unsupported(node, "is not understood")
+            raise self.unsupported(node, "is not supported")
 
     def expression(self, node: SyntaxNode) -> None:
         child = next((item for item in node.named_children if item.type != "comment"), None)
@@ -122,7 +122,7 @@ class Statements(Declarations):
         type_node = node.child_by_field_name("type")
         kind = self.kind(self.text_of(type_node)) if type_node is not None else None
         if kind is None or kind[0] == "opaque":
-            raise self.unsupported(node, "is of no type that is known")
+            raise self.unsupported(node, "has an unknown type")
         for declarator in node.children_by_field_name("declarator"):
             initializer = declarator.child_by_field_name("value") if declarator.type == "init_declarator" else None
             target = declarator.child_by_field_name("declarator") if declarator.type == "init_declarator" else declarator
@@ -130,7 +130,7 @@ class Statements(Declarations):
             if initializer is not None and target is not None and is_unsized(target):
                 declared_kind, target = self.sized_by_values(initializer, kind), target.child_by_field_name("declarator")
             if target is None:
-                raise self.unsupported(node, "is not understood")
+                raise self.unsupported(node, "is not supported")
             name, declared_kind = self.declarator(target, declared_kind)
             value = self.value(initializer) if initializer is not None and initializer.type != "initializer_list" else None
             place = self.temporary(declared_kind)
@@ -138,7 +138,7 @@ class Statements(Declarations):
             if value is not None:
                 self.store(place, self.as_type(value, declared_kind) if size_of(declared_kind) else value)
             elif initializer is not None:
-                raise self.unsupported(initializer, "is not followed")
+                raise self.unsupported(initializer, "is not supported")
 
     def condition_id(self, node: SyntaxNode | None) -> int:
         """Returns the id of a condition."""
@@ -146,7 +146,7 @@ class Statements(Declarations):
             return self.out.number(BOOL, True)
         value = self.value(node)
         if value.type != BOOL:
-            raise self.unsupported(node, "is no condition")
+            raise self.unsupported(node, "is not a condition")
         return value.id
 
     def conditional(self, node: SyntaxNode, depth: int) -> None:
@@ -203,7 +203,7 @@ class Statements(Declarations):
         out = self.out
         condition, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
         if condition is None or body is None:
-            raise self.unsupported(node, "is not understood")
+            raise self.unsupported(node, "is not supported")
         selector = self.value(condition)
         cases = [child for child in body.named_children if child.type == "case_statement"]
         merge = out.id()
@@ -219,7 +219,7 @@ class Statements(Declarations):
             constant = self.lookup(self.text_of(value_node)) if number is None and value_node.type == "identifier" else None
             number = self.integer_constants.get(constant.id) if isinstance(constant, Value) else number
             if number is None:
-                raise self.unsupported(case, "is not followed")
+                raise self.unsupported(case, "is not supported")
             pairs += (number, label)
         out.emit(op.SELECTION_MERGE, merge, 0)
         self.terminate(op.SWITCH, selector.id, default, *pairs)

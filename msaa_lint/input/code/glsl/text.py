@@ -63,7 +63,7 @@ def blank(text: str) -> str:
 def preprocess(text: str) -> PreprocessedText:
     """Returns a preprocessed shader. Raises UnsupportedShader if a directive is not understood."""
     if len(text) > MAX_TEXT:
-        raise UnsupportedShader("it is too long")
+        raise UnsupportedShader("the shader is too long")
     text = _COMMENT.sub(lambda match: blank(match[0]), text.replace("\r", " "))
     out: list[str] = []
     pieces: list[tuple[int, int]] = []
@@ -88,7 +88,7 @@ def preprocess(text: str) -> PreprocessedText:
             length += len(part)
         at += len(line)
         if length > MAX_TEXT:
-            raise UnsupportedShader("its macros make too much of it")
+            raise UnsupportedShader("macro expansion exceeds the limit")
     layouts: list[str] = []
 
     def noted(match: re.Match[str]) -> str:
@@ -122,7 +122,7 @@ def _apply_directive(name: str, rest: str, macros: dict[str, Macro], branches: l
             parameters = tuple(word.strip() for word in match[2][1:-1].split(",") if word.strip()) if match[2] else None
             macros[match[1]] = Macro(parameters, match[3].strip())
             if len(macros) > MAX_MACROS:
-                raise UnsupportedShader("it has too many macros")
+                raise UnsupportedShader("the shader has too many macros")
     elif name == "undef" and ensure_block:
         macros.pop(rest, None)
     # An `include` may define anything; a missing definition is reported where it is used.
@@ -137,7 +137,7 @@ def _condition_holds(condition: str, macros: dict[str, Macro]) -> bool:
 
     answer = condition_holds(text)
     if answer is None:
-        raise UnsupportedShader(f"`#if {condition[:40]}` is not understood")
+        raise UnsupportedShader(f"`#if {condition[:40]}` is not supported")
     return answer
 
 
@@ -206,7 +206,7 @@ def _filled(macro: Macro, arguments: list[str] | None) -> str:
 def _expand(text: str, macros: dict[str, Macro], depth: int) -> str:
     """Returns a text with its macros expanded."""
     if len(text) > MAX_EXPANDED:
-        raise UnsupportedShader("its macros make too much of it")
+        raise UnsupportedShader("macro expansion exceeds the limit")
     tokens = [(match[0], match.start(), match.end()) for match in _TOKEN.finditer(text)]
     if depth > MAX_NESTED or not any(word in macros for word, _, _ in tokens):
         return text
@@ -226,5 +226,5 @@ def _expand(text: str, macros: dict[str, Macro], depth: int) -> str:
         out.append(word)
         size += len(word)
         if size > MAX_EXPANDED:
-            raise UnsupportedShader("its macros make too much of it")
+            raise UnsupportedShader("macro expansion exceeds the limit")
     return "".join(out)

@@ -81,7 +81,7 @@ class Values:
         """Returns the children of a node in some fields. Raises UnsupportedShader if one is missing."""
         children = [child for field in fields if (child := node.child_by_field_name(field)) is not None]
         if len(children) < len(fields):
-            raise self.unsupported(node, "is not followed")
+            raise self.unsupported(node, "is not supported")
         return children
 
     def result(self, number: int, kind: Type, *operands: int) -> Value:
@@ -118,13 +118,13 @@ class Values:
     def place(self, node: SyntaxNode, depth: int = 0) -> Place | None:
         """Returns the lvalue that an expression denotes, or None for an rvalue."""
         if depth > MAX_DEPTH:
-            raise UnsupportedShader("its expressions are too deep")
+            raise UnsupportedShader("expressions nest too deeply")
         if node.type == "parenthesized_expression" and node.named_child_count == 1:
             return self.place(node.named_children[0], depth + 1)
         if node.type == "identifier":
             target = self.lookup(self.text_of(node))
             if target is None:
-                raise self.unsupported(node, "is not declared in it")
+                raise self.unsupported(node, "is not declared")
             if isinstance(target, Place):
                 return target
             if isinstance(target, Value):
@@ -167,7 +167,7 @@ class Values:
             return inner
         if kind[0] == "mat":
             return ("vec", FLOAT, kind[2])
-        raise self.unsupported(node, "is not followed")
+        raise self.unsupported(node, "is not supported")
 
     def index(self, kind: Type, name: str, node: SyntaxNode) -> int:
         """Returns the index of a structure member."""
@@ -176,14 +176,14 @@ class Values:
         for n, (member, _) in enumerate(members):
             if member == name:
                 return n
-        raise self.unsupported(node, "names no member")
+        raise self.unsupported(node, "is not a member")
 
     def swizzle_parts(self, name: str, kind: Type, node: SyntaxNode) -> tuple[int, ...]:
         """Returns the components of a swizzle."""
         size = size_of(kind)
         parts = tuple(_LETTERS.get(letter, 9) for letter in name)
         if not 0 < len(parts) <= 4 or any(part >= size for part in parts):
-            raise self.unsupported(node, "is not followed")
+            raise self.unsupported(node, "is not supported")
         return parts
 
     def load(self, place: Place) -> Value:
@@ -226,7 +226,7 @@ class Values:
         one, other = scalar_of(value.type), scalar_of(kind)
         size = size_of(kind)
         if not size or size_of(value.type) != size:
-            raise UnsupportedShader(f"a {type_text(value.type)} is made a {type_text(kind)}, which is not followed")
+            raise UnsupportedShader(f"conversion from {type_text(value.type)} to {type_text(kind)} is not supported")
         if one == BOOL:
             yes, unsupported = (self.splat(self.constant_value(other, literal_of(other, n)), size).id for n in (1, 0))
             return self.result(SELECT, kind, value.id, yes, unsupported)
@@ -260,7 +260,7 @@ class Values:
             single = [self.swizzle(part, (n,)) for part in parts for n in range(size_of(part.type))]
             parts = single[:size]
             if len(parts) < size:
-                raise UnsupportedShader(f"a {type_text(kind)} is made of too little")
+                raise UnsupportedShader(f"a {type_text(kind)} constructor has too few arguments")
         return self.result(op.COMPOSITE_CONSTRUCT, kind, *(part.id for part in parts))
 
     def opaque(self, name: str, kind: Type, values: Sequence[Value]) -> Value:
@@ -278,12 +278,12 @@ class Values:
         if not size_of(one.type) or not size_of(other.type):
             if sign in ("==", "!="):
                 return self.opaque(sign, BOOL, (one, other))
-            raise UnsupportedShader(f"`{sign}` of a {type_text(one.type)} is not followed")
+            raise UnsupportedShader(f"`{sign}` of a {type_text(one.type)} is not supported")
         kinds = [scalar_of(item.type) for item in (one, other)]
         scalar: Type = next((kind for kind in (DOUBLE, FLOAT, UINT, INT) if kind in kinds), BOOL)
         size = max(size_of(one.type), size_of(other.type))
         if BOOL in kinds and sign not in ("==", "!="):
-            raise UnsupportedShader(f"`{sign}` of a bool is not followed")
+            raise UnsupportedShader(f"`{sign}` of a bool is not supported")
         if sign in ("<<", ">>"):
             scalar = kinds[0]
         one, other = (self.as_type(item, vector(scalar, size_of(item.type))) for item in (one, other))
@@ -292,7 +292,7 @@ class Values:
             return self.result(142, wide.type, wide.id, narrow.id)
         one, other = (self.splat(item, size) if size_of(item.type) == 1 else item for item in (one, other))
         if size_of(one.type) != size_of(other.type):
-            raise UnsupportedShader(f"`{sign}` of vectors of different sizes")
+            raise UnsupportedShader(f"`{sign}` of vectors with different sizes is not supported")
         if sign in _COMPARES:
             number = SIGNS[sign][column(scalar)] if scalar != BOOL else LOGICAL_EQUAL if sign == "==" else LOGICAL_NOT_EQUAL
             value = self.result(number, vector(BOOL, size), one.id, other.id)

@@ -215,7 +215,7 @@ class DescriptionWriter:
         else:
             family_at = self.family()
             if family_at is not None:
-                self.textures.assume("the GPU's family", family_at, "apple3, which iOS 13 needs")
+                self.textures.assume("the GPU family", family_at, "apple3, the minimum for iOS 13")
                 entries.append(("family", family_at, scalar("apple3", family_at)))
         most = max(interpreter.offered_counts, default=0)
         if most in COUNTS and most > 4:
