@@ -11,7 +11,7 @@ from msaa_lint.linter.suppress import baseline as baselines
 from msaa_lint.linter.workspace import Request
 
 from .common import warn
-from .report.escape import visible
+from .report.escape import escape
 from .report.summary import plural
 
 
@@ -41,7 +41,7 @@ def baseline(paths: Sequence[str], file: str, prune: bool, config: str | None, i
         return 2
     after = _count(new)
     change = f"removed {before - after} of {before}" if prune else f"{plural(after, 'finding')} in {plural(len(new.entries), 'file')}"
-    print(f"{visible(file)}: {change}. To use it: msaa-lint check --baseline {visible(file)} ...", file=sys.stderr)
+    print(f"{escape(file)}: {change}. To use it: msaa-lint check --baseline {escape(file)} ...", file=sys.stderr)
     return 0
 
 

@@ -150,9 +150,9 @@ def _render(format: str, outcome: Outcome, arguments: Arguments, out: IO[str]) -
         fail_confidence=outcome.settings.fail_confidence,
     )
     if arguments.get("statistics") and text and out in (sys.stdout, sys.stderr):
-        from .report import statistics
+        from .report.statistics import table
 
-        statistics.render(outcome.result, out.write, options)
+        out.write(table(outcome.result))
     else:
         render(format, outcome.result, out.write, options._replace(statistics=bool(arguments.get("statistics"))))
 

@@ -9,7 +9,7 @@ from msaa_lint.core.package import VERSION
 
 from .options import Arguments
 from .report import Options
-from .report.escape import visible
+from .report.escape import escape
 
 BROKEN_PIPE = 2
 """The exit code if the reader of the output is gone."""
@@ -36,7 +36,7 @@ class Target(NamedTuple):
 
 def warn(text: str) -> None:
     """Prints a line to the standard error stream."""
-    print(f"msaa-lint: {visible(text)}", file=sys.stderr)
+    print(f"msaa-lint: {escape(text)}", file=sys.stderr)
 
 
 def run_command(

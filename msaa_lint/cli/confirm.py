@@ -27,7 +27,7 @@ from .common import (
     write_output,
 )  # fmt: skip
 from .options import Arguments
-from .report.escape import visible
+from .report.escape import escape
 
 FORMATS = ("full", "json")
 COUNTS = (1, 2, 4, 8, 16, 32, 64)
@@ -167,5 +167,5 @@ def _list_devices(options: ConfirmOptions) -> int:
         return 0
     for device in devices:
         words = [device.name, f"Vulkan {device.api_version}", device.type.lower().replace("_", " "), device.driver]
-        print(visible(", ".join(word for word in words if word)))
+        print(escape(", ".join(word for word in words if word)))
     return 0

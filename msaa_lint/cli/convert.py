@@ -13,7 +13,7 @@ from msaa_lint.input.opening import load
 from msaa_lint.input.source_file import SourceFile
 
 from .common import warn
-from .report.escape import visible
+from .report.escape import escape
 
 
 def convert(path: str, output: str | None, format: str | None, force: bool) -> int:
@@ -78,7 +78,7 @@ def _convert_source(code: SourceFile, output: str | None, force: bool) -> None:
         where = f"{code.source.name}, document {number}" if len(trees) > 1 else code.source.name
         for note in notes:
             warn(f"{where}: {note}")
-    head = f"# Read from {visible(code.source.name)}; what it does not state is left out.\n"
+    head = f"# Read from {escape(code.source.name)}; what it does not state is left out.\n"
     modules = {name: module for document in documents for name, module in document.modules.items()}
     _write(head + "---\n".join(map(written, trees)), modules, output, force)
 

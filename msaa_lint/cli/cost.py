@@ -33,7 +33,7 @@ from .common import (
     write_output,
 )  # fmt: skip
 from .options import Arguments
-from .report.escape import visible
+from .report.escape import escape
 
 FORMATS = ("full", "json", "markdown")
 MAX_SIDE = 2**31 - 1
@@ -106,7 +106,7 @@ def _parse_power(text: str) -> float:
     except ValueError:
         limit = None
     if limit is None or limit.measures != "power":
-        raise UsageError(f"--budget '{visible(text)}': expected a power above 0, as in 2500, 2500mW, or 2.5W")
+        raise UsageError(f"--budget '{escape(text)}': expected a power above 0, as in 2500, 2500mW, or 2.5W")
     return limit.most
 
 
@@ -148,17 +148,17 @@ def _render(format: str, result: CostResult, comparison: Compared | None, argume
 def _draw_chart(path: str, result: CostResult, comparison: Compared | None) -> None:
     from .report import cost_chart
     from .report.cost_rows import head
-    from .report.paths import shown_path
+    from .report.paths import display_path
 
     frames = result.frames
     if comparison is not None and len(comparison.old) == len(comparison.new) == 1:
         bars, frame = cost_chart.compared_bars(comparison), comparison.new[0]
-        title = f"{shown_path(comparison.old_file, '')} → {shown_path(frame.file, '')}"
+        title = f"{display_path(comparison.old_file, '')} → {display_path(frame.file, '')}"
     elif comparison is None and len(frames) == 1:
         bars, frame = cost_chart.bars(frames[0]), frames[0]
-        title = shown_path(frame.file, "")
+        title = display_path(frame.file, "")
     elif frames:
         raise UsageError(f"--chart draws one frame, or two that are compared, not {len(frames)}")
     else:
         return
-    write_chart(path, "--chart", partial(cost_chart.draw, bars, title, visible(head(frame.cost)), frame.cost))
+    write_chart(path, "--chart", partial(cost_chart.draw, bars, title, escape(head(frame.cost)), frame.cost))

@@ -22,7 +22,7 @@ from msaa_lint.frame.devices.reports.members import Report
 from msaa_lint.frame.profiles import Problem, parsed, profile_of, reports
 
 from .common import UsageError, run_command, set_utf_8, warn
-from .report.escape import shown
+from .report.escape import display
 
 Answer = TypeVar("Answer")
 Output = Literal["text", "json", "description"]
@@ -131,7 +131,7 @@ def _print(offers: Sequence[Offer]) -> None:
     console = _console()
     with console.capture() as capture:
         for number, offer in enumerate(offers):
-            console.print(*([""] if number else []), shown(words.title(offer)), sep="\n", style="bold")
+            console.print(*([""] if number else []), display(words.title(offer)), sep="\n", style="bold")
             counts = words.table(offer)
             table = Table(*counts.heads, box=None, pad_edge=False)
             for row in counts.rows:
@@ -141,7 +141,7 @@ def _print(offers: Sequence[Offer]) -> None:
                 console.print(line, style="dim")
             facts = Table("", "", box=None, pad_edge=False, show_header=False)
             for fact in words.rows(offer):
-                facts.add_row(shown(fact.label), shown(fact.text))
+                facts.add_row(display(fact.label), display(fact.text))
             console.print(facts)
     _write(capture.get())
 

@@ -16,7 +16,7 @@ from msaa_lint.input.capture_input import CaptureInput
 from msaa_lint.input.opening import load
 
 from .common import warn
-from .report.escape import visible
+from .report.escape import escape
 
 TYPES = {"BOOL": "bool", "INT": "int", "DOUBLE": "double", "STRING": "string", "LIST": "list(string)", "INTS": "list(int)"}
 
@@ -126,13 +126,13 @@ def _row(subject: Subject, source: Source) -> dict[str, object]:
 
 def _lines(rows: list[dict[str, object]]) -> Iterator[str]:
     for row in rows:
-        yield f"{row['subject']} {visible(str(row['path']))} (line {row['line']})"
+        yield f"{row['subject']} {escape(str(row['path']))} (line {row['line']})"
         facts = row["facts"]
         assert isinstance(facts, dict)
         for name, fact in facts.items():
             if name.partition(".")[0] in ("frame", "device", "enabled", "scene") and fact["value"] is None:
                 continue
-            value = "unknown" if fact["value"] is None else visible(_text(fact["value"]))
+            value = "unknown" if fact["value"] is None else escape(_text(fact["value"]))
             yield f"  {name:42} {value}" + (f"  (line {fact['line']})" if fact["line"] is not None else "")
 
 

@@ -13,7 +13,7 @@ from msaa_lint.linter.run import Outcome
 
 from .common import set_utf_8
 from .report.color import paint
-from .report.escape import visible
+from .report.escape import escape
 
 _LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n)|[^\r\n]+")
 _STYLES = {"+": "32", "-": "31", "@": "36"}
@@ -35,7 +35,7 @@ def print_diff(outcome: Outcome, color: bool) -> bool:
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(newline="\n")
     for text in changed:
-        for line in unified_diff(text.before, text.after, visible(text.file), color):
+        for line in unified_diff(text.before, text.after, escape(text.file), color):
             sys.stdout.write(line)
     sys.stdout.flush()
     return bool(changed)
@@ -47,7 +47,7 @@ def unified_diff(before: str, after: str, name: str, color: bool = False) -> Ite
     for number, line in enumerate(lines):
         text = line.rstrip("\r\n")
         end = line[len(text) :]
-        escaped = "\t".join(visible(part) for part in text.split("\t"))
+        escaped = "\t".join(escape(part) for part in text.split("\t"))
         style = "1" if number < 2 else _STYLES.get(text[:1], "")
         # A carriage return before the line end stays, so that the diff can be applied.
         yield paint(escaped, style, color) + (end if end in ("\r\n", "\n") else "\n")

@@ -9,7 +9,7 @@ from msaa_lint.core.package import VERSION
 from msaa_lint.linter.rules.registry import EDITIONS
 
 from .common import warn
-from .report.escape import visible
+from .report.escape import escape
 
 CONFIGURATION = f"""\
 # Configuration of msaa-lint. All keys are optional; `msaa-lint rule --all` lists the rules.
@@ -102,11 +102,11 @@ def init(folder: str) -> int:
         for name, text in (("msaa-lint.toml", CONFIGURATION), ("frame.msaa.yaml", DESCRIPTION)):
             path = os.path.normpath(os.path.join(folder, name))
             if os.path.lexists(path):
-                print(f"{visible(path)} already exists: left unchanged", file=sys.stderr)
+                print(f"{escape(path)} already exists: left unchanged", file=sys.stderr)
                 continue
             with open(path, "x", encoding="utf-8", newline="\n") as file:
                 file.write(text)
-            print(f"wrote {visible(path)}", file=sys.stderr)
+            print(f"wrote {escape(path)}", file=sys.stderr)
     except OSError as error:
         warn(f"cannot write {path}: {error.strerror}")
         return 2

@@ -34,7 +34,7 @@ from .common import (
     write_output,
 )  # fmt: skip
 from .options import Arguments
-from .report.escape import visible
+from .report.escape import escape
 from .study_subjects import Subject, subjects
 
 FORMATS = ("full", "json")
@@ -246,7 +246,7 @@ def _progress(total: int) -> Iterator[Any]:
     )
     with Progress(*columns, console=Console(stderr=True), transient=True) as bars:
         bar = bars.add_task("", total=total)
-        yield lambda done, _, last: bars.update(bar, completed=done, description=visible(last))
+        yield lambda done, _, last: bars.update(bar, completed=done, description=escape(last))
 
 
 def _write_crops(folder: str, options: StudyOptions, studied: Sequence[Subject]) -> list[str]:

@@ -58,13 +58,13 @@ def subjects(arguments: Arguments, size: tuple[int, int] | None) -> Subjects:
         read = inputs(Request(**{**input_options(arguments), "paths": paths}, overrides=overrides(arguments)))
     default = _profile(arguments)
     size = size or (None if named else _stated_size(read.inputs)) or SIZE
-    found = [Subject(study_input, _picture(study_input, size), default) for study_input in named]
+    studied = [Subject(study_input, _picture(study_input, size), default) for study_input in named]
     for document in read.inputs:
         name = document.file if document.many == 1 else f"{document.file}#{document.number + 1}"
         text = document.frame.document.source.text
         study_input = StudyInput("description", name, document.file, text, document.number, arguments.get("input_format"))
-        found.append(Subject(study_input, _picture(study_input, size), document.device or default, document.frame, document.file))
-    return Subjects(size, found, read.wrong, read.notes)
+        studied.append(Subject(study_input, _picture(study_input, size), document.device or default, document.frame, document.file))
+    return Subjects(size, studied, read.wrong, read.notes)
 
 
 def _picture(study_input: StudyInput, size: tuple[int, int]) -> Any:

@@ -12,11 +12,11 @@ from hypothesis import strategies as st
 
 from msaa_lint import __version__
 from msaa_lint.cli.options import COMMANDS, INPUT_FORMATS, SHARED, parse
-from msaa_lint.cli.report import FORMATS
 from msaa_lint.input import readers
 from msaa_lint.input.code import LANGUAGES
 from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
 from tests.command import run
+from tests.paths import ROOT
 from tests.strength import examples
 
 
@@ -71,7 +71,7 @@ def test_init_makes_a_project_that_lints(tmp_path: Path) -> None:
 
 
 def test_the_formats_are_those_there_are() -> None:
-    assert tuple(FORMATS) == OUTPUT_FORMATS
+    assert all((ROOT / "msaa_lint/cli/report" / f"{name}.py").exists() for name in OUTPUT_FORMATS)
     assert sorted(INPUT_FORMATS) == sorted([*readers.FORMATS, *readers.CAPTURES, *LANGUAGES])
 
 

@@ -5,23 +5,13 @@ and the options, so the same run prints the same bytes.
 """
 
 from collections.abc import Callable
+from importlib import import_module
 from typing import NamedTuple
 
 from msaa_lint.core.finding import Result
+from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
 
 Write = Callable[[str], object]
-
-FORMATS = {
-    "full": "msaa_lint.cli.report.full",
-    "concise": "msaa_lint.cli.report.concise",
-    "json": "msaa_lint.cli.report.json",
-    "sarif": "msaa_lint.cli.report.sarif",
-    "github": "msaa_lint.cli.report.github",
-    "gitlab": "msaa_lint.cli.report.gitlab",
-    "junit": "msaa_lint.cli.report.junit",
-    "markdown": "msaa_lint.cli.report.markdown",
-}
-"""The outputs of `check`, and the modules that print them, imported when they are needed."""
 
 
 class Options(NamedTuple):
@@ -47,7 +37,7 @@ class Options(NamedTuple):
 
 
 def render(name: str, result: Result, out: Write, options: Options) -> None:
-    """Prints `result` in the format called `name`. ValueError for an unknown format."""
-    if name not in FORMATS:
-        raise ValueError(f"unknown output format {name!r}: use one of {', '.join(FORMATS)}")
-    __import__(FORMATS[name], fromlist=["render"]).render(result, out, options)
+    """Prints `result` in the format called `name`, with the module of that name. ValueError for an unknown format."""
+    if name not in OUTPUT_FORMATS:
+        raise ValueError(f"unknown output format {name!r}: use one of {', '.join(OUTPUT_FORMATS)}")
+    import_module(f".{name}", __name__).render(result, out, options)

@@ -6,8 +6,8 @@ from msaa_lint.core.finding import Finding, Result
 
 from . import Options, Write
 from .color import BOLD, SEVERITY, paint
-from .escape import shown
-from .paths import shown_path
+from .escape import display
+from .paths import display_path
 from .place import place
 from .statistics import table
 from .summary import summary
@@ -22,23 +22,23 @@ def render(result: Result, out: Write, options: Options) -> None:
 
 def line(finding: Finding, result: Result, options: Options) -> str:
     """A finding on one line. For an input without text, its subject takes the place of line and column."""
-    where = shown_path(finding.file, options.root)
+    where = display_path(finding.file, options.root)
     at = place(result, finding.file, finding.span)
     if at:
         where += f":{at.line}:{at.column}"
     elif finding.subject:
-        where += f": {shown(finding.subject)}"
-    kind = paint(f"{finding.severity}[{shown(finding.rule)}]", SEVERITY[finding.severity], options.color)
-    return f"{paint(where, BOLD, options.color)}: {kind} {shown(finding.message)} ({shown(finding.code)})"
+        where += f": {display(finding.subject)}"
+    kind = paint(f"{finding.severity}[{display(finding.rule)}]", SEVERITY[finding.severity], options.color)
+    return f"{paint(where, BOLD, options.color)}: {kind} {display(finding.message)} ({display(finding.code)})"
 
 
 def render_end(result: Result, out: Write, options: Options) -> None:
     """Prints what follows the findings in both text outputs: the suppressed ones, the statistics, the summary."""
     if options.show_suppressed:
         for entry in result.suppressed:
-            reason = f", {shown(entry.reason)}" if entry.reason.strip() else ""
+            reason = f", {display(entry.reason)}" if entry.reason.strip() else ""
             out(f"{line(entry.finding, result, options)} [suppressed: {entry.how}{reason}]\n")
     if options.statistics:
-        out("".join(row + "\n" for row in table(result)))
+        out(table(result))
     for text in summary(result, options):
         out(text + "\n")

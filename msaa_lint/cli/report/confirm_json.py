@@ -56,8 +56,8 @@ def _pass(verdict: Verdict) -> Json:
         "status": verdict.status,
         "reason": text(verdict.reason),
         "created": verdict.created,
-        "messages": [_message(said) for said in verdict.agreement if said.verdict != "ours"],
-        "ours": [{"rule": text(said.rule), "reason": text(said.reason)} for said in verdict.agreement if said.verdict == "ours"],
+        "messages": [_message(row) for row in verdict.agreement if row.verdict != "ours"],
+        "ours": [{"rule": text(row.rule), "reason": text(row.reason)} for row in verdict.agreement if row.verdict == "ours"],
         "findings": [text(code) for code in verdict.findings],
         "agrees": verdict.agrees,
         "pixels_equal": verdict.pixels_equal,
@@ -80,14 +80,14 @@ def _pass(verdict: Verdict) -> Json:
     }
 
 
-def _message(said: AgreementRow) -> Json:
+def _message(row: AgreementRow) -> Json:
     return {
-        "id": text(said.id),
-        "family": text(said.family) or None,
-        "rule": text(said.rule) or None,
-        "text": text(said.text),
-        "verdict": said.verdict,
-        "reason": text(said.reason) or None,
+        "id": text(row.id),
+        "family": text(row.family) or None,
+        "rule": text(row.rule) or None,
+        "text": text(row.text),
+        "verdict": row.verdict,
+        "reason": text(row.reason) or None,
     }
 
 

@@ -13,7 +13,7 @@ from msaa_lint.experiments.confirm.timing import Timing
 
 from . import Options, Write
 from .console import cell, new_table, open_console
-from .escape import shown
+from .escape import display
 from .summary import plural
 
 STYLES = {"confirmed": "green", "refused": "yellow", "skipped": "", **dict.fromkeys(WRONG, "bold red")}
@@ -39,11 +39,11 @@ def render(runs: Sequence[DeviceRun], out: Write, options: Options, verbose: boo
 
 def _device(run: DeviceRun, console: Console, verbose: bool) -> None:
     if run.unusable:
-        console.print(f"{shown(run.title)}: cannot be used: {shown(run.unusable)}", soft_wrap=True)
+        console.print(f"{display(run.title)}: cannot be used: {display(run.unusable)}", soft_wrap=True)
         return
     console.print(_heading(run), style="bold", soft_wrap=True)
     for note in run.notes:
-        console.print(shown(note), soft_wrap=True)
+        console.print(display(note), soft_wrap=True)
     console.print()
     console.print(_table(run))
     console.print()
@@ -53,7 +53,7 @@ def _device(run: DeviceRun, console: Console, verbose: bool) -> None:
     if details:
         console.print()
     if any(verdict.times is not None for verdict in run.verdicts) and run.cannot_show:
-        console.print(f"What this device cannot show: {shown(run.cannot_show)}.", soft_wrap=True)
+        console.print(f"What this device cannot show: {display(run.cannot_show)}.", soft_wrap=True)
     for line in _summary(run):
         console.print(line, soft_wrap=True)
 
@@ -61,15 +61,15 @@ def _device(run: DeviceRun, console: Console, verbose: bool) -> None:
 def _heading(run: DeviceRun) -> str:
     assert run.device is not None
     device = run.device
-    words = [shown(device.name)]
+    words = [display(device.name)]
     if device.api_version:
-        words.append(f"Vulkan {shown(device.api_version)}")
+        words.append(f"Vulkan {display(device.api_version)}")
     if device.driver:
-        words.append(shown(device.driver))
+        words.append(display(device.driver))
     if device.software:
         words.append("software")
     if run.layer is not None:
-        words.append("validation layer " + shown(str(run.layer.get("version", "")) or str(run.layer.get("name", ""))))
+        words.append("validation layer " + display(str(run.layer.get("version", "")) or str(run.layer.get("name", ""))))
     return " · ".join(words)
 
 
@@ -117,7 +117,7 @@ def _comparison(runs: Sequence[DeviceRun]) -> Table:
 
 
 def _agreement(verdict: Verdict) -> str:
-    counts = {kind: sum(said.verdict == kind for said in verdict.agreement) for kind in ("both", "ours", "theirs", "explained")}
+    counts = {kind: sum(row.verdict == kind for row in verdict.agreement) for kind in ("both", "ours", "theirs", "explained")}
     words = ", ".join(f"{count} {_WORDS[kind]}" for kind, count in counts.items() if count)
     return words or ("-" if verdict.agrees is None else "none")
 
@@ -133,23 +133,23 @@ def _traffic(verdict: Verdict) -> str:
 
 def _details(verdict: Verdict, verbose: bool) -> Iterator[str]:
     """The details of a pass, one per line, after a line that names it."""
-    lines = [shown(verdict.reason)] if verdict.reason else []
+    lines = [display(verdict.reason)] if verdict.reason else []
     for kind in ("theirs", "both", "explained", *(("ours", "noise") if verbose else ())):
-        lines += [_message(said) for said in verdict.agreement if said.verdict == kind]
-    lines += [f"{shown(image.image)}: {shown(image.text)}" for image in verdict.images if image.equal is not True or image.differing]
-    lines += [shown(note) for note in verdict.notes]
-    lines += [f"picture: {shown(path)}" for path in verdict.pictures]
+        lines += [_message(row) for row in verdict.agreement if row.verdict == kind]
+    lines += [f"{display(image.image)}: {display(image.text)}" for image in verdict.images if image.equal is not True or image.differing]
+    lines += [display(note) for note in verdict.notes]
+    lines += [f"picture: {display(path)}" for path in verdict.pictures]
     if lines:
-        yield f"{shown(verdict.file)}: {shown(verdict.name)}: {verdict.status}"
+        yield f"{display(verdict.file)}: {display(verdict.name)}: {verdict.status}"
         yield from (f"  {line}" for line in lines)
 
 
-def _message(said: AgreementRow) -> str:
+def _message(row: AgreementRow) -> str:
     """Who reports a mistake, the layer's message ID, the rule, and the layer's text if no rule covers it."""
-    words = f"{_WORDS[said.verdict]}: " + " = ".join(shown(name) for name in (said.id, said.rule) if name)
-    if said.reason:
-        words += f" ({shown(said.reason)})"
-    return f"{words}: {shown(said.text)}" if said.verdict == "theirs" and said.text else words
+    words = f"{_WORDS[row.verdict]}: " + " = ".join(display(name) for name in (row.id, row.rule) if name)
+    if row.reason:
+        words += f" ({display(row.reason)})"
+    return f"{words}: {display(row.text)}" if row.verdict == "theirs" and row.text else words
 
 
 def _summary(run: DeviceRun) -> Iterator[str]:

@@ -8,7 +8,7 @@ from rich.table import Table
 from rich.text import Text
 
 from . import Options, Write
-from .escape import shown
+from .escape import display
 
 
 def open_console(out: Write, options: Options) -> Console:
@@ -41,4 +41,4 @@ def new_table() -> Table:
 
 def cell(text: str, style: str = "") -> Text:
     """Text from an input, escaped."""
-    return Text(shown(text), style=style)
+    return Text(display(text), style=style)

@@ -14,8 +14,8 @@ from msaa_lint.frame.cost.input_cost import Compared, Costed
 
 from . import Options, Write, cost_rows
 from .cost_rows import Row, Table
-from .escape import clip, shown, visible
-from .paths import shown_path
+from .escape import clip, display, escape
+from .paths import display_path
 
 MAX_NAME = 60
 """Code points of a name in a table; JSON has all of it."""
@@ -32,7 +32,7 @@ def render(frames: Sequence[Costed], out: Write, options: Options) -> None:
     """Prints the tables of each frame; for several frames, their totals as well."""
     names = [frame_name(frame, options) for frame in frames]
     for number, (name, frame) in enumerate(zip(names, frames, strict=True)):
-        out(("\n" if number else "") + f"{name}: {shown(cost_rows.head(frame.cost))}\n")
+        out(("\n" if number else "") + f"{name}: {display(cost_rows.head(frame.cost))}\n")
         for table in cost_rows.frame_tables(frame):
             _print_table(table, out, options)
         _print_remarks([*cost_rows.details(frame.cost), *cost_rows.remarks(frame.cost)], out)
@@ -44,7 +44,7 @@ def render_comparison(compared: Compared, out: Write, options: Options) -> None:
     """Prints what the new input costs more than the old one, for passes that differ, and in total."""
     for number, comparison in enumerate(compared.frames):
         document = f", document {number + 1}" if len(compared.frames) > 1 else ""
-        names = f"{shown_path(compared.old_file, options.root)} -> {shown_path(compared.new_file, options.root)}{document}"
+        names = " -> ".join(display_path(file, options.root) for file in (compared.old_file, compared.new_file)) + document
         out(("\n" if number else "") + f"{names}\n{cost_rows.sentence(comparison, cost_rows.budget_of(compared))}\n")
         _print_table(cost_rows.changes(comparison), out, options)
         _print_remarks(cost_rows.comparison_remarks(compared, number), out)
@@ -52,12 +52,12 @@ def render_comparison(compared: Compared, out: Write, options: Options) -> None:
 
 def frame_name(frame: Costed, options: Options) -> str:
     """A frame's input, and its document if there are several."""
-    return shown_path(frame.file, options.root) + (f", document {frame.number + 1}" if frame.documents > 1 else "")
+    return display_path(frame.file, options.root) + (f", document {frame.number + 1}" if frame.documents > 1 else "")
 
 
 def _print_remarks(remarks: Sequence[tuple[str, str]], out: Write) -> None:
     if remarks:
-        out("\n" + "".join(f"{word}: {shown(text)}\n" for word, text in remarks))
+        out("\n" + "".join(f"{word}: {display(text)}\n" for word, text in remarks))
 
 
 def _print_table(table: Table, out: Write, options: Options) -> None:
@@ -99,7 +99,7 @@ def _layout(table: Table, narrow: bool) -> RichTable:
     indent = "  " if any(row.kind == cost_rows.PASS for row in table.rows) else ""
     for row in table.rows:
         # CI runners obey lines that begin with `::`, wherever the table breaks a name.
-        cells = [clip(visible(text), MAX_NAME).replace("::", ":\\x3a") for text in row.texts]
+        cells = [clip(escape(text), MAX_NAME).replace("::", ":\\x3a") for text in row.texts]
         if row.kind == cost_rows.LINE:
             cells[0] = indent + cells[0]
         if narrow:

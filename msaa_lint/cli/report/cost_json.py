@@ -12,7 +12,7 @@ from msaa_lint.frame.cost.power import Rates
 
 from . import Options, Write
 from .data import Json, head, start, text, write_object
-from .escape import whole
+from .escape import escape_surrogates
 from .paths import relative
 
 SCHEMA = "msaa-lint/cost-v1"
@@ -67,7 +67,7 @@ def _inputs(frames: Sequence[Costed], errors: Result, options: Options) -> Json:
 def _frame(frame: Costed, errors: Result, options: Options) -> Json:
     cost = frame.cost
     return {
-        "file": whole(relative(frame.file, options.root)),
+        "file": escape_surrogates(relative(frame.file, options.root)),
         "document": frame.number,
         "device": None if cost.device is None else text(cost.device),
         "fps": cost.fps,
@@ -172,7 +172,7 @@ def _error(finding: Finding, errors: Result, options: Options) -> Json:
         "rule": text(finding.rule),
         "code": text(finding.code),
         "message": text(finding.message),
-        "file": whole(relative(finding.file, options.root)),
+        "file": escape_surrogates(relative(finding.file, options.root)),
         **start(errors, finding.file, finding.span),
         "help": text(finding.help),
     }

@@ -11,9 +11,9 @@ from . import Options, Write, cost_rows
 from .concise import line
 from .cost_full import frame_name
 from .cost_rows import Table
-from .escape import shown
-from .markdown import MAX_COMMENT, literal
-from .paths import shown_path
+from .escape import display
+from .markdown import MAX_COMMENT, escape_markdown
+from .paths import display_path
 
 HEAD = "<!-- msaa-lint cost -->\n"
 """By which a program finds its own comment again."""
@@ -49,7 +49,7 @@ class _Comment:
 
     def remarks(self, remarks: Iterable[tuple[str, str]]) -> None:
         """Writes remarks as a list."""
-        lines = "".join(f"- {literal(word)}: {_cell(text)}\n" for word, text in remarks)
+        lines = "".join(f"- {escape_markdown(word)}: {_cell(text)}\n" for word, text in remarks)
         if lines:
             self.add(f"\n{lines}")
 
@@ -68,7 +68,7 @@ def render(frames: Sequence[Costed], errors: Result, out: Write, options: Option
     if len(frames) > 1:
         comment.table(cost_rows.totals(frames, names))
     for name, frame in zip(names, frames, strict=True):
-        comment.add(f"\n#### {literal(name)}\n\n{_cell(cost_rows.head(frame.cost))}\n")
+        comment.add(f"\n#### {escape_markdown(name)}\n\n{_cell(cost_rows.head(frame.cost))}\n")
         for table in cost_rows.frame_tables(frame):
             comment.table(table)
         comment.remarks([*cost_rows.details(frame.cost), *cost_rows.remarks(frame.cost)])
@@ -79,14 +79,14 @@ def render_comparison(compared: Compared, out: Write, options: Options) -> None:
     """Prints what the new input costs more than the old one: the sum in a sentence, then the passes that differ."""
     comment = _Comment(out)
     comment.add(f"{HEAD}### Cost of this change\n")
-    names = f"{literal(shown_path(compared.old_file, options.root))} → {literal(shown_path(compared.new_file, options.root))}"
+    names = " → ".join(escape_markdown(display_path(file, options.root)) for file in (compared.old_file, compared.new_file))
     for number, comparison in enumerate(compared.frames):
         document = f", document {number + 1}" if len(compared.frames) > 1 else ""
-        comment.add(f"\n{names}{document}\n\n**{literal(cost_rows.sentence(comparison, cost_rows.budget_of(compared)))}.**\n")
+        comment.add(f"\n{names}{document}\n\n**{escape_markdown(cost_rows.sentence(comparison, cost_rows.budget_of(compared)))}.**\n")
         comment.table(cost_rows.changes(comparison))
         comment.remarks(cost_rows.comparison_remarks(compared, number))
     comment.close()
 
 
 def _cell(text: str) -> str:
-    return literal(shown(text))
+    return escape_markdown(display(text))

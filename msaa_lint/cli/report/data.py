@@ -9,7 +9,7 @@ from msaa_lint.core.finding import Result
 from msaa_lint.core.text.span import Span
 
 from . import Write
-from .escape import clip, whole
+from .escape import clip, escape_surrogates
 from .place import place
 
 Json = dict[str, object]
@@ -22,7 +22,7 @@ def dump(value: object) -> str:
 
 def text(value: str) -> str:
     """Text of an input, a driver, or a layer: unchanged, except lone surrogates and what exceeds `escape.MAX_LENGTH`."""
-    return whole(clip(value))
+    return escape_surrogates(clip(value))
 
 
 def write_object(members: Mapping[str, object], out: Write) -> None:

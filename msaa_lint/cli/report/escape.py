@@ -22,7 +22,7 @@ _RUNNER_COMMAND = re.compile(r"#(?=#\w*\[)")
 _SHORT_ESCAPES = {"\n": "\\n", "\r": "\\r", "\t": "\\t"}
 
 
-def pieces(text: str) -> list[str]:
+def escape_each(text: str) -> list[str]:
     """The displayed form of each character of `text`: itself, or an escape such as `\\x1b` or `\\u202e`."""
     parts = list(text)
     if not text.isprintable() or not text.isascii():
@@ -32,16 +32,16 @@ def pieces(text: str) -> list[str]:
     return parts
 
 
-def visible(text: str) -> str:
+def escape(text: str) -> str:
     """`text` on one line, with characters that cannot be seen escaped."""
     if text.isascii() and text.isprintable() and "##" not in text:
         return text
-    return "".join(pieces(text))
+    return "".join(escape_each(text))
 
 
-def shown(text: str) -> str:
+def display(text: str) -> str:
     """A message, note, or subject as text outputs show it: trimmed, at most `MAX_LENGTH` code points, escaped."""
-    return visible(clip(text.strip()))
+    return escape(clip(text.strip()))
 
 
 def clip(text: str, max_length: int = MAX_LENGTH) -> str:
@@ -49,7 +49,7 @@ def clip(text: str, max_length: int = MAX_LENGTH) -> str:
     return text if len(text) <= max_length else text[: max_length - 3] + "..."
 
 
-def whole(text: str) -> str:
+def escape_surrogates(text: str) -> str:
     """`text` with lone surrogates escaped, which UTF-8 cannot hold; everything else unchanged."""
     if text.isascii():
         return text

@@ -9,9 +9,9 @@ from msaa_lint.core.finding import CaptureLocation, Finding, Result
 from . import Options, Write
 from .color import BOLD, SECONDARY, SEVERITY, paint
 from .concise import render_end
-from .escape import shown
+from .escape import display
 from .excerpt import MAX_MARKS, Mark, excerpt
-from .paths import shown_path
+from .paths import display_path
 from .place import place
 from .summary import price_text
 
@@ -26,9 +26,9 @@ def render(result: Result, out: Write, options: Options) -> None:
 
 def paragraph(finding: Finding, result: Result, options: Options, rules: Set[str]) -> str:
     """One finding, without a line end after its last line. `rules` are the names that `msaa-lint rule` knows."""
-    kind = paint(f"{finding.severity}[{shown(finding.rule)}]", SEVERITY[finding.severity], options.color)
-    head = f"{kind}{paint(': ' + shown(finding.message), BOLD, options.color)}"
-    where = shown_path(finding.file, options.root)
+    kind = paint(f"{finding.severity}[{display(finding.rule)}]", SEVERITY[finding.severity], options.color)
+    head = f"{kind}{paint(': ' + display(finding.message), BOLD, options.color)}"
+    where = display_path(finding.file, options.root)
     at = place(result, finding.file, finding.span)
     digits, lines = 1, list[str]()
     if at:
@@ -37,7 +37,7 @@ def paragraph(finding: Finding, result: Result, options: Options, rules: Set[str
     if finding.span is not None and source is not None and (at or source.origins is not None):
         digits, lines = excerpt(source, marks(finding), options.width, options.color)
     if not at and finding.subject:
-        where += f": {shown(finding.subject)}"
+        where += f": {display(finding.subject)}"
     indent = " " * digits
     bar = paint(f"{indent} |", SECONDARY, options.color)
     equals = paint(f"{indent} =", SECONDARY, options.color)
@@ -51,7 +51,7 @@ def marks(finding: Finding) -> list[Mark]:
     assert finding.span is not None
     texts: dict[tuple[int, int], list[str]] = {finding.span: []}
     for label in finding.labels:
-        texts.setdefault(label.span, []).append(shown(label.text))
+        texts.setdefault(label.span, []).append(display(label.text))
     primary = Mark(*finding.span, "; ".join(texts.pop(finding.span)), SEVERITY[finding.severity], True)
     return [primary, *(Mark(*span, "; ".join(parts), SECONDARY, False) for span, parts in texts.items())]
 
@@ -64,27 +64,27 @@ def capture_location(where: CaptureLocation) -> str:
 
 def remarks(finding: Finding, rules: Set[str]) -> list[tuple[str, str]]:
     """What follows the excerpt: word and text."""
-    lines = [("note", f"{shown(finding.code)}, confidence {finding.confidence}")]
+    lines = [("note", f"{display(finding.code)}, confidence {finding.confidence}")]
     if finding.seen is not None:
-        lines.append(("from", shown(capture_location(finding.seen)) + " (line numbers are those of `msaa-lint convert` output)"))
-    lines += [("note", shown(note)) for note in finding.notes if note.strip()]
+        lines.append(("from", display(capture_location(finding.seen)) + " (line numbers are those of `msaa-lint convert` output)"))
+    lines += [("note", display(note)) for note in finding.notes if note.strip()]
     places = len({label.span for label in finding.labels} | {finding.span})
     if places > MAX_MARKS:
         lines.append(("note", f"{places - MAX_MARKS} more places are not shown"))
     price = price_text(finding)
     if price:
         lines.append(("cost", price))
-    help_text, fix = shown(finding.help), finding.fix
+    help_text, fix = display(finding.help), finding.fix
     how = ""
     if fix and fix.edits:
         how = " (safe: --fix)" if fix.safe else " (unsafe: --fix --unsafe-fixes)"
     elif fix and fix.shown:
         how = " (not applied automatically)"
-    title = shown(fix.title) if fix else ""
+    title = display(fix.title) if fix else ""
     if help_text and title and title != help_text:
         lines += [("help", help_text), ("fix", title + how)]
     elif help_text or title:
         lines.append(("help", (help_text or title) + how))
     if finding.rule in rules:
-        lines.append(("docs", f"msaa-lint rule {shown(finding.rule)}"))
+        lines.append(("docs", f"msaa-lint rule {display(finding.rule)}"))
     return lines

@@ -8,8 +8,8 @@ from msaa_lint.core.finding import Finding, Result, rank
 from msaa_lint.core.text.source import Source
 
 from . import Options, Write
-from .escape import shown, visible
-from .markdown import literal, table
+from .escape import display, escape
+from .markdown import escape_markdown, table
 from .paths import relative
 from .place import place
 from .summary import fixable, plural, sentence
@@ -42,20 +42,20 @@ def render(result: Result, out: Write, options: Options) -> None:
         where = "see the summary of this step" if path and not problem else "GitHub shows at most ten per level and step"
         out(f"::notice title=msaa-lint::{plural(left_out, 'more finding')}, {where}\n")
     if problem:
-        out(f"::warning title=msaa-lint::{_data('cannot write the summary of this step: ' + shown(problem))}\n")
+        out(f"::warning title=msaa-lint::{_data('cannot write the summary of this step: ' + display(problem))}\n")
 
 
 def _command(finding: Finding, result: Result, options: Options) -> str:
-    properties: dict[str, str | int] = {"file": visible(relative(finding.file, options.root))}
+    properties: dict[str, str | int] = {"file": escape(relative(finding.file, options.root))}
     source = result.sources.get(finding.file)
     if finding.span is not None and source is not None and source.origins is not None:
         at = place(result, finding.file, finding.span)
         properties |= {"line": at.line, "endLine": at.line} if at is not None else {}
     elif finding.span is not None and source is not None:
         properties |= _region(source, finding.span.start, finding.span.end)
-    properties["title"] = f"{shown(finding.rule)} ({shown(finding.code)})"
-    lines = [shown(finding.message)]
-    lines += [f"help: {shown(text)}" for text in (finding.help or (finding.fix.title if finding.fix else ""),) if text.strip()]
+    properties["title"] = f"{display(finding.rule)} ({display(finding.code)})"
+    lines = [display(finding.message)]
+    lines += [f"help: {display(text)}" for text in (finding.help or (finding.fix.title if finding.fix else ""),) if text.strip()]
     joined = ",".join(f"{name}={_property(str(value))}" for name, value in properties.items())
     return f"::{_LEVEL[finding.severity]} {joined}::{_data(chr(10).join(lines))}"
 
@@ -83,7 +83,7 @@ def _append(path: str, result: Result, options: Options) -> str:
     try:
         with open(path, "ab") as file:
             room = MAX_SUMMARY_BYTES - file.seek(0, os.SEEK_END)
-            head = "".join(f"{literal(line)}\n\n" for line in (sentence(result, options), fixable(result)) if line)
+            head = "".join(f"{escape_markdown(line)}\n\n" for line in (sentence(result, options), fixable(result)) if line)
             head = f"### msaa-lint\n\n{head}"
             rows = table(result, options, room - _size(head), _size) if result.findings else ()
             text = head + "".join(rows) + "\n"

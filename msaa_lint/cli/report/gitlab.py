@@ -6,7 +6,7 @@ from msaa_lint.core.finding import Finding, Result
 
 from . import Options, Write
 from .data import write_list
-from .escape import shown, visible
+from .escape import display, escape
 from .fingerprint import fingerprints
 from .paths import relative
 from .place import place
@@ -23,7 +23,7 @@ def render(result: Result, out: Write, options: Options) -> None:
 
 def _issue(finding: Finding, name: str, result: Result, options: Options) -> dict[str, object]:
     at = place(result, finding.file, finding.span)
-    location: dict[str, object] = {"path": visible(relative(finding.file, options.root))}
+    location: dict[str, object] = {"path": escape(relative(finding.file, options.root))}
     if at:
         begin, end = {"line": at.line, "column": at.column}, {"line": at.end_line, "column": at.end_column}
         location["positions"] = {"begin": begin, "end": end}
@@ -31,8 +31,8 @@ def _issue(finding: Finding, name: str, result: Result, options: Options) -> dic
         location["lines"] = {"begin": 1}
     return {
         # GitLab does not show check_name.
-        "description": f"{shown(finding.rule)}: {shown(finding.message)}",
-        "check_name": shown(finding.rule),
+        "description": f"{display(finding.rule)}: {display(finding.message)}",
+        "check_name": display(finding.rule),
         "fingerprint": name,
         "severity": _SEVERITY[finding.severity],
         "location": location,

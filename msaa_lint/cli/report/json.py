@@ -7,7 +7,7 @@ from msaa_lint.core.text.span import Span
 
 from . import Options, Write
 from .data import Json, head, text, write_object
-from .escape import whole
+from .escape import escape_surrogates
 from .paths import relative
 from .place import place
 from .summary import tally, together, usable_price
@@ -37,7 +37,7 @@ def _finding(finding: Finding, result: Result, options: Options) -> Json:
         "severity": finding.severity,
         "confidence": finding.confidence,
         "message": text(finding.message),
-        "file": whole(relative(finding.file, options.root)),
+        "file": escape_surrogates(relative(finding.file, options.root)),
         **_place(result, finding.file, finding.span),
         "subject": text(finding.subject),
         "fixable": bool(fix and fix.edits),
@@ -58,7 +58,7 @@ def _undecided(entry: Undecided, options: Options) -> Json:
     return {
         "rule": text(entry.rule),
         "code": text(entry.code),
-        "file": whole(relative(entry.file, options.root)),
+        "file": escape_surrogates(relative(entry.file, options.root)),
         "subject": text(entry.subject),
         "missing": [text(fact) for fact in entry.missing],
     }

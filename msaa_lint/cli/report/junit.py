@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from msaa_lint.core.finding import Finding, Result, is_confident
 
 from . import Options, Write
-from .escape import shown, visible
+from .escape import display, escape
 from .paths import relative
 from .place import place
 
@@ -25,7 +25,7 @@ def render(result: Result, out: Write, options: Options) -> None:
     out('<?xml version="1.0" encoding="UTF-8"?>\n')
     out(f"<testsuites{_attributes(name='msaa-lint', tests=tests, **_counts(result.findings, options))}>\n")
     for file, findings in suites.items():
-        path = visible(relative(file, options.root))
+        path = escape(relative(file, options.root))
         counts = _counts(findings, options)
         out(f"  <testsuite{_attributes(name=path, package='org.msaa-lint', tests=max(1, len(findings)), **counts)}>\n")
         for finding in findings:
@@ -38,8 +38,8 @@ def render(result: Result, out: Write, options: Options) -> None:
 
 def _case(finding: Finding, path: str, result: Result, options: Options) -> str:
     at = place(result, finding.file, finding.span)
-    message = shown(finding.message)
-    attributes: dict[str, str | int] = {"name": f"org.msaa-lint.{shown(finding.code)}", "classname": _class(path)}
+    message = display(finding.message)
+    attributes: dict[str, str | int] = {"name": f"org.msaa-lint.{display(finding.code)}", "classname": _class(path)}
     text = f"{path}, {message}"
     if at:
         attributes |= {"file": path, "line": at.line, "column": at.column}
@@ -49,7 +49,7 @@ def _case(finding: Finding, path: str, result: Result, options: Options) -> str:
         body = f"<system-out>{_xml(text)}</system-out>"
     else:
         kind = "error" if finding.fatal else "failure"
-        body = f"<{kind}{_attributes(message=message, type=shown(finding.rule))}>{_xml(text)}</{kind}>"
+        body = f"<{kind}{_attributes(message=message, type=display(finding.rule))}>{_xml(text)}</{kind}>"
     severity = f"<properties><property{_attributes(name='severity', value=finding.severity)}/></properties>"
     return f"    <testcase{_attributes(**attributes)}>\n      {severity}\n      {body}\n    </testcase>\n"
 

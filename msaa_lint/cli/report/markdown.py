@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterator
 from msaa_lint.core.finding import Finding, Result, rank
 
 from . import Options, Write
-from .escape import shown
+from .escape import display
 from .full import paragraph
-from .paths import shown_path
+from .paths import display_path
 from .place import place
 from .summary import plural, price_text, summary
 
@@ -28,7 +28,7 @@ _ADDRESS = re.compile(r"(?i)(?<=www)(?=\.)|(?<=:)(?=//)|(?<=gh)(?=-\d)")
 
 def render(result: Result, out: Write, options: Options) -> None:
     """Prints the summary, a table of the findings, the most severe first, and the excerpt of each, as far as one comment can hold them."""
-    head = "<!-- msaa-lint -->\n### msaa-lint\n" + "".join(f"\n{literal(line)}\n" for line in summary(result, options))
+    head = "<!-- msaa-lint -->\n### msaa-lint\n" + "".join(f"\n{escape_markdown(line)}\n" for line in summary(result, options))
     out(head)
     if not result.findings:
         return
@@ -52,8 +52,8 @@ def table(result: Result, options: Options, room: int, size: Callable[[str], int
     room -= size(_TABLE_HEAD) + 100
     yield _TABLE_HEAD
     for done, finding in enumerate(_by_severity(result)):
-        cells = (finding.severity, shown(finding.rule), _where(finding, result, options), shown(finding.message), price_text(finding))
-        line = f"| {' | '.join(literal(cell) for cell in cells)} |\n"
+        cells = (finding.severity, display(finding.rule), _where(finding, result, options), display(finding.message), price_text(finding))
+        line = f"| {' | '.join(escape_markdown(cell) for cell in cells)} |\n"
         room -= size(line)
         if room < 0:
             yield f"\n{plural(len(result.findings) - done, 'more finding')} not shown.\n"
@@ -61,24 +61,24 @@ def table(result: Result, options: Options, room: int, size: Callable[[str], int
         yield line
 
 
-def literal(text: str) -> str:
-    """`text`, already escaped by `visible`, so that Markdown, HTML, and a forge's links (`@name`, `#1`, addresses) leave it unchanged."""
+def escape_markdown(text: str) -> str:
+    """`text`, already escaped by `escape`, so that Markdown, HTML, and a forge's links (`@name`, `#1`, addresses) leave it unchanged."""
     text = _ADDRESS.sub("\u200b", text)
-    text = _SPECIAL.sub(lambda found: f"&#{ord(found[0])};" + (_SEPARATOR if found[0] in _MARKERS else ""), text)
+    text = _SPECIAL.sub(lambda match: f"&#{ord(match[0])};" + (_SEPARATOR if match[0] in _MARKERS else ""), text)
     return text.replace("\u200b", _SEPARATOR)
 
 
 def _details(finding: Finding, text: str, result: Result, options: Options) -> str:
     runs = [len(run) for run in re.findall("`+", text)]
     fence = "`" * max(3, max(runs, default=0) + 1)
-    where = literal(_where(finding, result, options))
-    title = f"{finding.severity}: {literal(shown(finding.rule))} at {where}"
+    where = escape_markdown(_where(finding, result, options))
+    title = f"{finding.severity}: {escape_markdown(display(finding.rule))} at {where}"
     return f"\n<details><summary>{title}</summary>\n\n{fence}text\n{text}\n{fence}\n\n</details>\n"
 
 
 def _where(finding: Finding, result: Result, options: Options) -> str:
     at = place(result, finding.file, finding.span)
-    path = shown_path(finding.file, options.root)
+    path = display_path(finding.file, options.root)
     return f"{path}:{at.line}:{at.column}" if at else path
 
 

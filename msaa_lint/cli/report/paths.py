@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 
-from .escape import visible
+from .escape import escape
 
 
 def relative(file: str, root: str, resolve: bool = False) -> str:
@@ -26,10 +26,10 @@ def relative(file: str, root: str, resolve: bool = False) -> str:
     return _without_dot(name)
 
 
-def shown_path(file: str, root: str) -> str:
+def display_path(file: str, root: str) -> str:
     """`relative`, escaped for a text output. CI runners obey lines that begin with `::`, so a name that could begin such a line, together
     with the colon that follows it, is prefixed with `./`."""
-    path = visible(relative(file, root))
+    path = escape(relative(file, root))
     return "./" + path if path.lstrip().startswith((":", "##")) else path
 
 

@@ -10,7 +10,7 @@ from msaa_lint.core.text.span import Span
 
 from . import Options, Write
 from .data import dump, write_list
-from .escape import clip, shown, whole
+from .escape import clip, display, escape_surrogates
 from .fingerprint import fingerprints
 from .paths import uri
 from .place import place
@@ -60,7 +60,7 @@ def render(result: Result, out: Write, options: Options) -> None:
     write_list(map(_descriptor, rules), out)
     out("}},\n")
     if options.sarif_category:
-        out(f'"automationDetails": {dump({"id": f"msaa-lint/{whole(options.sarif_category)}/"})},\n')
+        out(f'"automationDetails": {dump({"id": f"msaa-lint/{escape_surrogates(options.sarif_category)}/"})},\n')
     out('"columnKind": "unicodeCodePoints",\n')
     out(f'"invocations": [{dump(_invocation(result, options, len(numbered) - len(results)))}],\n"results": ')
     write_list((_result(finding, entry, name, index, result, options) for (finding, entry), name in results), out)
@@ -90,14 +90,14 @@ def _rules(result: Result, findings: Sequence[Finding]) -> list[RuleInfo]:
 
 
 def _descriptor(rule: RuleInfo) -> dict[str, object]:
-    summary = shown(rule.summary) or shown(rule.name).replace("-", " ").capitalize() or shown(rule.code)
+    summary = display(rule.summary) or display(rule.name).replace("-", " ").capitalize() or display(rule.code)
     links = [reference for reference in rule.references if _LINK.fullmatch(reference)]
-    page = whole(rule.markdown.strip()) or summary
-    references = "\n".join(f"- {whole(reference)}" for reference in rule.references if reference not in page)
+    page = escape_surrogates(rule.markdown.strip()) or summary
+    references = "\n".join(f"- {escape_surrogates(reference)}" for reference in rule.references if reference not in page)
     tags = ["msaa", "vulkan", *_family(rule)]
     descriptor: dict[str, object] = {
-        "id": shown(rule.code),
-        "name": clip(shown(rule.name), MAX_NAME) or shown(rule.code),
+        "id": display(rule.code),
+        "name": clip(display(rule.name), MAX_NAME) or display(rule.code),
         "shortDescription": {"text": clip(summary, MAX_DESCRIPTION)},
         "fullDescription": {"text": clip(summary, MAX_DESCRIPTION)},
         # GitHub does not show helpUri, so the links are in the page, too.
@@ -115,8 +115,8 @@ def _descriptor(rule: RuleInfo) -> dict[str, object]:
 
 
 def _family(rule: RuleInfo) -> list[str]:
-    found = re.fullmatch(r"MSAA(\d)\d\d", rule.code)
-    return [_FAMILY[found[1]]] if found and found[1] in _FAMILY else []
+    match = re.fullmatch(r"MSAA(\d)\d\d", rule.code)
+    return [_FAMILY[match[1]]] if match and match[1] in _FAMILY else []
 
 
 def _invocation(result: Result, options: Options, left_out: int) -> dict[str, object]:
@@ -146,7 +146,7 @@ def _result(
         }
     }
     if finding.subject:
-        location["logicalLocations"] = [{"fullyQualifiedName": whole(clip(finding.subject))}]
+        location["logicalLocations"] = [{"fullyQualifiedName": escape_surrogates(clip(finding.subject))}]
     labels = _labels(finding, result)
     related = [
         {"id": n, "physicalLocation": {"artifactLocation": artifact, "region": region}, "message": {"text": text}}
@@ -157,9 +157,9 @@ def _result(
     if price:
         properties["price"] = price._asdict()
     if finding.notes:
-        properties["notes"] = [shown(note) for note in finding.notes]
+        properties["notes"] = [display(note) for note in finding.notes]
     sarif: dict[str, object] = {
-        "ruleId": shown(finding.code),
+        "ruleId": display(finding.code),
         "ruleIndex": index[finding.code],
         # Code scanning fails a pull request on an error, which an uncertain finding must not do.
         "level": "warning" if finding.confidence == "low" and finding.severity == "error" else finding.severity,
@@ -176,7 +176,7 @@ def _result(
     if options.show_suppressed:
         sarif["suppressions"] = []
         if entry:
-            reason = {"justification": shown(entry.reason)} if entry.reason.strip() else {}
+            reason = {"justification": display(entry.reason)} if entry.reason.strip() else {}
             sarif["suppressions"] = [{"kind": _KIND[entry.how], **reason}]
     return sarif
 
@@ -184,19 +184,19 @@ def _result(
 def _labels(finding: Finding, result: Result) -> list[tuple[str, dict[str, int]]]:
     """The texts and regions of the labels, except those at the finding's own span."""
     labels = [label for label in finding.labels if label.span != finding.span][:MAX_LOCATIONS]
-    placed = [(_linkless(shown(label.text)), _region(result, finding.file, label.span)) for label in labels]
+    placed = [(_linkless(display(label.text)), _region(result, finding.file, label.span)) for label in labels]
     return [(text, region) for text, region in placed if region]
 
 
 def _message(finding: Finding, labels: list[str]) -> str:
     """The message as the first sentence, which GitHub uses as the title, then the labels, as links, and the help text."""
-    parts = [_linkless(shown(finding.message))]
-    parts += [_linkless(shown(label.text)) for label in finding.labels[:MAX_LINKS] if label.span == finding.span]
+    parts = [_linkless(display(finding.message))]
+    parts += [_linkless(display(label.text)) for label in finding.labels[:MAX_LINKS] if label.span == finding.span]
     for n, text in enumerate(labels[:MAX_LINKS], 1):
         if text:
             escaped = text.replace("\\", "\\\\").replace("[", "\\[").replace("]", "\\]")
             parts.append(f"[{escaped}]({n})")
-    parts.append(_linkless(shown(finding.help)))
+    parts.append(_linkless(display(finding.help)))
     return " ".join(part if part.endswith((".", "!", "?")) else part + "." for part in parts if part)
 
 
@@ -218,10 +218,10 @@ def _fix(fix: Fix, file: str, artifact: dict[str, str], result: Result) -> Itera
         region = _region(result, file, edit.span)
         if region is None:
             return
-        replacements.append({"deletedRegion": region, "insertedContent": {"text": whole(edit.text)}})
+        replacements.append({"deletedRegion": region, "insertedContent": {"text": escape_surrogates(edit.text)}})
     if replacements:
         yield {
-            "description": {"text": shown(fix.title) or "Fix"},
+            "description": {"text": display(fix.title) or "Fix"},
             "artifactChanges": [{"artifactLocation": artifact, "replacements": replacements}],
             "properties": {"safe": fix.safe},
         }

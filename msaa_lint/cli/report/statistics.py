@@ -6,29 +6,22 @@ from collections.abc import Sequence
 
 from msaa_lint.core.finding import Finding, Price, Result, rank
 
-from . import Options, Write
-from .escape import shown
+from .escape import display
 from .summary import together, usable_price
 
 UNITS = ("MB/s", "MiB", "mW")
 
 
-def render(result: Result, out: Write, options: Options) -> None:
-    """Prints the table; nothing if there is no finding."""
-    for line in table(result):
-        out(line + "\n")
-
-
-def table(result: Result) -> list[str]:
-    """The lines of the table, the most frequent rule first. A rule whose findings differ in severity has a line for each severity.
+def table(result: Result) -> str:
+    """The table, the most frequent rule first; empty if there is no finding. A rule has a line for each severity of its findings.
 
     If findings have prices, more columns have their sums, and the last line what all findings cost together, which is at most the sum.
     """
     groups: dict[tuple[str, str, str], list[Finding]] = {}
     for finding in result.findings:
-        groups.setdefault((shown(finding.code), shown(finding.rule), finding.severity), []).append(finding)
+        groups.setdefault((display(finding.code), display(finding.rule), finding.severity), []).append(finding)
     if not groups:
-        return []
+        return ""
     rows = sorted(groups.items(), key=lambda item: (-len(item[1]), -rank(item[0][2]), item[0]))
     cells = [["count", "code", "rule", "severity", *UNITS]]
     for (code, rule, severity), findings in rows:
@@ -41,7 +34,7 @@ def table(result: Result) -> list[str]:
         cells = [row[:4] for row in cells]
     # The count comes first, so that no line begins with text from an input.
     widths = [max(len(row[column]) for row in cells) for column in range(len(cells[0]))]
-    return ["  ".join(map(_aligned, row, widths, range(len(row)))).rstrip() for row in cells]
+    return "".join("  ".join(map(_aligned, row, widths, range(len(row)))).rstrip() + "\n" for row in cells)
 
 
 def _aligned(cell: str, width: int, column: int) -> str:

@@ -10,7 +10,7 @@ from msaa_lint.experiments.study.crops import short_name
 from msaa_lint.experiments.study.outcome import Study
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Point
 
-from .escape import shown
+from .escape import display
 from .figure import save_figure
 
 STYLES = {MSAA: ("#0072B2", "o", "MSAA"), SAMPLE_SHADING: ("#E69F00", "s", "sample shading"), SSAA: ("#D55E00", "^", "SSAA")}
@@ -35,11 +35,11 @@ def plot(study: Study, format: str) -> bytes:
             panel.set_axis_off()
         for panel, scene in zip(panels.flat, scenes, strict=False):
             _panel(panel, plotted(study.of(scene.name)))
-            panel.set_title(shown(scene.name), loc="left", fontsize=10, fontweight="bold")
+            panel.set_title(display(scene.name), loc="left", fontsize=10, fontweight="bold")
             panel.set_ylabel("RMSE of coverage" if scene.coverage else "RMSE of linear color")
         if scenes:
             figure.legend(handles=_legend(), loc="outside lower left", ncols=4, frameon=False)
-        title = f"Error against time: {shown(study.device)}" if study.device else "Error against samples (no times measured)"
+        title = f"Error against time: {display(study.device)}" if study.device else "Error against samples (no times measured)"
         figure.suptitle(f"{title}, {study.size[0]}x{study.size[1]}", x=0.01, ha="left", fontsize=11)
 
     return save_figure(max(6.5, _WIDE * columns), 1.1 + _HIGH * rows, draw, format)

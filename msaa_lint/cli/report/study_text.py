@@ -13,7 +13,7 @@ from msaa_lint.experiments.study.points import Point
 
 from . import Options, Write
 from .console import new_table, open_console
-from .escape import shown
+from .escape import display
 from .summary import plural
 
 MARK = "*"
@@ -34,9 +34,9 @@ def render(study: Study, out: Write, options: Options) -> None:
 
 def _scene(scene: SceneSummary, study: Study, console: Console) -> None:
     points = study.of(scene.name)
-    console.print(shown(scene.name), style="bold", soft_wrap=True)
+    console.print(display(scene.name), style="bold", soft_wrap=True)
     if scene.description:
-        console.print(shown(scene.description), soft_wrap=True)
+        console.print(display(scene.description), soft_wrap=True)
     if points:
         edges = f"{max(point.edge_pixels for point in points):,} of {study.size[0] * study.size[1]:,} pixels"
         console.print(f"{edges} {'are crossed by an edge' if scene.coverage else 'are compared by color'}", soft_wrap=True)
@@ -44,15 +44,15 @@ def _scene(scene: SceneSummary, study: Study, console: Console) -> None:
         console.print(_table(points, scene))
         console.print()
     for name, reason in scene.effects:
-        console.print(f"effect {shown(name)}" + (f": {shown(reason)}" if reason else ""), soft_wrap=True)
+        console.print(f"effect {display(name)}" + (f": {display(reason)}" if reason else ""), soft_wrap=True)
     if not scene.effects:
         console.print("no effects: the scene needs none", soft_wrap=True)
     for failure in study.failed:
         if failure.scene == scene.name:
-            console.print(f"{failure.technique.name} failed: {shown(failure.reason)}", style="red", soft_wrap=True)
+            console.print(f"{failure.technique.name} failed: {display(failure.reason)}", style="red", soft_wrap=True)
     for advice in study.advice:
         if advice.scene == scene.name:
-            console.print(f"- {shown(advice.text)} ({shown(advice.reason)})", soft_wrap=True)
+            console.print(f"- {display(advice.text)} ({display(advice.reason)})", soft_wrap=True)
 
 
 def _table(points: Sequence[Point], scene: SceneSummary) -> Table:
@@ -98,19 +98,19 @@ def _summary(study: Study) -> Iterator[str]:
     size = f"{study.size[0]}x{study.size[1]}, vertices snapped to {study.bits} bits"
     if study.points:
         if study.device:
-            yield f"{size}; times measured by the clock of {shown(study.device)}"
+            yield f"{size}; times measured by the clock of {display(study.device)}"
             yield f"{MARK} Pareto-optimal: no other technique has less error in as little time"
         else:
             yield f"{size}; no times: --device NAME measures them"
             yield f"{MARK} Pareto-optimal: no other technique has less error for as few samples, shader invocations, and bytes"
-        model = f" for {shown(study.model)}" if study.model else ""
+        model = f" for {display(study.model)}" if study.model else ""
         yield f"bytes, power, and memory: the cost model{model}, with samples kept on the tile"
     names: dict[str, list[str]] = {}
     for untimed in study.untimed:
         names.setdefault(untimed.reason, []).append(untimed.name)
     for reason, techniques in names.items():
-        yield f"not timed: {'; '.join(techniques)}: {shown(reason)}"
+        yield f"not timed: {'; '.join(techniques)}: {display(reason)}"
     for path in (*study.pictures, *study.records):
-        yield f"written: {shown(path)}"
+        yield f"written: {display(path)}"
     failed = f", {len(study.failed)} failed" if study.failed else ""
     yield f"{plural(len(study.points), 'point')} of {plural(len(study.scenes), 'scene')}{failed}"

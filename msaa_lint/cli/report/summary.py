@@ -5,7 +5,7 @@ from typing import NamedTuple
 from msaa_lint.core.finding import CONFIDENCES, Finding, Price, Result, is_confident
 
 from . import Options
-from .escape import shown
+from .escape import display
 
 
 class Tally(NamedTuple):
@@ -83,7 +83,7 @@ def undecided(count: Tally, options: Options) -> str:
     """`4 rules undecided, missing facts: image.usage (2), ...`; empty if none is."""
     if not count.undecided_rules:
         return ""
-    facts = [f"{shown(fact)} ({n})" for fact, n in count.missing[: options.max_undecided]]
+    facts = [f"{display(fact)} ({n})" for fact, n in count.missing[: options.max_undecided]]
     if len(count.missing) > options.max_undecided:
         facts.append(f"and {len(count.missing) - options.max_undecided} more")
     return f"{plural(count.undecided_rules, 'rule')} undecided, missing facts: {', '.join(facts)}"

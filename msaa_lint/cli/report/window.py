@@ -7,7 +7,7 @@ import re
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from .escape import pieces, visible
+from .escape import escape, escape_each
 
 CUT = "..."
 _LINE_END = re.compile(r"[\r\n]")
@@ -29,7 +29,7 @@ class Window(NamedTuple):
 
     @property
     def end(self) -> int:
-        """The offset after the last character shown."""
+        """The offset after the last character parts."""
         return self.start + len(self.cells) - 1
 
     def cell(self, offset: int) -> int:
@@ -41,12 +41,12 @@ class Window(NamedTuple):
         return not self.cut or offset < self.end
 
 
-def line_end(text: str, offset: int, longest: int) -> int | None:
-    """The end of the line that contains `offset`; None if it is more than `longest` characters away."""
-    found = _LINE_END.search(text, offset, min(len(text), offset + longest))
-    if found:
-        return found.start()
-    return len(text) if len(text) <= offset + longest else None
+def line_end(text: str, offset: int, max_length: int) -> int | None:
+    """The end of the line that contains `offset`; None if it is more than `max_length` characters away."""
+    match = _LINE_END.search(text, offset, min(len(text), offset + max_length))
+    if match:
+        return match.start()
+    return len(text) if len(text) <= offset + max_length else None
 
 
 def window(text: str, line_start: int, focus: int, width: int) -> Window:
@@ -78,10 +78,10 @@ def window(text: str, line_start: int, focus: int, width: int) -> Window:
 def _back(text: str, line_start: int, focus: int, room: int) -> int:
     """The first offset from which the text before `focus` takes at most `room` cells."""
     start = max(line_start, focus - room)
-    shown, widths = _measure(text[start:focus])
+    parts, widths = _measure(text[start:focus])
     total = sum(widths)
     while total > room and start < focus:
-        total -= widths[start - focus + len(shown)]
+        total -= widths[start - focus + len(parts)]
         start += 1
     return start
 
@@ -89,41 +89,41 @@ def _back(text: str, line_start: int, focus: int, room: int) -> int:
 def _lay(text: str, start: int, end: int, room: int, before: str, after: str) -> Window:
     """The characters from `start` to `end`, or as many as fit before cell `room` (0: all), between `before` and `after`."""
     raw = text[start:end]
-    if raw.isascii() and raw == visible(raw):
+    if raw.isascii() and raw == escape(raw):
         count = min(len(raw), room - len(before)) if room else len(raw)
         return Window(start, before + raw[:count] + after, range(len(before), len(before) + count + 1), bool(after))
-    shown, widths = _measure(raw)
+    parts, widths = _measure(raw)
     cells = [len(before)]
     for width in widths:
         if room and cells[-1] + width > room:
             break
         cells.append(cells[-1] + width)
-    return Window(start, before + "".join(shown[: len(cells) - 1]) + after, cells, bool(after))
+    return Window(start, before + "".join(parts[: len(cells) - 1]) + after, cells, bool(after))
 
 
 def _measure(text: str) -> tuple[list[str], list[int]]:
     """The displayed text of each character, and its width in cells."""
-    shown = pieces(text)
+    parts = escape_each(text)
     if text.isascii():
         for i, c in enumerate(text if "\t" in text else ""):
             if c == "\t":
-                shown[i] = _TAB
-        return shown, [len(piece) for piece in shown]
+                parts[i] = _TAB
+        return parts, [len(piece) for piece in parts]
     from unicodedata import category, east_asian_width
 
     widths = []
     combining = 0
     for i, c in enumerate(text):
         if c == "\t":
-            shown[i] = _TAB
-        width = len(shown[i])
+            parts[i] = _TAB
+        width = len(parts[i])
         if width == 1 and not c.isascii():
             if category(c) in ("Mn", "Me"):
                 combining += 1
                 # At the start of the window, a mark would be drawn on the gutter.
                 if combining > _MAX_COMBINING or i == 0:
-                    shown[i] = f"\\u{ord(c):04x}" if ord(c) < 0x10000 else f"\\U{ord(c):08x}"
-                    width = len(shown[i])
+                    parts[i] = f"\\u{ord(c):04x}" if ord(c) < 0x10000 else f"\\U{ord(c):08x}"
+                    width = len(parts[i])
                 else:
                     width = 0
             else:
@@ -132,4 +132,4 @@ def _measure(text: str) -> tuple[list[str], list[int]]:
         else:
             combining = 0
         widths.append(width)
-    return shown, widths
+    return parts, widths

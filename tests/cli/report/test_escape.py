@@ -1,7 +1,7 @@
 import pytest
 from hypothesis import given
 
-from msaa_lint.cli.report.escape import MAX_LENGTH, clip, pieces, shown, visible, whole
+from msaa_lint.cli.report.escape import MAX_LENGTH, clip, display, escape, escape_each, escape_surrogates
 from tests.cli.report.hostile import texts
 
 
@@ -23,23 +23,23 @@ from tests.cli.report.hostile import texts
     ],
 )
 def test_visible(text: str, expected: str) -> None:
-    assert visible(text) == expected
+    assert escape(text) == expected
 
 
 @given(texts)
 def test_visible_is_printable_and_stays_as_it_is(text: str) -> None:
-    made = visible(text)
+    made = escape(text)
     assert made.isprintable() and isinstance(made.encode("utf-8"), bytes)
-    assert visible(made) == made
-    assert len(pieces(text)) == len(text)
+    assert escape(made) == made
+    assert len(escape_each(text)) == len(text)
 
 
 def test_shown_trims_and_cuts() -> None:
-    assert shown("  a\n") == "a"
-    assert shown("x" * MAX_LENGTH) == "x" * MAX_LENGTH
-    assert shown("x" * (MAX_LENGTH + 1)) == "x" * (MAX_LENGTH - 3) + "..."
+    assert display("  a\n") == "a"
+    assert display("x" * MAX_LENGTH) == "x" * MAX_LENGTH
+    assert display("x" * (MAX_LENGTH + 1)) == "x" * (MAX_LENGTH - 3) + "..."
     assert clip("abcdef", 5) == "ab..."
 
 
 def test_whole_touches_lone_surrogates_alone() -> None:
-    assert whole("a\x1b\u202e\udc80é") == "a\x1b\u202e\\udc80é"
+    assert escape_surrogates("a\x1b\u202e\udc80é") == "a\x1b\u202e\\udc80é"

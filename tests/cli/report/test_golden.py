@@ -4,8 +4,8 @@ import os
 
 import pytest
 
-from msaa_lint.cli.report import FORMATS
 from msaa_lint.core.text.span import Label, Span
+from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
 from tests.cli.report.sample import finding, frame, printed, result, span
 from tests.paths import ROOT
 
@@ -19,7 +19,7 @@ def check(name: str, text: str) -> None:
     assert text == path.read_bytes().decode()
 
 
-@pytest.mark.parametrize("name", FORMATS)
+@pytest.mark.parametrize("name", OUTPUT_FORMATS)
 def test_format(name: str) -> None:
     suffix = {"json": "json", "sarif": "sarif", "gitlab": "json", "junit": "xml", "markdown": "md"}.get(name, "txt")
     check(f"{name}.{suffix}", printed(name, frame()))

@@ -10,11 +10,11 @@ import pytest
 from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
-from msaa_lint.cli.report import FORMATS, Options
-from msaa_lint.cli.report.escape import whole
-from msaa_lint.cli.report.statistics import render as render_statistics
+from msaa_lint.cli.report.escape import escape_surrogates
+from msaa_lint.cli.report.statistics import table
 from msaa_lint.core.finding import Result
 from msaa_lint.core.text.span import Label, Span
+from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
 from tests.cli.report.hostile import TOKENS, results
 from tests.cli.report.sample import finding, printed, result
 from tests.cli.report.schemas import check_sarif, json_validator
@@ -27,9 +27,7 @@ EVERYTHING = {"show_suppressed": True, "statistics": True, "sarif_category": "x"
 @examples(0.8, suppress_health_check=[HealthCheck.too_slow])
 @given(results(), st.integers(0, 80))
 def test_text_outputs_are_harmless(run: Result, width: int) -> None:
-    parts: list[str] = []
-    render_statistics(run, parts.append, Options())
-    outputs = {name: printed(name, run, width=width, **EVERYTHING) for name in TEXT_FORMATS} | {"statistics": "".join(parts)}
+    outputs = {name: printed(name, run, width=width, **EVERYTHING) for name in TEXT_FORMATS} | {"statistics": table(run)}
     for name, text in outputs.items():
         for line in text.split("\n"):
             assert line.isprintable(), line
@@ -80,7 +78,7 @@ def test_machine_outputs_parse(run: Result) -> None:
         assert re.fullmatch(r"[\n -~]*", text)
     data = json.loads(outputs["json"])
     json_validator().validate(data)
-    assert [item["message"] for item in data["findings"]] == [whole(f.message) for f in run.findings]
+    assert [item["message"] for item in data["findings"]] == [escape_surrogates(f.message) for f in run.findings]
     sarif = json.loads(outputs["sarif"])
     check_sarif(sarif)
     assert len(sarif["runs"][0]["results"]) == len(run.findings) + len(run.suppressed)
@@ -91,7 +89,7 @@ def test_machine_outputs_parse(run: Result) -> None:
 @examples(0.3, suppress_health_check=[HealthCheck.too_slow])
 @given(results())
 def test_same_result_same_bytes(run: Result) -> None:
-    for name in FORMATS:
+    for name in OUTPUT_FORMATS:
         assert printed(name, run, **EVERYTHING) == printed(name, run, **EVERYTHING)
 
 
@@ -111,7 +109,7 @@ def test_a_line_of_64_mib_shows_a_window_of_it() -> None:
     text = '{"a":[' + '{"samples":4},' * (64 * 1024 * 1024 // 14) + "1]}"
     start = text.index("4", len(text) // 2)
     run = result(finding(span=Span(start, start + 1), labels=(Label(Span(0, len(text)), "all of it"),)), text=text)
-    for name in FORMATS:
+    for name in OUTPUT_FORMATS:
         assert len(printed(name, run)) < 4000
     lines = printed("full", run, width=60).split("\n")
     source, carets = next((a, b) for a, b in pairwise(lines) if "^" in b)
@@ -127,5 +125,5 @@ def test_a_line_of_combining_marks_is_cut_too() -> None:
 def test_a_message_of_a_mebibyte_is_cut() -> None:
     long = "x" * (1 << 20)
     run = result(finding(long, subject=long, notes=(long,), help=long, labels=(Label(Span(0, 1), long),), span=Span(1, 2)), text="abc")
-    for name in FORMATS:
+    for name in OUTPUT_FORMATS:
         assert len(printed(name, run)) < 8 * 4096 * 2

@@ -4,8 +4,8 @@ import pytest
 from hypothesis import HealthCheck, given
 from markdown_it import MarkdownIt
 
-from msaa_lint.cli.report.escape import shown
-from msaa_lint.cli.report.markdown import MAX_COMMENT, literal
+from msaa_lint.cli.report.escape import display
+from msaa_lint.cli.report.markdown import MAX_COMMENT, escape_markdown
 from msaa_lint.core.finding import Result
 from msaa_lint.core.text.span import Span
 from tests.cli.report.hostile import TOKENS, results, texts
@@ -27,8 +27,8 @@ def test_table_has_the_worst_first() -> None:
 
 @given(texts)
 def test_literal_is_text_and_nothing_else(text: str) -> None:
-    text = shown(text)
-    (inline,) = [token for token in PARSER.parse(f"x {literal(text)}") if token.type == "inline"]
+    text = display(text)
+    (inline,) = [token for token in PARSER.parse(f"x {escape_markdown(text)}") if token.type == "inline"]
     assert {token.type for token in inline.children} == {"text"} | ({"text_special"} & {token.type for token in inline.children})
     assert "".join(token.content for token in inline.children).replace("\u200b", "") == f"x {text}".rstrip()
 
@@ -48,10 +48,10 @@ def test_literal_is_text_and_nothing_else(text: str) -> None:
     ],
 )
 def test_forges_find_no_reference_in_the_finished_page(text: str, forbidden: str) -> None:
-    page = "".join(token.content for token in PARSER.parseInline(literal(text))[0].children)
+    page = "".join(token.content for token in PARSER.parseInline(escape_markdown(text))[0].children)
     assert forbidden not in page
     assert page.replace("\u200b", "") == text
-    assert forbidden not in literal(text)
+    assert forbidden not in escape_markdown(text)
 
 
 @examples(0.6, suppress_health_check=[HealthCheck.too_slow])

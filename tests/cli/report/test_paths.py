@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 from msaa_lint.cli.report.fingerprint import fingerprint, fingerprints
-from msaa_lint.cli.report.paths import relative, shown_path, uri
+from msaa_lint.cli.report.paths import display_path, relative, uri
 from tests.cli.report.sample import finding
 
 
@@ -63,12 +63,12 @@ def test_uri(file: str, expected: str) -> None:
 
 @pytest.mark.parametrize("file", ["::error::x", "  ::error::x", "##[error]x"])
 def test_no_name_begins_a_line_with_an_order(file: str) -> None:
-    assert not shown_path(file, "").lstrip().startswith(("::", "##"))
-    assert shown_path(file, "").endswith("x")
+    assert not display_path(file, "").lstrip().startswith(("::", "##"))
+    assert display_path(file, "").endswith("x")
 
 
 def test_a_name_that_no_file_can_have() -> None:
-    assert shown_path("a\0\n\u202e", "/repo") == "a\\x00\\n\\u202e"
+    assert display_path("a\0\n\u202e", "/repo") == "a\\x00\\n\\u202e"
 
 
 def test_fingerprint_is_of_rule_file_subject_and_count() -> None:
@@ -97,4 +97,4 @@ def test_fingerprint_of_a_lone_surrogate() -> None:
 
 
 def test_a_name_that_ends_in_a_colon_begins_no_order_with_the_colon_after_it() -> None:
-    assert shown_path(":", "") == "./:"
+    assert display_path(":", "") == "./:"
