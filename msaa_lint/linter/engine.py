@@ -234,9 +234,9 @@ def _with_fixes(
     fixes = [DocumentFixes(result, options.format, editable) for result in fixable]
     combined: CombinedPrice | None = None
     if options.prices:
-        from .prices import priced
+        from .prices import price_findings
 
-        findings, combined = priced(fixes, findings)
+        findings, combined = price_findings(fixes, findings)
     if editable:
         for each in fixes:
             findings = each.with_edits(findings)

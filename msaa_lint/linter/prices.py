@@ -17,7 +17,7 @@ from msaa_lint.frame.facts.commands import named_images
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.parts import Pass
 
-from .fixes.changes import Change, NoFix, StructuralChange, applied
+from .fixes.changes import Change, NoFix, StructuralChange, apply_temporarily
 from .fixes.document_fixes import DocumentFixes
 from .results import CombinedPrice
 from .rules.rule_runner import Key, finding_key
@@ -67,7 +67,7 @@ class Prices:
         If one fix removes what another changes, as many as possible are made together.
         """
         fixes = list(fixes)
-        changes = merged(fixes)
+        changes = merge_changes(fixes)
         after = self.cost_with(changes, None) if changes else None
         if after is None and changes:
             after = self._cost_with_most(fixes)
@@ -75,13 +75,13 @@ class Prices:
 
     def _cost_with_most(self, fixes: Sequence[Sequence[Change]]) -> FrameCost | None:
         """The cost with the fixes that can be made together, those without structural changes first."""
-        chosen = [changes for changes in fixes if not any(change.structural for change in changes)]
-        cost = self.cost_with(merged(chosen), None)
+        combination = [changes for changes in fixes if not any(change.structural for change in changes)]
+        cost = self.cost_with(merge_changes(combination), None)
         structural = [changes for changes in fixes if any(change.structural for change in changes)]
         for changes in structural[:MAX_TRIALS]:
-            cost_with_fix = self.cost_with(merged([*chosen, changes]), None)
+            cost_with_fix = self.cost_with(merge_changes([*combination, changes]), None)
             if cost_with_fix is not None:
-                chosen.append(changes)
+                combination.append(changes)
                 cost = cost_with_fix
         return cost
 
@@ -100,7 +100,7 @@ class Prices:
     def cost_with(self, changes: Sequence[Change], part: Part | None) -> FrameCost | None:
         """The cost of a part of the frame, or of all of it, after changes; None if they cannot be made."""
         try:
-            with applied(changes):
+            with apply_temporarily(changes):
                 return self._cost(self.document, part)
         except StructuralChange:
             document = self._reread(changes)
@@ -109,7 +109,7 @@ class Prices:
 
     def _cost(self, document: Document, part: Part | None) -> FrameCost:
         if part is not None:
-            description, images = _restricted(document.description, part, self._images.get(part, set()))
+            description, images = _restrict(document.description, part, self._images.get(part, set()))
             # An image takes its memory even if a change leaves it without a use.
             self._images.setdefault(part, images)
             document = document._replace(description=description)
@@ -128,7 +128,7 @@ class Prices:
         return Part(frozenset(passes), frozenset(images))
 
 
-def merged(fixes: Iterable[Sequence[Change]]) -> tuple[Change, ...]:
+def merge_changes(fixes: Iterable[Sequence[Change]]) -> tuple[Change, ...]:
     """The changes of several fixes without repetitions, and of two values for a member only the first."""
     changes: dict[tuple[object, ...], Change] = {}
     for fix in fixes:
@@ -141,58 +141,58 @@ def merged(fixes: Iterable[Sequence[Change]]) -> tuple[Change, ...]:
 def _owners(frame: Frame) -> Iterator[tuple[int, Part]]:
     """The records of passes and images, by identity, with the part that changes with each."""
     users: dict[str, set[str]] = {}
-    for rendered in frame.passes:
-        part = Part(frozenset({rendered.path}), frozenset())
-        for record in _records(rendered):
+    for render_pass in frame.passes:
+        part = Part(frozenset({render_pass.path}), frozenset())
+        for record in _records(render_pass):
             yield id(record), part
-        for name in _images(rendered):
-            users.setdefault(name, set()).add(rendered.path)
+        for name in _images(render_pass):
+            users.setdefault(name, set()).add(render_pass.path)
     for name, target in frame.targets.items():
         yield id(target.record), Part(frozenset(users.get(name, ())), frozenset({name}))
 
 
-def _records(rendered: Pass) -> Iterator[Record]:
-    yield rendered.record
-    for attachment in rendered.attachments:
+def _records(render_pass: Pass) -> Iterator[Record]:
+    yield render_pass.record
+    for attachment in render_pass.attachments:
         yield attachment.record
-    for subpass in rendered.subpasses:
+    for subpass in render_pass.subpasses:
         yield subpass.record
         depth_resolve = getattr(subpass.record, "depthStencilResolve", None)
         if depth_resolve is not None:
             yield depth_resolve
 
 
-def _images(rendered: Pass) -> Iterator[str]:
+def _images(render_pass: Pass) -> Iterator[str]:
     """The images that a pass draws to, resolves to or reads."""
-    for attachment in rendered.attachments:
+    for attachment in render_pass.attachments:
         for target in attachment.targets:
             if target.image is not None:
                 yield target.name
-    for subpass in rendered.subpasses:
+    for subpass in render_pass.subpasses:
         for resolve in subpass.resolves:
             if resolve.target_image is not None:
                 yield resolve.target_image.name
 
 
-def _restricted(description: Description, part: Part, images: set[str]) -> tuple[Description, set[str]]:
+def _restrict(description: Description, part: Part, images: set[str]) -> tuple[Description, set[str]]:
     """A description with only the passes of a part, the commands that concern it, and the images that those name or that are given.
 
     Also returns the names of these images.
     """
-    restricted = Description.__new__(Description)
-    vars(restricted).update(vars(description))
-    restricted.renderPasses = {name: record for name, record in description.renderPasses.items() if record.path in part.passes}
-    restricted.pipelines = {}
+    subset = Description.__new__(Description)
+    vars(subset).update(vars(description))
+    subset.renderPasses = {name: record for name, record in description.renderPasses.items() if record.path in part.passes}
+    subset.pipelines = {}
     if description.commands is not None:
         commands = (command for command in description.commands if command is not None)
-        restricted.commands = tuple(command for command in commands if _concerns(command, part, restricted.renderPasses))
-    attachments = [attachment for record in restricted.renderPasses.values() for attachment in record.attachments]
+        subset.commands = tuple(command for command in commands if _concerns(command, part, subset.renderPasses))
+    attachments = [attachment for record in subset.renderPasses.values() for attachment in record.attachments]
     names = images | part.images
     names.update(attachment.image for attachment in attachments if attachment is not None and attachment.image is not None)
-    names.update(name for command in restricted.commands or () if command is not None for name in named_images(command))
+    names.update(name for command in subset.commands or () if command is not None for name in named_images(command))
     names.update(name for framebuffer in description.framebuffers.values() for name in framebuffer.attachments if name is not None)
-    restricted.images = {name: image for name, image in description.images.items() if name in names}
-    return restricted, names
+    subset.images = {name: image for name, image in description.images.items() if name in names}
+    return subset, names
 
 
 def _concerns(command: Command, part: Part, render_passes: dict[str, RenderPass]) -> bool:
@@ -215,7 +215,7 @@ def _figures(amount: Amount) -> tuple[float, float, float, float]:
     return amount.read_mb_per_s, amount.write_mb_per_s, amount.memory_mib, amount.milliwatts
 
 
-def priced(
+def price_findings(
     documents: Sequence[DocumentFixes], findings: Sequence[Finding], terms: Terms | None = None
 ) -> tuple[list[Finding], CombinedPrice]:
     """The findings of an input with their prices, and a function for the price of several of them together."""
@@ -257,4 +257,4 @@ def cost_with_fixes(fixes: DocumentFixes, findings: Iterable[Finding], terms: Te
             except NoFix:
                 continue
     result = fixes.result
-    return Prices(result.document, result.device, terms, fixes.reread).cost_with(merged(plans), None) if plans else None
+    return Prices(result.document, result.device, terms, fixes.reread).cost_with(merge_changes(plans), None) if plans else None

@@ -241,11 +241,11 @@ def test_pricing_restores_records() -> None:
     ]
 
 
-def test_merged_keeps_the_first_of_two_values() -> None:
+def test_merge_changes_keeps_the_first_of_two_values() -> None:
     class Stand:
         pass
 
     record: Any = Stand()
     one, other = price.Change(record, "storeOp", "set", "DONT_CARE"), price.Change(record, "storeOp", "set", "STORE")
     flag = price.Change(record, "usage", "add", "TRANSIENT_ATTACHMENT")
-    assert price.merged([[one, flag], [other, flag]]) == (one, flag)
+    assert price.merge_changes([[one, flag], [other, flag]]) == (one, flag)

@@ -63,20 +63,20 @@ class StructuralChange(Exception):
 
 
 @contextmanager
-def applied(changes: Sequence[Change]) -> Iterator[None]:
+def apply_temporarily(changes: Sequence[Change]) -> Iterator[None]:
     """Applies changes to the records within a `with` statement, then restores the exact previous values, even after an exception.
 
     Raises StructuralChange, before any record changes, if one of the changes cannot be applied in place.
     """
     if any(change.structural or isinstance(change.record, MetalRecord) for change in changes):
         raise StructuralChange
-    previous: list[tuple[Record, str, Any]] = []
+    values: list[tuple[Record, str, Any]] = []
     try:
         for record, member, *_ in changes:
-            previous.append((record, member, getattr(record, member)))
+            values.append((record, member, getattr(record, member)))
         for change in changes:
             setattr(change.record, change.member, change.applied_to(getattr(change.record, change.member)))
         yield
     finally:
-        for record, member, value in previous:
+        for record, member, value in values:
             setattr(record, member, value)

@@ -61,9 +61,9 @@ def _only_begin(attachment: Attachment, context: FixContext) -> int:
 
 def _pass_of(attachment: Attachment, context: FixContext) -> Pass:
     for target in attachment.targets:
-        for rendered, candidate in context.attachments.get(id(target.record), ()):
+        for render_pass, candidate in context.attachments.get(id(target.record), ()):
             if candidate.record is attachment.record:
-                return rendered
+                return render_pass
     raise NoFix("the pass of the attachment is not known")
 
 

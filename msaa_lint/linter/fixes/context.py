@@ -81,7 +81,7 @@ class FixContext:
     @cached_property
     def resolves(self) -> dict[tuple[int, str], Resolve]:
         """The resolves within passes, by the identity of their record and their aspect."""
-        subpasses = [subpass for rendered in self.frame.passes for subpass in rendered.subpasses]
+        subpasses = [subpass for render_pass in self.frame.passes for subpass in render_pass.subpasses]
         return {(id(resolve.record), resolve.aspect): resolve for subpass in subpasses for resolve in subpass.resolves}
 
     @cached_property
@@ -96,10 +96,10 @@ class FixContext:
     def attachments(self) -> dict[int, list[tuple[Pass, Attachment]]]:
         """The attachments that an image is bound to, with their passes, by the identity of the image's record."""
         attachments: dict[int, list[tuple[Pass, Attachment]]] = {}
-        for rendered in self.frame.passes:
-            for attachment in rendered.attachments:
+        for render_pass in self.frame.passes:
+            for attachment in render_pass.attachments:
                 for record in {id(target.record) for target in attachment.targets}:
-                    attachments.setdefault(record, []).append((rendered, attachment))
+                    attachments.setdefault(record, []).append((render_pass, attachment))
         return attachments
 
     def drop_command(self, position: int) -> Change:

@@ -16,7 +16,7 @@ from .changes import Change, NoFix
 from .context import FixContext
 from .fact_sources import FindSources, Source
 from .subject_parts import aspect_of, copied_images, described_image, images_of, pipeline_of
-from .transient import check_unread, dropped_stores, is_needed
+from .transient import check_unread, drop_stores, is_needed
 
 _VULKAN_USAGES = {"shaderRead": "SAMPLED", "shaderWrite": "STORAGE", "shaderAtomic": "STORAGE"}
 
@@ -90,7 +90,7 @@ def make_memoryless(subject: Subject, context: FixContext) -> list[Change]:
     return [
         *_render_target_usage(texture, context),
         Change(texture, "storageMode", "set", "memoryless"),
-        *dropped_stores(image, context, partial(_dont_store, context)),
+        *drop_stores(image, context, partial(_dont_store, context)),
     ]
 
 

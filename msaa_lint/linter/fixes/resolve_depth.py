@@ -24,16 +24,16 @@ def resolve_depth(subject: Subject, context: FixContext) -> list[Change]:
     bound = context.attachments.get(id(source), [])
     if source is None or attachment.format is None or len(bound) != 1:
         raise NoFix("the description does not declare the image, or more than one attachment uses it")
-    rendered, own = bound[0]
-    if not own.depth_stencil or not rendered.subpasses:
+    render_pass, own = bound[0]
+    if not own.depth_stencil or not render_pass.subpasses:
         raise NoFix("no subpass draws to the image")
     changes: list[Change] = []
-    name = _existing_result(rendered, own, aspect)
+    name = _existing_result(render_pass, own, aspect)
     if name is None:
         images = context.document.description.images
         name = unused_name(f"{source.key}_resolved", images)
         changes.append(new_image(name, source, attachment.format.name, ["DEPTH_STENCIL_ATTACHMENT", "SAMPLED"], context))
-        changes += _depth_resolve(name, rendered, own, context)
+        changes += _depth_resolve(name, render_pass, own, context)
     changes.append(Change(attachment.record, aspect.store_member, "set", "DONT_CARE"))
     for reader in context.references.records(source.key):
         if isinstance(reader, ReadImage):
@@ -42,9 +42,9 @@ def resolve_depth(subject: Subject, context: FixContext) -> list[Change]:
     return [*changes, *_transient(source, own, aspect, subject)]
 
 
-def _existing_result(rendered: Pass, attachment: Attachment, aspect: Aspect) -> str | None:
+def _existing_result(render_pass: Pass, attachment: Attachment, aspect: Aspect) -> str | None:
     """The image that the pass already resolves the aspect to."""
-    for subpass in rendered.subpasses:
+    for subpass in render_pass.subpasses:
         for resolve in subpass.resolves:
             resolves = resolve.source is attachment and resolve.aspect == aspect.name and resolve.mode not in (None, "NONE")
             if resolves and resolve.target_image is not None and resolve.target_image.image is not None:
@@ -52,15 +52,15 @@ def _existing_result(rendered: Pass, attachment: Attachment, aspect: Aspect) -> 
     return None
 
 
-def _depth_resolve(name: str, rendered: Pass, attachment: Attachment, context: FixContext) -> list[Change]:
+def _depth_resolve(name: str, render_pass: Pass, attachment: Attachment, context: FixContext) -> list[Change]:
     """Resolves depth to an image that the pass does not use yet."""
-    render_pass, record = rendered.record, attachment.record
-    if not isinstance(render_pass, RenderPass):
+    pass_record, record = render_pass.record, attachment.record
+    if not isinstance(pass_record, RenderPass):
         return rendering_resolve(record, _MODE, name)
-    subpass = rendered.subpasses[max(attachment.depth_stencil)].record
+    subpass = render_pass.subpasses[max(attachment.depth_stencil)].record
     if not isinstance(subpass, Subpass) or subpass.depthStencilResolve is not None:
         raise NoFix("the pass already resolves the attachment to another image")
-    changes, reference = new_attachment(render_pass, name, attachment, "DEPTH_STENCIL_READ_ONLY_OPTIMAL", context)
+    changes, reference = new_attachment(pass_record, name, attachment, "DEPTH_STENCIL_READ_ONLY_OPTIMAL", context)
     resolve = {"attachment": reference, "depthResolveMode": _MODE, "stencilResolveMode": "NONE"}
     return [*changes, Change(subpass, "depthStencilResolve", "set", resolve)]
 

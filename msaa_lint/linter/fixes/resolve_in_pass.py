@@ -32,7 +32,7 @@ class DrawnSamples(NamedTuple):
 
     command: Command
     position: int
-    rendered: Pass
+    render_pass: Pass
     attachment: Attachment
     image: Image
     begin: int
@@ -40,8 +40,8 @@ class DrawnSamples(NamedTuple):
 
 def resolve_in_pass(subject: Subject, context: FixContext) -> list[Change]:
     """Moves the resolve of a vkCmdResolveImage into the pass."""
-    resolve = resolve_of(subject)
-    position = context.uses.positions.get(id(resolve.record))
+    resolve, uses = resolve_of(subject), context.uses
+    position = uses.positions.get(id(resolve.record))
     if resolve.aspect != "color":
         raise NoFix("the mode of a depth resolve has to be chosen")
     if position is None:
@@ -52,18 +52,18 @@ def resolve_in_pass(subject: Subject, context: FixContext) -> list[Change]:
         raise NoFix("the description does not declare both images of the resolve")
     if (source.samples or 0) < 2 or target.samples != 1 or source.format is None or source.format != target.format:
         raise NoFix("the sample counts and formats do not show that a pass can resolve the image")
-    drawn = _drawn_samples(source, position, context)
-    if context.uses.used_between(target.name, drawn.begin, position) or not context.uses.in_barriers.isdisjoint((source.name, target.name)):
+    drawing = _find_drawing(source, position, context)
+    if uses.used_between(target.name, drawing.begin, position) or uses.in_barriers & {source.name, target.name}:
         raise NoFix("other commands or barriers use the images between the pass and the resolve")
     mode = "SAMPLE_ZERO" if source.format.numeric in ("UINT", "SINT") else "AVERAGE"
     final_layout = _FINAL_LAYOUTS.get(next_use(target.image, position, context))
-    changes = _color_resolve(drawn, target.name, mode, final_layout, context)
-    if _has_other_readers(drawn, context):
-        if source.image.usage is not None and "TRANSFER_SRC" not in context.uses.needed_usages(source.name, drawn.command):
+    changes = _color_resolve(drawing, target.name, mode, final_layout, context)
+    if _has_other_readers(drawing, context):
+        if source.image.usage is not None and "TRANSFER_SRC" not in uses.needed_usages(source.name, drawing.command):
             changes.append(Change(source.image, "usage", "remove", "TRANSFER_SRC"))
     else:
-        changes += _without_reader(drawn, "TRANSFER_SRC_OPTIMAL", subject, context)
-    return [*changes, *target_usage(target.image, drawn.command, context), context.drop_command(position)]
+        changes += _without_reader(drawing, "TRANSFER_SRC_OPTIMAL", subject, context)
+    return [*changes, *target_usage(target.image, drawing.command, context), context.drop_command(position)]
 
 
 def resolve_before_read(subject: Subject, context: FixContext) -> list[Change]:
@@ -74,16 +74,16 @@ def resolve_before_read(subject: Subject, context: FixContext) -> list[Change]:
         raise NoFix("the description does not declare the image")
     if (source.samples or 0) < 2 or source.format is None or "color" not in source.format.aspects:
         raise NoFix("the sample count and format do not show how a pass can resolve the image")
-    drawn = _drawn_samples(source, position, context)
+    drawing = _find_drawing(source, position, context)
     images = context.document.description.images
     short = next((source.name.removesuffix(suffix) for suffix in _MULTISAMPLED_SUFFIXES if source.name.endswith(suffix)), "")
     name = short if short and short not in images else unused_name(f"{source.name}_resolved", images)
     usage = ["COLOR_ATTACHMENT", "SAMPLED"] if source.image.usage is not None else None
     changes = [new_image(name, source.image, source.format.name, usage, context)]
-    changes += _color_resolve(drawn, name, "AVERAGE", "SHADER_READ_ONLY_OPTIMAL", context)
-    if not _has_other_readers(drawn, context):
-        changes += _without_reader(drawn, "SHADER_READ_ONLY_OPTIMAL", subject, context)
-    body = drawn.command.body
+    changes += _color_resolve(drawing, name, "AVERAGE", "SHADER_READ_ONLY_OPTIMAL", context)
+    if not _has_other_readers(drawing, context):
+        changes += _without_reader(drawing, "SHADER_READ_ONLY_OPTIMAL", subject, context)
+    body = drawing.command.body
     assert isinstance(body, ReadImage)
     changes.append(Change(body, "image", "set", name))
     if body.states("samples"):
@@ -93,38 +93,38 @@ def resolve_before_read(subject: Subject, context: FixContext) -> list[Change]:
     return changes
 
 
-def _drawn_samples(source: Target, position: int, context: FixContext) -> DrawnSamples:
+def _find_drawing(source: Target, position: int, context: FixContext) -> DrawnSamples:
     """The last pass before a position that draws to an image, as a plain color attachment."""
     frame = context.frame
-    begin, rendered = context.analysis.timeline.last_writer(source, position) or (0, None)
-    if rendered is None or begin >= position or len(rendered.begun) != 1 or rendered.custom_resolve or _suspends(rendered):
+    begin, render_pass = context.analysis.timeline.last_writer(source, position) or (0, None)
+    if render_pass is None or begin >= position or len(render_pass.begun) != 1 or render_pass.custom_resolve or _suspends(render_pass):
         raise NoFix("the pass that draws the image does not run exactly once, right before the command")
-    if len(rendered.attachments) > MAX_ATTACHMENTS:
+    if len(render_pass.attachments) > MAX_ATTACHMENTS:
         raise NoFix(f"the pass has more than {MAX_ATTACHMENTS} attachments")
     attachments = [
         attachment
-        for attachment in rendered.attachments
+        for attachment in render_pass.attachments
         if any(target.record is source.record for target in targets_at(frame, attachment, begin))
     ]
     if len(attachments) != 1 or attachments[0].target is None or not attachments[0].color or attachments[0].input:
         raise NoFix("the image is not bound to exactly one color attachment of the pass, or is also an input attachment")
     assert source.image is not None
-    return DrawnSamples(frame.commands[position], position, rendered, attachments[0], source.image, begin)
+    return DrawnSamples(frame.commands[position], position, render_pass, attachments[0], source.image, begin)
 
 
-def _suspends(rendered: Pass) -> bool:
-    return rendered.kind == RENDERING and not {"SUSPENDING", "RESUMING"}.isdisjoint(getattr(rendered.record, "flags", ()))
+def _suspends(render_pass: Pass) -> bool:
+    return render_pass.kind == RENDERING and not {"SUSPENDING", "RESUMING"}.isdisjoint(getattr(render_pass.record, "flags", ()))
 
 
-def _color_resolve(drawn: DrawnSamples, name: str, mode: str, final_layout: str | None, context: FixContext) -> list[Change]:
+def _color_resolve(drawing: DrawnSamples, name: str, mode: str, final_layout: str | None, context: FixContext) -> list[Change]:
     """Resolves a color attachment to the image `name` at the end of its pass.
 
     In a render pass that takes a new attachment, and a reference to it at the index of the color attachment in its last subpass.
     """
-    attachment, record = drawn.attachment, drawn.rendered.record
-    if drawn.rendered.kind == RENDERING:
+    attachment, record = drawing.attachment, drawing.render_pass.record
+    if drawing.render_pass.kind == RENDERING:
         return rendering_resolve(attachment.record, mode, name, "COLOR_ATTACHMENT_OPTIMAL")
-    subpass = drawn.rendered.subpasses[max(attachment.color)]
+    subpass = drawing.render_pass.subpasses[max(attachment.color)]
     if not isinstance(record, RenderPass) or not isinstance(subpass.record, Subpass) or subpass.color.count(attachment) != 1:
         raise NoFix("the subpass uses the attachment for more than one color output")
     changes, reference = new_attachment(record, name, attachment, final_layout, context)
@@ -137,18 +137,18 @@ def _color_resolve(drawn: DrawnSamples, name: str, mode: str, final_layout: str 
     return [*changes, *(Change(subpass.record, "resolveAttachments", "append", each) for each in references)]
 
 
-def _has_other_readers(drawn: DrawnSamples, context: FixContext) -> bool:
+def _has_other_readers(drawing: DrawnSamples, context: FixContext) -> bool:
     """Whether something besides the command reads the samples, or may."""
     readers = context.analysis.readers
-    return not readers.timeline.followed or any(event.position != drawn.position for event in readers.reads(drawn.image.key))
+    return not readers.timeline.followed or any(event.position != drawing.position for event in readers.reads(drawing.image.key))
 
 
-def _without_reader(drawn: DrawnSamples, read_layout: str, subject: Subject, context: FixContext) -> list[Change]:
+def _without_reader(drawing: DrawnSamples, read_layout: str, subject: Subject, context: FixContext) -> list[Change]:
     """Without the command that reads them, the samples are not stored and take no memory."""
-    record = drawn.attachment.record
+    record = drawing.attachment.record
     changes = [Change(record, "storeOp", "set", "DONT_CARE")] if record.storeOp == "STORE" else []
     if getattr(record, "finalLayout", None) == read_layout:
         changes.append(Change(record, "finalLayout", "set", "COLOR_ATTACHMENT_OPTIMAL"))
-    if drawn.image.usage is None:
+    if drawing.image.usage is None:
         return changes
-    return [*changes, *transient_usage(drawn.image, context, drawn.command), *lazy_memory(drawn.image, subject)]
+    return [*changes, *transient_usage(drawing.image, context, drawing.command), *lazy_memory(drawing.image, subject)]

@@ -24,7 +24,7 @@ def make_transient(subject: Subject, context: FixContext) -> list[Change]:
     check_unread(subject)
     return [
         *transient_usage(image, context, None),
-        *dropped_stores(image, context, _dont_store),
+        *drop_stores(image, context, _dont_store),
         *lazy_memory(image, subject),
     ]
 
@@ -46,11 +46,11 @@ def transient_usage(image: Image, context: FixContext, without: Command | None) 
 
     Raises NoFix if a command, other than `without`, may need one of those usages.
     """
-    excluded = [usage for usage in image.usage or () if usage not in BESIDE_TRANSIENT]
-    for usage in excluded:
+    conflicts = [usage for usage in image.usage or () if usage not in BESIDE_TRANSIENT]
+    for usage in conflicts:
         if is_needed(usage, image.key, context, without):
             raise NoFix(f"`{image.key}` may need its usage {usage}")
-    return [*(Change(image, "usage", "remove", usage) for usage in excluded), Change(image, "usage", "add", "TRANSIENT_ATTACHMENT")]
+    return [*(Change(image, "usage", "remove", usage) for usage in conflicts), Change(image, "usage", "add", "TRANSIENT_ATTACHMENT")]
 
 
 def lazy_memory(image: Image, subject: Subject) -> list[Change]:
@@ -64,16 +64,16 @@ StoreChange = Callable[[Attachment, Aspect], Change | None]
 """The change that drops the store of an aspect, or None if the aspect is not stored."""
 
 
-def dropped_stores(image: Image, context: FixContext, store_change: StoreChange) -> list[Change]:
+def drop_stores(image: Image, context: FixContext, store_change: StoreChange) -> list[Change]:
     """Drops all stores of an image. Raises NoFix if something may read what a pass stores."""
     changes: list[Change] = []
-    for rendered, attachment in context.attachments.get(id(image), ()):
+    for render_pass, attachment in context.attachments.get(id(image), ()):
         for aspect in attachment.aspects:
             change = store_change(attachment, aspect)
             if change is None:
                 continue
-            if context.analysis.readers.read_later(rendered, attachment, aspect) is not False:
-                raise NoFix(f"something may read what `{rendered.name}` stores in {attachment.title}")
+            if context.analysis.readers.read_later(render_pass, attachment, aspect) is not False:
+                raise NoFix(f"something may read what `{render_pass.name}` stores in {attachment.title}")
             changes.append(change)
     return changes
 

@@ -10,7 +10,7 @@ from msaa_lint.core.text.edits import apply
 from msaa_lint.frame.description.models import MetalRecord
 from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.subjects import subjects
-from msaa_lint.linter.fixes.changes import Change, NoFix, StructuralChange, applied
+from msaa_lint.linter.fixes.changes import Change, NoFix, StructuralChange, apply_temporarily
 from msaa_lint.linter.fixes.context import FixContext
 from msaa_lint.linter.fixes.planning import plan
 from msaa_lint.linter.fixes.text_edits import TextEditor
@@ -153,7 +153,7 @@ def test_metals_words_are_never_written_into_vulkans() -> None:
 def test_records_of_metal_are_read_anew() -> None:
     texture = document(ARTICLE).description.metal
     assert isinstance(texture, MetalRecord)
-    with pytest.raises(StructuralChange), applied([Change(texture.textures["ms"], "storageMode", "set", "memoryless")]):
+    with pytest.raises(StructuralChange), apply_temporarily([Change(texture.textures["ms"], "storageMode", "set", "memoryless")]):
         pass
 
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from msaa_lint.linter.fixes.changes import Change, NoFix, StructuralChange, applied
+from msaa_lint.linter.fixes.changes import Change, NoFix, StructuralChange, apply_temporarily
 from msaa_lint.linter.fixes.context import FixContext
 from msaa_lint.linter.fixes.planning import plan
 from msaa_lint.linter.rules.rule_file import FixSpec, Setting
@@ -98,7 +98,7 @@ def test_plan_changes_the_members_that_state_a_fact(action: str, fact: str, valu
 
 
 @given(st.lists(st.sampled_from(["set", "unset", "add", "remove"]), max_size=6), st.booleans())
-def test_applied_restores_previous_values(actions: list[str], fails: bool) -> None:
+def test_apply_temporarily_restores_values(actions: list[str], fails: bool) -> None:
     image = DOCUMENT.description.images["ms"]
     before = meaning(LINTED)
     changes = [
@@ -106,7 +106,7 @@ def test_applied_restores_previous_values(actions: list[str], fails: bool) -> No
         for action in actions
     ]
     try:
-        with applied(changes):
+        with apply_temporarily(changes):
             if actions and actions[-1] == "set":
                 assert image.samples == 8
             if fails:
@@ -116,12 +116,12 @@ def test_applied_restores_previous_values(actions: list[str], fails: bool) -> No
     assert meaning(LINTED) == before
 
 
-def test_applied_rejects_structural_changes() -> None:
+def test_apply_temporarily_rejects_structural_changes() -> None:
     before = meaning(LINTED)
     image = DOCUMENT.description.images["ms"]
     with (
         pytest.raises(StructuralChange),
-        applied([Change(image, "samples", "set", 8), Change(DOCUMENT.description, "commands", "drop", 0)]),
+        apply_temporarily([Change(image, "samples", "set", 8), Change(DOCUMENT.description, "commands", "drop", 0)]),
     ):
         pass
     assert meaning(LINTED) == before

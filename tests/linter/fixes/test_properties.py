@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from msaa_lint.core.text.edits import apply
 from msaa_lint.frame.description.models import MetalRecord
-from msaa_lint.linter.fixes.changes import Change, NoFix, applied
+from msaa_lint.linter.fixes.changes import Change, NoFix, apply_temporarily
 from msaa_lint.linter.fixes.document_fixes import DocumentFixes
 from msaa_lint.linter.results import FileResult
 from tests.linter.fixes.linting import _meaning, comments_of, fix_findings, kinds, lint, meaning, rules
@@ -104,7 +104,7 @@ def edits_make_changes(text: str) -> int:
         if any(isinstance(change.record, MetalRecord) for change in changes):
             assert stated(lint(after)) == stated_with(result, changes), after
         else:
-            with applied(changes):
+            with apply_temporarily(changes):
                 meant = meaning(result)
             assert meaning(lint(after)) == meant, after
         assert comments_of(after) == comments_of(text)
