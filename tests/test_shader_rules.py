@@ -90,8 +90,8 @@ def test_what_is_read_is_said(tmp_path: Path) -> None:
     result = linted(tmp_path, pipeline("sample_inputs.frag", "rasterizationSamples: 4"), "sample_inputs.frag")
     (found,) = of(result, *SHADING)
     assert found.message == (
-        "`own` may run its fragment shader for each of 4 samples: "
-        "it reads the `sample` input at location 1, the `sample` input at location 3"
+        "`own` may run its fragment shader for each of 4 samples "
+        "because it reads the `sample` input at location 1, the `sample` input at location 3"
     )
     assert pointed(result, found) == "shaders/sample_inputs.frag.spv"
 
@@ -100,7 +100,7 @@ def test_shading_by_state_and_shader_is_not_mended_by_the_state_alone(tmp_path: 
     state = "rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 1.0"
     (found,) = of(linted(tmp_path, pipeline("glints.frag", state), "glints.frag"), *SHADING)
     assert found.fix is None
-    assert found.message.endswith("its state asks for that, and the shader reads SamplePosition")
+    assert found.message.endswith("its state requests it, and the shader reads SamplePosition")
 
 
 COVERAGE = ("alpha-to-coverage-without-alpha", "alpha-to-coverage-blended", "alpha-to-coverage-single-sample")
@@ -233,7 +233,10 @@ def test_its_price_is_the_way_of_the_samples_through_memory(tmp_path: Path) -> N
 def test_where_the_count_is_and_whose(tmp_path: Path) -> None:
     result = linted(tmp_path, frame(count=8), "average.frag")
     (found,) = of(result, "shader-resolve-sample-count")
-    assert found.message == "the shader of `resolve` fetches sample 7 of `scene_ms`, which has 4, counted from 0"
+    assert (
+        found.message
+        == "the shader of `resolve` fetches sample 7 of `scene_ms`, which has only 4, numbered from 0; use the image's sample count"
+    )
     assert pointed(result, found) == "specialization"
     assert [result.sources[found.file].text[label.span.start : label.span.end] for label in found.labels] == ["4"]
 
@@ -309,9 +312,17 @@ pipelines:
     ("samples", "inputs", "expected"),
     [
         (4, "[depth, color]", []),
-        (8, "[depth, color]", ["the shader of `resolve` takes 4 samples for all of `color`, which has 8"]),
-        (2, "[depth, color]", ["the shader of `resolve` fetches sample 3 of `color`, which has 2, counted from 0"]),
-        (2, "[null, 0]", ["the shader of `resolve` fetches sample 3 of `depth`, which has 2, counted from 0"]),
+        (8, "[depth, color]", ["the shader of `resolve` averages 4 samples of `color`, which has 8; use the image's sample count"]),
+        (
+            2,
+            "[depth, color]",
+            ["the shader of `resolve` fetches sample 3 of `color`, which has only 2, numbered from 0; use the image's sample count"],
+        ),
+        (
+            2,
+            "[null, 0]",
+            ["the shader of `resolve` fetches sample 3 of `depth`, which has only 2, numbered from 0; use the image's sample count"],
+        ),
         (2, "[color]", []),
     ],
 )

@@ -352,7 +352,7 @@ def test_check_accepts_what_a_current_record_justifies_and_says_so(beside: Path)
     done = check(beside, "--fail-on-cost", "1mW")
     assert done.returncode == 0
     assert (
-        "note[sample-count-above-four] `color_ms` has 8 samples a pixel, which its study justifies: "
+        "note[sample-count-above-four] `color_ms` has 8 samples per pixel, which its study justifies: "
         "it leaves 50 % of 4x's error for 1.9 times its time at 1920x1080 on a device (MSAA101)" in done.stdout
     )
     (found,) = json.loads(check(beside, "--output", "json").stdout)["findings"]
@@ -389,7 +389,7 @@ def test_check_without_a_record_is_as_ever(beside: Path) -> None:
     Path(path_of(str(beside))).unlink()
     done = check(beside)
     assert done.returncode == 1
-    assert "has 8 samples a pixel, more than the 4 that run at full rate" in done.stdout
+    assert "has 8 samples per pixel, but only up to 4 run at full rate; use 4" in done.stdout
 
 
 def imported(path: Path) -> set[str]:

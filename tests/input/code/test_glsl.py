@@ -102,7 +102,9 @@ def findings(text: str, language: str = "glsl") -> list[tuple[str, str, str, int
 def test_a_shader_that_averages() -> None:
     assert findings(AVERAGES) == [("MSAA313", "note", "low", 8, FETCH)]
     (found,) = linted(AVERAGES).findings
-    assert found.message == "a shader reads all samples of `scene` to average them, which a resolve attachment does on the tile"
+    assert (
+        found.message == "a shader averages all samples of `scene` from memory; use a resolve attachment, which averages them on the tile"
+    )
     assert found.fix is None
 
 
@@ -368,7 +370,7 @@ def test_by_the_real_command(tmp_path: Path) -> None:
     (tmp_path / "resolve.frag").write_text(AVERAGES, encoding="utf-8")
     done = run(tmp_path, "check", "--isolated", "--output", "concise", "resolve.frag")
     assert done.returncode == 0
-    assert done.stdout.startswith("resolve.frag:8:16: note[shader-resolve-off-tile] a shader reads all samples of `scene` to average them")
+    assert done.stdout.startswith("resolve.frag:8:16: note[shader-resolve-off-tile] a shader averages all samples of `scene` from memory")
     (tmp_path / "page.md").write_text(page(("cpp", MADE), ("glsl", PART)), encoding="utf-8")
     done = run(tmp_path, "check", "--isolated", "--output", "concise", "page.md")
     assert done.returncode == 0

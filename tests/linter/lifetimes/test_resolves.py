@@ -198,7 +198,8 @@ def test_within_a_pass_nothing_else_can_order_them() -> None:
     """)
     found = one(linted, "MSAA601")
     assert found.message == (
-        "`depth` is read after a wait for LATE_FRAGMENT_TESTS: its resolve runs in COLOR_ATTACHMENT_OUTPUT, which nothing stated waits for"
+        "`depth` is read after waiting for LATE_FRAGMENT_TESTS, but its resolve runs in COLOR_ATTACHMENT_OUTPUT; "
+        "add COLOR_ATTACHMENT_OUTPUT to srcStageMask"
     )
     assert [label.text for label in found.labels] == ["resolved here"]
 
@@ -379,7 +380,7 @@ def test_with_nothing_drawn_between() -> None:
       - readImage: {image: two, stage: FRAGMENT}
     """)
     found = one(linted, "MSAA317")
-    assert found.message == "`ms` is resolved a second time, to `two`, with nothing drawn on it since the first"
+    assert found.message == "`ms` is resolved again, to `two`, although nothing was drawn to it since the first resolve; resolve once"
     assert found.fix is not None and found.fix.shown
     (label,) = found.labels
     assert linted.source is not None and linted.source.position(label.span.start).line == 6
@@ -451,7 +452,7 @@ def copied(mark: str = "", **values: str) -> FileResult:
 @pytest.mark.parametrize("command", ["copyImage", "blitImage"])
 def test_same_format_and_size(command: str) -> None:
     linted = copied(" warning high", command=command)
-    assert one(linted, "MSAA315").message == "`ms` is resolved to `color`, which is only copied on to `back`"
+    assert one(linted, "MSAA315").message == "`ms` is resolved to `color` only to be copied to `back`; resolve to `back` directly"
 
 
 @pytest.mark.parametrize(

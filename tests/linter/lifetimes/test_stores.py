@@ -53,7 +53,7 @@ def test_only_commands_read_where_there_are_commands() -> None:
       - readImage: {image: other, stage: FRAGMENT}
       - copyImage: {srcImage: other, dstImage: ms}
     """)
-    assert message(linted, "MSAA201") == "`color` stores 4 samples a pixel that nothing reads"
+    assert message(linted, "MSAA201") == "`color` stores 4x samples that nothing reads; set storeOp to DONT_CARE"
 
 
 # The pass itself, in the next frame.
@@ -79,7 +79,10 @@ def test_a_pass_that_loads_what_it_stored_is_its_own_reader(commands: str, image
         image=image,
         commands=commands,
     )
-    assert message(linted, "MSAA202") == "`color` reads back, when the pass begins, the 4 samples a pixel that it stored in the last frame"
+    assert (
+        message(linted, "MSAA202")
+        == "`color` loads the 4x samples that it stored in the previous frame; clear them, or continue from the resolved image"
+    )
 
 
 def test_another_pass_between_ends_the_loop() -> None:
@@ -95,7 +98,7 @@ def test_another_pass_between_ends_the_loop() -> None:
     #                                                                          ^^^^^ MSAA201
       - endRendering
     """)
-    assert message(linted, "MSAA202") == "`ms` reads 4 samples a pixel from memory when the pass begins"
+    assert message(linted, "MSAA202") == "`ms` loads 4x samples from memory; clear them, or draw in the pass that stored them"
     (found,) = [finding for finding in linted.findings if finding.code == "MSAA202"]
     (label,) = [label for label in found.labels if label.text == "stored here"]
     assert linted.source is not None
@@ -129,7 +132,10 @@ def test_stencil_that_is_loaded_and_stored_for_nobody_is_one_finding_at_the_load
     #                                                                ^^^^ MSAA204
       - endRendering
     """)
-    assert message(linted, "MSAA204") == "the stencil of `both_ms` is loaded, 4 samples a pixel from memory, and stored for nobody"
+    assert (
+        message(linted, "MSAA204")
+        == "the stencil of `both_ms` loads 4x samples and stores them, but nothing needs them; use CLEAR and DONT_CARE"
+    )
 
 
 @pytest.mark.parametrize("image", ["image: ms", "format: R8G8B8A8_UNORM, samples: 4"])
@@ -156,7 +162,7 @@ def test_unknown_readers(image: str, resolved: bool) -> None:
     subject = ("MSAA201", "renderPasses.scene.attachments.color")
     assert (subject in undecided(linted)) is not resolved
     if resolved:
-        assert message(linted, "MSAA201").endswith("unless something else reads the samples, nobody does")
+        assert message(linted, "MSAA201").endswith("unless something else reads them, set storeOp to DONT_CARE")
 
 
 # Framebuffers that alternate.
@@ -197,7 +203,10 @@ def test_a_resolve_mode_of_none_is_no_resolve() -> None:
           - depthStencilAttachment: both
             depthStencilResolve: {attachment: out, depthResolveMode: SAMPLE_ZERO, stencilResolveMode: NONE}
     """)
-    assert message(linted, "MSAA205") == "the depth of `out` is read from memory when the pass begins, and a resolve overwrites all of it"
+    assert (
+        message(linted, "MSAA205")
+        == "the depth of `out` is loaded, but a resolve overwrites all of it; set the load operation to DONT_CARE"
+    )
 
 
 def test_a_load_from_undefined_stands_in_for_the_readback() -> None:
