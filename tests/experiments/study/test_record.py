@@ -363,7 +363,7 @@ def test_check_accepts_what_a_current_record_justifies_and_says_so(beside: Path)
     ("old", "new", "words"),
     [
         ("samples: 8", "samples: 16", "which its study does not justify: it leaves 50 % of 4x's error for 3.8 times its time"),
-        ("LDR", "HDR", "and the record of its study is stale: scene changed since; run `msaa-lint study --record` again"),
+        ("LDR", "HDR", "and its study record is stale: scene changed since; run `msaa-lint study --record` again"),
     ],
 )
 def test_check_reports_what_a_record_does_not_justify(beside: Path, old: str, new: str, words: str) -> None:
@@ -377,7 +377,7 @@ def test_check_tells_a_broken_record_and_goes_on(beside: Path) -> None:
     Path(path_of(str(beside))).write_text('{"schema": "\\u001b[31m"}')
     done = check(beside)
     assert done.returncode == 1 and done.stderr == ""
-    assert "the record of its study cannot be used: frame.msaa.yaml.msaa-study.json, line 1: it lacks studies" in done.stdout
+    assert "its study record cannot be used: frame.msaa.yaml.msaa-study.json, line 1: it lacks studies" in done.stdout
     hostile = edited(put("studies", 0, "device", "\x1b[31m\u202e##[x]"))
     Path(path_of(str(beside))).write_bytes(hostile)
     done = check(beside)

@@ -99,14 +99,12 @@ def test_a_person_sees_the_call_and_the_structure(tmp_path: Path) -> None:
     made = run(tmp_path, "check", "--isolated", "--fix", "--output", "full", "--select", "MSAA201", "game.jsonl")
     index = next(number for number, (name, _) in enumerate(program.calls, 1) if name == "vkCreateRenderPass")
     lines = made.stdout.splitlines()
-    assert (
-        lines[0]
-        == "warning[multisampled-attachment-stored]: `image_0 (attachment 0)` stores 4x samples that nothing reads; set storeOp to DONT_CARE"
-    )
+    message = "`image_0 (attachment 0)` stores 4x samples that nothing reads; set storeOp to DONT_CARE"
+    assert lines[0] == f"warning[multisampled-attachment-stored]: {message}"
     assert lines[1].strip() == f"--> game.jsonl:{index + 1}:1"
     assert "        storeOp: STORE" in made.stdout
     assert f"= from: vkCreateRenderPass, call {index}; in 5 of 5 frames" in made.stdout
-    assert "= fix: storeOp: DONT_CARE (not applied automatically)" in made.stdout
+    assert "= fix: set storeOp to DONT_CARE (not applied automatically)" in made.stdout
     assert "game.jsonl is a capture and is not fixed" in made.stderr
     assert (tmp_path / "game.jsonl").read_bytes() == program.text()
 

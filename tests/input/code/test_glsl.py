@@ -374,4 +374,7 @@ def test_by_the_real_command(tmp_path: Path) -> None:
     (tmp_path / "page.md").write_text(page(("cpp", MADE), ("glsl", PART)), encoding="utf-8")
     done = run(tmp_path, "check", "--isolated", "--output", "concise", "page.md")
     assert done.returncode == 0
-    assert "page.md:16:50: error[shader-resolve-sample-count] the shader of `resolve` fetches sample 7 of `tex`, which has 4" in done.stdout
+    assert (
+        "page.md:16:50: error[shader-resolve-sample-count] the shader of `resolve` fetches sample 7 of `tex`, which has only 4"
+        in done.stdout
+    )
