@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 import typer
 
 from msaa_lint.core.package import VERSION
-from msaa_lint.input.code import LANGUAGES
+from msaa_lint.input.file_types import LANGUAGES
 from msaa_lint.input.readers import CAPTURES
 
 from .options import COMMANDS, Command, Option, run

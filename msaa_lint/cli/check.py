@@ -9,7 +9,7 @@ from functools import partial
 from typing import IO, Any
 
 from msaa_lint.core.finding import is_confident, rank
-from msaa_lint.input.discovery import STDIN
+from msaa_lint.input.file_types import STDIN
 from msaa_lint.linter.run import Outcome, run
 from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
 from msaa_lint.linter.workspace import Request

@@ -16,7 +16,7 @@ CONFIDENCES = ("low", "medium", "high")
 INPUT_FORMATS = (
     "description", "vulkan-sc", "gfxreconstruct", "api-dump", "renderdoc", "fossilize", "c", "cpp", "swift", "glsl", "markdown",
 )  # fmt: skip
-"""The names in `readers.FORMATS`, `readers.CAPTURES`, and `code.LANGUAGES`, so that help and errors import no reader."""
+"""The names in `readers.FORMATS`, `readers.CAPTURES`, and `file_types.LANGUAGES`, so that help and errors import no reader."""
 
 Arguments = dict[str, Any]
 """Values by option name, and `paths`. Options that are not on the command line are not in it."""

@@ -1,10 +1,8 @@
-"""What a lint run gives: findings, what stayed undecided, and what was silenced.
+"""The results of a lint run: findings, undecided rules, and suppressed findings.
 
-Every other module either makes these (rules, readers, suppressions) or prints them (reports); this one imports nothing of ours.
-Texts in here may hold raw text of an input: whoever prints them escapes them for the output they go to.
+Their texts may contain raw text of an input: a report must escape them for its output.
 """
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -14,15 +12,15 @@ if TYPE_CHECKING:
     from .text.source import Source
 
 SEVERITIES = ("note", "warning", "error")
-"""In rising order, so that an index compares."""
+"""In increasing order."""
 
 CONFIDENCES = ("low", "medium", "high")
 
 
 class Fix(NamedTuple):
-    """A mend: what it does in words, whether the picture cannot change by it, and the edits (none: stated, not computed).
+    """A fix of a finding. A `safe` fix cannot change the picture. `edits` is empty if they are not computed.
 
-    One that is `shown` says what would cost less, and is never made: it is for people to decide.
+    A fix that is `shown` is never applied: it says what would cost less, for the user to decide.
     """
 
     title: str
@@ -32,7 +30,7 @@ class Fix(NamedTuple):
 
 
 class Price(NamedTuple):
-    """What a finding costs, by the cost model. MB is 10^6 bytes, MiB 2^20."""
+    """The estimated cost of a finding. MB is 10^6 bytes, MiB is 2^20 bytes."""
 
     read_mb_per_s: float
     write_mb_per_s: float
@@ -41,9 +39,9 @@ class Price(NamedTuple):
 
 
 class CaptureLocation(NamedTuple):
-    """Where in a capture a finding is from: the call by its name and index, and in how many frames of how many what it speaks of is in use.
+    """The captured call that a finding is about, `by` name and index, and the number of frames that use its subject, `of` all frames.
 
-    `call` is None where the capture numbers nothing, `frames` where they are not counted.
+    `call` is None if the capture does not number calls, `frames` if frames were not counted.
     """
 
     by: str
@@ -53,10 +51,10 @@ class CaptureLocation(NamedTuple):
 
 
 class Finding(NamedTuple):
-    """One mistake at one place.
+    """One mistake at one location.
 
-    `span` is None where the input has no text (binary captures) or could not be decoded; `subject` is the structural path of what is
-    judged, e.g. `renderPasses.forward.attachments.color`.
+    `span` is None if the input has no text (binary captures) or could not be decoded. `subject` is the structural path of the object that
+    the finding is about, such as `renderPasses.forward.attachments.color`.
     """
 
     code: str
@@ -72,16 +70,16 @@ class Finding(NamedTuple):
     help: str = ""
     fix: Fix | None = None
     price: Price | None = None
-    seen: CaptureLocation | None = None
+    capture_location: CaptureLocation | None = None
 
     @property
     def fatal(self) -> bool:
-        """True where an input, a page or the configuration could not be used (9xx of severity error): the run ends with 2."""
+        """Whether an input, a rule page or the configuration cannot be used (a 9xx error): the exit code is then 2."""
         return self.code.startswith("MSAA9") and self.severity == "error"
 
 
 class Undecided(NamedTuple):
-    """A rule that could say neither yes nor no for a subject, and the facts it lacked."""
+    """A rule that could not be decided for a subject, and the facts that were missing."""
 
     code: str
     rule: str
@@ -91,7 +89,7 @@ class Undecided(NamedTuple):
 
 
 class Suppressed(NamedTuple):
-    """A finding that was silenced: `how` is `inline` or `baseline`; `reason` is the comment's, or empty."""
+    """A suppressed finding. `how` is `inline` or `baseline`; `reason` is that of the comment, or empty."""
 
     finding: Finding
     how: str
@@ -99,7 +97,7 @@ class Suppressed(NamedTuple):
 
 
 class RuleInfo(NamedTuple):
-    """What a report says about a rule. `summary` is one sentence, `markdown` the page without its front matter."""
+    """A rule as reports describe it. `summary` is one sentence, `markdown` the page without its front matter."""
 
     code: str
     name: str
@@ -112,10 +110,10 @@ class RuleInfo(NamedTuple):
 
 
 class Result(NamedTuple):
-    """A whole lint run. Findings are in the order of files, places and codes; `rules` are the enabled ones by code.
+    """The result of a lint run. Findings are sorted by file, location and code; `rules` are the enabled rules by code.
 
-    `together` is what the findings of a file cost together, by file: less than the sum of their prices where two of them cost the same
-    bytes. A file without a price is not in it.
+    `together` is the combined price of the findings of each file with prices. It is less than the sum of their prices if two findings are
+    about the same bytes.
     """
 
     findings: Sequence[Finding]
@@ -127,9 +125,9 @@ class Result(NamedTuple):
     together: Mapping[str, Price] = {}
 
 
-def is_confident(found: Finding, confidence: str) -> bool:
-    """Whether a finding is of a confidence, or a higher one."""
-    return CONFIDENCES.index(found.confidence) >= CONFIDENCES.index(confidence)
+def is_confident(finding: Finding, confidence: str) -> bool:
+    """Whether the confidence of a finding is at least `confidence`."""
+    return CONFIDENCES.index(finding.confidence) >= CONFIDENCES.index(confidence)
 
 
 def rank(severity: str) -> int:

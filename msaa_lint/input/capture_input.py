@@ -1,6 +1,5 @@
-"""A capture read to its end, or as far as it goes, and the findings of it."""
+"""Captures read as descriptions, and findings about them."""
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 import re
 from collections.abc import Hashable, Mapping, Sequence
 from importlib import import_module
@@ -20,11 +19,11 @@ _COMMAND = re.compile(r"commands\[\d+\]")
 
 
 class CaptureInput(NamedTuple):
-    """A capture as a description.
+    """A capture converted to a description.
 
-    `source` is its text, which leads back to the calls; `modules` the code of the shaders that it names. `broken` says why the rest could
-    not be read, and stands at the last line of the text; empty where the capture is whole. `notes` are lines for people: what the capture
-    leaves out.
+    `source` is the text of the description, whose origins are the captured calls; `modules` is the code of its shaders by name. `broken`
+    says why the rest of the capture could not be read, which the last line of the text stands for; empty if all was read. `notes` are
+    lines for the user about what is missing.
     """
 
     source: Source
@@ -34,11 +33,11 @@ class CaptureInput(NamedTuple):
     notes: tuple[str, ...]
 
 
-def captured(stream: BinaryIO, format: str, name: str, path: str | None) -> CaptureInput:
-    """Reads a capture of a format (one of `readers.CAPTURES`) from a binary stream.
+def read_capture(stream: BinaryIO, format: str, name: str, path: str | None) -> CaptureInput:
+    """Reads a capture of a format (one of `readers.CAPTURES`) from a binary stream, in memory that does not grow with its length.
 
-    `name` is what findings call it, `path` where it lies, for the files that belong to it; None for a stream. Nothing raises for what the
-    capture holds. Memory does not grow with its length.
+    `name` is the capture's name in findings. `path` locates the files that belong to it; None for a stream. An invalid capture does not
+    raise.
     """
     module = import_module(f".readers.{format.replace('-', '_')}", __package__)
     tracker = Tracker()
@@ -49,45 +48,48 @@ def captured(stream: BinaryIO, format: str, name: str, path: str | None) -> Capt
     except CaptureError as error:
         broken = error
     tracker.finish()
-    made = describe_capture(tracker)
-    text, origins = made.text, made.origins
+    description = describe_capture(tracker)
+    text, origins = description.text, description.origins
     notes = []
     if tracker.frames.truncated:
         notes.append(f"{name}: the last entry is truncated and was skipped")
-    if made.dropped:
-        notes.append(f"{name}: {made.dropped} of {made.frames} frames were not linted because the capture has too many kinds of frames")
+    if description.dropped:
+        count = f"{description.dropped} of {description.frames} frames"
+        notes.append(f"{name}: {count} were not linted because the capture has too many kinds of frames")
     if broken is not None:
         text += "# the capture is readable up to here\n"
         origins.append(Origin(*broken.place, ""))
-    return CaptureInput(Source(name, text, origins), made.modules, made.frames, broken.message if broken is not None else "", tuple(notes))
+    message = broken.message if broken is not None else ""
+    return CaptureInput(Source(name, text, origins), description.modules, description.frames, message, tuple(notes))
 
 
 def capture_findings(capture: CaptureInput, findings: Sequence[Finding]) -> list[Finding]:
-    """The findings as a capture's. One that ends in the middle has an error more, where it ends."""
-    kept: dict[Hashable, Finding] = {}
-    for found in findings:
-        own = _seen(capture, found)
-        if own.fix is not None:
-            # The text that an edit would change is no file's.
-            own = own._replace(fix=own.fix._replace(edits=(), shown=True))
-        key = (own.rule, own.severity, own.message, _COMMAND.sub("commands", _DOCUMENT.sub("", own.subject, count=1)))
-        before = kept.get(key)
-        if before is None or before.subject == own.subject:
-            kept[key if before is None else (key, len(kept))] = own
-        elif before.seen is not None and own.seen is not None and _COMMAND.search(own.subject):
-            # Another kind of frame records the same.
-            frames = (before.seen.frames or 0) + (own.seen.frames or 0)
-            kept[key] = before._replace(seen=before.seen._replace(frames=min(frames, before.seen.of) or None))
-    made = list(kept.values())
+    """The findings with their locations in the capture, merged across kinds of frames. A truncated capture has one more, at its end."""
+    merged: dict[Hashable, Finding] = {}
+    for finding in findings:
+        found = _located(capture, finding)
+        if found.fix is not None:
+            # There is no file with the text that the fix would edit.
+            found = found._replace(fix=found.fix._replace(edits=(), shown=True))
+        key = (found.rule, found.severity, found.message, _COMMAND.sub("commands", _DOCUMENT.sub("", found.subject, count=1)))
+        first = merged.get(key)
+        if first is None or first.subject == found.subject:
+            merged[key if first is None else (key, len(merged))] = found
+        elif first.capture_location is not None and found.capture_location is not None and _COMMAND.search(found.subject):
+            # Another kind of frame has the same command.
+            location = first.capture_location
+            frames = (location.frames or 0) + (found.capture_location.frames or 0)
+            merged[key] = first._replace(capture_location=location._replace(frames=min(frames, location.of) or None))
+    result = list(merged.values())
     if capture.broken:
         text = capture.source.text
         start = text.rfind("\n", 0, len(text) - 1) + 1
-        made.append(diagnostic("MSAA901", f"the capture ends here: {capture.broken}", capture.source.name, Span(start, len(text) - 1)))
-    return made
+        result.append(diagnostic("MSAA901", f"the capture ends here: {capture.broken}", capture.source.name, Span(start, len(text) - 1)))
+    return result
 
 
-def _seen(capture: CaptureInput, found: Finding) -> Finding:
-    origin = capture.source.origin(found.span.start) if found.span is not None else None
+def _located(capture: CaptureInput, finding: Finding) -> Finding:
+    origin = capture.source.origin(finding.span.start) if finding.span is not None else None
     if origin is None or not origin.by:
-        return found
-    return found._replace(seen=CaptureLocation(origin.by, origin.call, origin.frames, origin.of))
+        return finding
+    return finding._replace(capture_location=CaptureLocation(origin.by, origin.call, origin.frames, origin.of))

@@ -10,7 +10,7 @@ from . import code
 class SourceFile(NamedTuple):
     """Source code and the documents in it.
 
-    `data` is the file's bytes, `language` one of `code.LANGUAGES`; `notes` are lines for the user.
+    `data` is the file's bytes, `language` one of `file_types.LANGUAGES`; `notes` are lines for the user.
     """
 
     data: bytes

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding, Price, Result, Suppressed, Undecided, is_confident, rank
-from msaa_lint.input.discovery import STDIN
+from msaa_lint.input.file_types import STDIN
 
 from .engine import rule_infos
 from .results import FileResult

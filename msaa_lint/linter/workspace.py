@@ -11,7 +11,8 @@ from msaa_lint.core.text.tree import Limits
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.profiles import Problem, profile_of
 from msaa_lint.input import opening
-from msaa_lint.input.discovery import STDIN, Discovered, discover
+from msaa_lint.input.discovery import Discovered, discover
+from msaa_lint.input.file_types import STDIN
 from msaa_lint.input.readers import looks_like
 
 from .engine import Engine, LintOptions, load_rules

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from msaa_lint import __version__
 from msaa_lint.cli.options import COMMANDS, INPUT_FORMATS, SHARED, parse
 from msaa_lint.input import readers
-from msaa_lint.input.code import LANGUAGES
+from msaa_lint.input.file_types import LANGUAGES
 from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
 from tests.command import run
 from tests.paths import ROOT

@@ -3,7 +3,8 @@ from pathlib import Path
 
 import pytest
 
-from msaa_lint.input.discovery import HEAD_BYTES, Discovered, discover
+from msaa_lint.input.discovery import Discovered, discover
+from msaa_lint.input.file_types import HEAD_BYTES
 from msaa_lint.linter.settings import config
 from msaa_lint.linter.settings.config import Configurations
 
@@ -92,8 +93,8 @@ def test_links_to_files_stay_in_the_project(project: Path) -> None:
     result = found("f")
     assert result.files == ["f/a.msaa.yaml", "f/in.msaa.yaml"]
     assert result.notes == [
-        "f/gone.msaa.yaml is a link that leaves the project, or to no file: name it to lint it",
-        "f/out.msaa.yaml is a link that leaves the project, or to no file: name it to lint it",
+        "f/gone.msaa.yaml is a link that is broken or leaves the project: name it to lint it",
+        "f/out.msaa.yaml is a link that is broken or leaves the project: name it to lint it",
     ]
     assert clean("f/out.msaa.yaml") == ["f/out.msaa.yaml"]
 
@@ -105,7 +106,7 @@ def test_what_is_not_there_is_an_error_and_the_rest_is_linted() -> None:
     assert result.files == ["a.yaml"]
     assert [(each.code, each.fatal, each.file, each.span, each.message, each.help) for each in result.findings] == [
         ("MSAA921", True, "no.yaml", None, "no such file or folder `no.yaml`", ""),
-        ("MSAA921", True, "gone.yaml", None, "no such file or folder `gone.yaml`", "a link to nothing"),
+        ("MSAA921", True, "gone.yaml", None, "no such file or folder `gone.yaml`: it is a broken link", ""),
         ("MSAA921", True, "a\0b", None, "no such file or folder `a\0b`", ""),
     ]
 
@@ -114,9 +115,10 @@ def test_a_folder_without_inputs_is_an_error() -> None:
     write("f/x/readme.txt", "f/ci.yaml", text="name: ci")
     result = found("f")
     assert result.files == []
-    assert [(each.code, each.fatal, each.file, each.message) for each in result.findings] == [
-        ("MSAA921", True, "f", "nothing to lint in `f`")
-    ]
+    (problem,) = result.findings
+    assert (problem.code, problem.fatal, problem.file) == ("MSAA921", True, "f")
+    names = "*.msaa.yaml, *.msaa.yml, *.msaa.json"
+    assert problem.message == f"nothing to lint in `f`: inputs are called {names} or look like one; name other files"
 
 
 def test_exclude_wins_over_a_named_file_and_says_so() -> None:
@@ -133,7 +135,7 @@ def test_a_folder_of_which_all_is_excluded_is_an_error() -> None:
     write("msaa-lint.toml", text='exclude = ["*.yaml"]\n')
     write("f/a.yaml", "f/b.yaml")
     (problem,) = found("f").findings
-    assert (problem.message, problem.help) == ("nothing to lint in `f`", "its inputs are excluded (2)")
+    assert problem.message == "nothing to lint in `f`: all inputs are excluded (2)"
 
 
 def test_a_nearer_configuration_governs_its_folder() -> None:
@@ -182,5 +184,5 @@ def test_a_folder_that_cannot_be_read_is_an_error(monkeypatch: pytest.MonkeyPatc
     result = found("f")
     assert result.files == ["f/a.msaa.yaml"]
     assert [(each.file, each.fatal, each.message) for each in result.findings] == [
-        ("f/g", True, "the folder cannot be read: Permission denied")
+        ("f/g", True, "cannot read the folder: Permission denied")
     ]

@@ -65,8 +65,10 @@ def capture_location(where: CaptureLocation) -> str:
 def remarks(finding: Finding, rules: Set[str]) -> list[tuple[str, str]]:
     """What follows the excerpt: word and text."""
     lines = [("note", f"{display(finding.code)}, confidence {finding.confidence}")]
-    if finding.seen is not None:
-        lines.append(("from", display(capture_location(finding.seen)) + " (line numbers are those of `msaa-lint convert` output)"))
+    if finding.capture_location is not None:
+        lines.append(
+            ("from", display(capture_location(finding.capture_location)) + " (line numbers are those of `msaa-lint convert` output)")
+        )
     lines += [("note", display(note)) for note in finding.notes if note.strip()]
     places = len({label.span for label in finding.labels} | {finding.span})
     if places > MAX_MARKS:

@@ -46,7 +46,7 @@ def _finding(finding: Finding, result: Result, options: Options) -> Json:
         "labels": [{**_place(result, finding.file, label.span), "text": text(label.text)} for label in finding.labels],
         "notes": [text(note) for note in finding.notes],
         "help": text(finding.help),
-        "seen": {**finding.seen._asdict(), "by": text(finding.seen.by)} if finding.seen else None,
+        "seen": {**finding.capture_location._asdict(), "by": text(finding.capture_location.by)} if finding.capture_location else None,
     }
 
 

@@ -9,21 +9,14 @@ from collections.abc import Iterator
 from importlib import import_module
 from typing import TYPE_CHECKING, NamedTuple
 
+from msaa_lint.input.file_types import LANGUAGES, MISSING_EXTRA
+
 if TYPE_CHECKING:
     from msaa_lint.core.text.source import Source
     from msaa_lint.core.text.span import Span
     from msaa_lint.frame.description.document import Document
 
     from .parsing import Code, Read
-
-LANGUAGES: dict[str, tuple[str, ...]] = {
-    "c": (".c", ".h"),
-    "cpp": (".cc", ".cpp", ".cxx", ".hpp", ".hh", ".hxx", ".inl", ".ipp", ".h++"),
-    "swift": (".swift",),
-    "glsl": (".glsl", ".vert", ".frag", ".comp", ".tesc", ".tese", ".geom", ".mesh", ".task"),
-    "markdown": (".md", ".markdown", ".mdx"),
-}
-"""File extensions of each language, by the name that `--input-format` takes. In Markdown, fenced code blocks are read."""
 
 UNREAD = {
     ".m": "Objective-C",
@@ -103,7 +96,7 @@ def read(source: "Source", language: str) -> Program:
 
     Code that is not understood is left out; no code raises. Raises `Missing` if the extra is not installed.
     """
-    from .parsing import EXTRA, Code, Missing, ascii_only
+    from .parsing import Code, Missing, ascii_only
 
     if language == "markdown":
         from .fences import codes
@@ -112,7 +105,7 @@ def read(source: "Source", language: str) -> Program:
     else:
         codes_found = (Code(ascii_only(source.text), language),)
     if codes_found and not installed():
-        raise Missing(EXTRA)
+        raise Missing(MISSING_EXTRA)
     from .documents import bound
 
     by_code = [(code, list(_readings(code))) for code in codes_found]

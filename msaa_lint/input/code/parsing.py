@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.source import Unreadable
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.file_types import MISSING_EXTRA
 
 if TYPE_CHECKING:
     import tree_sitter
@@ -29,8 +30,6 @@ MAX_WORK = 30_000
 """The maximum number of progress callbacks of the parser: enough for 4 MB of ordinary code, or a minute of code made to parse slowly."""
 
 _CHUNK = 1 << 16
-
-EXTRA = 'reading source code requires an extra; install it with `pip install "msaa-lint[source]"`'
 
 
 class Missing(Unreadable):
@@ -80,7 +79,7 @@ def tree(code: Code) -> "Tree":
 
         grammar = import_module(GRAMMARS[code.language])
     except ImportError:
-        raise Missing(EXTRA) from None
+        raise Missing(MISSING_EXTRA) from None
     data = code.text.encode()
     with warnings.catch_warnings():
         # tree-sitter-glsl still uses the deprecated API.

@@ -89,7 +89,9 @@ def findings(draw: st.DrawFn, text: str, file: str) -> Finding:
         help=texts,
         fix=st.one_of(st.none(), st.builds(Fix, texts, st.booleans(), edits)),
         price=st.one_of(st.none(), st.builds(Price, figures, figures, figures, figures)),
-        seen=st.one_of(st.none(), st.builds(CaptureLocation, texts, counts, st.one_of(st.none(), st.integers(1, 240)), st.just(240))),
+        capture_location=st.one_of(
+            st.none(), st.builds(CaptureLocation, texts, counts, st.one_of(st.none(), st.integers(1, 240)), st.just(240))
+        ),
     )
     return draw(made)
 

@@ -6,12 +6,12 @@ import io
 
 import pytest
 
-from msaa_lint.input.capture_input import CaptureInput, captured
+from msaa_lint.input.capture_input import CaptureInput, read_capture
 from tests.input.captures.program import COLOR, D32, DEPTH, SAMPLED, SOURCE, Program, attachment, codes, info, lint
 
 
 def read(program: Program) -> CaptureInput:
-    return captured(io.BytesIO(program.text()), "gfxreconstruct", "p.jsonl", None)
+    return read_capture(io.BytesIO(program.text()), "gfxreconstruct", "p.jsonl", None)
 
 
 def forward(frames: int, images: int = 3, store: str = "STORE", two: bool = False, ms_each: bool = False, reuse: bool = False) -> Program:
@@ -40,7 +40,7 @@ def test_a_pass_of_every_frame_is_one_finding_with_its_count_and_the_call_that_m
     assert len(stored) == 1
     made = next(number for number, (name, _) in enumerate(program.calls, 1) if name.startswith("vkCreateRenderPass"))
     name = "vkCreateRenderPass2KHR" if two else "vkCreateRenderPass"
-    assert stored[0].seen == (name, made, 240, 240)
+    assert stored[0].capture_location == (name, made, 240, 240)
 
 
 def test_the_place_of_a_finding_is_the_call_s_line() -> None:
@@ -101,7 +101,7 @@ def test_a_rendering_that_two_kinds_of_frame_record_is_one_finding_with_the_sum_
         program.submit(buffer)
         program.present()
     stored = [found for found in lint(program.text()) if found.code == "MSAA201"]
-    assert [found.seen and (found.seen.frames, found.seen.of) for found in stored] == [(10, 10)]
+    assert [found.capture_location and (found.capture_location.frames, found.capture_location.of) for found in stored] == [(10, 10)]
 
 
 def history(read_back: bool, every: int = 1) -> Program:
@@ -264,4 +264,4 @@ def test_memory_does_not_grow_with_frames_that_make_their_images_anew() -> None:
     assert made.source.text.count("vkCreateImage,") <= 9
     assert len(made.source.text) < 12_000
     found = [found for found in lint(program.text()) if found.code == "MSAA201"]
-    assert [each.seen and each.seen.frames for each in found] == [200]
+    assert [each.capture_location and each.capture_location.frames for each in found] == [200]

@@ -8,12 +8,12 @@ import pytest
 
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
-from msaa_lint.input.capture_input import CaptureInput, captured
+from msaa_lint.input.capture_input import CaptureInput, read_capture
 from tests.input.captures.program import COLOR, SAMPLED, Program, attachment, codes, info, lint, written
 
 
 def read(program: Program) -> CaptureInput:
-    return captured(io.BytesIO(program.text()), "gfxreconstruct", "p.jsonl", None)
+    return read_capture(io.BytesIO(program.text()), "gfxreconstruct", "p.jsonl", None)
 
 
 def tree(program: Program) -> dict:  # type: ignore[type-arg]
@@ -155,7 +155,7 @@ def test_a_command_buffer_that_is_submitted_again_is_recorded_once() -> None:
         program.call("vkQueueSubmit2", queue=5, submitCount=1, pSubmits=[{"pCommandBufferInfos": [{"commandBuffer": buffer}]}], fence=0)
         program.present()
     found = next(found for found in lint(program.text()) if found.code == "MSAA201")
-    assert found.seen is not None and (found.seen.frames, found.seen.of) == (30, 30)
+    assert found.capture_location is not None and (found.capture_location.frames, found.capture_location.of) == (30, 30)
 
 
 def test_a_rendering_that_is_suspended_and_resumed_in_another_command_buffer() -> None:
@@ -233,7 +233,7 @@ def test_a_capture_that_ends_in_the_middle_is_linted_up_to_there() -> None:
     found = lint(data)
     assert {"MSAA201", "MSAA901"} <= set(codes(found))
     broken = next(each for each in found if each.code == "MSAA901")
-    source = captured(io.BytesIO(data), "gfxreconstruct", "p", None).source
+    source = read_capture(io.BytesIO(data), "gfxreconstruct", "p", None).source
     assert broken.span is not None
     origin = source.origin(broken.span.start)
     assert origin is not None and origin.line == len(lines) + 1
@@ -244,4 +244,4 @@ def test_calls_that_failed_made_nothing() -> None:
     program.image()
     made = b'"args": {"device": 2, "pCreateInfo"'
     text = program.text().replace(b'"return": "VK_SUCCESS", ' + made, b'"return": "VK_ERROR_OUT_OF_DEVICE_MEMORY", ' + made)
-    assert "images:" not in captured(io.BytesIO(text), "gfxreconstruct", "p", None).source.text
+    assert "images:" not in read_capture(io.BytesIO(text), "gfxreconstruct", "p", None).source.text
