@@ -64,6 +64,26 @@ def span(node: SyntaxNode) -> Span:
     return Span(node.start_byte, node.end_byte)
 
 
+def fields(node: SyntaxNode, *names: str) -> "tuple[SyntaxNode | None, ...]":
+    """Returns the children of a node in some fields."""
+    return tuple(node.child_by_field_name(name) for name in names)
+
+
+def without_comments(node: "SyntaxNode | None") -> list[SyntaxNode]:
+    """Returns the named children that are not comments."""
+    return [child for child in node.named_children if child.type != "comment"] if node is not None else []
+
+
+class SyntaxReader:
+    """Reads the syntax tree of a text."""
+
+    text: str
+
+    def text_of(self, node: "SyntaxNode | None") -> str:
+        """Returns the text of a node, or an empty string."""
+        return self.text[node.start_byte : node.end_byte] if node is not None else ""
+
+
 def ascii_only(text: str) -> str:
     """Returns the text with `_` for each non-ASCII character."""
     return text if text.isascii() else _NOT_ASCII.sub("_", text)

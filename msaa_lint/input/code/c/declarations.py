@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 
-from msaa_lint.input.code.parsing import SyntaxNode, span
+from msaa_lint.input.code.parsing import SyntaxNode, fields, span, without_comments
 
 from .expressions import Expressions
-from .kinds import BLANKS, MAX_DEPTH, NAMES, NUMBER, number, without_comments
+from .kinds import BLANKS, MAX_DEPTH, NAMES, NUMBER, number
 from .terms import BRACES, CALL, DECLARE, LITERAL, NAME, Parameter, Term
 
 
@@ -19,10 +19,10 @@ class Declarations(Expressions):
         for node in list_node.named_children if list_node is not None else ():
             if node.type not in ("parameter_declaration", "optional_parameter_declaration", "variadic_parameter_declaration"):
                 continue
-            kind, declarator = node.child_by_field_name("type"), node.child_by_field_name("declarator")
+            kind, declarator = fields(node, "type", "declarator")
             default = node.child_by_field_name("default_value")
             name, _, by_reference = self.declarator(declarator)
-            text = self.type_text(kind) if kind is not None else ""
+            text = self.type_text(kind)
             fixed = any(c.type == "type_qualifier" and self.text_of(c) == "const" for c in node.named_children)
             parameters.append(Parameter(text, name, by_reference, self.expression(default, 0) if default is not None else None, fixed))
         if len(parameters) == 1 and parameters[0].type == "void" and not parameters[0].name:
@@ -49,7 +49,7 @@ class Declarations(Expressions):
     def declared(self, node: SyntaxNode, depth: int = 0) -> list[Term]:
         """Returns the variables of a declaration as terms."""
         kind = node.child_by_field_name("type")
-        text = self.type_text(kind) if kind is not None else ""
+        text = self.type_text(kind)
         fixed = any(c.type == "type_qualifier" and self.text_of(c) in ("const", "constexpr") for c in node.named_children)
         terms: list[Term] = []
         children = node.children
@@ -99,7 +99,7 @@ class Declarations(Expressions):
 
     def macro_constant(self, node: SyntaxNode) -> list[Term]:
         """Returns a macro that stands for a value, as a constant."""
-        name, value = node.child_by_field_name("name"), node.child_by_field_name("value")
+        name, value = fields(node, "name", "value")
         if name is None or value is None:
             return []
         text = self.text_of(value).partition("//")[0].strip()
@@ -116,11 +116,11 @@ class Declarations(Expressions):
 
     def enumerators(self, node: SyntaxNode) -> list[Term]:
         """Returns the enumerators of an enum as constants, with and without the name of the enum."""
-        list_node, owner = node.child_by_field_name("body"), node.child_by_field_name("name")
+        list_node, owner = fields(node, "body", "name")
         terms: list[Term] = []
         next_node = 0
         for child in list_node.named_children if list_node is not None else ():
-            name, value_node = child.child_by_field_name("name"), child.child_by_field_name("value")
+            name, value_node = fields(child, "name", "value")
             if child.type != "enumerator" or name is None:
                 continue
             at = span(name)

@@ -7,10 +7,10 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.parsing import SyntaxNode, span
+from msaa_lint.input.code.parsing import SyntaxNode, SyntaxReader, fields, span, without_comments
 
 from .directives import Section
-from .kinds import BLANKS, CLASSES, MAX_DEPTH, NAMES, WORD, number, without_comments
+from .kinds import BLANKS, CLASSES, MAX_DEPTH, NAMES, WORD, number
 from .terms import (
     ADDRESS,
     ASSIGN,
@@ -36,7 +36,7 @@ WRAPPERS = frozenset({"parenthesized_expression", "cast_expression", "condition_
 CASTS = frozenset({"static_cast", "reinterpret_cast", "const_cast", "bit_cast"})
 
 
-class Expressions(ABC):
+class Expressions(SyntaxReader, ABC):
     """The expressions of one file."""
 
     text: str
@@ -54,14 +54,13 @@ class Expressions(ABC):
     def block(self, node: SyntaxNode, depth: int) -> list[Term]:
         """Returns the statements of a block."""
 
-    def text_of(self, node: SyntaxNode) -> str:
-        return self.text[node.start_byte : node.end_byte]
-
-    def type_text(self, node: SyntaxNode) -> str:
+    def type_text(self, node: SyntaxNode | None) -> str:
         """Returns the text of a type without whitespace, `const`, and `struct`."""
+        if node is None:
+            return ""
         if node.type in CLASSES or node.type == "enum_specifier":
             name = node.child_by_field_name("name")
-            return self.text_of(name) if name is not None else ""
+            return self.text_of(name)
         return self.resolve_aliases(BLANKS.sub("", re.sub(r"\b(?:const|struct|typename|class)\b", " ", self.text_of(node))))
 
     def resolve_aliases(self, name: str) -> str:
@@ -74,117 +73,82 @@ class Expressions(ABC):
         """Returns the term of an expression."""
         if node is None or depth > MAX_DEPTH:
             return (UNPARSED, "", span(node) if node is not None else Span(0, 0))
-        kind = node.type
-        at = span(node)
-        deeper = depth + 1
+        kind, at, deeper = node.type, span(node), depth + 1
         if kind in NAMES:
             name = self.text_of(node)
             return (LITERAL, None, at) if name == "VK_NULL_HANDLE" else (NAME, self.resolve_aliases(BLANKS.sub("", name)), at)
         if kind == "field_expression":
-            member, operand = node.child_by_field_name("field"), node.child_by_field_name("argument")
+            member = node.child_by_field_name("field")
             if member is None:
                 return (UNPARSED, self.text_of(node), at)
-            return (
-                FIELD,
-                self.expression(operand, deeper),
-                self.text_of(member).partition("<")[0].rpartition("::")[2],
-                span(member),
-            )
+            name = self.text_of(member).partition("<")[0].rpartition("::")[2]
+            return (FIELD, *self.parts(node, deeper, "argument"), name, span(member))
         if kind == "call_expression":
             return self.call(node, deeper, at)
         if kind == "initializer_list":
             return (BRACES, "", tuple(self.items(node, deeper)), at)
         if kind == "compound_literal_expression":
-            type_node, value_node = node.child_by_field_name("type"), node.child_by_field_name("value")
+            type_node, value_node = fields(node, "type", "value")
             items = tuple(self.items(value_node, deeper)) if value_node is not None else ()
-            return (BRACES, self.type_text(type_node) if type_node is not None else "", items, at)
+            return (BRACES, self.type_text(type_node), items, at)
         if kind in WRAPPERS:
             inner = node.child_by_field_name("value") or (node.named_children[-1] if node.named_child_count else None)
             term = self.expression(inner, deeper)
-            if kind == "cast_expression" and term[0] in (NAME, LITERAL, BRACES):
-                type_node = node.child_by_field_name("type")
-                if term[0] == BRACES and type_node is not None:
-                    return (BRACES, self.type_text(type_node), *term[2:])
+            type_node = node.child_by_field_name("type")
+            if kind == "cast_expression" and term[0] == BRACES and type_node is not None:
+                return (BRACES, self.type_text(type_node), *term[2:])
             return term
+        sign = node.child_by_field_name("operator")
+        operator = self.text_of(sign)
         if kind == "binary_expression":
-            left, right, sign = (node.child_by_field_name(name) for name in ("left", "right", "operator"))
-            return (
-                BINARY,
-                self.text_of(sign) if sign is not None else "",
-                self.expression(left, deeper),
-                self.expression(right, deeper),
-                at,
-            )
+            return (BINARY, operator, *self.parts(node, deeper, "left", "right"), at)
         if kind == "assignment_expression":
-            left, right, sign = (node.child_by_field_name(name) for name in ("left", "right", "operator"))
-            return (
-                ASSIGN,
-                self.text_of(sign) if sign is not None else "=",
-                self.expression(left, deeper),
-                self.expression(right, deeper),
-                at,
-            )
+            return (ASSIGN, operator or "=", *self.parts(node, deeper, "left", "right"), at)
         if kind == "conditional_expression":
-            test, then, other = (node.child_by_field_name(name) for name in ("condition", "consequence", "alternative"))
-            return (CHOICE, self.expression(test, deeper), self.expression(then, deeper), self.expression(other, deeper), at)
+            return (CHOICE, *self.parts(node, deeper, "condition", "consequence", "alternative"), at)
         if kind == "pointer_expression":
-            sign, operand = node.child_by_field_name("operator"), node.child_by_field_name("argument")
-            address = sign is not None and self.text_of(sign) == "&"
-            return (ADDRESS if address else TARGET, self.expression(operand, deeper), at)
+            return (ADDRESS if operator == "&" else TARGET, *self.parts(node, deeper, "argument"), at)
         if kind == "unary_expression":
-            sign, operand = node.child_by_field_name("operator"), node.child_by_field_name("argument")
-            return (UNARY, self.text_of(sign) if sign is not None else "", self.expression(operand, deeper), at)
-        if kind == "subscript_expression":
+            return (UNARY, operator, *self.parts(node, deeper, "argument"), at)
+        if kind == "update_expression":
             operand = node.child_by_field_name("argument")
-            list_node = node.child_by_field_name("indices") or node.child_by_field_name("index")
-            index = (
-                list_node.named_children[0]
-                if list_node is not None and list_node.type == "subscript_argument_list" and list_node.named_child_count
-                else list_node
-            )
-            return (INDEX, self.expression(operand, deeper), self.expression(index, deeper), at)
+            after = sign is not None and operand is not None and operand.start_byte < sign.start_byte
+            return (UNARY, ("post" if after else "") + operator, self.expression(operand, deeper), at)
+        if kind == "subscript_expression":
+            index = node.child_by_field_name("indices") or node.child_by_field_name("index")
+            if index is not None and index.type == "subscript_argument_list" and index.named_child_count:
+                index = index.named_children[0]
+            return (INDEX, *self.parts(node, deeper, "argument"), self.expression(index, deeper), at)
         if kind == "number_literal":
-            count_value = number(self.text_of(node))
-            return (LITERAL, count_value, at) if count_value is not None else (UNPARSED, self.text_of(node)[:40], at)
-        if kind in ("true", "false"):
-            return (LITERAL, kind == "true", at)
-        if kind == "null":
-            return (LITERAL, None, at)
+            literal = number(self.text_of(node))
+            return (LITERAL, literal, at) if literal is not None else (UNPARSED, self.text_of(node)[:40], at)
+        if kind in ("true", "false", "null"):
+            return (LITERAL, None if kind == "null" else kind == "true", at)
         if kind == "lambda_expression":
-            declarator, body = node.child_by_field_name("declarator"), node.child_by_field_name("body")
+            declarator, body = fields(node, "declarator", "body")
             list_node = declarator.child_by_field_name("parameters") if declarator is not None else None
             return (LAMBDA, self.parameters(list_node), tuple(self.block(body, deeper)) if body is not None else (), at)
-        if kind == "update_expression":
-            sign, operand = node.child_by_field_name("operator"), node.child_by_field_name("argument")
-            after = sign is not None and operand is not None and operand.start_byte < sign.start_byte
-            return (
-                UNARY,
-                ("post" if after else "") + (self.text_of(sign) if sign is not None else ""),
-                self.expression(operand, deeper),
-                at,
-            )
         if kind in ("comma_expression", "ERROR") and node.named_child_count:
             return self.expression(node.named_children[-1], deeper)
         if kind == "new_expression":
-            type_node, value_node = node.child_by_field_name("type"), node.child_by_field_name("arguments")
+            type_node, list_node = fields(node, "type", "arguments")
             if type_node is not None:
-                items = tuple(self.expression(c, deeper) for c in (without_comments(value_node) if value_node is not None else ()))
-                return (CALL, (NAME, self.type_text(type_node), at), items, at)
+                arguments = tuple(self.expression(child, deeper) for child in without_comments(list_node))
+                return (CALL, (NAME, self.type_text(type_node), at), arguments, at)
         return (UNPARSED, self.text_of(node) if node.end_byte - node.start_byte < 200 else "", at)
 
+    def parts(self, node: SyntaxNode, depth: int, *names: str) -> Iterator[Term]:
+        """Yields the terms of the expressions in some fields of a node."""
+        return (self.expression(child, depth) for child in fields(node, *names))
+
     def call(self, node: SyntaxNode, depth: int, at: Span) -> Term:
-        function, list_node = node.child_by_field_name("function"), node.child_by_field_name("arguments")
-        argument_nodes = without_comments(list_node) if list_node is not None else []
+        function, list_node = fields(node, "function", "arguments")
+        argument_nodes = without_comments(list_node)
         if function is not None and function.type == "template_function":
             name = function.child_by_field_name("name")
             if name is not None and self.text_of(name).rpartition("::")[2] in CASTS and len(argument_nodes) == 1:
                 return self.expression(argument_nodes[0], depth)
-        if (
-            function is not None
-            and function.type == "qualified_identifier"
-            and len(argument_nodes) == 1
-            and self.text_of(function) in ("std::move", "std::as_const")
-        ):
+        if len(argument_nodes) == 1 and self.text_of(function) in ("std::move", "std::as_const"):
             return self.expression(argument_nodes[0], depth)
         arguments = tuple(self.ordered_arguments(argument_nodes, (self.expression(child, depth) for child in argument_nodes)))
         term = self.expression(function, depth)

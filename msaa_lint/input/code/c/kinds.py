@@ -43,11 +43,6 @@ def function_declarator(node: SyntaxNode | None) -> SyntaxNode | None:
     return None
 
 
-def without_comments(node: SyntaxNode) -> list[SyntaxNode]:
-    """Returns the named children that are not comments."""
-    return [child for child in node.named_children if child.type != "comment"]
-
-
 def number(text: str) -> int | float | None:
     match = NUMBER.fullmatch(text)
     if match is not None:

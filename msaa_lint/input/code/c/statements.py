@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.parsing import SyntaxNode, span
+from msaa_lint.input.code.parsing import SyntaxNode, fields, span, without_comments
 
 from .declarations import Declarations
-from .kinds import CHAIN_TESTS, MAX_DEPTH, without_comments
+from .kinds import CHAIN_TESTS, MAX_DEPTH
 from .terms import BINARY, BLOCK, DECLARE, DO, IF, LEAVE, LOOP, RETURN, SOME, UNPARSED, Term
 
 
@@ -50,10 +50,10 @@ class Statements(Declarations):
                 return nested_statements
             return [(LOOP, tuple(terms), None, tuple(nested_statements), at)]
         if kind == "for_range_loop":
-            over, body = node.child_by_field_name("right"), node.child_by_field_name("body")
+            over, body = fields(node, "right", "body")
             name, _, indirect = self.declarator(node.child_by_field_name("declarator"))
             type_node = node.child_by_field_name("type")
-            terms = [(DECLARE, self.type_text(type_node) if type_node is not None else "", name, None, indirect, False, at)] if name else []
+            terms = [(DECLARE, self.type_text(type_node), name, None, indirect, False, at)] if name else []
             return [
                 (
                     LOOP,
@@ -95,7 +95,7 @@ class Statements(Declarations):
         otherwise: list[Term] = []
         current: SyntaxNode | None = node
         while current is not None:
-            test, then, other = (current.child_by_field_name(name) for name in ("condition", "consequence", "alternative"))
+            test, then, other = fields(current, "condition", "consequence", "alternative")
             at = span(current)
             first_duplicate: list[Term] = []
             if test is not None and test.type == "condition_clause":
@@ -133,7 +133,7 @@ class Statements(Declarations):
 
     def switch_cases(self, node: SyntaxNode, depth: int) -> list[Term]:
         """Returns a switch as one `if` for each case."""
-        test, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
+        test, body = fields(node, "condition", "body")
         value = self.expression(test, depth) if test is not None else (UNPARSED, "", Span(0, 0))
         terms: list[Term] = []
         for child in body.named_children if body is not None and depth < MAX_DEPTH else ():

@@ -9,10 +9,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from msaa_lint.input.code.parsing import Code, SyntaxNode, span
+from msaa_lint.input.code.parsing import Code, SyntaxNode, fields, span, without_comments
 
 from .directives import Section
-from .kinds import CLASSES, MAX_DEPTH, function_declarator, without_comments
+from .kinds import CLASSES, MAX_DEPTH, function_declarator
 from .statements import Statements
 from .terms import ASSIGN, CALL, DO, NAME, Function, Parameter, Term, Unit
 
@@ -79,7 +79,7 @@ class _Reader(Statements):
                 if depth < MAX_DEPTH:
                     stack += [(namespace, class_name, child, depth + 1) for child in reversed(node.named_children)]
             elif kind in CLASSES:
-                name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
+                name, body = fields(node, "name", "body")
                 if body is not None:
                     stack.append((namespace, f"{namespace}{self.text_of(name)}" if name is not None else class_name, body, depth + 1))
             elif kind == "function_definition":
@@ -164,7 +164,7 @@ class _Reader(Statements):
                 self.aliases[self.text_of(name)] = text
 
     def typedef(self, node: SyntaxNode) -> None:
-        stands, name = node.child_by_field_name("type"), node.child_by_field_name("declarator")
+        stands, name = fields(node, "type", "declarator")
         if stands is not None and name is not None and name.type == "type_identifier" and stands.type == "type_identifier":
             text = self.text_of(stands)
             if text.startswith(("vk", "Vk")) and len(self.aliases) < 200:
@@ -190,7 +190,7 @@ class _Reader(Statements):
             return None
         qualifier, _, short = self.type_text(name).rpartition("::")
         return_type = node.child_by_field_name("type")
-        kind = self.type_text(return_type) if return_type is not None else ""
+        kind = self.type_text(return_type)
         if kind in ("auto", ""):
             trailing = next((c for c in declarator.named_children if c.type == "trailing_return_type"), None)
             kind = self.type_text(trailing).removeprefix("->") if trailing is not None else kind

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from msaa_lint.frame.spirv import numbers as op
-from msaa_lint.input.code.parsing import SyntaxNode
+from msaa_lint.input.code.parsing import SyntaxNode, fields, without_comments
 
 from .expressions import FETCHES, Expressions
 from .text import UnsupportedShader
@@ -19,7 +19,7 @@ _OUT = {"modf": 1, "frexp": 1}
 def evaluate_call(expressions: Expressions, node: SyntaxNode, depth: int) -> Value:
     """Returns the value of a call."""
     function, list_node = expressions.parts(node, "function", "arguments")
-    arguments = [child for child in list_node.named_children if child.type != "comment"]
+    arguments = without_comments(list_node)
     if function.type == "subscript_expression":
         return _array(expressions, function, arguments, depth)
     if function.type == "field_expression":
@@ -68,7 +68,7 @@ def _array(expressions: Expressions, function: SyntaxNode, arguments: list[Synta
 
 def _length(expressions: Expressions, function: SyntaxNode, depth: int) -> Value:
     """Lowers `array.length()`."""
-    argument, field = function.child_by_field_name("argument"), function.child_by_field_name("field")
+    argument, field = fields(function, "argument", "field")
     if argument is None or field is None or expressions.text_of(field) != "length":
         raise expressions.unsupported(function, "is not supported")
     place = expressions.place(argument, depth)

@@ -6,7 +6,7 @@ import re
 from functools import partial
 
 from msaa_lint.frame.spirv import numbers as op
-from msaa_lint.input.code.parsing import Code, SyntaxNode, tree
+from msaa_lint.input.code.parsing import Code, SyntaxNode, fields, tree
 from msaa_lint.input.code.sample_counts.arithmetic import whole
 
 from .calls import evaluate_call
@@ -60,7 +60,7 @@ class Declarations(Expressions):
             raise self.unsupported(node, "is not supported")
 
     def structure(self, node: SyntaxNode) -> Type | None:
-        name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
+        name, body = fields(node, "name", "body")
         if name is None or body is None:
             return None
         members = tuple((member, kind) for member, kind, _ in self.members(body))
@@ -97,7 +97,7 @@ class Declarations(Expressions):
         """Returns a declarator's name, and its type including array dimensions."""
         sizes: list[int] = []
         while node.type == "array_declarator":
-            size_node, inner = node.child_by_field_name("size"), node.child_by_field_name("declarator")
+            size_node, inner = fields(node, "size", "declarator")
             sizes.append(self.size(size_node) if size_node is not None else 0)
             if inner is None or len(sizes) > 4:
                 raise self.unsupported(node, "is not supported")
@@ -278,7 +278,7 @@ class Declarations(Expressions):
         return variable
 
     def function_header(self, node: SyntaxNode) -> None:
-        declarator, type_node = node.child_by_field_name("declarator"), node.child_by_field_name("type")
+        declarator, type_node = fields(node, "declarator", "type")
         name = declarator.child_by_field_name("declarator") if declarator is not None else None
         list_node = declarator.child_by_field_name("parameters") if declarator is not None else None
         returns = self.kind(self.text_of(type_node)) if type_node is not None else None
@@ -286,7 +286,7 @@ class Declarations(Expressions):
             raise self.unsupported(node, "is not supported")
         parameters: list[tuple[Type, bool, str]] = []
         for child in list_node.named_children:
-            parameter_type, target = child.child_by_field_name("type"), child.child_by_field_name("declarator")
+            parameter_type, target = fields(child, "type", "declarator")
             kind = self.kind(self.text_of(parameter_type)) if parameter_type is not None else None
             if child.type != "parameter_declaration" or parameter_type is None or kind is None:
                 raise self.unsupported(child, "is not supported")

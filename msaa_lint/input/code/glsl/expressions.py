@@ -73,7 +73,7 @@ class Expressions(Values):
                 return self.load(self.access_chain(variable, kind, index.id))
             return self.result(77, kind, base.id, index.id)
         field = node.child_by_field_name("field")
-        name = self.text_of(field) if field is not None else ""
+        name = self.text_of(field)
         if base.type[0] != "struct":
             return self.swizzle(base, self.swizzle_parts(name, base.type, node))
         members = base.type[2]
@@ -106,7 +106,7 @@ class Expressions(Values):
                 return True
             if inner.type == "call_expression":
                 function = inner.child_by_field_name("function")
-                name = self.text_of(function) if function is not None else ""
+                name = self.text_of(function)
                 if name in self.functions or name in FETCHES:
                     return True
             stack += inner.named_children

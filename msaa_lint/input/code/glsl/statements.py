@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from msaa_lint.frame.spirv import numbers as op
-from msaa_lint.input.code.parsing import SyntaxNode
+from msaa_lint.input.code.parsing import SyntaxNode, fields, without_comments
 from msaa_lint.input.code.sample_counts.arithmetic import whole
 
 from .declarations import Declarations, is_unsized
@@ -83,7 +83,7 @@ class Statements(Declarations):
         elif kind == "expression_statement":
             self.expression(node)
         elif kind == "return_statement":
-            match = next((child for child in node.named_children if child.type != "comment"), None)
+            match = next(iter(without_comments(node)), None)
             if match is None:
                 self.terminate(op.RETURN)
             else:
@@ -107,7 +107,7 @@ class Statements(Declarations):
             raise self.unsupported(node, "is not supported")
 
     def expression(self, node: SyntaxNode) -> None:
-        child = next((item for item in node.named_children if item.type != "comment"), None)
+        child = next(iter(without_comments(node)), None)
         if child is None:
             return
         if child.type == "identifier" and self.text_of(child) in ("discard", "terminateInvocation"):
@@ -150,8 +150,8 @@ class Statements(Declarations):
         return value.id
 
     def conditional(self, node: SyntaxNode, depth: int) -> None:
-        then, other = node.child_by_field_name("consequence"), node.child_by_field_name("alternative")
-        inner = next((child for child in other.named_children if child.type != "comment"), None) if other is not None else None
+        then, other = fields(node, "consequence", "alternative")
+        inner = next(iter(without_comments(other)), None) if other is not None else None
 
         def consequence() -> None:
             if then is not None:
@@ -173,7 +173,7 @@ class Statements(Declarations):
                 self.local(first)
             else:
                 self.value(first)
-        condition, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
+        condition, body = fields(node, "condition", "body")
         header, test, begin, again, merge = out.id(), out.id(), out.id(), out.id(), out.id()
         self.label(header)
         out.emit(op.LOOP_MERGE, merge, again, 0)
@@ -201,7 +201,7 @@ class Statements(Declarations):
 
     def switch(self, node: SyntaxNode, depth: int) -> None:
         out = self.out
-        condition, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
+        condition, body = fields(node, "condition", "body")
         if condition is None or body is None:
             raise self.unsupported(node, "is not supported")
         selector = self.value(condition)

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from msaa_lint.frame.spirv import numbers as op
-from msaa_lint.input.code.parsing import SyntaxNode
+from msaa_lint.input.code.parsing import SyntaxNode, SyntaxReader
 
 from .assembly import Assembly
 from .text import UnsupportedShader
@@ -56,7 +56,7 @@ Named = Place | Value | tuple[Place, int]
 """What a name stands for: a variable, a constant, a member of a block."""
 
 
-class Values:
+class Values(SyntaxReader):
     """The values of one shader. `scopes` are the declared names, innermost last."""
 
     def __init__(self, text: str) -> None:
@@ -70,9 +70,6 @@ class Values:
         self.fetches: list[tuple[str, int, int]] = []
         """Sample fetches: the name of the image, and the range of the call."""
         self.built_in: Callable[[str], Place | None] = lambda name: None
-
-    def text_of(self, node: SyntaxNode) -> str:
-        return self.text[node.start_byte : node.end_byte]
 
     def unsupported(self, node: SyntaxNode, why: str) -> UnsupportedShader:
         return UnsupportedShader(f"`{' '.join(self.text_of(node)[:40].split())}` {why}")
@@ -143,7 +140,7 @@ class Values:
                 return None
             return self.access_chain(base, self.element(base.type, node), self.value(index_node, depth + 1).id)
         field = node.child_by_field_name("field")
-        name = self.text_of(field) if field is not None else ""
+        name = self.text_of(field)
         if base.type[0] == "struct":
             return self.member(base, self.index(base.type, name, node))
         parts = self.swizzle_parts(name, base.type, node)

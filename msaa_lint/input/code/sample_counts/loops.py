@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.parsing import SyntaxNode, span
+from msaa_lint.input.code.parsing import SyntaxNode, fields, span, without_comments
 
 from .masks import Bindings, Expressions, Mask, Order, Value
 
@@ -23,7 +23,7 @@ def loop_iterations(node: SyntaxNode, expressions: Expressions, bindings: Bindin
             yield {**bindings, name: count}
         return
     start = _loop_start(node, expressions, bindings)
-    update, condition = node.child_by_field_name("update"), node.child_by_field_name("condition")
+    update, condition = fields(node, "update", "condition")
     if start is None or update is None:
         return
     name, value = start
@@ -41,7 +41,7 @@ def loop_iterations(node: SyntaxNode, expressions: Expressions, bindings: Bindin
 
 def halving_loop(node: SyntaxNode, expressions: Expressions, bindings: Bindings) -> tuple[str, list[tuple[Mask, int, Span]]] | None:
     """Returns the variable of `while (!(counts & c)) c >>= 1;` and the tested counts in order, or None."""
-    condition, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
+    condition, body = fields(node, "condition", "body")
     update = node.child_by_field_name("update") if node.type == "for_statement" else _only(body)
     if condition is None or update is None or (node.type == "for_statement" and _only(body) is not None):
         return None
@@ -102,7 +102,7 @@ def _loop_step(node: SyntaxNode, expressions: Expressions, bindings: Bindings) -
     name = expressions.name(_target(node))
     value = bindings.get(name)
     sign = node.child_by_field_name("operator")
-    operator = expressions.text_of(sign) if sign is not None else ""
+    operator = expressions.text_of(sign)
     if not isinstance(value, int):
         return None
     if node.type == "update_expression":
@@ -121,7 +121,7 @@ def _loop_step(node: SyntaxNode, expressions: Expressions, bindings: Bindings) -
 def _only(body: SyntaxNode | None) -> SyntaxNode | None:
     """Returns the only expression in the body of a loop."""
     if body is not None and body.type == "compound_statement":
-        statements = [child for child in body.named_children if child.type != "comment"]
+        statements = without_comments(body)
         body = statements[0] if len(statements) == 1 else None
     if body is None or body.type != "expression_statement" or not body.named_child_count:
         return None

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.parsing import SyntaxNode, span
+from msaa_lint.input.code.parsing import SyntaxNode, SyntaxReader, fields, span, without_comments
 
 from .arithmetic import arithmetic, whole
 from .statements import MAX_DEPTH, unwrapped
@@ -88,16 +88,13 @@ def combine(masks: Iterable[Mask], how: str, at: Span) -> Mask:
     return Mask(tuple(limits.items()), worst, worst_at, allowed, all(mask.bindings for mask in every))
 
 
-class Expressions:
+class Expressions(SyntaxReader):
     """Evaluates the expressions of one file. `returns` are the results of functions, `members` the values kept outside of functions."""
 
     def __init__(self, text: str) -> None:
         self.text = text
         self.returns: Bindings = {}
         self.members: Bindings = {}
-
-    def text_of(self, node: SyntaxNode) -> str:
-        return self.text[node.start_byte : node.end_byte]
 
     def name(self, node: SyntaxNode | None) -> str:
         """Returns the last part of a name, without object, scope, and template arguments."""
@@ -150,7 +147,7 @@ class Expressions:
 
     def _binary(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
         sign = node.child_by_field_name("operator")
-        operator = self.text_of(sign) if sign is not None else ""
+        operator = self.text_of(sign)
         left, right = (self.value(node.child_by_field_name(side), bindings, depth) for side in ("left", "right"))
         if sign is None or left is None or right is None:
             return None
@@ -196,7 +193,7 @@ class Expressions:
         if node is None or node.type != "binary_expression":
             return None
         sign = node.child_by_field_name("operator")
-        operator = self.text_of(sign) if sign is not None else ""
+        operator = self.text_of(sign)
         if operator not in ("<", ">", "<=", ">="):
             return None
         left, right = (self.value(node.child_by_field_name(side), bindings, depth + 1) for side in ("left", "right"))
@@ -237,7 +234,7 @@ class Expressions:
     def _list(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
         if node.type == "compound_literal_expression":
             return self.value(node.child_by_field_name("value"), bindings, depth)
-        items = [child for child in node.named_children if child.type != "comment"]
+        items = without_comments(node)
         if len(items) > 64:
             return None
         values = [self.value(item, bindings, depth) for item in items]
@@ -247,11 +244,11 @@ class Expressions:
         return Order(counts) if counts and len(counts) == len(values) else None
 
     def _call(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
-        function, list_node = node.child_by_field_name("function"), node.child_by_field_name("arguments")
+        function, list_node = fields(node, "function", "arguments")
         name = self.name(function)
-        arguments = [child for child in list_node.named_children if child.type != "comment"] if list_node is not None else []
+        arguments = without_comments(list_node)
         if len(arguments) == 1 and arguments[0].type == "initializer_list" and name in _LESSER | _GREATER:
-            arguments = [child for child in arguments[0].named_children if child.type != "comment"]
+            arguments = without_comments(arguments[0])
         if function is None or len(arguments) > 8:
             return None
         values = [self.value(item, bindings, depth) for item in arguments]

@@ -7,7 +7,7 @@ import re
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.parsing import SyntaxNode, span
+from msaa_lint.input.code.parsing import SyntaxNode, fields, span, without_comments
 
 from .chains import MAX_TESTS, Chain, Test, greatest
 from .loops import halving_loop, loop_iterations
@@ -72,7 +72,7 @@ class ChoiceReader:
         bindings: Bindings = {}
         list_node = declarator.child_by_field_name("parameters")
         for child in list_node.named_children if list_node is not None else ():
-            kind, name = child.child_by_field_name("type"), child.child_by_field_name("declarator")
+            kind, name = fields(child, "type", "declarator")
             if kind is not None and name is not None and name.type == "identifier":
                 mask = _MASK_TYPE.search(self.expressions.text_of(kind)) is not None
                 bindings[self.expressions.text_of(name)] = Mask((), "NONE", span(name), bindings=False) if mask else None
@@ -107,12 +107,12 @@ class ChoiceReader:
         """Reads a declaration, an assignment, or a return."""
         of = self.expressions.text_of
         if node.type == "return_statement":
-            match = next((child for child in node.named_children if child.type != "comment"), None)
+            match = next(iter(without_comments(node)), None)
             self.assign(RETURN, match, owner.returns, bindings, owner, chains)
         elif node.type == "expression_statement":
             child = node.named_children[0] if node.named_child_count else None
             if child is not None and child.type == "assignment_expression":
-                target, sign = child.child_by_field_name("left"), child.child_by_field_name("operator")
+                target, sign = fields(child, "left", "operator")
                 name = self.expressions.name(target)
                 masking = sign is not None and of(sign) == "&="
                 value = self.expressions.value(child.child_by_field_name("right"), bindings)
@@ -166,7 +166,7 @@ class ChoiceReader:
             node = unwrapped(node)
             if node is None or node.type != "conditional_expression":
                 break
-            test, then = node.child_by_field_name("condition"), node.child_by_field_name("consequence")
+            test, then = fields(node, "condition", "consequence")
             mask, count = self.expressions.value(test, bindings), self.expressions.value(then, bindings)
             if test is None or not isinstance(mask, Mask) or mask.bit is None or not isinstance(count, int) or count not in COUNTS:
                 break
@@ -185,13 +185,11 @@ class ChoiceReader:
         while stack:
             expression, name = stack.pop()
             if expression.type == "lambda_expression":
-                body, declarator = expression.child_by_field_name("body"), expression.child_by_field_name("declarator")
+                body, declarator = fields(expression, "body", "declarator")
                 inner = {**bindings, **(self.parameters(declarator) if declarator is not None else {})}
                 declared = expression.parent.child_by_field_name("declarator") if expression.parent is not None else None
                 at = span(declared) if declared is not None else None
-                lambda_owner = Owner(
-                    self.expressions.name(declared), at, self.expressions.text_of(declarator) if declarator is not None else ""
-                )
+                lambda_owner = Owner(self.expressions.name(declared), at, self.expressions.text_of(declarator))
                 if body is not None and depth < MAX_DEPTH:
                     self.block(body, inner, lambda_owner, depth + 1)
                 continue

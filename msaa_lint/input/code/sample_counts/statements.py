@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from msaa_lint.input.code.parsing import SyntaxNode
+from msaa_lint.input.code.parsing import SyntaxNode, fields
 
 MAX_DEPTH = 60
 """The maximum nesting of parentheses and casts."""
@@ -24,7 +24,7 @@ def unwrapped(node: SyntaxNode | None) -> SyntaxNode | None:
             node = node.child_by_field_name("value") or node.named_children[-1]
             continue
         # Without type information, the grammar parses `(Type)(value)` as a call.
-        function, list_node = node.child_by_field_name("function"), node.child_by_field_name("arguments")
+        function, list_node = fields(node, "function", "arguments")
         if function is None or list_node is None or function.type != "parenthesized_expression" or list_node.named_child_count != 1:
             return node
         node = list_node.named_children[0]
@@ -49,7 +49,7 @@ def links(node: SyntaxNode) -> Iterator[tuple[SyntaxNode | None, SyntaxNode]]:
     for _ in range(MAX_LINKS):
         if current is None:
             return
-        condition, then = current.child_by_field_name("condition"), current.child_by_field_name("consequence")
+        condition, then = fields(current, "condition", "consequence")
         if then is not None:
             yield condition, then
         other = current.child_by_field_name("alternative")

@@ -109,7 +109,7 @@ class Uses:
             return counts[0] if len(counts) == len(others) == 1 and called in _CAPS else 0
         if parent.type == "binary_expression":
             sign = parent.child_by_field_name("operator")
-            operator = self.expressions.text_of(sign) if sign is not None else ""
+            operator = self.expressions.text_of(sign)
             other = parent.child_by_field_name("right" if parent.child_by_field_name("left") == value else "left")
             if operator in ("<", ">", "<=", ">="):
                 return None if self.expressions.value(other, {}) in (0, 1) else 0
@@ -136,7 +136,7 @@ class Uses:
             if left is None or left.type != "field_expression" or self.expressions.name(left) != "samples":
                 return []
             structure = left.child_by_field_name("argument")
-            name = self.expressions.text_of(structure) if structure is not None else ""
+            name = self.expressions.text_of(structure)
             if len(self._member(parent, name, "samples")) > 1:
                 # The structure describes several images; which format goes with the count is unknown.
                 return []

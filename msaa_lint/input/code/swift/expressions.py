@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.parsing import SyntaxNode, span
+from msaa_lint.input.code.parsing import SyntaxNode, SyntaxReader, fields, span
 
 from .terms import BINARY, CALL, CHOICE, CLOSURE, DO, IF, INDEX, LIST, LITERAL, MEMBER, NAME, NOT, OTHER, TUPLE, Term
 
@@ -20,14 +20,11 @@ _BINARY = frozenset({
 })  # fmt: skip
 
 
-class Expressions:
+class Expressions(SyntaxReader):
     """Reads the expressions of one file."""
 
     def __init__(self, text: str) -> None:
         self.text = text
-
-    def text_of(self, node: SyntaxNode) -> str:
-        return self.text[node.start_byte : node.end_byte]
 
     def other(self, node: SyntaxNode) -> Term:
         return OTHER, self.text_of(node)[:200], span(node)
@@ -103,7 +100,7 @@ class Expressions:
         )
 
     def prefixed(self, node: SyntaxNode, depth: int) -> Term:
-        sign, target = node.child_by_field_name("operation"), node.child_by_field_name("target")
+        sign, target = fields(node, "operation", "target")
         if sign is None or target is None:
             return self.other(node)
         written = self.text_of(sign)
@@ -134,10 +131,10 @@ class Expressions:
 
     def argument(self, node: SyntaxNode, depth: int) -> tuple[str, Term]:
         label = node.child_by_field_name("name")
-        return self.text_of(label) if label is not None else "", self.expression(node.child_by_field_name("value"), depth + 1)
+        return self.text_of(label), self.expression(node.child_by_field_name("value"), depth + 1)
 
     def binary(self, node: SyntaxNode, depth: int) -> Term:
-        left, sign, right = (node.child_by_field_name(field) for field in ("lhs", "op", "rhs"))
+        left, sign, right = fields(node, "lhs", "op", "rhs")
         if left is None or sign is None or right is None:
             return self.other(node)
         return BINARY, self.text_of(sign), self.expression(left, depth + 1), self.expression(right, depth + 1), span(node)
@@ -163,7 +160,7 @@ class Expressions:
             for parameters in kind.named_children:
                 for child in parameters.named_children if parameters.type == "lambda_function_type_parameters" else ():
                     name = child.child_by_field_name("name")
-                    names.append(self.text_of(name) if name is not None else "")
+                    names.append(self.text_of(name))
         return CLOSURE, tuple(names), self.statements(block(node), depth + 1), span(node)
 
     def choice(self, node: SyntaxNode, depth: int) -> Term:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.parsing import SyntaxNode, span
+from msaa_lint.input.code.parsing import SyntaxNode, fields, span
 
 from .expressions import MAX_DEPTH, Expressions, block
 from .terms import BIND, BLOCK, CALL, CASES, DO, FUNC, GUARD, IF, LEAVE, LET, LOOP, NAME, OTHER, RETURN, SET, Function, Parameter, Term
@@ -60,7 +60,7 @@ class Syntax(Expressions):
         elif kind == "assignment":
             target = node.child_by_field_name("target")
             inner = target.named_children[0] if target is not None and target.named_children else None
-            sign, value = node.child_by_field_name("operator"), node.child_by_field_name("result")
+            sign, value = fields(node, "operator", "result")
             if inner is not None and sign is not None:
                 terms.append((SET, self.text_of(sign), self.expression(inner, depth), self.expression(value, depth), span(node)))
         elif kind == "infix_expression" and node.child_count == 3 and self.text_of(node.children[1]).endswith("="):
@@ -186,8 +186,8 @@ class Syntax(Expressions):
         )
 
     def parameter(self, node: SyntaxNode, default: SyntaxNode | None) -> Parameter:
-        label, name = node.child_by_field_name("external_name"), node.child_by_field_name("name")
-        written = self.text_of(name) if name is not None else ""
+        label, name = fields(node, "external_name", "name")
+        written = self.text_of(name)
         kind = self.text_of(node).partition(":")[2].strip().removeprefix("inout ").rstrip("?! ")
         outer = self.text_of(label) if label is not None else written
         return Parameter("" if outer == "_" else outer, written, kind, self.expression(default) if default is not None else None)
