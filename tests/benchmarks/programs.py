@@ -21,8 +21,8 @@ ALONE = """
 import sys, time
 from tests.input.code.generated import program
 text, places = program(int(sys.argv[1]))
-from msaa_lint.programs import read
-from msaa_lint.source.text import Source
+from msaa_lint.input.code import read
+from msaa_lint.core.text.source import Source
 times = []
 for _ in range(int(sys.argv[2])):
     source = Source("program.cpp", text)

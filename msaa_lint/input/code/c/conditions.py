@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.operators import COMPARISONS
 
 from .directives import condition_key
 from .scope import Scope
@@ -47,14 +48,6 @@ def canonical_text(term: Term, names: dict[str, str] = NO_NAMES) -> str:
     if tag in (ADDRESS, TARGET):
         return canonical_text(term[1], names)
     return f"?{term[-1][0]}"
-
-
-def compare(sign: str, left: Any, right: Any) -> bool:
-    return bool(
-        {"==": left == right, "!=": left != right}[sign]
-        if sign in ("==", "!=")
-        else {"<": left < right, ">": left > right, "<=": left <= right, ">=": left >= right}[sign]
-    )
 
 
 def symbol_key(value: Any) -> str:
@@ -133,7 +126,7 @@ class ConditionEvaluator(Variables):
         every = self.value(term[2], scope)
         left, right = sole_value(every), sole_value(self.value(term[3], scope))
         if isinstance(right, (int, float)) and 1 < len(every) <= MAX_ALTERNATIVES and all(isinstance(a.value, (int, float)) for a in every):
-            holds = [a for a in every if compare(sign, a.value, right)]
+            holds = [a for a in every if COMPARISONS[sign](a.value, right)]
             if not holds or len(holds) == len(every):
                 return bool(holds)
             if len(holds) == 1 and holds[0].guards - scope.guards:
@@ -146,7 +139,7 @@ class ConditionEvaluator(Variables):
             and isinstance(right, type(left))
             and (isinstance(left, str) is False or sign in ("==", "!="))
         ):
-            return compare(sign, left, right)
+            return bool(COMPARISONS[sign](left, right))
         if isinstance(left, (int, bool)) and not isinstance(right, int):
             left, right, sign = right, left, {"<": ">", ">": "<", "<=": ">=", ">=": "<="}.get(sign, sign)
             term = (BINARY, sign, term[3], term[2], term[-1])

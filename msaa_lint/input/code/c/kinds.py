@@ -34,13 +34,17 @@ CLASSES = frozenset({"class_specifier", "struct_specifier", "union_specifier"})
 CHAIN_TESTS = frozenset({"preproc_if", "preproc_ifdef", "preproc_elif", "preproc_elifdef"})
 
 
-def function_declarator(node: SyntaxNode | None) -> SyntaxNode | None:
+def function_declarator(node: SyntaxNode) -> tuple[SyntaxNode | None, SyntaxNode | None]:
+    """Returns the function declarator of a declaration and the name in it; None if there is none."""
+    declarator = node.child_by_field_name("declarator")
     for _ in range(MAX_DEPTH):
-        if node is None or node.type == "function_declarator":
-            return node
-        inner = node.child_by_field_name("declarator")
-        node = inner if inner is not None else next((c for c in node.named_children if c.type.endswith("declarator")), None)
-    return None
+        if declarator is None or declarator.type == "function_declarator":
+            break
+        inner = declarator.child_by_field_name("declarator")
+        declarator = inner or next((child for child in declarator.named_children if child.type.endswith("declarator")), None)
+    else:
+        declarator = None
+    return declarator, declarator.child_by_field_name("declarator") if declarator is not None else None
 
 
 def number(text: str) -> int | float | None:

@@ -150,8 +150,7 @@ class _Reader(Statements):
 
     def note_virtual_methods(self, node: SyntaxNode) -> None:
         if VIRTUAL.search(self.text_of(node)):
-            declarator = function_declarator(node.child_by_field_name("declarator"))
-            name = declarator.child_by_field_name("declarator") if declarator is not None else None
+            _, name = function_declarator(node)
             if name is not None:
                 self.virtual.add(self.text_of(name))
 
@@ -171,26 +170,21 @@ class _Reader(Statements):
                 self.aliases[self.text_of(name)] = text
 
     def note_prototype(self, node: SyntaxNode) -> None:
-        declarator = function_declarator(node.child_by_field_name("declarator"))
-        name = declarator.child_by_field_name("declarator") if declarator is not None else None
+        declarator, name = function_declarator(node)
         if declarator is not None and name is not None:
             parameters = self.parameters(declarator.child_by_field_name("parameters"))
             self.prototypes.setdefault(self.text_of(name).rpartition("::")[2], parameters)
 
     def function_name(self, node: SyntaxNode) -> str:
-        declarator = function_declarator(node.child_by_field_name("declarator"))
-        name = declarator.child_by_field_name("declarator") if declarator is not None else None
-        return self.text_of(name).rpartition("::")[2].strip() if name is not None else ""
+        return self.text_of(function_declarator(node)[1]).rpartition("::")[2].strip()
 
     def function(self, node: SyntaxNode, namespace: str, class_name: str) -> Function | None:
-        declarator = function_declarator(node.child_by_field_name("declarator"))
-        name = declarator.child_by_field_name("declarator") if declarator is not None else None
+        declarator, name = function_declarator(node)
         body = node.child_by_field_name("body")
         if declarator is None or name is None or body is None:
             return None
         qualifier, _, short = self.type_text(name).rpartition("::")
-        return_type = node.child_by_field_name("type")
-        kind = self.type_text(return_type)
+        kind = self.type_text(node.child_by_field_name("type"))
         if kind in ("auto", ""):
             trailing = next((c for c in declarator.named_children if c.type == "trailing_return_type"), None)
             kind = self.type_text(trailing).removeprefix("->") if trailing is not None else kind

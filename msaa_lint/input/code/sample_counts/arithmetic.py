@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from msaa_lint.input.code.operators import COMPARISONS
+
 _NUMBER = re.compile(r"([-+]?)(0[xX][0-9a-fA-F]+|0[bB][01]+|[0-9]+)[uUlL]*")
 
 
@@ -27,10 +29,10 @@ def arithmetic(operator: str, left: int, right: int) -> int | None:
         return (left << right if operator == "<<" else left >> right) if 0 <= right < 32 and 0 <= left < 1 << 32 else None
     if operator == "/":
         return left // right if right > 0 and left >= 0 else None
-    if operator in ("<", ">", "<=", ">=", "==", "!=", "&&", "||"):
-        order = {"<": left < right, ">": left > right, "<=": left <= right, ">=": left >= right, "==": left == right, "!=": left != right}
-        both, either = bool(left) and bool(right), bool(left) or bool(right)
-        return int(order.get(operator, both if operator == "&&" else either))
+    if operator in COMPARISONS:
+        return int(COMPARISONS[operator](left, right))
+    if operator in ("&&", "||"):
+        return int(bool(left and right) if operator == "&&" else bool(left or right))
     if abs(left) >= 1 << 32 or abs(right) >= 1 << 32:
         return None
     return {"&": left & right, "|": left | right, "^": left ^ right, "+": left + right, "-": left - right, "*": left * right}.get(operator)

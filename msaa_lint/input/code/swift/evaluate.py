@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.operators import ARITHMETIC, COMPARISONS
 
 from .calls import evaluate_call
 from .conditions import decide
@@ -13,14 +14,6 @@ from .members import adopt_descriptor, index_of, member_of
 from .terms import BINARY, CALL, CHOICE, CLOSURE, INDEX, LIST, LITERAL, MEMBER, NAME, NOT, TUPLE, Term
 from .values import MAX_ITEMS, NIL, UNKNOWN, Aggregate, Code, Constant, Instance, Symbol, Texture, Value, join
 
-_COMPARED = {
-    "==": lambda a, b: a == b,
-    "!=": lambda a, b: a != b,
-    ">": lambda a, b: a > b,
-    "<": lambda a, b: a < b,
-    ">=": lambda a, b: a >= b,
-    "<=": lambda a, b: a <= b,
-}
 _LARGEST = 1 << 40
 
 
@@ -192,15 +185,11 @@ def _binary(interpreter: Interpreter, term: Term, frame: CallFrame) -> Value:
         return Constant((one == other) == (sign == "=="))
     if not isinstance(one, (int, float)) or not isinstance(other, (int, float)):
         return UNKNOWN
-    if sign in _COMPARED:
-        return Constant(bool(_COMPARED[sign](one, other)))
+    if sign in COMPARISONS:
+        return Constant(bool(COMPARISONS[sign](one, other)))
     result: int | float | None = None
-    if sign == "+":
-        result = one + other
-    elif sign == "-":
-        result = one - other
-    elif sign == "*":
-        result = one * other
+    if sign in ARITHMETIC:
+        result = ARITHMETIC[sign](one, other)
     elif sign == "/" and other:
         result = one // other if isinstance(one, int) and isinstance(other, int) else one / other
     return Constant(result) if result is not None and abs(result) < _LARGEST else UNKNOWN

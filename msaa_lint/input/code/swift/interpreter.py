@@ -120,10 +120,19 @@ class Interpreter:
     def object_at(self, kind: str, name: str, at: Span, path: object, complete: bool) -> MetalObject:
         """Returns the object that is created at a location."""
         key = (kind,) if kind in SHARED else (kind, at.start, at.end, path)
-        metal_object = self.objects.get(key)
-        if metal_object is None:
-            metal_object = self.objects[key] = MetalObject(kind, name, at, complete)
-        return metal_object
+        return self.object_of(key, kind, name, at, complete)
+
+    def object_of(self, key: tuple[object, ...], kind: str, name: str, at: Span, complete: bool) -> MetalObject:
+        """Returns the object with a key, which is created on first use."""
+        if key not in self.objects:
+            self.objects[key] = MetalObject(kind, name, at, complete)
+        return self.objects[key]
+
+    def texture_of(self, key: tuple[object, ...], name: str, type_name: str, at: Span) -> Texture:
+        """Returns the texture with a key, which is created on first use."""
+        if key not in self.textures:
+            self.textures[key] = Texture(name, type_name, at)
+        return self.textures[key]
 
     def reset(self, item: MetalObject) -> None:
         """Resets an object whose creation is executed again."""
@@ -238,11 +247,7 @@ class Interpreter:
 
     def named_texture(self, text: str, function_name: str, at: Span) -> Texture:
         """Returns a texture of which only the name is known."""
-        key = ("named", function_name, text)
-        texture = self.textures.get(key)
-        if texture is None:
-            texture = self.textures[key] = Texture(text, function_name, at)
-        return texture
+        return self.texture_of(("named", function_name, text), text, function_name, at)
 
     def body(self, function: Function) -> tuple[Term, ...]:
         """Returns the statements of a function, which are parsed on demand."""

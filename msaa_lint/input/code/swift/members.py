@@ -76,11 +76,8 @@ def _of_object(interpreter: Interpreter, metal_object: MetalObject, name: str, a
 
 def attachment_slots(interpreter: Interpreter, metal_object: MetalObject, at: Span) -> MetalObject:
     """Returns the color attachment array of a descriptor."""
-    key = ("slots", id(metal_object))
-    slots = interpreter.objects.get(key)
-    if slots is None:
-        slots = interpreter.objects[key] = MetalObject("slots", "", at, True)
-        slots.of = metal_object
+    slots = interpreter.object_of(("slots", id(metal_object)), "slots", "", at, True)
+    slots.of = metal_object
     return slots
 
 
@@ -89,13 +86,9 @@ def attachment_slot(interpreter: Interpreter, metal_object: MetalObject, name: s
     field = interpreter.field(metal_object, name)
     if field is not None:
         return field.value
-    key = ("attachment", id(metal_object), name)
-    attachment = interpreter.objects.get(key)
-    if attachment is None:
-        attachment = interpreter.objects[key] = MetalObject("attachment", name, at, True)
-        attachment.of = metal_object
-    elif attachment.fields:
-        interpreter.reset(attachment)
+    attachment = interpreter.object_of(("attachment", id(metal_object), name), "attachment", name, at, True)
+    attachment.of = metal_object
+    interpreter.reset(attachment)
     metal_object.fields[name] = Field(attachment, at, at, interpreter.root)
     return attachment
 
@@ -190,19 +183,15 @@ def _hold(interpreter: Interpreter, term: Term, metal_object: MetalObject, frame
 
 def drawable(interpreter: Interpreter, at: Span) -> Texture:
     """Returns the texture of the file's drawable."""
-    texture = interpreter.textures.get(("drawable",))
-    if texture is None:
-        texture = interpreter.textures["drawable",] = Texture("drawable", "", at)
-        texture.drawable = True
+    texture = interpreter.texture_of(("drawable",), "drawable", "", at)
+    texture.drawable = True
     return texture
 
 
 def view_texture(interpreter: Interpreter, view: MetalObject, name: str, at: Span) -> Texture:
     """Returns a texture that the view creates and keeps."""
-    texture = interpreter.textures.get((name, "view"))
-    if texture is None:
-        texture = interpreter.textures[name, "view"] = Texture(name, "", at)
-        texture.owner = view
+    texture = interpreter.texture_of((name, "view"), name, "", at)
+    texture.owner = view
     return texture
 
 

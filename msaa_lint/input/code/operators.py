@@ -1,0 +1,11 @@
+"""Operators that the supported languages have in common."""
+
+from __future__ import annotations
+
+import operator
+
+COMPARISONS = {"==": operator.eq, "!=": operator.ne, "<": operator.lt, ">": operator.gt, "<=": operator.le, ">=": operator.ge}
+"""Comparison operators by their spelling."""
+
+ARITHMETIC = {"+": operator.add, "-": operator.sub, "*": operator.mul}
+"""Operators that are defined for all numbers."""
