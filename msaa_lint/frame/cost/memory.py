@@ -58,8 +58,8 @@ def offers_lazy_memory(device: DeviceProfile | None) -> bool:
 def _moved(frame: Frame) -> set[str]:
     """The images that some pass loads or stores."""
     names: set[str] = set()
-    for each in frame.passes:
-        for attachment in each.attachments:
+    for render_pass in frame.passes:
+        for attachment in render_pass.attachments:
             if attachment.used and any(aspect.load == "LOAD" or aspect.store == "STORE" for aspect in attachment.aspects):
                 names.update(target.name for target in attachment.targets if target.image is not None)
     return names

@@ -121,7 +121,7 @@ def _resolve_of_pass(within: Pass, source: Attachment, target: Target, each: Com
 
 def _resolve(within: Pass, source: Attachment, aspect: str, index: int, each: Command) -> Resolve:
     made = Resolve(within.kind, aspect, each, each.path)
-    made.within, made.subpass, made.source, made.source_image = within, index, source, source.target
+    made.render_pass, made.subpass, made.source, made.source_image = within, index, source, source.target
     made.mode = "AVERAGE" if aspect == "color" else "SAMPLE_ZERO"
     return made
 

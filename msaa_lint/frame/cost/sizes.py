@@ -43,21 +43,21 @@ class Sizes:
         self._of_framebuffer: dict[str, tuple[int | None, int | None, int | None]] = {}
         self._of_images: dict[str, tuple[int, int]] | None = None
 
-    def area(self, each: Pass) -> Area:
+    def area(self, render_pass: Pass) -> Area:
         """What a pass renders in a frame."""
         bodies: list[BeginRenderPass | BeginRendering | None]
-        if isinstance(each.record, BeginRendering):
-            bodies = [each.record]
+        if isinstance(render_pass.record, BeginRendering):
+            bodies = [render_pass.record]
         else:
-            begun = (self.frame.commands[position].body for position in each.begun)
+            begun = (self.frame.commands[position].body for position in render_pass.begun)
             bodies = [body for body in begun if isinstance(body, BeginRenderPass)] if self.frame.has_commands else [None]
-        own = self._own(each)
-        layers_of_images = _least_layers([a.targets[0] for a in each.attachments if a.used and a.targets])
+        own = self._own(render_pass)
+        layers_of_images = _least_layers([a.targets[0] for a in render_pass.attachments if a.used and a.targets])
         pixels = layered = 0
         first: tuple[int, int] | None = None
         sized, assumed = True, False
         for body in bodies:
-            width, height, layers = self._begun(each, body, own)
+            width, height, layers = self._begun(render_pass, body, own)
             if width is None or height is None:
                 sized = False
                 continue
@@ -67,20 +67,20 @@ class Sizes:
             first = first or (width, height)
             pixels += width * height
             layered += width * height * layers
-        views = any(subpass.record.viewMask for subpass in each.subpasses)
-        texts = (f"`{each.name}` renders to all {layers_of_images} layers of its images",) if assumed and not views else ()
+        views = any(subpass.record.viewMask for subpass in render_pass.subpasses)
+        texts = (f"`{render_pass.name}` renders to all {layers_of_images} layers of its images",) if assumed and not views else ()
         width, height = first if first is not None else (None, None)
         return Area(len(bodies), pixels, layered, width, height, sized, texts)
 
     def _begun(
-        self, each: Pass, body: BeginRenderPass | BeginRendering | None, own: tuple[int | None, int | None]
+        self, render_pass: Pass, body: BeginRenderPass | BeginRendering | None, own: tuple[int | None, int | None]
     ) -> tuple[int | None, int | None, int | None]:
         """Width, height and layers of one begin."""
         width, height, layers = *own, None
-        if each.kind == RENDERING:
+        if render_pass.kind == RENDERING:
             layers = body.layerCount if isinstance(body, BeginRendering) else None
         else:
-            framebuffer = self._framebuffer(each, body if isinstance(body, BeginRenderPass) else None)
+            framebuffer = self._framebuffer(render_pass, body if isinstance(body, BeginRenderPass) else None)
             if framebuffer is not None:
                 wide, high, layers = self._framebuffer_size(framebuffer)
                 width, height = wide or width, high or height
@@ -90,13 +90,13 @@ class Sizes:
             width, height = _clipped(area.x, area.width, width), _clipped(area.y, area.height, height)
         return width, height, layers
 
-    def _framebuffer(self, each: Pass, body: BeginRenderPass | None) -> Framebuffer | None:
+    def _framebuffer(self, render_pass: Pass, body: BeginRenderPass | None) -> Framebuffer | None:
         """The framebuffer of a begin, the first of several that alternate; the only one of its pass where none is named."""
         named = body.framebuffer if body is not None else None
         if named is not None:
             name = named if isinstance(named, str) else next(iter(named), "")
             return self.frame.description.framebuffers.get(name)
-        return next(iter(self.frame.framebuffers.get(each.name, ())), None)
+        return next(iter(self.frame.framebuffers.get(render_pass.name, ())), None)
 
     def _framebuffer_size(self, framebuffer: Framebuffer) -> tuple[int | None, int | None, int | None]:
         found = self._of_framebuffer.get(framebuffer.key)
@@ -110,11 +110,11 @@ class Sizes:
         return found
 
     @staticmethod
-    def _own(each: Pass) -> tuple[int | None, int | None]:
+    def _own(render_pass: Pass) -> tuple[int | None, int | None]:
         """What a pass's images say of its size."""
-        targets = [target for attachment in each.attachments if attachment.used for target in attachment.targets[:1]]
-        if each.kind == RENDERING:
-            targets += [resolve.target_image for resolve in each.subpasses[0].resolves if resolve.target_image is not None]
+        targets = [target for attachment in render_pass.attachments if attachment.used for target in attachment.targets[:1]]
+        if render_pass.kind == RENDERING:
+            targets += [resolve.target_image for resolve in render_pass.subpasses[0].resolves if resolve.target_image is not None]
         return _least(targets)
 
     def image(self, target: Target) -> tuple[int, int, int] | None:
@@ -130,21 +130,21 @@ class Sizes:
 
     def _sizes_of_images(self) -> dict[str, tuple[int, int]]:
         found: dict[str, tuple[int, int]] = {}
-        for each in self.frame.passes:
-            own = self._own(each)
-            if each.kind == RENDERING:
+        for render_pass in self.frame.passes:
+            own = self._own(render_pass)
+            if render_pass.kind == RENDERING:
                 framebuffers: list[Framebuffer | None] = [None]
             else:
-                framebuffers = [*self.frame.framebuffers.get(each.name, ())] or [None]
+                framebuffers = [*self.frame.framebuffers.get(render_pass.name, ())] or [None]
             for framebuffer in framebuffers:
                 width, height = own
-                targets = [target for attachment in each.attachments for target in attachment.targets]
+                targets = [target for attachment in render_pass.attachments for target in attachment.targets]
                 if framebuffer is not None:
                     wide, high, _ = self._framebuffer_size(framebuffer)
                     width, height = wide or width, high or height
                     targets = [target for target in map(self.frame.target, framebuffer.attachments) if target is not None]
-                elif each.kind == RENDERING:
-                    targets += [r.target_image for r in each.subpasses[0].resolves if r.target_image is not None]
+                elif render_pass.kind == RENDERING:
+                    targets += [r.target_image for r in render_pass.subpasses[0].resolves if r.target_image is not None]
                 width, height = width or self.width, height or self.height
                 if width is not None and height is not None:
                     for target in targets:
@@ -152,12 +152,12 @@ class Sizes:
         return found
 
 
-def views_of(each: Pass, attachment: Attachment) -> int:
+def views_of(render_pass: Pass, attachment: Attachment) -> int:
     """How many views (VkSubpassDescription2::viewMask) render to an attachment; 0 without multiview."""
     used = attachment.color | attachment.depth_stencil | attachment.input | attachment.resolve.keys()
     mask = 0
     for index in used:
-        mask |= each.subpasses[index].record.viewMask or 0
+        mask |= render_pass.subpasses[index].record.viewMask or 0
     return mask.bit_count()
 
 

@@ -76,27 +76,27 @@ class Lines:
         self.unknown[text] = None
 
 
-def pass_lines(each: Pass, area: Area, device: DeviceProfile | None) -> Lines:
+def pass_lines(render_pass: Pass, area: Area, device: DeviceProfile | None) -> Lines:
     """What a pass loads, stores and resolves, all the times that a frame begins it."""
     lines = Lines(device)
     if not area.sized:
         lines.missing("its size: no framebuffer, image or frame states it")
     if area.times == 0 or area.width is None:
         return lines
-    flags = each.record.flags if isinstance(each.record, BeginRendering) else ()
+    flags = render_pass.record.flags if isinstance(render_pass.record, BeginRendering) else ()
     suspends = "SUSPENDING" in flags
-    for attachment in each.attachments:
+    for attachment in render_pass.attachments:
         if attachment.used:
-            _attachment(lines, each, attachment, area, suspends)
-    if each.kind == RENDERING and not suspends:
-        _rendering_resolves(lines, each, area)
+            _attachment(lines, render_pass, attachment, area, suspends)
+    if render_pass.kind == RENDERING and not suspends:
+        _rendering_resolves(lines, render_pass, area)
     return lines
 
 
-def _attachment(lines: Lines, each: Pass, attachment: Attachment, area: Area, suspends: bool) -> None:
+def _attachment(lines: Lines, render_pass: Pass, attachment: Attachment, area: Area, suspends: bool) -> None:
     target = attachment.targets[0] if attachment.targets else None
     image = target.name if target is not None and target.image is not None else ""
-    pixels = _pixels(each, attachment, area)
+    pixels = _pixels(render_pass, attachment, area)
     over: set[str] = set().union(*attachment.resolve.values()) if attachment.resolve else set()
     record, samples = attachment.record, attachment.samples
     for aspect in attachment.aspects:
@@ -125,9 +125,9 @@ def _attachment(lines: Lines, each: Pass, attachment: Attachment, area: Area, su
             lines.add(attachment.name, image, name, samples, samples, action, direction, pixels * texel * samples, place)
 
 
-def _rendering_resolves(lines: Lines, each: Pass, area: Area) -> None:
+def _rendering_resolves(lines: Lines, render_pass: Pass, area: Area) -> None:
     """The resolves at the end of a dynamic rendering: each writes one sample."""
-    for resolve in each.subpasses[0].resolves:
+    for resolve in render_pass.subpasses[0].resolves:
         target, source = resolve.target_image, resolve.source
         if resolve.mode == "NONE" or target is None or source is None:
             continue
@@ -139,12 +139,12 @@ def _rendering_resolves(lines: Lines, each: Pass, area: Area) -> None:
         if texel is None:
             lines.missing(f"`{target.title}`: its format is not known")
             continue
-        size = _pixels(each, source, area) * texel
+        size = _pixels(render_pass, source, area) * texel
         lines.add(target.name, target.name, resolve.aspect, 1, 1, "resolve", "write", size, resolve.target_at)
 
 
-def _pixels(each: Pass, attachment: Attachment, area: Area) -> int:
-    views = views_of(each, attachment)
+def _pixels(render_pass: Pass, attachment: Attachment, area: Area) -> int:
+    views = views_of(render_pass, attachment)
     return area.pixels * views if views else area.layered
 
 

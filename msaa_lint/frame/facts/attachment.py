@@ -10,14 +10,14 @@ from .readers import Readers
 from .walk import flags_of
 
 
-def pass_facts(each: Pass) -> Facts:
+def pass_facts(render_pass: Pass) -> Facts:
     """What holds for all of a pass."""
     facts = Facts()
-    facts.put("pass.kind", each.kind)
-    facts.put("pass.name", each.name)
-    facts.put("pass.partial_area", each.partial_area)
-    facts.put("pass.custom_resolve", each.custom_resolve)
-    facts.put("pass.suspends", "SUSPENDING" in flags_of(each))
+    facts.put("pass.kind", render_pass.kind)
+    facts.put("pass.name", render_pass.name)
+    facts.put("pass.partial_area", render_pass.partial_area)
+    facts.put("pass.custom_resolve", render_pass.custom_resolve)
+    facts.put("pass.suspends", "SUSPENDING" in flags_of(render_pass))
     return facts
 
 
@@ -45,10 +45,10 @@ def attachment_facts(attachment: Attachment, known: bool) -> Facts:
     return facts
 
 
-def resolves_at(each: Pass) -> dict[int, list[Resolve]]:
+def resolves_at(render_pass: Pass) -> dict[int, list[Resolve]]:
     """The resolves of a pass by the attachments, by identity, that they read or write."""
     found: dict[int, list[Resolve]] = {}
-    for subpass in each.subpasses:
+    for subpass in render_pass.subpasses:
         for resolve in subpass.resolves:
             for end in (resolve.source, resolve.target):
                 if end is not None:
@@ -56,7 +56,7 @@ def resolves_at(each: Pass) -> dict[int, list[Resolve]]:
     return found
 
 
-def aspect_facts(each: Pass, attachment: Attachment, aspect: Aspect, resolves: list[Resolve], readers: Readers) -> Facts:
+def aspect_facts(render_pass: Pass, attachment: Attachment, aspect: Aspect, resolves: list[Resolve], readers: Readers) -> Facts:
     """What is known of one aspect: its operations, who resolves it (`resolves` are the attachment's), who reads it later."""
     facts = Facts()
     record = attachment.record
@@ -85,10 +85,10 @@ def aspect_facts(each: Pass, attachment: Attachment, aspect: Aspect, resolves: l
     before = bool(at) and (any(s <= min(at) for s in attachment.input) or any(s < min(at) for s in attachment.depth_stencil))
     facts.put("aspect.read_before_resolve", before)
     facts.put("aspect.read_after_resolve", bool(at) and any(s > min(at) for s in attachment.input | attachment.depth_stencil))
-    read_later = readers.read_later(each, attachment, aspect)
+    read_later = readers.read_later(render_pass, attachment, aspect)
     facts.put("aspect.read_later", read_later)
     facts.put("aspect.readers_known", read_later is not None)
-    store = readers.stored_before(each, attachment, aspect)
+    store = readers.stored_before(render_pass, attachment, aspect)
     facts.put("aspect.stored_by", store.render_pass.name if store else None, store.place if store else None)
     costly = [op for op, costs in (("LOAD", aspect.load == "LOAD"), ("STORE", stored and read_later is False)) if costs]
     facts.put("aspect.costly_operations", costly, record.place(aspect.load_member if "LOAD" in costly else aspect.store_member))

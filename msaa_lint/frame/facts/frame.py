@@ -82,7 +82,7 @@ class Frame:
         for name, record in self.description.renderPasses.items():
             for index, description in enumerate(record.attachments):
                 bound = self._bound(name, index) or [description.image or ""]
-                for target in (self.targets[each] for each in bound if each in self.targets):
+                for target in (self.targets[image] for image in bound if image in self.targets):
                     if target.samples is None:
                         target.samples = description.samples
                     if target.format is None and description.format is not None:
@@ -139,17 +139,19 @@ class Frame:
             if isinstance(command.body, BeginRenderPass) and command.body.renderPass is not None and command.body.framebuffer is not None:
                 names = command.body.framebuffer
                 begun.setdefault(command.body.renderPass, []).extend([names] if isinstance(names, str) else names)
-        used.update({name: [stated[each] for each in dict.fromkeys(names) if each in stated] for name, names in begun.items()})
+        used.update(
+            {name: [stated[framebuffer] for framebuffer in dict.fromkeys(names) if framebuffer in stated] for name, names in begun.items()}
+        )
         return used
 
-    def _subpass(self, within: Pass, record: Subpass, index: int, named: dict[str, Attachment]) -> PassSubpass:
-        made = PassSubpass(within, record, index)
+    def _subpass(self, render_pass: Pass, record: Subpass, index: int, named: dict[str, Attachment]) -> PassSubpass:
+        made = PassSubpass(render_pass, record, index)
 
         def find(reference: AttachmentReference | None) -> Attachment | None:
             if reference is None or reference.attachment is None:
                 return None
             if isinstance(reference.attachment, int):
-                return within.attachments[reference.attachment] if reference.attachment < len(within.attachments) else None
+                return render_pass.attachments[reference.attachment] if reference.attachment < len(render_pass.attachments) else None
             return named.get(reference.attachment)
 
         for reference in record.colorAttachments:
@@ -237,7 +239,7 @@ class Frame:
 
     @staticmethod
     def _joined(made: PassSubpass, resolve: Resolve, index: int) -> None:
-        resolve.within = made.within
+        resolve.render_pass = made.render_pass
         resolve.subpass = index
         resolve.source_image = resolve.source.target if resolve.source is not None else None
         resolve.target_image = resolve.target.target if resolve.target is not None else None
@@ -302,7 +304,7 @@ class Frame:
 
     def _commands(self) -> None:
         rendering: dict[str, list[Attachment]] = {}
-        begins = {position: each for each in self.passes if each.kind == RENDERING for position in each.begun}
+        begins = {position: render_pass for render_pass in self.passes if render_pass.kind == RENDERING for position in render_pass.begun}
         for position, command in enumerate(self.commands):
             body = command.body
             if command.kind in ("beginRendering", "endRendering"):
@@ -321,9 +323,9 @@ class Frame:
                     begun.partial_area = partial if partial or begun.partial_area is False else begun.partial_area
             elif command.kind == "resolveImage" and body is not None:
                 self.resolve_commands.append((position, self._resolve_command(command)))
-        for each in self.passes:
-            if each.kind == RENDERING:
-                each.partial_area = self.partial(each.record, each)
+        for render_pass in self.passes:
+            if render_pass.kind == RENDERING:
+                render_pass.partial_area = self.partial(render_pass.record, render_pass)
 
     def _resolve_command(self, command: Command) -> Resolve:
         body = command.body

@@ -39,19 +39,19 @@ class Bindings:
         self.resolved: set[int] = set()
         """The images that a resolve within a pass writes."""
         self.reads: dict[str, list[ReadImage]] = {}
-        for each in frame.passes:
-            for attachment in each.attachments:
+        for render_pass in frame.passes:
+            for attachment in render_pass.attachments:
                 records = {id(target.record) for target in attachment.targets}
                 for record in records:
                     self.attachments.setdefault(record, []).append(attachment)
-                if each.begun:
+                if render_pass.begun:
                     self.begun |= records
-            targets = [resolve.target_image for subpass in each.subpasses for resolve in subpass.resolves]
+            targets = [resolve.target_image for subpass in render_pass.subpasses for resolve in subpass.resolves]
             self.resolved.update(id(target.record) for target in targets if target is not None)
-        passes = {each.name: each for each in frame.passes if each.kind == RENDER_PASS}
+        passes = {render_pass.name: render_pass for render_pass in frame.passes if render_pass.kind == RENDER_PASS}
         for framebuffer in frame.description.framebuffers.values():
-            within = passes.get(framebuffer.renderPass or "")
-            for attachment, name in zip(within.attachments if within is not None else (), framebuffer.attachments, strict=False):
+            bound_to = passes.get(framebuffer.renderPass or "")
+            for attachment, name in zip(bound_to.attachments if bound_to is not None else (), framebuffer.attachments, strict=False):
                 target = frame.target(name)
                 if target is not None and target not in attachment.targets:
                     self.attachments.setdefault(id(target.record), []).append(attachment)
@@ -192,7 +192,10 @@ def _loaded(bound: list[Attachment], frame: Frame) -> bool | None:
         return None
     if not bound and frame.document.pieces:
         strangers = [
-            a for each in frame.passes for a in each.attachments if a.target is not None and a.target.image is None and a.samples != 1
+            a
+            for render_pass in frame.passes
+            for a in render_pass.attachments
+            if a.target is not None and a.target.image is None and a.samples != 1
         ]
         if any(aspect.load == "LOAD" for attachment in strangers if attachment.used for aspect in attachment.aspects):
             return None

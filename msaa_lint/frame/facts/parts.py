@@ -116,8 +116,21 @@ class Resolve:
     """
 
     __slots__ = (
-        "aspect", "kind", "mode", "mode_at", "pair", "path", "record", "source", "source_at", "source_image", "subpass",
-        "target", "target_at", "target_image", "within",
+        "aspect",
+        "kind",
+        "mode",
+        "mode_at",
+        "pair",
+        "path",
+        "record",
+        "render_pass",
+        "source",
+        "source_at",
+        "source_image",
+        "subpass",
+        "target",
+        "target_at",
+        "target_image",
     )  # fmt: skip
 
     def __init__(self, kind: str, aspect: str, record: Record, path: str) -> None:
@@ -125,7 +138,7 @@ class Resolve:
         self.aspect = aspect
         self.record = record
         self.path = path
-        self.within: Pass | None = None
+        self.render_pass: Pass | None = None
         self.subpass = 0
         self.mode: str | None = None
         self.mode_at: Span = record.head
@@ -142,10 +155,10 @@ class Resolve:
 class PassSubpass:
     """A subpass; a dynamic rendering has one."""
 
-    __slots__ = ("color", "depth_stencil", "index", "path", "record", "resolves", "single_sampled", "single_sampled_count", "within")
+    __slots__ = ("color", "depth_stencil", "index", "path", "record", "render_pass", "resolves", "single_sampled", "single_sampled_count")
 
-    def __init__(self, within: Pass, record: Subpass | BeginRendering, index: int) -> None:
-        self.within = within
+    def __init__(self, render_pass: Pass, record: Subpass | BeginRendering, index: int) -> None:
+        self.render_pass = render_pass
         self.record = record
         self.index = index
         self.path = record.path

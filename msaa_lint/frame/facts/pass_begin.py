@@ -20,7 +20,10 @@ def uses_at_most(frame: Frame) -> int:
             alternating = command.body.framebuffer
             count = len(alternating) if isinstance(alternating, tuple) else 1
             begins[command.body.renderPass] = begins.get(command.body.renderPass, 0) + max(count, 1)
-    return sum(len(each.attachments) * (1 if each.kind == RENDERING else begins.get(each.name, 1)) for each in frame.passes)
+    return sum(
+        len(render_pass.attachments) * (1 if render_pass.kind == RENDERING else begins.get(render_pass.name, 1))
+        for render_pass in frame.passes
+    )
 
 
 def targets_at(frame: Frame, attachment: Attachment, position: int | None) -> list[Target]:
@@ -38,21 +41,21 @@ def one_surface(image: Image | None) -> bool:
     return image is not None and (image.mipLevels or 1) == 1 and (image.arrayLayers or 1) == 1
 
 
-def covers(frame: Frame, each: Pass, position: int | None, target: Target) -> bool:
+def covers(frame: Frame, render_pass: Pass, position: int | None, target: Target) -> bool:
     """Whether it writes to all of an image, unless attachments are left out: no size, layer or mip level that is stated denies it."""
     image = target.image
     if image is None or (image.mipLevels or 1) > 1 or (image.extent is not None and (image.extent.depth or 1) > 1):
         return False
-    record = _body(frame, position) or each.record
-    framebuffers = _named(frame, record) or (frame.framebuffers.get(each.name, []) if each.kind == RENDER_PASS else [])
+    record = _body(frame, position) or render_pass.record
+    framebuffers = _named(frame, record) or (frame.framebuffers.get(render_pass.name, []) if render_pass.kind == RENDER_PASS else [])
     if image.arrayLayers is not None and image.arrayLayers > 1:
-        views = [subpass.record.viewMask.bit_count() for subpass in each.subpasses if subpass.record.viewMask]
+        views = [subpass.record.viewMask.bit_count() for subpass in render_pass.subpasses if subpass.record.viewMask]
         layers: list[int | None] = [*views] or [b.layers for b in framebuffers] or [getattr(record, "layerCount", None)]
         if any(count is None or count < image.arrayLayers for count in layers):
             return False
     area = getattr(record, "renderArea", None)
     if image.extent is None:
-        return frame.partial(record, each) is False
+        return frame.partial(record, render_pass) is False
     for side in ("width", "height"):
         whole: int | None = getattr(image.extent, side)
         drawn: list[int | None] = [getattr(part, side) for part in (*framebuffers, area) if part is not None]

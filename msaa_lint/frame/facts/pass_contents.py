@@ -89,18 +89,24 @@ def pass_contents(walk: Walk) -> PassContents:
                 instance.read.add(body.image)
                 read = frame.target(body.image)
                 instance.reads_samples = instance.reads_samples or read is None or read.samples != 1
-    return {each.path: found[each.path] for each in frame.passes if each.path in found and _work(each, found[each.path]) <= MAX_USES}
+    return {
+        render_pass.path: found[render_pass.path]
+        for render_pass in frame.passes
+        if render_pass.path in found and _work(render_pass, found[render_pass.path]) <= MAX_USES
+    }
 
 
-def _work(each: Pass, instances: list[Instance]) -> int:
+def _work(render_pass: Pass, instances: list[Instance]) -> int:
     """How much is looked through for the attachments of a pass: it grows faster than the input does."""
     recorded = sum(1 + len(i.clears) + len(i.read) + sum(len(pipelines) for pipelines in i.drawn.values()) for i in instances)
-    return len(each.attachments) * (recorded + sum(len(subpass.color) + len(subpass.depth_stencil) for subpass in each.subpasses))
+    return len(render_pass.attachments) * (
+        recorded + sum(len(subpass.color) + len(subpass.depth_stencil) for subpass in render_pass.subpasses)
+    )
 
 
-def _draw(current: Instance, draw: Draw, within: Pass, subpass: int, frame: Frame) -> None:
+def _draw(current: Instance, draw: Draw, render_pass: Pass, subpass: int, frame: Frame) -> None:
     pipeline = frame.description.pipelines.get(draw.pipeline or "")
-    tests = subpass < len(within.subpasses) and bool(within.subpasses[subpass].depth_stencil)
+    tests = subpass < len(render_pass.subpasses) and bool(render_pass.subpasses[subpass].depth_stencil)
     current.drawn.setdefault(subpass, {})[id(pipeline)] = pipeline
     current.first.setdefault(subpass, current.draws)
     current.drawn_at.setdefault(subpass, draw.head)
@@ -108,17 +114,17 @@ def _draw(current: Instance, draw: Draw, within: Pass, subpass: int, frame: Fram
     current.draws += 1
 
 
-def touch_facts(facts: Facts, each: Pass, attachment: Attachment, aspect: Aspect, instances: list[Instance], frame: Frame) -> None:
+def touch_facts(facts: Facts, render_pass: Pass, attachment: Attachment, aspect: Aspect, instances: list[Instance], frame: Frame) -> None:
     """Adds whether anything in the pass touches an aspect, and whether the pass clears it by a command before it draws."""
     untouched = not attachment.used
     if attachment.used and instances and facts.values.get("aspect.resolved") is False:
-        untouched = _untouched(each, attachment, aspect, instances, frame)
-    if attachment.used or each.subpasses or frame.document.whole:
+        untouched = _untouched(render_pass, attachment, aspect, instances, frame)
+    if attachment.used or render_pass.subpasses or frame.document.whole:
         facts.put("aspect.untouched", untouched)
     if untouched:
         needs = aspect.store_member if aspect.store == "STORE" and aspect.load != "LOAD" else aspect.load_member
         facts.places["aspect.untouched"] = attachment.record.place(needs) if attachment.used else attachment.record.head
-    cleared = [_cleared(each, attachment, aspect, instance, frame) for instance in instances] if attachment.drawn else []
+    cleared = [_cleared(render_pass, attachment, aspect, instance, frame) for instance in instances] if attachment.drawn else []
     first = cleared[0] if cleared and None not in cleared else None
     facts.put("aspect.clears_in_pass", first is not None)
     facts.put("aspect.cleared_by_command", first is not None, first)
@@ -126,7 +132,7 @@ def touch_facts(facts: Facts, each: Pass, attachment: Attachment, aspect: Aspect
         facts.put("aspect.clear_command", "clearAttachments", first)
 
 
-def _untouched(each: Pass, attachment: Attachment, aspect: Aspect, instances: list[Instance], frame: Frame) -> bool:
+def _untouched(render_pass: Pass, attachment: Attachment, aspect: Aspect, instances: list[Instance], frame: Frame) -> bool:
     """Whether the draws and clears that are recorded leave an aspect as it was; false where that is not known."""
     enabled = frame.description.enabled
     fetches = enabled is not None and not _FETCHING.isdisjoint(enabled.extensions or ())
@@ -136,11 +142,13 @@ def _untouched(each: Pass, attachment: Attachment, aspect: Aspect, instances: li
     for instance in instances:
         if not instance.says or not instance.read.isdisjoint(t.name for t in targets_at(frame, attachment, instance.position)):
             return False
-        if any(_clears(each, clear, attachment, aspect) for clear in instance.clears):
+        if any(_clears(render_pass, clear, attachment, aspect) for clear in instance.clears):
             return False
         for index in attachment.color | attachment.depth_stencil:
             pipelines = instance.drawn.get(index, {}).values()
-            if any(_touches(pipeline, each.subpasses[index], attachment, aspect, depth_bounds) is not False for pipeline in pipelines):
+            if any(
+                _touches(pipeline, render_pass.subpasses[index], attachment, aspect, depth_bounds) is not False for pipeline in pipelines
+            ):
                 return False
     return True
 
@@ -177,11 +185,11 @@ def _touches(pipeline: Pipeline | None, subpass: PassSubpass, attachment: Attach
     return True if True in answers else None if None in answers else False
 
 
-def _clears(each: Pass, clear: Clear, attachment: Attachment, aspect: Aspect) -> bool:
+def _clears(render_pass: Pass, clear: Clear, attachment: Attachment, aspect: Aspect) -> bool:
     """Whether a clear is of an aspect, or may be."""
-    if clear.subpass >= len(each.subpasses):
+    if clear.subpass >= len(render_pass.subpasses):
         return False
-    subpass, entry = each.subpasses[clear.subpass], clear.cleared
+    subpass, entry = render_pass.subpasses[clear.subpass], clear.cleared
     if aspect.name == "color":
         if "COLOR" not in entry.aspect:
             return False
@@ -190,7 +198,7 @@ def _clears(each: Pass, clear: Clear, attachment: Attachment, aspect: Aspect) ->
     return attachment in subpass.depth_stencil and (aspect.name or "depth").upper() in entry.aspect
 
 
-def _cleared(each: Pass, attachment: Attachment, aspect: Aspect, instance: Instance, frame: Frame) -> Span | None:
+def _cleared(render_pass: Pass, attachment: Attachment, aspect: Aspect, instance: Instance, frame: Frame) -> Span | None:
     """Where a clear of the whole of an aspect is recorded before any draw in a subpass that uses it; None where there is none."""
     if not instance.clears:
         return None
@@ -199,16 +207,20 @@ def _cleared(each: Pass, attachment: Attachment, aspect: Aspect, instance: Insta
     for clear in instance.clears:
         if clear.draws > earliest:
             return None
-        if _clears(each, clear, attachment, aspect) and clear.cleared.aspect and _is_whole(each, attachment, clear, instance, frame):
+        if (
+            _clears(render_pass, clear, attachment, aspect)
+            and clear.cleared.aspect
+            and _is_whole(render_pass, attachment, clear, instance, frame)
+        ):
             return clear.cleared.place("aspect")
     return None
 
 
-def _is_whole(each: Pass, attachment: Attachment, clear: Clear, instance: Instance, frame: Frame) -> bool:
+def _is_whole(render_pass: Pass, attachment: Attachment, clear: Clear, instance: Instance, frame: Frame) -> bool:
     """Whether a clear is certain to cover the render area, in every layer."""
     if clear.cleared.aspect == ("COLOR",) and clear.cleared.colorAttachment is None:
         return False
-    area, layers = _area(each, attachment, instance, frame)
+    area, layers = _area(render_pass, attachment, instance, frame)
     if area is None or layers != 1:
         return False
     left, top, right, bottom = area
@@ -221,14 +233,14 @@ def _is_whole(each: Pass, attachment: Attachment, clear: Clear, instance: Instan
     return False
 
 
-def _area(each: Pass, attachment: Attachment, instance: Instance, frame: Frame) -> tuple[tuple[int, int, int, int] | None, int]:
+def _area(render_pass: Pass, attachment: Attachment, instance: Instance, frame: Frame) -> tuple[tuple[int, int, int, int] | None, int]:
     """The render area that a pass is begun with, the whole of what it renders to where none is stated; and its layers."""
     body = frame.commands[instance.position].body
     names = body.framebuffer if isinstance(body, BeginRenderPass) else ()
     stated = [frame.description.framebuffers.get(name) for name in ((names,) if isinstance(names, str) else names or ())]
     buffers = [buffer for buffer in stated if buffer is not None]
-    if not buffers and each.kind == RENDER_PASS:
-        buffers = frame.framebuffers.get(each.name, [])
+    if not buffers and render_pass.kind == RENDER_PASS:
+        buffers = frame.framebuffers.get(render_pass.name, [])
     layers = max([getattr(body, "layerCount", None) or 1, *(buffer.layers or 1 for buffer in buffers)])
     area = getattr(body, "renderArea", None)
     if area is not None:
@@ -280,9 +292,11 @@ def _whole_mask(mask: tuple[int, ...], samples: int | None) -> bool:
 
 def screen_facts(facts: Facts, subpass: PassSubpass, instances: list[Instance], contents: Contents) -> None:
     """Adds whether all that a subpass draws is the whole picture, with nothing before it that had an edge."""
-    whole = bool(instances) and all(each.full_screen.get(subpass.index) is True and not each.reads_samples for each in instances)
-    whole = whole and contents.timeline.ordered and not subpass.within.custom_resolve
-    reads = whole and all(each.read for each in instances)
+    whole = bool(instances) and all(
+        instance.full_screen.get(subpass.index) is True and not instance.reads_samples for instance in instances
+    )
+    whole = whole and contents.timeline.ordered and not subpass.render_pass.custom_resolve
+    reads = whole and all(instance.read for instance in instances)
     for attachment in (a for a in subpass.color if a is not None) if whole else ():
         alone = attachment.color | attachment.depth_stencil | attachment.input == {subpass.index}
         fresh = all(aspect.load == "DONT_CARE" or (aspect.load == "CLEAR" and reads) for aspect in attachment.aspects)

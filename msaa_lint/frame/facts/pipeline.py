@@ -28,12 +28,12 @@ class Draw(NamedTuple):
     samples_at: Span | None
 
 
-def subpass_of(pipeline: Pipeline, within: Pass | None) -> PassSubpass | None:
+def subpass_of(pipeline: Pipeline, render_pass: Pass | None) -> PassSubpass | None:
     """The subpass that a pipeline is made for, the only one if there is one; None where it is not stated or is for dynamic rendering."""
-    if within is None:
+    if render_pass is None:
         return None
-    index = pipeline.subpass if pipeline.subpass is not None or len(within.subpasses) != 1 else 0
-    return within.subpasses[index] if index is not None and index < len(within.subpasses) else None
+    index = pipeline.subpass if pipeline.subpass is not None or len(render_pass.subpasses) != 1 else 0
+    return render_pass.subpasses[index] if index is not None and index < len(render_pass.subpasses) else None
 
 
 def unshaded(frame: Frame) -> frozenset[tuple[str | None, int]]:

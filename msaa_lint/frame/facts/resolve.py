@@ -35,7 +35,7 @@ def resolve_facts(resolve: Resolve, device: DeviceProfile | None) -> Facts:
     facts.put("resolve.source_encoding", encoding, at)
     facts.put("resolve.source_is_data", encoding == "DATA")
     facts.put("resolve.formats_match", formats_match(resolve, from_format, to_format), resolve.target_at)
-    single = resolve.within is not None and any(s.single_sampled for s in resolve.within.subpasses if s.index == resolve.subpass)
+    single = resolve.render_pass is not None and any(s.single_sampled for s in resolve.render_pass.subpasses if s.index == resolve.subpass)
     facts.put("resolve.single_sampled_render", single)
     _modes(facts, resolve, device)
     return facts
@@ -102,7 +102,7 @@ def formats_match(resolve: Resolve, source: Format | None, target: Format | None
     """
     if source is None or target is None:
         return None
-    if resolve.within is not None and resolve.within.custom_resolve:
+    if resolve.render_pass is not None and resolve.render_pass.custom_resolve:
         return True
     if resolve.kind != "subpass" or resolve.aspect == "color":
         same = source.name == target.name
@@ -125,7 +125,7 @@ def _other_view(resolve: Resolve) -> bool:
 
 def _modes(facts: Facts, resolve: Resolve, device: DeviceProfile | None) -> None:
     pair = resolve.pair
-    facts.put("resolve.first_of_pair", pair is None or pair.within is None or resolve.aspect == "depth")
+    facts.put("resolve.first_of_pair", pair is None or pair.render_pass is None or resolve.aspect == "depth")
     modes = [resolve.mode] if pair is None else [resolve.mode, pair.mode]
     facts.put("resolve.all_modes_none", False if any(m not in (None, "NONE") for m in modes) else None if None in modes else True)
     if resolve.aspect == "color":

@@ -78,7 +78,7 @@ class ResolveUses:
     def _may_be_none(self, resolve: Resolve) -> bool | None:
         """Whether the aspect may go unresolved: beside one that is resolved for a reader, that takes independentResolveNone."""
         pair = resolve.pair
-        if pair is None or pair.mode == "NONE" or pair.within is None or self.is_read(pair) is False:
+        if pair is None or pair.mode == "NONE" or pair.render_pass is None or self.is_read(pair) is False:
             return True
         offered = self.device is not None and (self.device.independent_resolve or self.device.independent_resolve_none)
         if offered or self.device is None:
@@ -87,13 +87,13 @@ class ResolveUses:
 
     def is_read(self, resolve: Resolve) -> bool | None:
         """Whether something reads what a resolve writes, before it is overwritten."""
-        target, within = resolve.target, resolve.within
-        if target is not None and within is not None:
+        target, render_pass = resolve.target, resolve.render_pass
+        if target is not None and render_pass is not None:
             used = (target.color if resolve.aspect == "color" else target.depth_stencil) | target.input
             if any(index > resolve.subpass for index in used) or target.input:
                 return True
             aspect = next((aspect for aspect in target.aspects if aspect.name in (resolve.aspect, None)), None)
-            return self.readers.read_later(within, target, aspect) if aspect is not None else None
+            return self.readers.read_later(render_pass, target, aspect) if aspect is not None else None
         answers = [self._read_at(ref) for ref in self.search.resolved_at(resolve)]
         return True if True in answers else None if not answers or None in answers else False
 

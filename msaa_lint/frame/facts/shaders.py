@@ -49,7 +49,7 @@ class Read(NamedTuple):
 class _Part(NamedTuple):
     """A subpass or rendering as it is recorded: the pass and where it begins, the reads and the pipelines in it (None: not stated)."""
 
-    within: Pass | None
+    render_pass: Pass | None
     begun: int
     reads: list[tuple[int, ReadImage]]
     drawn: dict[str | None, None]
@@ -96,8 +96,8 @@ class Shaders:
             one = state is not None and state.rasterizationSamples == 1 and "RASTERIZATION_SAMPLES_EXT" not in pipeline.dynamicState
             dynamic = "ALPHA_TO_COVERAGE_ENABLE_EXT" in pipeline.dynamicState
             covers = state is not None and state.alphaToCoverageEnable is True and not dynamic
-            within = self.frame.render_pass(pipeline.renderPass)
-            needed = not one or covers or pipeline.key in self._reading or (within is not None and self._has_inputs(within))
+            render_pass = self.frame.render_pass(pipeline.renderPass)
+            needed = not one or covers or pipeline.key in self._reading or (render_pass is not None and self._has_inputs(render_pass))
             found = self._find(stage, covers) if self._find is not None and stage is not None and needed else None
             self._found[pipeline.key] = found if found is not None and found.stage == "FRAGMENT" else None
         return self._found[pipeline.key]
@@ -152,9 +152,9 @@ class Shaders:
                 if read is not None:
                     _fetched(facts, read)
                 yield Subject("read", command.path, command.head, facts, image=target, position=position)
-        for pipeline, within in self.frame.pipelines:
-            if within is not None and self._has_inputs(within):
-                yield from self._input_reads(around, pipeline, within)
+        for pipeline, render_pass in self.frame.pipelines:
+            if render_pass is not None and self._has_inputs(render_pass):
+                yield from self._input_reads(around, pipeline, render_pass)
 
     def _stated(self, position: int, body: ReadImage, target: Target, part: _Part) -> Facts:
         """What the commands say of a read."""
@@ -168,7 +168,7 @@ class Shaders:
         facts.put("read.resolves", body.resolves, body.place("resolves", "samples", "image"))
         several = body.samples == ALL or body.resolves is not None
         facts.put("read.samples", ALL if several else ONE if body.samples == 1 else None, body.place("samples", "resolves", "image"))
-        attached = part.within.attachments if part.within is not None else ()
+        attached = part.render_pass.attachments if part.render_pass is not None else ()
         on_tile = any(target in targets_at(self.frame, attachment, part.begun) for attachment in attached)
         facts.put("read.on_tile", on_tile)
         # As of a vkCmdResolveImage in its place.
@@ -203,7 +203,7 @@ class Shaders:
             if pipeline is None or reflected is None or stage is None:
                 whole = whole and pipeline is not None and discards(pipeline)
                 continue
-            own = _fetched_images(reflected, part.within is not None and part.within.kind == RENDER_PASS)
+            own = _fetched_images(reflected, part.render_pass is not None and part.render_pass.kind == RENDER_PASS)
             if own is not None and len(own) == len(images) and len({image[1:] for image in own}) == 1:
                 found.append(Read(pipeline, stage, own[0]))
             elif own is None or own:
@@ -214,9 +214,9 @@ class Shaders:
         target = self.frame.target(name)
         return target is not None and target.samples != 1
 
-    def _input_reads(self, around: Facts, pipeline: Pipeline, within: Pass) -> Iterator[Subject]:
+    def _input_reads(self, around: Facts, pipeline: Pipeline, render_pass: Pass) -> Iterator[Subject]:
         """The reads of multisampled input attachments by a render pass's pipeline."""
-        subpass, stage, found = subpass_of(pipeline, within), fragment_stage(pipeline), self.of(pipeline)
+        subpass, stage, found = subpass_of(pipeline, render_pass), fragment_stage(pipeline), self.of(pipeline)
         if subpass is None or stage is None or found is None:
             return
         for image in found.images:
@@ -233,9 +233,11 @@ class Shaders:
                 _fetched(facts, Read(pipeline, stage, image))
                 yield Subject("read", stage.path, stage.head, facts, pipeline=pipeline)
 
-    def _has_inputs(self, within: Pass) -> bool:
+    def _has_inputs(self, render_pass: Pass) -> bool:
         """Whether a pass has input attachments of several samples, or of an unknown count."""
-        return within.kind == RENDER_PASS and any(attachment.input and attachment.samples != 1 for attachment in within.attachments)
+        return render_pass.kind == RENDER_PASS and any(
+            attachment.input and attachment.samples != 1 for attachment in render_pass.attachments
+        )
 
 
 def _parts(walk: Walk) -> Iterator[_Part]:
@@ -265,7 +267,7 @@ def _input_attachment(subpass: PassSubpass, index: int | None) -> Attachment | N
     if index is None or index >= len(stated):
         return None
     name = stated[index].attachment
-    found = (each for each in subpass.within.attachments if name in ((each.name, each.index) if name is not None else ()))
+    found = (each for each in subpass.render_pass.attachments if name in ((each.name, each.index) if name is not None else ()))
     return next((each for each in found if each.samples != 1), None)
 
 

@@ -132,16 +132,16 @@ def _decided(answer: bool, known: bool) -> bool | None:
 
 def _own_pipelines(subpass: PassSubpass, walk: Walk) -> list[Pipeline | None]:
     """The pipelines that draw in it: those made for a subpass, those of the draws in a rendering. None where that is not all of them."""
-    frame, within = walk.frame, subpass.within
-    if isinstance(within.record, BeginRendering):
-        elsewhere = any(flag.startswith(("SUSPENDING", "RESUMING", "CONTENTS_SECONDARY")) for flag in within.record.flags)
-        draws = (command.body for run in walk.recorded_runs_of(within) for _, command in run.commands) if not elsewhere else ()
+    frame, render_pass = walk.frame, subpass.render_pass
+    if isinstance(render_pass.record, BeginRendering):
+        elsewhere = any(flag.startswith(("SUSPENDING", "RESUMING", "CONTENTS_SECONDARY")) for flag in render_pass.record.flags)
+        draws = (command.body for run in walk.recorded_runs_of(render_pass) for _, command in run.commands) if not elsewhere else ()
         return [frame.description.pipelines.get(draw.pipeline or "") for draw in draws if isinstance(draw, Draw)]
     if not frame.document.whole:
         return []
-    unstated = 0 if len(within.subpasses) == 1 else None
+    unstated = 0 if len(render_pass.subpasses) == 1 else None
     own: list[Pipeline | None] = []
-    for pipeline in (p for p, w in frame.pipelines if w is within):
+    for pipeline in (p for p, w in frame.pipelines if w is render_pass):
         index = unstated if pipeline.subpass is None else pipeline.subpass
         if index in (subpass.index, None):
             own.append(pipeline if index is not None else None)

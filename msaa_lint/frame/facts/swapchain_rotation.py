@@ -69,34 +69,36 @@ class Turns:
         do not come round in that many."""
         uses: dict[str, set[int]] = {}
         every = set(range(count))
-        for each in self.frame.passes:
-            buffers = self._alternating(each)
+        for render_pass in self.frame.passes:
+            buffers = self._alternating(render_pass)
             if buffers is None or len(buffers) not in (0, 1, count):
                 return None
             for number, framebuffer in enumerate(buffers):
                 for name in framebuffer.attachments:
                     if name is not None:
                         uses.setdefault(name, set()).update({number} if len(buffers) > 1 else every)
-            if not buffers and (each.begun or not self.frame.has_commands):
-                for attachment in each.attachments:
+            if not buffers and (render_pass.begun or not self.frame.has_commands):
+                for attachment in render_pass.attachments:
                     for target in attachment.targets:
                         uses.setdefault(target.name, set()).update(every)
-                for resolve in (resolve for subpass in each.subpasses for resolve in subpass.resolves):
+                for resolve in (resolve for subpass in render_pass.subpasses for resolve in subpass.resolves):
                     if resolve.target_image is not None:
                         uses.setdefault(resolve.target_image.name, set()).update(every)
         # Which of a swapchain's images is presented differs from frame to frame.
-        for command in (each for each in self.frame.commands if each.kind != "present"):
+        for command in (command for command in self.frame.commands if command.kind != "present"):
             for name, _ in accesses(command):
                 uses.setdefault(name, set()).update(every)
         return uses
 
-    def _alternating(self, each: Pass) -> list[Framebuffer] | None:
+    def _alternating(self, render_pass: Pass) -> list[Framebuffer] | None:
         """The framebuffers of a pass, in the frames of a turn; None where several in a row are of one frame."""
         stated = self.frame.description.framebuffers
         if not self.frame.has_commands:
-            return [framebuffer for framebuffer in stated.values() if framebuffer.renderPass == each.name] if each.name else []
+            return (
+                [framebuffer for framebuffer in stated.values() if framebuffer.renderPass == render_pass.name] if render_pass.name else []
+            )
         named: set[tuple[str, ...]] = set()
-        for position in each.begun:
+        for position in render_pass.begun:
             body = self.frame.commands[position].body
             if isinstance(body, BeginRenderPass) and body.framebuffer is not None:
                 named.add((body.framebuffer,) if isinstance(body.framebuffer, str) else tuple(body.framebuffer))
@@ -107,10 +109,10 @@ class Turns:
     @staticmethod
     def _one_each(turns: list[set[int]], count: int) -> bool:
         """Whether in each frame one is used: each has a frame of its own, or one has them all and the others none."""
-        used = [each for each in turns if each]
+        used = [frames for frames in turns if frames]
         if len(used) == 1:
             return len(used[0]) == count
-        return len(used) == count and all(len(each) == 1 for each in used) and len(set().union(*used)) == count
+        return len(used) == count and all(len(frames) == 1 for frames in used) and len(set().union(*used)) == count
 
     @staticmethod
     def _begins_anew(group: list[Target], bindings: Bindings) -> bool:

@@ -75,8 +75,8 @@ def _drop_from_rendering(record: Record) -> list[Change]:
 
 def _drop_from_subpass(resolve: Resolve) -> list[Change]:
     record, slot = resolve.record, _SLOT.search(resolve.path)
-    if isinstance(record, DepthStencilResolve) and resolve.within is not None:
-        return [Change(resolve.within.subpasses[resolve.subpass].record, "depthStencilResolve", "unset")]
+    if isinstance(record, DepthStencilResolve) and resolve.render_pass is not None:
+        return [Change(resolve.render_pass.subpasses[resolve.subpass].record, "depthStencilResolve", "unset")]
     if not isinstance(record, Subpass) or slot is None:
         raise NoFix("the resolve is not stated in a subpass")
     index = int(slot[1])
@@ -138,9 +138,9 @@ def _redirect(resolve: Resolve, target: Image, copy: int, context: FixContext) -
     if isinstance(record, RenderingAttachment):
         return [Change(record, "resolveImage", "set", target.key)]
     attachment = resolve.target
-    if attachment is None or not isinstance(attachment.record, AttachmentDescription) or resolve.within is None:
+    if attachment is None or not isinstance(attachment.record, AttachmentDescription) or resolve.render_pass is None:
         raise NoFix("the resolve is not stated in a subpass")
-    framebuffers = context.framebuffers.get(resolve.within.name, [])
+    framebuffers = context.framebuffers.get(resolve.render_pass.name, [])
     if len(framebuffers) > 1:
         raise NoFix("the pass has several framebuffers")
     changes = [Change(framebuffer, "attachments", "replace", (attachment.index, target.key)) for framebuffer in framebuffers]
