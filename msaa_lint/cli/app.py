@@ -82,7 +82,7 @@ def rule(
     output: Annotated[Literal["text", "markdown", "json"], typer.Option("--output", help="Output format.")] = "text",
     rules: Annotated[list[str] | None, typer.Option("--rules", metavar="PATH", help="Page or folder of custom rules.")] = None,
 ) -> None:
-    """Explain a rule: why it matters, what it costs, good and bad examples."""
+    """Explain a rule, or list all rules."""
     from .rule import explain_rule, list_rules
 
     raise typer.Exit(list_rules(rules or [], output) if all_rules or name is None else explain_rule(name, rules or [], output))
@@ -109,7 +109,7 @@ def facts(
     output: Annotated[Literal["text", "json", "markdown"], typer.Option("--output", help="Output format.")] = "text",
     profile: Annotated[str | None, typer.Option("--profile", metavar="NAME", help="Device to assume for an input that names none.")] = None,
 ) -> None:
-    """Show the facts that rules can use, or the values they have in an input."""
+    """List facts that rules can use, or their values in an input."""
     from .facts import print_facts, print_reference
 
     raise typer.Exit(print_reference(output) if path is None else print_facts(path, output, profile))
@@ -125,7 +125,9 @@ def convert(
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
 ) -> None:
-    """Convert a capture, source code, or render targets to a description that can be read, edited, fixed, and confirmed.
+    """Convert a capture or source code to a description.
+
+    The description can be read, edited, fixed, and confirmed. Render targets are converted to plain descriptions, too.
 
     Exits with 0, or with 2 if the input has mistakes or a capture is truncated; the part that can be read is still written.
     """
@@ -165,7 +167,7 @@ def baseline(
 def init(
     folder: Annotated[str, typer.Argument(help="Folder to write to.")] = ".",
 ) -> None:
-    """Write a commented configuration and a first description, and print a pre-commit hook."""
+    """Write a commented configuration and a first description."""
     from .init import init as write
 
     raise typer.Exit(write(folder))

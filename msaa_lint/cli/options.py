@@ -71,7 +71,7 @@ def _output(formats: str, default: str = "full") -> Option:
 
 COMMANDS = {
     "check": Command(
-        """Lint descriptions, captures, source code, pipeline JSON, and folders of them.
+        """Lint descriptions, captures, source code, and folders.
 
         Exits with 0 if there are no findings, 1 if there are, and 2 if an input, the configuration, or msaa-lint failed.
         """,
@@ -79,9 +79,9 @@ COMMANDS = {
             *_RULES,
             Option("edition", "text", "Use the default rules of this edition.", "EDITION"),
             _PROFILE,
-            Option("fail_on", "choice", "Lowest severity that exits with 1.  [default: warning]", choices=LEVELS),
+            Option("fail_on", "choice", "Lowest severity that makes the exit code 1.  [default: warning]", choices=LEVELS),
             Option("fail_on_cost", "text", "Exit with 1 if an input's findings cost this much: 50MB/s, 100mW, 16MiB.", "BUDGET"),
-            Option("fail_confidence", "choice", "Lowest confidence that exits with 1.  [default: medium]", choices=CONFIDENCES),
+            Option("fail_confidence", "choice", "Lowest confidence that makes the exit code 1.  [default: medium]", choices=CONFIDENCES),
             Option("fix", "flag", "Apply safe fixes in place; for `-`, print the fixed text."),
             Option("unsafe_fixes", "flag", "With --fix or --diff: include fixes that may change the picture."),
             Option("diff", "flag", "Print what --fix would change without writing it; exit with 1 if there is a change."),
@@ -100,7 +100,9 @@ COMMANDS = {
         ),
     ),
     "cost": Command(
-        """Show what a frame costs: MB/s, MiB, and mW per pass and attachment; or what a change adds.
+        """Show what a frame costs in bandwidth, memory, and power.
+
+        Prints MB/s, MiB, and mW by pass and attachment, or for two files, what the second adds.
 
         Exits with 0, or with 2 if an input, an option, the configuration, or msaa-lint failed; the other inputs are still shown.
         """,
@@ -119,7 +121,9 @@ COMMANDS = {
         "Files and folders; - is standard input. Exactly two files are compared: what the second adds.",
     ),
     "confirm": Command(
-        """Render inputs on a Vulkan device: are they created, does the validation layer agree, do fixes keep the picture?
+        """Render inputs on a Vulkan device to confirm their findings.
+
+        Reports whether passes are created, whether the validation layer agrees, and whether safe fixes keep the picture.
 
         Exits with 0 if everything is confirmed, 1 if something disagrees or a driver died, and 2 if an input or the environment failed.
         """,
@@ -145,9 +149,10 @@ COMMANDS = {
         standalone=("list_devices",),
     ),
     "study": Command(
-        """Show what accuracy costs in time: the error of 1 to 16 samples, sample shading, and supersampling.
+        """Measure the error and cost of sampling techniques.
 
-        Studies scenes by name (--list-scenes), meshes (.obj, .ply), and descriptions. Exits with 0, or with 2 if something failed.
+        Compares 1 to 16 samples, sample shading, and supersampling with the exact picture, for scenes by name (--list-scenes), meshes
+        (.obj, .ply), and descriptions. Exits with 0, or with 2 if something failed.
         """,
         (
             Option("list_scenes", "flag", "List the scenes, and exit."),
