@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.frame.description.models import Command
@@ -85,17 +85,3 @@ class Aliases:
 
 def _origin(node: Node) -> int:
     return id(node.anchor or node)
-
-
-def nested_records(value: object) -> Iterator[Record]:
-    """The records in a value: itself if it is one, and all that it holds."""
-    if isinstance(value, Record):
-        yield value
-        for member in value.SHAPE if not isinstance(value, Command) else ("body",):
-            yield from nested_records(getattr(value, member))
-    elif isinstance(value, tuple):
-        for item in value:
-            yield from nested_records(item)
-    elif isinstance(value, dict):
-        for item in value.values():
-            yield from nested_records(item)

@@ -12,7 +12,8 @@ from msaa_lint.frame.facts.parts import Attachment, Pass, Resolve
 from msaa_lint.frame.facts.subjects import FrameAnalysis
 
 from .changes import Change
-from .image_references import CommandUses, ImageReferences, MetalTextureReferences
+from .command_uses import CommandUses
+from .references import References
 
 Wait = SubpassDependency | PipelineBarrier
 
@@ -36,8 +37,10 @@ class FixContext:
         return CommandUses(self.frame)
 
     @cached_property
-    def references(self) -> ImageReferences:
-        return ImageReferences(self.frame)
+    def references(self) -> References:
+        """What names images or, for a frame in Metal's terms, textures."""
+        description = self.document.description
+        return References(description, "images") if description.metal is None else References(description.metal, "metal.textures")
 
     @property
     def metal(self) -> Metal:
@@ -51,10 +54,6 @@ class FixContext:
         """Where the Vulkan records come from, for a frame in Metal's terms."""
         assert self.document.metal is not None
         return self.document.metal
-
-    @cached_property
-    def texture_references(self) -> MetalTextureReferences:
-        return MetalTextureReferences(self.metal)
 
     @cached_property
     def commands_at(self) -> dict[Span, list[tuple[int, int | None]]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from msaa_lint.frame.description.models import MetalTexture
+from msaa_lint.frame.description.models import MetalCopy, MetalTexture
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.metal import stated_for
@@ -135,14 +135,19 @@ def resolve_to_copy(subject: Subject, context: FixContext) -> list[Change]:
     between, target = copied_images(subject)
     if between not in metal.textures or target not in metal.textures:
         raise NoFix("the description does not declare both textures of the copy")
-    copies = context.texture_references.copies.get((between, target), [])
+    copies = [
+        copy
+        for copy in context.references.records(between)
+        if isinstance(copy, MetalCopy) and (copy.source, copy.destination) == (between, target)
+    ]
     if len(copies) != 1:
         raise NoFix("the texture is copied more than once")
+    position = next(n for n, command in enumerate(metal.commands or ()) if command is not None and command.body is copies[0])
     texture = metal.textures[target]
-    changes = [Change(record, "resolveTexture", "set", target), Change(metal, "commands", "drop", copies[0])]
+    changes = [Change(record, "resolveTexture", "set", target), Change(metal, "commands", "drop", position)]
     if texture.usage is not None and "renderTarget" not in texture.usage and "unknown" not in texture.usage:
         changes.append(Change(texture, "usage", "add", "renderTarget"))
-    if context.texture_references.counts[between] == 2:
+    if not context.references.has_others(between, [record, copies[0]]):
         changes.append(Change(metal, "textures", "drop", list(metal.textures).index(between)))
     return changes
 

@@ -17,8 +17,8 @@ from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import AttachmentConfig, AttachmentConfigMSAA, Description, RenderTarget
 from msaa_lint.frame.description.record import Record
 
-from .aliases import nested_records
 from .changes import Change, NoFix
+from .references import nested_records
 
 MAX_WORDS = 4
 """How many words of one fix are tried. A fix that concerns more is not a matter of a single word."""

@@ -16,9 +16,10 @@ from msaa_lint.frame.description.scalars import enumerant
 from msaa_lint.frame.description.shapes import Shape
 from msaa_lint.frame.vulkan.enums import VALUES
 
-from .aliases import Aliases, Member, Requests, all_request, nested_records, requests
+from .aliases import Aliases, Member, Requests, all_request, requests
 from .changes import Change, NoFix
 from .layout import CollectionEditor
+from .references import nested_records
 from .spelling import Spelling
 from .text_scanner import TextScanner
 from .value_writer import ValueWriter, quote_scalar

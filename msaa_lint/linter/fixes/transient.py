@@ -13,8 +13,8 @@ from msaa_lint.frame.facts.image import BESIDE_TRANSIENT
 from msaa_lint.frame.facts.parts import Aspect, Attachment
 
 from .changes import Change, NoFix
+from .command_uses import COMMAND_USAGES
 from .context import FixContext
-from .image_references import COMMAND_USAGES
 from .subject_parts import described_image
 
 

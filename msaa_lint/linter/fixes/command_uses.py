@@ -1,0 +1,64 @@
+"""Which commands of a frame use which images, and which usages that takes."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections import Counter
+from collections.abc import Iterator
+
+from msaa_lint.frame.description.models import Command
+from msaa_lint.frame.facts.commands import accesses, naming_records
+from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.frame.facts.pass_begin import MAX_USES, targets_at, uses_at_most
+
+COMMAND_USAGES = frozenset({"TRANSFER_SRC", "TRANSFER_DST", "SAMPLED", "STORAGE"})
+"""The usages whose need can be seen from the commands alone."""
+
+
+class CommandUses:
+    """Which commands use which images, by position. Empty, with `complete` False, for a frame with more uses than are tracked."""
+
+    def __init__(self, frame: Frame) -> None:
+        self._usages: dict[str, Counter[str]] = {}
+        self._positions: dict[str, list[int]] = {}
+        self.in_barriers: set[str] = set()
+        """The images that barriers name."""
+        self.complete = uses_at_most(frame) <= MAX_USES
+        self.positions: dict[int, int] = {}
+        """The position of each command, by the identity of its parameters."""
+        begins = {position: begun for begun in frame.passes for position in begun.begun}
+        for position, command in enumerate(frame.commands if self.complete else ()):
+            self.positions[id(command.body)] = position
+            names = {name for _, name in naming_records(command)}
+            if command.kind == "pipelineBarrier":
+                self.in_barriers |= names
+            if position in begins:
+                attachments = begins[position].attachments
+                names.update(target.name for attachment in attachments for target in targets_at(frame, attachment, position))
+            for name in names:
+                self._positions.setdefault(name, []).append(position)
+            for name, usage in _needed_usages(command):
+                self._usages.setdefault(name, Counter())[usage] += 1
+
+    def needed_usages(self, name: str, without: Command | None = None) -> set[str]:
+        """The usages that the commands, except `without`, require of an image. A read counts as both SAMPLED and STORAGE."""
+        counts = Counter(self._usages.get(name, {}))
+        if without is not None:
+            counts.subtract(usage for image, usage in _needed_usages(without) if image == name)
+        return {usage for usage, count in counts.items() if count > 0}
+
+    def next_use(self, name: str, position: int) -> int | None:
+        """The position of the first command after `position` that uses an image."""
+        positions = self._positions.get(name, [])
+        following = bisect_right(positions, position)
+        return positions[following] if following < len(positions) else None
+
+    def used_between(self, name: str, start: int, end: int) -> bool:
+        """Whether a command from `start` up to, but not including, `end` uses an image."""
+        positions = self._positions.get(name, [])
+        first = bisect_left(positions, start)
+        return first < len(positions) and positions[first] < end
+
+
+def _needed_usages(command: Command) -> Iterator[tuple[str, str]]:
+    return ((name, usage) for name, access in accesses(command) for usage in access.usages)
