@@ -377,7 +377,7 @@ def test_a_module_that_is_none(tmp_path: Path, content: bytes, message: str) -> 
 def test_a_module_that_is_a_folder(tmp_path: Path) -> None:
     (tmp_path / "shaders" / "own.frag.spv").mkdir(parents=True)
     code, message, _ = one_problem(tmp_path, pipeline("own.frag", NEEDED))
-    assert (code, message) == ("MSAA903", "`shaders/own.frag.spv` cannot be read: it is a folder, no file")
+    assert (code, message) == ("MSAA903", "`shaders/own.frag.spv` cannot be read: it is a folder, not a regular file")
 
 
 def test_a_module_that_is_too_large(tmp_path: Path) -> None:

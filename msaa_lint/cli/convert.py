@@ -6,7 +6,7 @@ import os
 import sys
 from collections.abc import Mapping
 
-from msaa_lint.core.text.emitter import written
+from msaa_lint.core.text.emitter import emit
 from msaa_lint.core.text.source import Source, Unreadable, decode
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.input.opening import load
@@ -65,7 +65,7 @@ def _convert_text(name: str, data: bytes, format: str | None) -> str:
     if all(document.tree is None for document in documents):
         raise _ConvertError(f"{name}: nothing to convert: `check` reads this input directly")
     trees = [document.tree if document.tree is not None else root for document, root in zip(documents, parsed.documents, strict=True)]
-    return "---\n".join(map(written, trees))
+    return "---\n".join(map(emit, trees))
 
 
 def _convert_source(code: SourceFile, output: str | None, force: bool) -> None:
@@ -80,7 +80,7 @@ def _convert_source(code: SourceFile, output: str | None, force: bool) -> None:
             warn(f"{where}: {note}")
     head = f"# Read from {escape(code.source.name)}; what it does not state is left out.\n"
     modules = {name: module for document in documents for name, module in document.modules.items()}
-    _write(head + "---\n".join(map(written, trees)), modules, output, force)
+    _write(head + "---\n".join(map(emit, trees)), modules, output, force)
 
 
 def _write(text: str, modules: Mapping[str, bytes], output: str | None, force: bool) -> None:

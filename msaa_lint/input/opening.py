@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, BinaryIO
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
-from msaa_lint.core.text.files import opened
+from msaa_lint.core.text.files import open_regular
 from msaa_lint.core.text.node import Limits
 from msaa_lint.core.text.source import Unreadable
 
@@ -52,7 +52,7 @@ def load(
     if path == STDIN:
         stream: BinaryIO = sys.stdin.buffer if data is None else io.BytesIO(data)
         return _load(stream, None, limits, name or "<stdin>", format, None)
-    file, size = opened(path)
+    file, size = open_regular(path)
     with file:
         return _load(file, size, limits, name or path, format, os.path.abspath(path))
 

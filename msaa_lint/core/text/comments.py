@@ -1,4 +1,4 @@
-"""The comments of a YAML text: libyaml drops them, so they are what is left between the scalars."""
+"""The comments of a YAML text. libyaml drops them; they are found between the scalars."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from .span import Span
 
 
 class Comment(NamedTuple):
-    """A comment from its # to the end of its line."""
+    """A comment, from its # to the end of its line."""
 
     span: Span
     text: str
@@ -32,15 +32,14 @@ class Comment(NamedTuple):
 
 _COMMENT = re.compile(r"#[^\r\n]*")
 _HEADER = re.compile(r"[|>][-+0-9]*[ \t]*(?=#)")
-_AROUND = (StreamStartToken, StreamEndToken, DirectiveToken, DocumentStartToken, DocumentEndToken, BlockEndToken)
-"""Tokens that hold nothing of a document."""
+_OUTSIDE = (StreamStartToken, StreamEndToken, DirectiveToken, DocumentStartToken, DocumentEndToken, BlockEndToken)
+"""Tokens outside the content of a document."""
 
 
 def comments(source: Source, roots: Iterable[Node]) -> list[Comment]:
-    """Every comment of the documents of a text, in order, before and after them too.
+    """Every comment of a text in order, also before and after its documents.
 
-    `roots` are the documents that could be read. In one that could not, there is no telling what is a comment: the search ends where it
-    begins.
+    `roots` are the documents that could be read. Comments cannot be told apart in one that could not: the search ends where it begins.
     """
     text = source.text
     return [
@@ -51,7 +50,7 @@ def comments(source: Source, roots: Iterable[Node]) -> list[Comment]:
 
 
 def _between(text: str, known: int) -> Iterator[tuple[int, int]]:
-    """The spans between scalars, and the ends of the lines on which block scalars begin, up to the first document after `known`."""
+    """The spans between scalars, and the line ends after the headers of block scalars, up to the first document after `known`."""
     position = 0
     try:
         for token in iter(parser(readable(text)[0]).get_token, None):
@@ -64,7 +63,7 @@ def _between(text: str, known: int) -> Iterator[tuple[int, int]]:
                 if header is not None:
                     end = _COMMENT.match(text, header.end())
                     yield header.end(), end.end() if end is not None else header.end()
-            if start >= known and kind not in _AROUND:
+            if start >= known and kind not in _OUTSIDE:
                 yield position, start
                 return
         yield position, len(text)

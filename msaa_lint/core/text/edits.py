@@ -1,4 +1,4 @@
-"""Edits by span: what is not edited stays as it is, byte for byte."""
+"""Edits by span. The rest of the text stays as it is, byte for byte."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from .span import Edit
 
 
 class Overlap(ValueError):
-    """Two edits claim the same text, or insert at the same place."""
+    """Two edits replace the same text, or insert at the same place."""
 
 
 def apply(text: str, edits: Iterable[Edit]) -> str:
-    """The text with the edits made, in whatever order they come.
+    """The text with the edits applied; their order does not matter.
 
-    What is inserted where another edit begins or ends stands before or after what that edit puts there. Overlap where two claim the same
-    text; ValueError where one is not within the text.
+    An insertion where another edit begins or ends goes before or after that edit's text. Raises Overlap if two edits replace the same text,
+    and ValueError if one is not within the text.
     """
     out: list[str] = []
     done = 0

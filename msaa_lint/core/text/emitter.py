@@ -1,4 +1,4 @@
-"""A tree as YAML: what reads back as the same tree. Short structures stand in a line, the others over several."""
+"""A tree as YAML that reads back as the same tree. Short structures take one line, others several."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from .node import Node
 from .scalars import WORDS, resolve
 
 WIDTH = 140
-"""Columns of a line; only a long scalar makes a longer one."""
+"""Columns of a line; only a long scalar exceeds them."""
 
 MAX_KEY = 1000
-"""Characters of a key in front of its value: YAML 1.2 (section 7.4.2) has a limit of 1024 for those."""
+"""Characters of a key on the line of its value; YAML 1.2 (section 7.4.2) limits them to 1024."""
 
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_./-]*(?: [A-Za-z0-9_./-]+)*")
 _PLAIN_KEY = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]*")
@@ -20,22 +20,22 @@ _PRINTABLE = re.compile("[\t\n\r -~\xa0-\u2027\u202a-\ud7ff\ue000-\ufefe\uff00-\
 _ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\r": "\\r", "\t": "\\t", "\0": "\\0"}
 
 
-def written(root: Node) -> str:
-    """The text of a document, with a line end; anchors and aliases are written out.
+def emit(root: Node) -> str:
+    """The text of a document, with a line end; aliases are expanded.
 
-    A mapping that holds mappings, or is deep or long, is written over several lines, a member each.
+    A mapping that contains mappings, or is deep or long, takes one line per member.
     """
     lines: list[str] = []
-    # What is still to be written, the next one last: the line up to a value, how far the lines below it are indented, and the value.
-    todo: list[tuple[str, int, Node]] = [("", 0, root)]
+    # A stack: the line up to a value, the indentation of the lines below it, and the value.
+    pending: list[tuple[str, int, Node]] = [("", 0, root)]
     sizes = _sizes(root)
-    while todo:
-        head, indent, node = todo.pop()
+    while pending:
+        head, indent, node = pending.pop()
         members = node.value
         if node.kind == "scalar" or not members or _in_line(head, node, sizes, top=not head):
             lines.append(f"{head} {_flow(node)}" if head else _flow(node))
             continue
-        # A list's first member may stand on the line of its dash; what a key has in front of it may not.
+        # A structure may begin on the line of a dash, but not on the line of a key.
         if head.endswith("-"):
             head += " "
         elif head:
@@ -54,52 +54,52 @@ def written(root: Node) -> str:
         else:
             for value in members:
                 below.append((f"{head if not below and head else pad}-", indent + 2, value))
-        todo.extend(reversed(below))
+        pending.extend(reversed(below))
     return "\n".join(lines) + "\n"
 
 
 def _sizes(root: Node) -> dict[int, tuple[int, int, bool]]:
-    """Of every structure by its identity: how long it is in one line (at least what is more than a line), how deep structures stand in it,
-    and whether a mapping in it holds further ones."""
+    """For each structure by identity: its length on one line (cut off above WIDTH), how deep structures nest in it, and whether it contains
+    a mapping."""
     order: list[Node] = []
-    todo = [root]
-    while todo:
-        node = todo.pop()
+    pending = [root]
+    while pending:
+        node = pending.pop()
         if node.kind != "scalar":
             order.append(node)
-            todo.extend(node.value.values() if node.kind == "mapping" else node.value)
-    found: dict[int, tuple[int, int, bool]] = {}
+            pending.extend(node.value.values() if node.kind == "mapping" else node.value)
+    sizes: dict[int, tuple[int, int, bool]] = {}
     for node in reversed(order):
         length, depth, nested = 2, 1, False
-        inner = node.value.items() if node.kind == "mapping" else ((None, each) for each in node.value)
+        inner = node.value.items() if node.kind == "mapping" else ((None, item) for item in node.value)
         for key, value in inner:
             length += 2 + (len(key) + 2 if key is not None else 0)
             if value.kind == "scalar":
                 length += len(value.text)
             else:
-                own = found[id(value)]
-                length += own[0]
-                depth = max(depth, own[1] + 1)
+                inner_length, inner_depth, _ = sizes[id(value)]
+                length += inner_length
+                depth = max(depth, inner_depth + 1)
                 nested = nested or value.kind == "mapping"
             if length > WIDTH:
                 length = WIDTH + 1
-        found[id(node)] = (length, depth, nested)
-    return found
+        sizes[id(node)] = (length, depth, nested)
+    return sizes
 
 
 def _in_line(head: str, node: Node, sizes: dict[int, tuple[int, int, bool]], top: bool) -> bool:
-    """Whether a structure may stand in the line of what is before it: no section, which holds mappings, no item of one
-    member, no list of several mappings."""
+    """Whether a structure may continue the line before it. Sections (which contain mappings), list items with one member and lists of
+    several mappings may not."""
     length, depth, nested = sizes[id(node)]
     section = node.kind == "mapping" and nested and not head.startswith(" ")
     section = section or (node.kind == "mapping" and len(node.value) == 1 and head.endswith("-"))
-    section = section or (node.kind == "sequence" and sum(each.kind == "mapping" for each in node.value) > 1)
-    # Quotes and escapes make it longer than was counted.
+    section = section or (node.kind == "sequence" and sum(item.kind == "mapping" for item in node.value) > 1)
+    # The length counts neither quotes nor escapes.
     return not (top or section or depth > 2 or length > WIDTH) and len(head) + 1 + len(_flow(node)) <= WIDTH
 
 
 def _flow(node: Node) -> str:
-    """A value in one line; only what is a line long at most, or empty, comes here as a structure."""
+    """A value on one line."""
     if node.kind == "mapping":
         return "{" + ", ".join(f"{_key(key)}: {_flow(value)}" for key, value in node.value.items()) + "}"
     if node.kind == "sequence":
@@ -108,7 +108,7 @@ def _flow(node: Node) -> str:
 
 
 def _scalar(node: Node) -> str:
-    """A scalar that reads back as its value."""
+    """The text that reads back as the value of a scalar."""
     value = node.value
     if isinstance(value, str):
         return value if _PLAIN.fullmatch(value) and value.lower() not in _WORDS and resolve(value) == value else _quoted(value)
@@ -128,7 +128,7 @@ def _key(text: str) -> str:
 
 
 def _quoted(text: str) -> str:
-    """A text in double quotes, with what YAML does not allow in a stream escaped."""
+    """The text in double quotes, with the characters that YAML forbids in a stream escaped."""
     return '"' + "".join(_escaped(character) for character in text) + '"'
 
 

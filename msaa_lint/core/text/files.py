@@ -1,4 +1,4 @@
-"""Bytes of a file, no more than a limit, and of nothing that is no file."""
+"""The bytes of regular files, up to a limit."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ _KINDS = {
     stat.S_IFBLK: "a device",
 }
 
-# Nothing may wait for a pipe's other end, should one take a file's place after it was looked at.
+# O_NONBLOCK: a pipe that replaces a file after the check must not block.
 _FLAGS = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
 
 
-def opened(path: str) -> tuple[BinaryIO, int]:
-    """A file for reading, and its size in bytes. OSError where it cannot be opened or is no file."""
+def open_regular(path: str) -> tuple[BinaryIO, int]:
+    """A file, open for reading, and its size in bytes. Raises OSError if it cannot be opened or is not a regular file."""
     try:
-        _regular(os.stat(path).st_mode)
+        _check_regular(os.stat(path).st_mode)
     except ValueError as error:
-        raise OSError(f"no file can have that name: {error}") from None
+        raise OSError(f"invalid file name: {error}") from None
     file = open(os.open(path, _FLAGS), "rb")  # noqa: SIM115 - the caller closes it
     status = os.fstat(file.fileno())
     try:
-        _regular(status.st_mode)
+        _check_regular(status.st_mode)
     except OSError:
         file.close()
         raise
@@ -38,10 +38,10 @@ def opened(path: str) -> tuple[BinaryIO, int]:
 
 
 def read(path: str, limits: Limits) -> bytes:
-    """The bytes of a file. OSError where it cannot be read or is no file; Unreadable where it is larger than the limit."""
-    file, size = opened(path)
+    """The bytes of a file. Raises OSError if it cannot be read or is not a regular file, and Unreadable if it exceeds the limit."""
+    file, size = open_regular(path)
     with file:
-        # Its size first: Python sets aside as much memory as it is asked to read. A file of the kernel's, or one that grows, has more.
+        # Python allocates as much memory as it is asked to read. Files in /proc, and files that grow, have more than their stated size.
         data = file.read(min(size, limits.bytes) + 1)
         if len(data) > size:
             data += file.read(limits.bytes + 1 - len(data))
@@ -50,6 +50,6 @@ def read(path: str, limits: Limits) -> bytes:
     return data
 
 
-def _regular(mode: int) -> None:
+def _check_regular(mode: int) -> None:
     if not stat.S_ISREG(mode):
-        raise OSError(f"it is {_KINDS.get(stat.S_IFMT(mode), 'something else')}, no file")
+        raise OSError(f"it is {_KINDS.get(stat.S_IFMT(mode), 'a special file')}, not a regular file")

@@ -6,9 +6,9 @@ from .node import Node, Stop
 
 
 def merge(node: Node) -> None:
-    """Where `<<` stands in a mapping now stands what the bases have, the earlier before the later; what is stated beside it wins.
+    """Replaces `<<` in a mapping with the members of its bases. Earlier bases override later ones, the mapping's own members override both.
 
-    The nodes are shared. They are within the limits: whoever named the bases has counted them, and more than is named is not copied.
+    Nodes are shared, and were counted against the limits where the bases are named.
     """
     key, merged = node.keys["<<"], node.value["<<"]
     if not key.plain:
@@ -16,7 +16,7 @@ def merge(node: Node) -> None:
     bases = merged.value if merged.kind == "sequence" else [merged]
     for base in bases:
         if base.kind != "mapping":
-            raise Stop("MSAA903", "`<<` merges a mapping, or a list of mappings", base.start, max(base.end, base.start + 1))
+            raise Stop("MSAA903", "`<<` must be a mapping or a list of mappings", base.start, max(base.end, base.start + 1))
     values: dict[str, Node] = {}
     keys: dict[str, Node] = {}
     for name, value in node.value.items():

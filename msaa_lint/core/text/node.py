@@ -1,4 +1,4 @@
-"""What a text is read into: nodes that know their places, and what is wrong with it."""
+"""The tree of a text: nodes that know their places, and the problems of the text."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from .span import Label, Span
 
 
 class Limits(NamedTuple):
-    """How deep an input nests; how many nodes it has, keys too, once aliases are expanded, in all its documents; how many bytes."""
+    """Limits of an input: its nesting, its nodes (keys included, aliases expanded, all documents together), its bytes."""
 
     depth: int = 100
     nodes: int = 1_000_000
@@ -16,7 +16,7 @@ class Limits(NamedTuple):
 
 
 class Problem(NamedTuple):
-    """What is wrong with a text as such: the code of a 9xx finding, and where."""
+    """A problem of a text: the code of a 9xx finding, a message and a place."""
 
     code: str
     message: str
@@ -25,7 +25,7 @@ class Problem(NamedTuple):
 
 
 class Parsed(NamedTuple):
-    """The documents of a text, whole ones only, and what is wrong with it. After a syntax error nothing further is read."""
+    """The complete documents of a text, and its problems. Nothing is read after a syntax error."""
 
     documents: list[Node]
     problems: list[Problem]
@@ -39,16 +39,15 @@ class Stop(Exception):
 
 
 NO_KEYS: dict[str, Node] = {}
-"""The keys of what is no mapping."""
+"""The keys of a node that is not a mapping; shared, so never changed."""
 
 
 class Node:
     """A mapping, a sequence or a scalar, and its place as offsets into the text.
 
-    `value` is a dict of nodes in order, a list of nodes, or the scalar by YAML 1.2; `keys` has the key nodes of a mapping; `text` a
-    scalar as it was written, unquoted; `plain` says that it had no quotes. An alias is a node at its own place that shares the value of
-    `anchor`. The place is without the blanks, comments and line ends after it, and with the anchor and the tag before it: what replaces
-    `&a 4` replaces the anchor.
+    `value` is a dict of nodes in order, a list of nodes, or a scalar's value in YAML 1.2; `keys` has the key nodes of a mapping; `text` is
+    a scalar as written, without quotes; `plain` says that it has none. An alias is a node at its own place that shares the value of
+    `anchor`. A place includes the anchor and the tag before a node, but not the blanks, comments and line ends after it.
     """
 
     __slots__ = ("anchor", "end", "keys", "kind", "plain", "start", "text", "value")

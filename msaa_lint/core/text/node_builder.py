@@ -1,4 +1,4 @@
-"""Trees that are made and not read: of programs, of another API's words, of a shorthand. Every node knows where its reason stands."""
+"""Builds trees from something other than their own text: source code, Metal frames, shorthands. Each node has the place of its origin."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def sequence(items: Sequence[Node], at: Span) -> Node:
 
 
 def mapping(items: Iterable[tuple[str, Span, Node]], at: Span) -> Node:
-    """A mapping at a place: its keys, where each of them is said to stand, and their values; of a key that comes twice the first counts."""
+    """A mapping at a place, of keys with their places and values. The first of equal keys counts."""
     keys: dict[str, Node] = {}
     values: dict[str, Node] = {}
     for key, place, value in items:
@@ -32,5 +32,5 @@ def mapping(items: Iterable[tuple[str, Span, Node]], at: Span) -> Node:
 
 
 def words(values: Iterable[str], at: Span) -> Node:
-    """A list of words that all stand at one place."""
+    """A list of words, all at the same place."""
     return sequence([scalar(value, at) for value in values], at)

@@ -1,4 +1,4 @@
-"""The events of PyYAML's own parser, for where libyaml is missing: the same, about thirteen times slower."""
+"""PyYAML's own parser with the events of libyaml's, for installations without libyaml; about thirteen times slower."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _BLANKS = "\0 \t" + _BREAKS
 
 
 class PureParser(Reader, Scanner, Parser):
-    """Reader, scanner and parser in one, as PyYAML's loaders are put together; what it reads otherwise than libyaml is made the same."""
+    """Reader, scanner and parser in one, as in PyYAML's loaders. Each override is a difference from libyaml."""
 
     def __init__(self, text: str) -> None:
         Reader.__init__(self, text)
@@ -29,7 +29,7 @@ class PureParser(Reader, Scanner, Parser):
         return event
 
     def scan_to_next_token(self) -> None:
-        """Tabs separate tokens where they cannot be taken for indentation; a byte order mark may begin a line."""
+        """Tabs separate tokens where they cannot be mistaken for indentation; a line may begin with a byte order mark."""
         while True:
             if self.column == 0 and self.peek() == "\ufeff":
                 self.forward()
@@ -45,7 +45,7 @@ class PureParser(Reader, Scanner, Parser):
                 self.allow_simple_key = True
 
     def scan_block_scalar_indicators(self, start_mark: Any) -> tuple[bool | None, int | None]:
-        """After these, a comment may follow at once."""
+        """A comment may follow without a space."""
         chomping: bool | None = None
         increment: int | None = None
         while True:
@@ -59,7 +59,7 @@ class PureParser(Reader, Scanner, Parser):
             self.forward()
 
     def scan_block_scalar_ignored_line(self, start_mark: Any) -> None:
-        """Tabs are blanks here too."""
+        """Tabs are skipped like spaces."""
         while self.peek() in " \t":
             self.forward()
         if self.peek() == "#":
@@ -71,7 +71,7 @@ class PureParser(Reader, Scanner, Parser):
         self.scan_line_break()  # type: ignore[no-untyped-call]
 
     def scan_block_scalar_indentation(self) -> Any:
-        """The first line may not begin with a tab."""
+        """The first line must not begin with a tab."""
         found: Any = super().scan_block_scalar_indentation()
         if self.peek() == "\t":
             problem = "found a tab character where an indentation space is expected"
@@ -79,7 +79,7 @@ class PureParser(Reader, Scanner, Parser):
         return found
 
     def scan_flow_scalar_non_spaces(self, double: bool, start_mark: Any) -> list[str]:
-        """An escape is a character, and no half of one."""
+        """An escape must not be half of a surrogate pair."""
         try:
             chunks: list[str] = super().scan_flow_scalar_non_spaces(double, start_mark)
         except (ValueError, OverflowError):
@@ -89,7 +89,7 @@ class PureParser(Reader, Scanner, Parser):
         return chunks
 
     def scan_plain(self) -> ScalarToken:
-        """Tabs may stand in a plain scalar, and in a collection of the flow style `?` too, but no `:` before `,[]{}`."""
+        """A plain scalar may contain tabs and, in a flow collection, `?`, but no `:` before `,[]{}`."""
         chunks: list[str] = []
         start = end = self.get_mark()
         indent = self.indent + 1
@@ -123,7 +123,7 @@ class PureParser(Reader, Scanner, Parser):
         return ScalarToken("".join(chunks), True, start, end)
 
     def _plain_spaces(self, indent: int, start: Any) -> list[str]:
-        """The white space within or after a plain scalar, folded."""
+        """The white space within or after a plain scalar, with line breaks folded."""
         blanks = ""
         breaks: list[str] = []
         while self.peek() in " \t" + _BREAKS:

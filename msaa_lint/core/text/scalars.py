@@ -1,4 +1,4 @@
-"""Plain scalars by YAML 1.2's core schema: `on` and `no` are texts, `010` is ten."""
+"""Plain scalars in YAML 1.2's core schema: `on` and `no` are strings, `010` is ten."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ WORDS: dict[str, Scalar] = {
 }  # fmt: skip
 
 MAX_DIGITS = 40
-"""Digits of a whole number: a longer one stays text, as turning it into an integer takes time that grows with its square."""
+"""Digits of an integer. A longer one stays a string, as the time to convert it grows with the square of its length."""
 
 MAX_FLOAT = 400
-"""Characters of a number with a point or an exponent: the longest that C's `%f` writes has 317. A longer one stays text."""
+"""Characters of a number with a point or an exponent; the longest that C's `%f` writes has 317. A longer one stays a string."""
 
 _STARTS = frozenset("0123456789+-.")
 _BASED = rf"0o[0-7]{{1,{MAX_DIGITS}}}|0x[0-9a-fA-F]{{1,{MAX_DIGITS}}}"

@@ -7,9 +7,9 @@ from bisect import bisect_right
 from collections.abc import Sequence
 from typing import NamedTuple
 
-# Compiled where they are used, as most runs use none of them.
+# Compiled where they are used, which is rare.
 _LINE_END = r"\r\n|\r|\n"
-# What YAML 1.2 (section 5.1) does not allow in a stream.
+# The characters that YAML 1.2 (section 5.1) forbids in a stream.
 _FORBIDDEN = "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ud800-\udfff\ufffe\uffff]"
 _ALLOWED_ASCII = bytes([9, 10, 13, *range(32, 127)])
 
@@ -18,7 +18,7 @@ _NAMES = {"utf-8": "UTF-8", "utf-16-le": "UTF-16", "utf-16-be": "UTF-16"}
 
 
 class Unreadable(ValueError):
-    """Input that is no text, or too much of it: what is wrong and where, in words; `offset` is the byte, where it is about one."""
+    """An input that is not text or is too large. `offset` is that of the invalid byte, if there is one."""
 
     def __init__(self, message: str, offset: int | None = None) -> None:
         super().__init__(message)
@@ -26,15 +26,18 @@ class Unreadable(ValueError):
 
 
 class Position(NamedTuple):
-    """A place as people count: from 1, columns in code points."""
+    """A line and a column, both counted from 1, columns in code points."""
 
     line: int
     column: int
 
 
 class Origin(NamedTuple):
-    """Where a line of a text is from that was made of a capture: the place of the call (1-based; None in a binary capture), its index, its
-    name, and in how many frames of how many what it states is in use; None where that is not counted."""
+    """The origin of a line in a text that was made from a capture.
+
+    `line` and `column` are the place of the call (None in a binary capture), `call` its index and `by` its name; `frames` of `of` frames
+    use what the line states (None if that was not counted).
+    """
 
     line: int | None
     column: int | None
@@ -45,9 +48,9 @@ class Origin(NamedTuple):
 
 
 class Source:
-    """A decoded text and the name that reports call it by. Lines end as in YAML: \\n, \\r\\n or a lone \\r.
+    """A decoded text and its name in reports. Lines end as in YAML: \\n, \\r\\n or a lone \\r.
 
-    `origins`, where the text was made of a capture, has one entry a line: the call that it is from.
+    `origins` has the call that each line comes from, if the text was made from a capture.
     """
 
     __slots__ = ("_starts", "name", "origins", "text")
@@ -59,7 +62,7 @@ class Source:
         self._starts: list[int] | None = None
 
     def origin(self, offset: int) -> Origin | None:
-        """The call that the line at an offset is from; None where it is from none, and in a text that was not made of a capture."""
+        """The call that the line at an offset comes from; None if there is none."""
         if self.origins is None:
             return None
         line = self.position(offset).line
@@ -74,7 +77,7 @@ class Source:
 
     @property
     def line_count(self) -> int:
-        """How many lines there are; a line end at the end of the text begins no further one, but in an empty text."""
+        """The number of lines, at least 1. A line end at the end of the text does not begin another line."""
         starts = self.starts
         return len(starts) - (1 if len(starts) > 1 and starts[-1] == len(self.text) else 0)
 
@@ -91,7 +94,7 @@ class Source:
 
 
 def decode(data: bytes) -> str:
-    """The text of an input: UTF-8, or UTF-16 with a byte order mark; the mark is taken off. Unreadable where it is neither."""
+    """The text of an input in UTF-8, or in UTF-16 with a byte order mark, without the mark. Raises Unreadable if it is neither."""
     mark, encoding = _encoding(data)
     body = data[len(mark) :] if mark else data
     try:
@@ -100,12 +103,12 @@ def decode(data: bytes) -> str:
         before = Source("", body[: error.start].decode(encoding))
         place = before.position(len(before.text))
         offset = len(mark) + error.start
-        message = f"the input is no {_NAMES[encoding]}: byte {offset} (line {place.line}, column {place.column}): {error.reason}"
+        message = f"the input is not {_NAMES[encoding]}: byte {offset} (line {place.line}, column {place.column}): {error.reason}"
         raise Unreadable(message, offset) from None
 
 
 def encode(text: str, like: bytes) -> bytes:
-    """The bytes of a text in the encoding of `like`, with a byte order mark where that has one: what `decode` undoes."""
+    """The bytes of a text in the encoding of `like`, with a byte order mark if `like` has one; the inverse of `decode`."""
     mark, encoding = _encoding(like)
     return mark + text.encode(encoding)
 
@@ -118,8 +121,8 @@ def _encoding(data: bytes) -> tuple[bytes, str]:
 
 
 def forbidden(text: str) -> int | None:
-    """The offset of the first character that YAML forbids; None where there is none."""
-    # Most descriptions are ASCII, and bytes are looked through seven times as fast.
+    """The offset of the first character that YAML forbids; None if there is none."""
+    # Most descriptions are ASCII, and bytes are searched seven times as fast.
     if text.isascii() and not text.encode().translate(None, _ALLOWED_ASCII):
         return None
     match = re.search(_FORBIDDEN, text)

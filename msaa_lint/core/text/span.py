@@ -1,17 +1,17 @@
-"""Places in a text, and replacements of what stands there."""
+"""Places in a text, and replacements of the text there."""
 
 from typing import NamedTuple
 
 
 class Span(NamedTuple):
-    """A place in a text input: half-open, in code points from the start of the decoded text."""
+    """A place in a text: a half-open range in code points from the start of the decoded text."""
 
     start: int
     end: int
 
 
 class Label(NamedTuple):
-    """A secondary place of a finding in the same file, with what it has to say."""
+    """A secondary place of a finding in the same file, and a note about it."""
 
     span: Span
     text: str

@@ -1,8 +1,10 @@
-"""Tags: those of YAML's core schema are taken where they agree with what they stand at, all others are refused."""
+"""Tags: those of YAML's core schema are accepted if they match their value; all others are rejected."""
 
 from __future__ import annotations
 
 import re
+
+from msaa_lint.core.quote import quoted
 
 from .node import Node, Problem
 from .scalars import resolve
@@ -15,30 +17,29 @@ _BEFORE = re.compile(r"(?:[ \t\r\n]|(?<=[ \t\r\n])#[^\r\n]*|&[^\s,\[\]{}]+)*")
 _TAG = re.compile(r"!<[^>\s]*>|![^\s,\[\]{}]*")
 
 
-def bare(node: Node, text: str) -> bool:
-    """Whether a scalar without quotes has the tag `!`, which makes it a text: parsers do not tell."""
-    return _written(node, text) is not None
+def has_bare_tag(node: Node, text: str) -> bool:
+    """Whether an unquoted scalar has the tag `!`, which makes it a string; parsers do not report that tag."""
+    return _tag_place(node, text) is not None
 
 
-def tagged(node: Node, tag: str, text: str) -> Problem | None:
-    """Gives a node the value that its tag says; the problem where it has none."""
+def apply_tag(node: Node, tag: str, text: str) -> Problem | None:
+    """Gives a node the value that its tag asks for; returns the problem if it cannot have it."""
     core = tag.removeprefix(_PREFIX)
     if tag == "!":
-        # The same as none, but that a scalar is a text.
-        _agrees(node, "str")
+        # It only makes a scalar a string.
+        _matches(node, "str")
         return None
-    span = _written(node, text) or Span(node.start, node.start)
-    written = text[span.start : span.end]
-    shown = written if len(written) <= 80 else written[:79] + "…"
+    span = _tag_place(node, text) or Span(node.start, node.start)
+    shown = quoted(text[span.start : span.end])
     if core == tag or core not in _KINDS:
-        return Problem("MSAA903", f"the tag `{shown}` is not taken here: only those of YAML's core schema are", span)
-    if node.kind != _KINDS[core] or not _agrees(node, core):
-        return Problem("MSAA903", f"the tag `{shown}` does not agree with what it stands at", span)
+        return Problem("MSAA903", f"the tag {shown} is not supported; use only tags of YAML's core schema", span)
+    if node.kind != _KINDS[core] or not _matches(node, core):
+        return Problem("MSAA903", f"the tag {shown} does not match its value", span)
     return None
 
 
-def _agrees(node: Node, core: str) -> bool:
-    """Whether a node of the right kind is what its tag says; a scalar then has that value."""
+def _matches(node: Node, core: str) -> bool:
+    """Whether a node of the right kind matches its tag; a scalar then gets that value."""
     if node.kind != "scalar":
         return True
     if core == "str":
@@ -53,8 +54,8 @@ def _agrees(node: Node, core: str) -> bool:
     return True
 
 
-def _written(node: Node, text: str) -> Span | None:
-    """Where the tag of a node stands, before or after its anchor."""
+def _tag_place(node: Node, text: str) -> Span | None:
+    """The place of the tag of a node, before or after its anchor."""
     before = _BEFORE.match(text, node.start)
     match = _TAG.match(text, before.end() if before is not None else node.start)
     return Span(*match.span()) if match is not None else None

@@ -65,7 +65,7 @@ class TestDepth:
         text = opening * (100_000 if stack == "libyaml" else 1_000)
         problem = trouble(text)
         assert len(events_read) < 400
-        assert problem == ("MSAA906", "nesting is deeper than the limit of 100", Span(at, at + 1), ())
+        assert problem == ("MSAA906", "the nesting exceeds the limit of 100", Span(at, at + 1), ())
 
     def test_indented_ever_further(self) -> None:
         text = "".join(" " * depth + "a:\n" for depth in range(300))
@@ -116,7 +116,7 @@ class TestNodes:
     def test_all_are_counted_once_aliases_are_expanded(self, text: str, count: int) -> None:
         assert [p.code for p in reading(text, nodes=count).problems] == [p.code for p in reading(text).problems]
         problems = reading(text, nodes=count - 1).problems
-        assert (problems[-1].code, problems[-1].message) == ("MSAA906", f"more nodes than the limit of {count - 1}, aliases expanded")
+        assert (problems[-1].code, problems[-1].message) == ("MSAA906", f"the number of nodes with aliases expanded exceeds the limit of {count - 1}")
 
     def test_an_alias_bomb(self, events_read: list[Any]) -> None:
         lines = ["a0: &a0 [x, x, x, x, x, x, x, x, x, x]"]
@@ -204,7 +204,7 @@ def test_ten_megabytes_of_one_scalar(before: str, after: str) -> None:
     ("text", "code"),
     [
         ("{}: 1", None),
-        ('{{"{}": 1}}', "a key is on one line with its `:`, and has at most 1024 characters"),
+        ('{{"{}": 1}}', "a key must be on the line of its `:` and have at most 1024 characters"),
         ("'{}': 1", ""),
         ("? {}\n: 1", None),
         ("'{}", "unexpected end of stream"),
@@ -288,8 +288,8 @@ def test_binary() -> None:
         data = noise.randbytes(size)
         problem = trouble(data.decode("latin-1") + "\0")
         assert problem.code == "MSAA901"
-        assert "may not stand in YAML or JSON" in problem.message
-        with pytest.raises(Unreadable, match="no UTF-8"):
+        assert "is not allowed in YAML or JSON" in problem.message
+        with pytest.raises(Unreadable, match="not UTF-8"):
             decode(b"\x89" + data)
 
 

@@ -87,7 +87,7 @@ class TestSurrogates:
     def test_half_a_pair_is_no_character(self, text: str, at: int) -> None:
         problem = trouble(text)
         assert (problem.code, tuple(problem.span)) == ("MSAA901", (at, at + 6))
-        assert problem.message == f"`{text[at : at + 6]}` is half of a surrogate pair, and no character"
+        assert problem.message == f"`{text[at : at + 6]}` is half of a surrogate pair, not a character"
 
 
 CHARACTERS = st.characters(exclude_categories=["Cs"]).filter(lambda c: forbidden(c) is None)

@@ -32,13 +32,13 @@ def test_only_one_mark_is_taken_off() -> None:
 @pytest.mark.parametrize(
     ("data", "offset", "said"),
     [
-        (b"a: 1\nb: \xff\n", 8, "no UTF-8: byte 8 (line 2, column 4)"),
-        (b"\xef\xbb\xbfa\r\n\xc3(", 6, "no UTF-8: byte 6 (line 2, column 1)"),
-        ("é".encode() + b"\xed\xa0\x80", 2, "no UTF-8: byte 2 (line 1, column 2)"),
-        (b"\xc0\x80", 0, "no UTF-8: byte 0 (line 1, column 1)"),
-        (b"a\xe2\x82", 1, "no UTF-8: byte 1 (line 1, column 2)"),
-        (codecs.BOM_UTF16_LE + b"a\0\n\0\0\xd8b\0", 6, "no UTF-16: byte 6 (line 2, column 1)"),
-        (codecs.BOM_UTF16_BE + b"\0a\0", 4, "no UTF-16: byte 4 (line 1, column 2)"),
+        (b"a: 1\nb: \xff\n", 8, "not UTF-8: byte 8 (line 2, column 4)"),
+        (b"\xef\xbb\xbfa\r\n\xc3(", 6, "not UTF-8: byte 6 (line 2, column 1)"),
+        ("é".encode() + b"\xed\xa0\x80", 2, "not UTF-8: byte 2 (line 1, column 2)"),
+        (b"\xc0\x80", 0, "not UTF-8: byte 0 (line 1, column 1)"),
+        (b"a\xe2\x82", 1, "not UTF-8: byte 1 (line 1, column 2)"),
+        (codecs.BOM_UTF16_LE + b"a\0\n\0\0\xd8b\0", 6, "not UTF-16: byte 6 (line 2, column 1)"),
+        (codecs.BOM_UTF16_BE + b"\0a\0", 4, "not UTF-16: byte 4 (line 1, column 2)"),
     ],
 )
 def test_what_is_no_text_is_refused_at_its_byte(data: bytes, offset: int, said: str) -> None:

@@ -158,7 +158,7 @@ class TestDocuments:
     def test_an_anchor_ends_with_its_document(self) -> None:
         problem = trouble("a: &x 1\n---\nb: *x\n")
         assert (problem.code, problem.span) == ("MSAA901", Span(15, 17))
-        assert "no anchor `&x`" in problem.message
+        assert "anchor `&x` is not defined" in problem.message
 
     def test_those_before_a_mistake_are_kept(self) -> None:
         documents, problems = reading("a: 1\n---\nb: 2\n---\nc: [\n---\nd: 4\n")
@@ -196,10 +196,10 @@ class TestAliases:
     @pytest.mark.parametrize(
         ("text", "span", "said"),
         [
-            ("a: &a [*a]", (7, 9), "`&a` holds itself"),
-            ("a: &a {b: {c: [1, *a]}}", (18, 20), "`&a` holds itself"),
-            ("&a a: *a\nb: &b\n  c: *b", (20, 22), "`&b` holds itself"),
-            ("a: *b\nb: &b 1", (3, 5), "no anchor `&b` stands before this alias"),
+            ("a: &a [*a]", (7, 9), "the anchor `&a` contains itself"),
+            ("a: &a {b: {c: [1, *a]}}", (18, 20), "the anchor `&a` contains itself"),
+            ("&a a: *a\nb: &b\n  c: *b", (20, 22), "the anchor `&b` contains itself"),
+            ("a: *b\nb: &b 1", (3, 5), "the anchor `&b` is not defined before this alias"),
         ],
     )
     def test_aliases_of_nothing_whole(self, text: str, span: tuple[int, int], said: str) -> None:
@@ -258,9 +258,9 @@ class TestKeys:
         assert plain(root) == {"a": 1, "b": {"c": 1}}
         assert text[root.start : root.end] == text[:-7]
         assert [(p.code, p.span, p.labels) for p in problems] == [
-            ("MSAA905", Span(15, 18), (Label(Span(0, 1), "first here"),)),
-            ("MSAA905", Span(27, 28), (Label(Span(0, 1), "first here"),)),
-            ("MSAA905", Span(35, 36), (Label(Span(5, 6), "first here"),)),
+            ("MSAA905", Span(15, 18), (Label(Span(0, 1), "first defined here"),)),
+            ("MSAA905", Span(27, 28), (Label(Span(0, 1), "first defined here"),)),
+            ("MSAA905", Span(35, 36), (Label(Span(5, 6), "first defined here"),)),
         ]
         assert "`a`" in problems[0].message
 
@@ -287,7 +287,7 @@ class TestKeys:
     def test_a_key_is_a_scalar(self, text: str, span: tuple[int, int], kind: str) -> None:
         problem = trouble(text)
         assert (problem.code, problem.span) == ("MSAA901", span)
-        assert problem.message == f"a {kind} cannot be a key: a key is a scalar"
+        assert problem.message == f"a {kind} cannot be a key; use a scalar"
 
     def test_odd_keys(self) -> None:
         assert plain(one('{"": 1, 0: 2, ~: 3, true: 4, "a\\nb": 5, ? x : 6, 1.5: 7}')) == {
@@ -356,7 +356,7 @@ class TestTags:
         assert problem.code == "MSAA903"
         assert text[problem.span.start : problem.span.end] == tag
         assert problem.span.start == 3 + written.index(tag)
-        assert f"`{tag}` is not taken" in problem.message
+        assert f"`{tag}` is not supported" in problem.message
 
     @pytest.mark.parametrize(
         "written",

@@ -300,7 +300,7 @@ def test_a_malformed_record_is_said_to_be(beside: Path, edit: Any, words: str) -
         (b"{} \n---\n{}", ": one JSON object is due"),
         (b"{", "line 1"),
         (b"\xff\xfe\x00", "UTF-16"),
-        (b"\xff", ": it is no UTF-8"),
+        (b"\xff", ": it is not UTF-8"),
         (b"[" * 100_000, "nest"),
         (b"{" * 20, "line 1"),
         (b'{"schema": 1, "schema": 2}', "`schema`"),
@@ -332,10 +332,10 @@ def test_what_is_no_file_is_not_read(beside: Path, tmp_path_factory: pytest.Temp
     record = Path(path_of(str(beside)))
     record.unlink()
     record.mkdir()
-    assert of(beside).state == UNUSABLE and "it is a folder, no file" in of(beside).says
+    assert of(beside).state == UNUSABLE and "it is a folder, not a regular file" in of(beside).says
     record.rmdir()
     os.mkfifo(record)
-    assert "it is a pipe, no file" in of(beside).says
+    assert "it is a pipe, not a regular file" in of(beside).says
     record.unlink()
     record.symlink_to(tmp_path_factory.mktemp("elsewhere") / "secret")
     assert of(beside).says == "frame.msaa.yaml.msaa-study.json leaves the project"

@@ -117,10 +117,10 @@ def test_what_is_no_file_is_not_read(project: Path) -> None:
     (project / "large.json").write_bytes(b" " * (MAX_BYTES + 1))
     (project / "bytes.json").write_bytes(b'{"a": "\xff"}')
     (project / "words.txt").write_text("hello")
-    assert named(project, "pipe.json") == Problem("MSAA903", "`pipe.json` cannot be read: it is a pipe, no file")
-    assert named(project, "a.json") == Problem("MSAA903", "`a.json` cannot be read: it is a folder, no file")
+    assert named(project, "pipe.json") == Problem("MSAA903", "`pipe.json` cannot be read: it is a pipe, not a regular file")
+    assert named(project, "a.json") == Problem("MSAA903", "`a.json` cannot be read: it is a folder, not a regular file")
     assert named(project, "large.json") == Problem("MSAA903", "`large.json` cannot be read: it is larger than 8 MiB")
-    for name, reason in (("bytes.json", "no UTF-8: byte 7"), ("words.txt", "no report of a device")):
+    for name, reason in (("bytes.json", "not UTF-8: byte 7"), ("words.txt", "no report of a device")):
         found = named(project, name)
         assert isinstance(found, Problem)
         assert found.code == "MSAA903"

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from msaa_lint.core.text.emitter import written
+from msaa_lint.core.text.emitter import emit
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
@@ -22,7 +22,7 @@ def read(text: str, language: str = "cpp", fragments: bool = False) -> dict[str,
     """What a program is read as, without places."""
     found = trees(Code(ascii_only(text), language, fragments))
     assert len(found) <= 1
-    made = yaml.safe_load(written(found[0].tree)) if found else {}
+    made = yaml.safe_load(emit(found[0].tree)) if found else {}
     assert isinstance(made, dict)
     return made
 
@@ -196,7 +196,7 @@ class Scene {{
 def test_what_is_read_is_a_description_without_mistakes(path: Path) -> None:
     text = path.read_bytes().decode()
     for found in trees(Code(ascii_only(text), "c" if path.suffix == ".c" else "cpp")):
-        parsed = parse(Source("read.yaml", written(found.tree)), Limits())
+        parsed = parse(Source("read.yaml", emit(found.tree)), Limits())
         assert not parsed.problems
 
 

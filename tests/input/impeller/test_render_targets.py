@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from msaa_lint import lint
-from msaa_lint.core.text.emitter import written
+from msaa_lint.core.text.emitter import emit
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.document import Document
@@ -389,7 +389,7 @@ def test_hostile_names_and_many_targets() -> None:
     made = read("renderTargets:\n" + "".join(f'  "{n} ]: #\\u2028": {{api: vulkan, sampleCount: 4}}\n' for n in range(256)))
     assert made.problems == ()
     assert made.tree is not None
-    again = read(written(made.tree))
+    again = read(emit(made.tree))
     assert again.problems == ()
     assert list(again.description.images) == list(made.description.images)
     assert read("renderTargets: {}").problems == ()

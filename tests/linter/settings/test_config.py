@@ -140,7 +140,7 @@ def test_an_explicit_file_and_the_variable_go_before_what_lies_around(monkeypatc
     [
         ("none.toml", None, "cannot read the configuration: no such file"),
         (".", None, "cannot read the configuration: Is a directory"),
-        ("bad.toml", "x = '\ufffd'".encode("latin-1", "replace") + b"\xff", "cannot read the configuration: the input is no UTF-8"),
+        ("bad.toml", "x = '\ufffd'".encode("latin-1", "replace") + b"\xff", "cannot read the configuration: the input is not UTF-8"),
         ("pyproject.toml", b"[project]\n", "the configuration has no table [tool.msaa-lint]"),
         ("pyproject.toml", b"[tool]\nmsaa-lint = 1\n", "[tool.msaa-lint] is not a table"),
     ],

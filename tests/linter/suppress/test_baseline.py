@@ -175,7 +175,7 @@ def test_a_mistake_is_at_its_place(text: str, at: tuple[int, str], message: str)
     ("data", "message"),
     [
         (None, "no such baseline `b.json`"),
-        (b"\xff", "cannot read the baseline: the input is no UTF-8: byte 0"),
+        (b"\xff", "cannot read the baseline: the input is not UTF-8: byte 0"),
         (b" " * (MAX_BYTES + 1), "cannot read the baseline: it is larger than the limit of 16777216 bytes"),
         (b"[" * 200_000, "invalid baseline: nested too deeply"),
         (HEAD.encode() + b'{"a": {"x": ' + b"9" * 5000 + b"}}}", "invalid baseline: Exceeds the limit"),
