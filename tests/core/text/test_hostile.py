@@ -116,7 +116,8 @@ class TestNodes:
     def test_all_are_counted_once_aliases_are_expanded(self, text: str, count: int) -> None:
         assert [p.code for p in reading(text, nodes=count).problems] == [p.code for p in reading(text).problems]
         problems = reading(text, nodes=count - 1).problems
-        assert (problems[-1].code, problems[-1].message) == ("MSAA906", f"the number of nodes with aliases expanded exceeds the limit of {count - 1}")
+        message = f"the number of nodes with aliases expanded exceeds the limit of {count - 1}"
+        assert (problems[-1].code, problems[-1].message) == ("MSAA906", message)
 
     def test_an_alias_bomb(self, events_read: list[Any]) -> None:
         lines = ["a0: &a0 [x, x, x, x, x, x, x, x, x, x]"]
