@@ -1,4 +1,4 @@
-"""The 9xx: what is wrong with an input, a page, a suppression or the configuration itself."""
+"""The 9xx diagnostics: problems of an input, a rule page, a suppression or the configuration itself."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Globs as .gitignore writes them, matched in linear time: a configuration may come from a stranger's branch.
+"""Globs with the syntax of .gitignore, matched in linear time: a configuration may come from an untrusted branch.
 
-`*` and `?` stop at `/`, `**` between slashes crosses folders, `[a-z]` and `[!a-z]` are one character, a backslash takes the next character
-as it is. A glob with a slash at its start or within counts from its root, any other at every depth; one that ends in a slash is a
-folder's. A match of a folder matches all that is in it. `!` in front turns a glob around.
+`*` and `?` do not match `/`; `**` between slashes matches any number of folders; `[a-z]` and `[!a-z]` match one character; a backslash
+escapes the next character. A glob with a slash at its start or in the middle is relative to its root, any other matches at every depth; one
+that ends in a slash matches folders only. A glob that matches a folder matches everything in it. A leading `!` negates a glob.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ _NAME = "[^/]+"
 
 
 class Glob(NamedTuple):
-    """A pattern, and the folder (absolute) that it counts from."""
+    """A pattern and its root, the absolute path of the folder that it is relative to."""
 
     pattern: str
     root: str
 
 
 class Compiled(NamedTuple):
-    """`exact` matches the path itself, `below` also what is in it; both from the beginning, a folder's path ending in a slash."""
+    """`exact` matches a path itself, `below` also everything in it. The path of a folder must end in a slash."""
 
     negated: bool
     exact: re.Pattern[str]
@@ -35,7 +35,7 @@ class Compiled(NamedTuple):
 
 @lru_cache(maxsize=1024)
 def compiled(pattern: str) -> Compiled:
-    """A pattern made ready; ValueError, with what is wrong in words, where it can match nothing."""
+    """Compiles a pattern. Raises ValueError for one that cannot match anything."""
     negated = pattern.startswith("!")
     text = pattern[1:] if negated else pattern
     if len(text) > MAX_LENGTH:
@@ -54,8 +54,8 @@ def compiled(pattern: str) -> Compiled:
         parts[-1] = "*"
     if not anchored:
         parts.insert(0, "**")
-    # Each run of names between two `**` is taken where it first fits. No later place can do better, so the group is atomic and never
-    # tried again: this is what keeps the time linear.
+    # Each run of names between two `**` matches at the first position where it fits. A later position cannot do better, so the group is
+    # atomic and never backtracks, which keeps the time linear.
     runs: list[list[str]] = [[]]
     for part in parts:
         if part == "**":
@@ -74,7 +74,7 @@ def compiled(pattern: str) -> Compiled:
 
 
 def _name(part: str) -> str:
-    """The expression of one name; each piece between two stars is taken where it first fits."""
+    """The expression of one name. Each piece between two stars matches at the first position where it fits."""
     pieces = [""]
     at = 0
     while at < len(part):
@@ -104,7 +104,7 @@ def _name(part: str) -> str:
 
 
 def _class(part: str, at: int) -> tuple[str, int]:
-    """`[...]` from after its bracket, and where it ends."""
+    """The expression of a `[...]` that is open before `at`, and the offset after it."""
     negated = part[at : at + 1] in ("!", "^")
     at += negated
     chars: list[tuple[str, bool]] = []
@@ -136,10 +136,10 @@ def _class(part: str, at: int) -> tuple[str, int]:
 
 
 def relative(file: str, root: str) -> str:
-    """`file` from `root`, with `/`. A file outside is named from the folder that it shares with `root`."""
+    """`file` relative to `root`, with `/`. A file outside of it is relative to the folder that both share."""
     try:
         path = os.path.relpath(file, root)
-    except ValueError:  # another drive of Windows, or a NUL
+    except ValueError:  # another drive on Windows, or a NUL character
         path = os.path.basename(file)
     path = path.replace(os.sep, "/")
     while path.startswith("../"):
@@ -148,16 +148,16 @@ def relative(file: str, root: str) -> str:
 
 
 def matches(file: str, glob: Glob) -> bool:
-    """Whether one glob matches a file; with `!`, whether it does not. The root itself is no file."""
+    """Whether a glob matches a file or, with `!`, does not match it. The root itself never matches."""
     ready = compiled(glob.pattern)
     path = relative(file, glob.root)
     return path != os.curdir and (ready.below.match(path) is not None) != ready.negated
 
 
 def excluding(file: str, globs: Sequence[Glob], folder: bool = False) -> Glob | None:
-    """The glob that excludes a file or folder, or one of the folders that it is in; None where none does.
+    """The glob that excludes a file or folder, or a folder that it is in; None if none does.
 
-    The last glob that matches decides, so that a later `!` takes back; not in a folder that is excluded itself.
+    The last glob that matches decides, so that a later `!` includes files again, except in a folder that is excluded itself.
     """
     paths = {glob.root: relative(file, glob.root) + ("/" if folder else "") for glob in globs}
     ready = [(glob, compiled(glob.pattern)) for glob in globs if paths[glob.root] != "./"]

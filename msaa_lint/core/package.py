@@ -1,4 +1,4 @@
-"""The installed package: its version, and where it stands."""
+"""The version and the folder of the installed package."""
 
 import os
 

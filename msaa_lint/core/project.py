@@ -1,7 +1,7 @@
-"""The project that a path lies in, and paths as outputs name them.
+"""The project that contains a path, and paths as outputs show them.
 
-The project is the nearest folder upwards that a version control system keeps its data in; without one, the outermost folder upwards that
-has a configuration file; without any, the folder itself. What an untrusted file names must not lead out of it.
+The project is the nearest folder upward with the data of a version control system; if there is none, the outermost folder upward with a
+configuration file, or else the folder itself. A path from an untrusted file must stay in the project.
 """
 
 from __future__ import annotations
@@ -9,16 +9,16 @@ from __future__ import annotations
 import os
 
 NAMES = ("msaa-lint.toml", "pyproject.toml")
-"""Of configuration files, the first wins in one folder."""
+"""The names of configuration files; in a folder with both, the first is used."""
 
-_KEPT_BY = (".git", ".hg", ".jj", ".svn", ".bzr", "_darcs", ".fslckout")
+_VCS_DATA = (".git", ".hg", ".jj", ".svn", ".bzr", "_darcs", ".fslckout")
 
 
 def project_root(folder: str) -> str:
-    """The folder that the files named by a configuration (or linked to) must stay in, for a configuration or an input in `folder`."""
+    """The project of a configuration or an input in `folder`: files that it names, and targets of links, must be inside."""
     at = outermost = os.path.abspath(folder)
     while True:
-        if any(os.path.lexists(os.path.join(at, name)) for name in _KEPT_BY):
+        if any(os.path.lexists(os.path.join(at, name)) for name in _VCS_DATA):
             return at
         if any(os.path.isfile(os.path.join(at, name)) for name in NAMES):
             outermost = at
@@ -29,7 +29,7 @@ def project_root(folder: str) -> str:
 
 
 def inside(path: str, root: str) -> bool:
-    """Whether a path lies in a folder, with all symbolic links followed."""
+    """Whether a path is in a folder, with all symbolic links resolved."""
     try:
         full, base = os.path.realpath(path), os.path.realpath(root)
     except (OSError, ValueError):
@@ -38,7 +38,7 @@ def inside(path: str, root: str) -> bool:
 
 
 def shown(path: str) -> str:
-    """A path as outputs name it, with `/`: from the current folder where it is in it or was given so, else absolute."""
+    """A path as outputs show it, with `/`: relative if it is in the current folder or was relative, else absolute."""
     here = os.getcwd()
     below = here if here.endswith(os.sep) else here + os.sep
     full = os.path.abspath(path)

@@ -1,14 +1,15 @@
-"""Finds the record that `msaa-lint study --record` left beside a description, and says how it stands to the frame.
+"""Reads the record that `msaa-lint study --record` writes next to a description, and compares it with the frame.
 
-A record holds digests of what a study answers to. It may come from a stranger's branch: it is limited, checked, and never more than data.
+A record has digests of everything that the result of a study depends on. It may come from an untrusted branch, so it is limited and
+validated.
 """
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 import math
 import os
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
+from msaa_lint.core.quote import quoted
 from msaa_lint.frame.facts.study import STALE, UNSTUDIED, UNUSABLE, Measured, Studied
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 ENDING = ".msaa-study.json"
 SCHEMA = "msaa-lint/study-record-v1"
 PARTS = ("attachments", "device", "pipelines", "scene", "size")
-"""Of a description, what a study answers to."""
+"""The parts of a description that the result of a study depends on."""
 
 COUNTS = (1, 2, 4, 8, 16, 32, 64)
 MAX_BYTES = 1 << 18
@@ -32,7 +33,7 @@ _LEFT_OUT = frozenset({"rasterizationSamples"})
 
 
 class Unusable(Exception):
-    """What is wrong with a record, in words, and where."""
+    """The problem of an unusable record, and its node."""
 
     def __init__(self, reason: str, at: "Node | None" = None) -> None:
         super().__init__(reason)
@@ -40,7 +41,7 @@ class Unusable(Exception):
 
 
 class Entry(NamedTuple):
-    """The study of one document of a description: digests by part, where the time is from (empty: no time), pixels, counts."""
+    """The study of one document: digests by part, the device of its times (or empty), size in pixels, results by sample count."""
 
     inputs: dict[str, str]
     device: str
@@ -49,12 +50,12 @@ class Entry(NamedTuple):
 
 
 def path_of(file: str) -> str:
-    """Where the record of a description lies."""
+    """The path of the record of a description."""
     return file + ENDING
 
 
 def studied(frame: "Frame", file: str) -> Studied:
-    """How the record beside a description stands to its frame. `file` is its path, or a name that is no path, such as `<stdin>`."""
+    """Compares the record of a description with its frame. `file` is the path of the description, or a name such as `<stdin>`."""
     path = path_of(file)
     try:
         if not os.path.lexists(path):
@@ -62,17 +63,17 @@ def studied(frame: "Frame", file: str) -> Studied:
         entries = _read(path)
     except Unusable as error:
         return Studied(UNUSABLE, str(error))
-    own = digests(frame)
-    found = next((entry for entry in entries if entry.inputs == own), None)
+    current = digests(frame)
+    found = next((entry for entry in entries if entry.inputs == current), None)
     if found is not None:
         measured = ", ".join(f"{count}x" for count in found.counts)
         return Studied("", f"it measured {measured}", found.counts)
-    nearest = min(entries, key=lambda entry: len(_changed(entry, own)))
-    return Studied(STALE, f"{_listed(_changed(nearest, own))} changed since; run `msaa-lint study --record` again")
+    nearest = min(entries, key=lambda entry: len(_changed(entry, current)))
+    return Studied(STALE, f"{_listed(_changed(nearest, current))} changed since; run `msaa-lint study --record` again")
 
 
-def _changed(entry: Entry, own: dict[str, str]) -> list[str]:
-    return [part for part in PARTS if entry.inputs[part] != own[part]]
+def _changed(entry: Entry, current: dict[str, str]) -> list[str]:
+    return [part for part in PARTS if entry.inputs[part] != current[part]]
 
 
 def _listed(words: list[str]) -> str:
@@ -80,10 +81,10 @@ def _listed(words: list[str]) -> str:
 
 
 def digests(frame: "Frame") -> dict[str, str]:
-    """Digests of what a study of a frame answers to, by part.
+    """Digests by part of what a study of a frame depends on.
 
-    Sample counts are not among it: a study measures several. Nor are names, load and store operations, layouts, memory, and images that
-    are not drawn to.
+    That excludes sample counts, of which a study measures several, names, load and store operations, layouts, memory, and images that
+    nothing is rendered to.
     """
     from hashlib import sha256
 
@@ -91,7 +92,7 @@ def digests(frame: "Frame") -> dict[str, str]:
 
 
 def inputs(frame: "Frame") -> dict[str, str]:
-    """What a study of a frame answers to, by part, as text."""
+    """The text by part of what a study of a frame depends on."""
     description = frame.description
     size = description.frame
     states = ([(member, _canonical(getattr(pipeline, member))) for member in _PIPELINE] for pipeline, _ in frame.pipelines)
@@ -105,7 +106,7 @@ def inputs(frame: "Frame") -> dict[str, str]:
 
 
 def _attachments(frame: "Frame") -> Iterator[object]:
-    """The formats of multisampled images and what their values mean, whether colour elsewhere is encoded, and how is resolved."""
+    """Formats and encodings of multisampled images, whether other color targets are encoded, and resolve modes."""
     for target in frame.all_targets:
         encoding = target.image.encoding if target.image is not None else None
         usage = target.image.usage if target.image is not None else None
@@ -119,7 +120,7 @@ def _attachments(frame: "Frame") -> Iterator[object]:
 
 
 def _canonical(value: object) -> object:
-    """A value so that what is spelled otherwise, or in another order, and means the same is the same."""
+    """A value in a form that is the same for every spelling and order with the same meaning."""
     shape = getattr(type(value), "SHAPE", None)
     if shape is not None:
         record: Record = value  # type: ignore[assignment]
@@ -133,7 +134,7 @@ def _canonical(value: object) -> object:
 
 
 def _read(path: str) -> list[Entry]:
-    """The studies of a record. Unusable where it is none."""
+    """The studies of a record. Raises Unusable if it is invalid."""
     from msaa_lint.core.project import inside, project_root
     from msaa_lint.core.text.files import read
     from msaa_lint.core.text.source import Source, Unreadable, decode
@@ -154,7 +155,7 @@ def _read(path: str) -> list[Entry]:
         raise Unusable(f"{name}, line {place.line}: {problem.message}")
     try:
         if len(parsed.documents) != 1:
-            raise Unusable("one JSON object is due")
+            raise Unusable("expected one JSON object")
         return list(_entries(parsed.documents[0]))
     except Unusable as error:
         at = f", line {source.position(error.at.start).line}" if error.at is not None else ""
@@ -164,15 +165,15 @@ def _read(path: str) -> list[Entry]:
 def _entries(root: "Node") -> Iterator[Entry]:
     schema, studies = _members(root, ("schema", "studies"))
     if schema.value != SCHEMA:
-        raise Unusable(f'the schema is not "{SCHEMA}"', schema)
+        raise Unusable(f'expected the schema "{SCHEMA}"', schema)
     if studies.kind != "sequence" or not studies.value:
-        raise Unusable("`studies` is a list of at least one", studies)
+        raise Unusable("`studies` must be a list with at least one element", studies)
     for node in studies.value:
         parts, device, size, counts = _members(node, ("inputs", "device", "size", "counts"))
         digests = dict(zip(PARTS, (_text(part) for part in _members(parts, PARTS)), strict=True))
         if size.kind != "sequence" or len(size.value) != 2:
-            raise Unusable("`size` is a width and a height", size)
-        width, height = (_whole(side) for side in size.value)
+            raise Unusable("`size` must be a list of width and height", size)
+        width, height = (_pixels(side) for side in size.value)
         where, pixels = _text(device), (width, height)
         yield Entry(digests, where, pixels, _counts(counts, where, pixels))
 
@@ -186,21 +187,21 @@ class _Count(NamedTuple):
 
 def _counts(node: "Node", device: str, size: tuple[int, int]) -> dict[int, Measured]:
     if node.kind != "mapping" or not node.value:
-        raise Unusable("`counts` is an object of at least one sample count", node)
+        raise Unusable("`counts` must be an object with at least one sample count", node)
     known = {str(count): count for count in COUNTS}
     found: dict[int, _Count] = {}
     for key, value in node.value.items():
         if key not in known:
-            raise Unusable(f"`{key[:20]}` is no sample count", node.keys[key])
+            raise Unusable(f"{quoted(key, 20)} is not a sample count", node.keys[key])
         rmse, time, justified, reason = _members(value, ("rmse", "time_ms", "justified", "reason"))
         if not isinstance(justified.value, bool):
-            raise Unusable("`justified` is true or false", justified)
+            raise Unusable("`justified` must be true or false", justified)
         found[known[key]] = _Count(_number(rmse), None if _is_null(time) else _number(time), justified.value, _text(reason))
     return {count: Measured(found[count].justified, _says(count, found, device, size)) for count in sorted(found)}
 
 
 def _says(count: int, found: dict[int, _Count], device: str, size: tuple[int, int]) -> str:
-    """What a study found of a count, against the largest of at most four."""
+    """The result of a study for a sample count, compared with the largest count up to 4."""
     own = found[count]
     base = max((each for each in found if each <= 4), default=None)
     where = f"at {size[0]}x{size[1]}" + (f" on {device}" if device else "") + (f"; {own.reason}" if own.reason else "")
@@ -214,17 +215,17 @@ def _says(count: int, found: dict[int, _Count], device: str, size: tuple[int, in
 
 
 def _members(node: "Node", names: Iterable[str]) -> "list[Node]":
-    """The members of an object that has these and no others."""
-    due = tuple(names)
+    """The members of an object, which must have these names and no others."""
+    expected = tuple(names)
     if node.kind != "mapping":
-        raise Unusable(f"an object with {', '.join(due)} is due", node)
+        raise Unusable(f"expected an object with {', '.join(expected)}", node)
     for key in node.value:
-        if key not in due:
-            raise Unusable(f"unknown key `{key[:40]}`", node.keys[key])
-    missing = [name for name in due if name not in node.value]
+        if key not in expected:
+            raise Unusable(f"unknown key {quoted(key, 40)}", node.keys[key])
+    missing = [name for name in expected if name not in node.value]
     if missing:
-        raise Unusable(f"it lacks {', '.join(missing)}", node)
-    return [node.value[name] for name in due]
+        raise Unusable(f"missing {', '.join(missing)}", node)
+    return [node.value[name] for name in expected]
 
 
 def _is_null(node: "Node") -> bool:
@@ -233,17 +234,17 @@ def _is_null(node: "Node") -> bool:
 
 def _text(node: "Node") -> str:
     if node.kind != "scalar" or not isinstance(node.value, str) or len(node.value) > MAX_TEXT:
-        raise Unusable(f"a text of at most {MAX_TEXT} characters is due", node)
+        raise Unusable(f"expected a string of at most {MAX_TEXT} characters", node)
     return node.value
 
 
-def _whole(node: "Node") -> int:
+def _pixels(node: "Node") -> int:
     if type(node.value) is not int or not 1 <= node.value < 1 << 31:
-        raise Unusable("a whole number of pixels is due", node)
+        raise Unusable("expected a positive integer number of pixels", node)
     return node.value
 
 
 def _number(node: "Node") -> float:
     if type(node.value) not in (int, float) or not 0 <= node.value < math.inf:
-        raise Unusable("a number of at least 0 is due", node)
+        raise Unusable("expected a number of at least 0", node)
     return float(node.value)

@@ -1,4 +1,4 @@
-"""The values of a TOML text, by tomllib, and where its keys and values stand, which tomllib does not say."""
+"""Parses TOML with tomllib, and finds the locations of its keys and values, which tomllib does not give."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from msaa_lint.core.finding import Finding
 from msaa_lint.core.text.span import Span
 
 MAX_DOTS = 4_000_000
-"""Of the sum over all lines of their dots squared: tomllib takes that much time for a dotted key."""
+"""The limit on the sum of the squared number of dots of all lines: tomllib takes quadratic time for a dotted key."""
 _AT = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)\Z")
 
 _BLANK = re.compile(r"(?:[ \t\r\n]+|#[^\n]*)*")
@@ -28,8 +28,8 @@ _KEY = re.compile(r"[A-Za-z0-9_-]+")
 _STEP = re.compile(r"[ \t]*\.[ \t]*")
 
 
-class Place(NamedTuple):
-    """The key (an element of an array: itself) and the value; for a table, the last name of its header twice."""
+class Location(NamedTuple):
+    """The locations of a key and its value. Both are the element for array elements, and the last name of the header for tables."""
 
     key: Span
     value: Span
@@ -39,9 +39,9 @@ Path = tuple[str | int, ...]
 
 
 def parsed(text: str, name: str) -> dict[str, Any] | Finding:
-    """The table of a TOML text, or the finding that it is none."""
+    """The table of a TOML text, or a finding if it is invalid."""
     if sum(line.count(".") ** 2 for line in text.split("\n")) > MAX_DOTS:
-        return diagnostic("MSAA921", "too many dotted names in one line of the configuration", name)
+        return diagnostic("MSAA921", "too many dots in one line of the configuration", name)
     import tomllib
 
     try:
@@ -52,24 +52,24 @@ def parsed(text: str, name: str) -> dict[str, Any] | Finding:
         message = str(error)
         at = _AT.search(message)
         if at is None:
-            return diagnostic("MSAA921", f"the configuration is no TOML: {message[:200]}", name)
+            return diagnostic("MSAA921", f"the configuration is not valid TOML: {message[:200]}", name)
         start = len(text)
         if at[1]:
             lines = text.split("\n")
             start = min(len(text), sum(len(line) + 1 for line in lines[: int(at[1]) - 1]) + int(at[2]) - 1)
         end = start + (text[start : start + 1] not in ("", "\n", "\r"))
-        return diagnostic("MSAA921", f"the configuration is no TOML: {message[: at.start()]}", name, Span(start, end))
+        return diagnostic("MSAA921", f"the configuration is not valid TOML: {message[: at.start()]}", name, Span(start, end))
 
 
 @lru_cache(maxsize=4)
-def places(text: str) -> dict[Path, Place]:
-    """Each key's first place by its path, an array's elements by their index. Arrays of tables count as tables.
+def places(text: str) -> dict[Path, Location]:
+    """The first location of each key by its path, with the index for array elements. Arrays of tables are treated as tables.
 
-    Meant for a text that tomllib has read: it checks nothing, and stops where it no longer understands.
+    The text must be one that tomllib accepts: nothing is validated here, and the search stops at what it does not understand.
     """
-    found: dict[Path, Place] = {}
+    found: dict[Path, Location] = {}
     table: Path = ()
-    # What is open: its path, its key, where it starts, and the next index (-1: an inline table).
+    # The open arrays and inline tables: path, key, start, and next index (-1 for a table).
     open_: list[tuple[Path, Span, int, int]] = []
     at = 0
     while True:
@@ -80,7 +80,7 @@ def places(text: str) -> dict[Path, Place]:
         if open_:
             path, key, start, index = open_[-1]
             if char in "]}":
-                found.setdefault(path, Place(key, Span(start, at + 1)))
+                found.setdefault(path, Location(key, Span(start, at + 1)))
                 open_.pop()
                 at += 1
                 continue
@@ -99,7 +99,7 @@ def places(text: str) -> dict[Path, Place]:
             table = ()
             for name, span in names:
                 table = (*table, name)
-                found.setdefault(table, Place(span, span))
+                found.setdefault(table, Location(span, span))
             at = text.find("]", at)
             if not names or at < 0:
                 return found
@@ -112,15 +112,15 @@ def places(text: str) -> dict[Path, Place]:
             return found
         for name, span in names[:-1]:
             path = (*path, name)
-            found.setdefault(path, Place(span, span))
+            found.setdefault(path, Location(span, span))
         name, span = names[-1]
         at = _value(text, _skip(_SPACE, text, at + 1), (*path, name), span, found, open_)
         if at < 0:
             return found
 
 
-def _value(text: str, at: int, path: Path, key: Span | None, found: dict[Path, Place], open_: list[tuple[Path, Span, int, int]]) -> int:
-    """Takes a scalar, or opens an array or a table; where it goes on, or -1."""
+def _value(text: str, at: int, path: Path, key: Span | None, found: dict[Path, Location], open_: list[tuple[Path, Span, int, int]]) -> int:
+    """Reads a scalar, or opens an array or an inline table. Returns the offset after it, or -1."""
     if text[at : at + 1] in ("[", "{"):
         open_.append((path, key or Span(at, at + 1), at, 0 if text[at] == "[" else -1))
         return at + 1
@@ -128,12 +128,12 @@ def _value(text: str, at: int, path: Path, key: Span | None, found: dict[Path, P
     if match is None:
         return -1
     span = Span(match.start(), match.end())
-    found.setdefault(path, Place(key or span, span))
+    found.setdefault(path, Location(key or span, span))
     return match.end()
 
 
 def _dotted(text: str, at: int) -> tuple[list[tuple[str, Span]], int]:
-    """A key's names with their places, and where it ends."""
+    """The names of a key with their locations, and its end."""
     names: list[tuple[str, Span]] = []
     while True:
         match = _KEY.match(text, at) or _STRING.match(text, at)
@@ -154,7 +154,7 @@ def _unquoted(name: str) -> str:
         try:
             text: str = tomllib.loads("x = " + name)["x"]
         except ValueError:
-            # A name that is no TOML has no place to be asked for.
+            # An invalid name has no location.
             return name[1:-1]
         return text
     return name[1:-1] if name[0] in "\"'" else name

@@ -1,4 +1,4 @@
-"""Reads suppression comments: what they name, where they count, and how one is taken out again."""
+"""Reads suppression comments: the rules they name, the lines they apply to, and the edits that remove them."""
 
 from __future__ import annotations
 
@@ -15,23 +15,22 @@ if TYPE_CHECKING:
     from msaa_lint.core.text.source import Source
 
 WORDS = ("ignore", "ignore-file")
-HOW = "write `{mark} msaa-lint: {word}[rule-name] reason`"
 
 _BEGINNING = re.compile(r"#\s*(msaa[-_ ]?lint)\b\s*(:)?\s*([A-Za-z_-]*)\s*", re.IGNORECASE)
 _BEFORE_REASON = " \t-–—:"
 
 
 class Entry(NamedTuple):
-    """One rule in the brackets, as it is written."""
+    """One rule in the brackets, as written."""
 
     name: str
     span: Span
 
 
 class Directive(NamedTuple):
-    """One `ignore[...]`: what it names, the line that it counts on (None: the whole file), its reason, and its place.
+    """One `ignore[...]` with the rules it names, the line that it applies to (None: the whole file), its reason and its location.
 
-    `removal` is what goes with it where nothing of it is needed.
+    `removal` is the span to delete to remove it.
     """
 
     entries: tuple[Entry, ...]
@@ -41,36 +40,36 @@ class Directive(NamedTuple):
     removal: Span
 
 
-class Complain(Protocol):
-    """Takes what is wrong with a comment."""
+class Report(Protocol):
+    """Reports a problem of a comment."""
 
-    def __call__(self, code: str, message: str, span: Span, help: str = "") -> None: ...
+    def __call__(self, code: str, message: str, span: Span) -> None: ...
 
 
-def read(comments: Iterable[Comment], source: Source, complain: Complain, alone: Collection[int] | None = None) -> list[Directive]:
-    """The suppressions in comments, in the order of their places; what looks like one and is none is complained about.
+def read(comments: Iterable[Comment], source: Source, report: Report, comment_lines: Collection[int] | None = None) -> list[Directive]:
+    """The suppressions in comments, in order of location; comments that only look like one are reported.
 
-    `alone`, in source code, are the lines that hold comments and nothing else: there a `#` at the beginning of a line is none.
+    `comment_lines`, for source code, are the lines with nothing but comments; None for a text in which comments begin with `#`.
     """
-    found: list[Directive] = []
-    lines = _Lines(source, alone)
-    for comment in sorted(comments, key=lambda each: each.span.start):
+    directives: list[Directive] = []
+    lines = _Lines(source, comment_lines)
+    for comment in sorted(comments, key=lambda comment: comment.span.start):
         starts = list(_BEGINNING.finditer(comment.text))
         if not starts:
             continue
-        lines.at(comment)
+        lines.move_to(comment)
         ends = [*(match.start() for match in starts[1:]), len(comment.text)]
         first = not comment.text[: starts[0].start()].strip("# \t")
         for match, end in zip(starts, ends, strict=True):
             start = 0 if first and match is starts[0] else match.start()
-            directive = _read(comment, match, start, end, lines, complain)
+            directive = _read(comment, match, start, end, lines, report)
             if directive is not None:
-                found.append(directive)
-    return found
+                directives.append(directive)
+    return directives
 
 
-def without(directive: Directive, entry: Entry, whole: bool) -> Edit:
-    """The edit that takes an entry out of a suppression, or with `whole` all of it."""
+def removing(directive: Directive, entry: Entry, whole: bool) -> Edit:
+    """The edit that removes an entry from a suppression, or with `whole` the suppression."""
     if whole:
         return Edit(directive.removal, "")
     at = directive.entries.index(entry)
@@ -80,97 +79,97 @@ def without(directive: Directive, entry: Entry, whole: bool) -> Edit:
 
 
 class _Lines:
-    """The lines of a text, and how a comment stands among them: its line, whether it is `alone` on it, and the line that it is about."""
+    """The line of the current comment, whether the comment is `alone` on it, and the line that it is `about`."""
 
-    def __init__(self, source: Source, comments: Collection[int] | None) -> None:
+    def __init__(self, source: Source, comment_lines: Collection[int] | None) -> None:
         self.source = source
-        self.mark = "#" if comments is None else "//"
-        self._comments = comments
+        self.mark = "#" if comment_lines is None else "//"
+        self._comment_lines = comment_lines
         self.line = self.about = 0
         self.alone = False
         self._run = (0, 0)
         self._content: int | None = None
         self._suggestions = Suggestions(WORDS)
 
-    def at(self, comment: Comment) -> None:
-        """Moves on to a comment. One alone on its line is about the next line that does not begin with a comment too."""
+    def move_to(self, comment: Comment) -> None:
+        """Makes a comment the current one. One alone on its line is about the next line that is not a comment."""
         self.line, column = self.source.position(comment.span.start)
-        if self._comments is not None:
-            self.alone = self.line in self._comments
+        if self._comment_lines is not None:
+            self.alone = self.line in self._comment_lines
         else:
             self.alone = not self.source.line(self.line)[: column - 1].strip()
-        self.about = self._after(self.line) if self.alone else self.line
+        self.about = self._next_content(self.line) if self.alone else self.line
 
-    def _after(self, line: int) -> int:
+    def _next_content(self, line: int) -> int:
         first, after = self._run
         if not first <= line < after:
             after = line + 1
-            while after <= self.source.line_count and self._holds_a_comment(after):
+            while after <= self.source.line_count and self._is_comment(after):
                 after += 1
             self._run = (line, after)
         return after
 
-    def _holds_a_comment(self, number: int) -> bool:
-        """Whether a line holds a comment and nothing else."""
-        if self._comments is not None:
-            return number in self._comments
+    def _is_comment(self, number: int) -> bool:
+        """Whether a line has a comment and nothing else."""
+        if self._comment_lines is not None:
+            return number in self._comment_lines
         return self.source.line(number).lstrip().startswith("#")
 
-    def how(self, word: str = WORDS[0]) -> str:
-        """How a suppression is written."""
-        return HOW.format(mark=self.mark, word=word)
+    def example(self, word: str = WORDS[0]) -> str:
+        """What to write instead."""
+        return f"write `{self.mark} msaa-lint: {word}[rule-name] reason`"
 
     def nearest(self, word: str) -> str | None:
         """The one of WORDS that was most likely meant by another word; see `Suggestions` for its limits."""
         return self._suggestions.nearest(word)
 
     def at_top(self) -> bool:
-        """Whether the comment stands before all content."""
+        """Whether the comment is before all content."""
         if self._content is None:
             at = 1
             while at <= self.source.line_count:
                 text = self.source.line(at).strip()
-                yaml = self._comments is None and (text.startswith("%") or text == "---" or text.startswith("--- #"))
-                if text and not yaml and not self._holds_a_comment(at):
+                yaml = self._comment_lines is None and (text.startswith("%") or text == "---" or text.startswith("--- #"))
+                if text and not yaml and not self._is_comment(at):
                     break
                 at += 1
             self._content = at
         return self.line < self._content
 
 
-def _read(comment: Comment, match: re.Match[str], start: int, end: int, lines: _Lines, complain: Complain) -> Directive | None:
-    """The suppression of `match` in a comment, which reaches from `start` to `end`."""
+def _read(comment: Comment, match: re.Match[str], start: int, end: int, lines: _Lines, report: Report) -> Directive | None:
+    """The suppression of `match` in a comment, which extends from `start` to `end`."""
     base = comment.span.start
     rest = comment.text[match.end() : end]
     word = match[3].lower()
     span = Span(base + match.start(), base + match.start() + len(comment.text[match.start() : end].rstrip()))
     if match[1].lower() != "msaa-lint" or match[2] is None:
         if rest.startswith("[") and word.startswith("i"):
-            complain("MSAA913", "not written as a suppression: it silences nothing", span, lines.how())
+            report("MSAA913", f"invalid suppression; {lines.example()}", span)
         return None
     if word not in WORDS:
-        _unknown_word(match, base, lines, complain)
+        _unknown_word(match, base, lines, report)
         return None
     named = Span(span.start, base + match.end(3))
     close = rest.find("]")
     if not rest.startswith("["):
         if rest.startswith(("(", "{", ":", "=")):
-            complain("MSAA913", f"`{word}` without square brackets: it silences nothing", span, lines.how(word))
+            report("MSAA913", f"suppression without square brackets; {lines.example(word)}", span)
         else:
-            complain("MSAA913", f"`{word}` without a rule: it silences nothing", named, lines.how(word))
+            report("MSAA913", f"`{word}` names no rule; {lines.example(word)}", named)
         return None
     if close < 0:
-        complain("MSAA913", "a suppression without its `]`: it silences nothing", span, lines.how())
+        report("MSAA913", f"suppression without a closing `]`; {lines.example()}", span)
         return None
     entries = _entries(rest[1:close], base + match.end() + 1)
     if not entries:
-        complain("MSAA913", f"`{word}[]` names no rule: it silences nothing", Span(span.start, base + match.end() + close + 1), lines.how())
+        report("MSAA913", f"`{word}[]` names no rule; {lines.example(word)}", Span(span.start, base + match.end() + close + 1))
         return None
     line: int | None = lines.about
     if word == "ignore-file":
         if not (lines.alone and lines.at_top()):
-            message = "`ignore-file` counts only among the comments at the top of a file: it silences nothing"
-            complain("MSAA911", message, span, "move it to the top, or write `ignore` here")
+            message = "`ignore-file` has no effect here; move it to the comments at the top of the file, or write `ignore`"
+            report("MSAA911", message, span)
             return None
         line = None
     reason = rest[close + 1 :].strip().lstrip(_BEFORE_REASON)
@@ -178,16 +177,16 @@ def _read(comment: Comment, match: re.Match[str], start: int, end: int, lines: _
     return Directive(entries, line, reason, span, _removal(comment, start, end, whole, lines.source.text))
 
 
-def _unknown_word(match: re.Match[str], base: int, lines: _Lines, complain: Complain) -> None:
+def _unknown_word(match: re.Match[str], base: int, lines: _Lines, report: Report) -> None:
     close = lines.nearest(match[3])
-    help = f"did you mean `{close}`?" if close else "there are `ignore[rule-name]` and `ignore-file[rule-name]`"
+    hint = f"did you mean `{close}`?" if close else "expected `ignore[rule-name]` or `ignore-file[rule-name]`"
     span = Span(base + match.start(3), base + match.end(3)) if match[3] else Span(base + match.start(), base + match.end())
     what = f"unknown word {quoted(match[3])}" if match[3] else "no word"
-    complain("MSAA913", f"{what} after `msaa-lint:`: it silences nothing", span, help)
+    report("MSAA913", f"{what} after `msaa-lint:`; {hint}", span)
 
 
 def _entries(text: str, start: int) -> tuple[Entry, ...]:
-    """What commas separate, each with its place."""
+    """The comma-separated names, each with its location."""
     entries = []
     for part in text.split(","):
         name = part.strip()
@@ -199,7 +198,7 @@ def _entries(text: str, start: int) -> tuple[Entry, ...]:
 
 
 def _removal(comment: Comment, start: int, end: int, line: bool, text: str) -> Span:
-    """From the blanks before a suppression to its end; with its line where nothing else is on it."""
+    """A suppression with the blanks before it, and with the end of its `line` if nothing else is on it."""
     first, last = comment.span.start + start, comment.span.start + end
     if end < len(comment.text):
         return Span(first, last)

@@ -1,8 +1,8 @@
-"""Suppressions: comments of an input that silence findings, and what is wrong with them.
+"""Applies suppression comments to findings, and reports the problems of the comments.
 
-`# msaa-lint: ignore[rule, MSAA201] reason` silences those rules on its line; alone on its line, on the next line that is no comment.
-A finding is on every line of its place and of its labels' places. `# msaa-lint: ignore-file[rule] reason` among the comments at the top
-silences for the whole file. 9xx errors cannot be silenced: they say that something could not be judged.
+`# msaa-lint: ignore[rule, MSAA201] reason` suppresses the findings of those rules on its line or, alone on its line, on the next line that
+is not a comment. A finding is on every line of its location and of its labels. `# msaa-lint: ignore-file[rule] reason`, in the comments at
+the top, applies to the whole file. 9xx errors cannot be suppressed.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ from msaa_lint.core.quote import quoted
 from msaa_lint.core.text.span import Edit, Span
 from msaa_lint.linter.settings.selectors import Named, RuleNames
 
-from .comments import Directive, Entry, read, without
+from .comments import Directive, Entry, read, removing
 
 if TYPE_CHECKING:
     from msaa_lint.core.text.comments import Comment
     from msaa_lint.core.text.source import Source
 
 MAX_FINDINGS = 100
-"""Of each code in a file."""
+"""Of each code in a file: an input may have millions of comments."""
 
 _ABOUT_COMMENTS = frozenset(info.name for info in DIAGNOSTICS.values() if info.severity == "warning")
 
@@ -35,55 +35,54 @@ def apply(
     source: Source,
     known_rules: Iterable[Named],
     enabled: Collection[str],
-    alone: Collection[int] | None = None,
+    comment_lines: Collection[int] | None = None,
 ) -> tuple[list[Finding], list[Suppressed], list[Finding]]:
-    """The findings of one file that stay, those that its comments silence, and what is wrong with the comments (MSAA911, 912, 913).
+    """The findings of one file that remain, the suppressed ones, and those about the comments (MSAA911, MSAA912, MSAA913).
 
-    `enabled` are the names of the rules that were judged: a suppression of any other is not called unused, so a rule that stayed
-    undecided is best left out. Nothing is called unused in a file with a 9xx error, since that was not judged. `alone`, in source code,
-    are the lines that hold comments and nothing else.
+    `enabled` are the names of the rules that were decided: only their suppressions can be unused. In a file with a 9xx error none is, since
+    no rule ran. `comment_lines` is as for `comments.read`.
     """
     findings = list(findings)
-    complaints = _Complaints(source)
-    directives = read(comments, source, complaints.add, alone)
-    words = RuleNames(known_rules)
+    diagnostics = Diagnostics(source)
+    directives = read(comments, source, diagnostics.add, comment_lines)
+    names = RuleNames(known_rules)
     table = _Table()
     for directive in directives:
         for entry in directive.entries:
-            _enter(table, complaints, words, directive, entry)
-    kept, suppressed = table.silence(findings, source)
+            _enter(table, diagnostics, names, directive, entry)
+    kept, suppressed = table.apply(findings, source)
     if not any(found.fatal for found in findings):
-        _report_unused(table, complaints, {*enabled} - _ABOUT_COMMENTS)
-    remaining, silenced = table.silence(complaints.taken(), source)
-    _report_unused(table, complaints, _ABOUT_COMMENTS)
-    return kept, [*suppressed, *silenced], [*remaining, *complaints.taken()]
+        _report_unused(table, diagnostics, {*enabled} - _ABOUT_COMMENTS)
+    remaining, about_comments = table.apply(diagnostics.take(), source)
+    _report_unused(table, diagnostics, _ABOUT_COMMENTS)
+    return kept, [*suppressed, *about_comments], [*remaining, *diagnostics.take()]
 
 
-class _Complaints:
-    """What is wrong with the comments of a file, the first of each code: a stranger may write millions."""
+class Diagnostics:
+    """The problems of the comments of a file, at most MAX_FINDINGS of each code."""
 
     def __init__(self, source: Source) -> None:
         self._source = source
         self._found: list[Finding] = []
         self._counts: dict[str, int] = {}
 
-    def add(self, code: str, message: str, span: Span, help: str = "", fix: Fix | None = None) -> None:
+    def add(self, code: str, message: str, span: Span, fix: Fix | None = None) -> None:
         count = self._counts[code] = self._counts.get(code, 0) + 1
         if count <= MAX_FINDINGS:
-            last = ("further findings of this kind are not shown",) if count == MAX_FINDINGS else ()
-            self._found.append(diagnostic(code, message, self._source.name, span, help=help)._replace(fix=fix, notes=last))
+            last = ("more findings of this kind are not shown",) if count == MAX_FINDINGS else ()
+            self._found.append(diagnostic(code, message, self._source.name, span)._replace(fix=fix, notes=last))
 
     def full(self, code: str) -> bool:
         return self._counts.get(code, 0) >= MAX_FINDINGS
 
-    def taken(self) -> list[Finding]:
-        """What was found since it was last taken, by place."""
+    def take(self) -> list[Finding]:
+        """The findings since the last call, in order of location."""
         found, self._found = self._found, []
-        return sorted(found, key=lambda each: (each.span or Span(0, 0), each.code))
+        return sorted(found, key=lambda finding: (finding.span or Span(0, 0), finding.code))
 
 
 class _Table:
-    """The rules that comments name, by line and for the whole file, and which of these entries silenced something."""
+    """The entries of suppressions by rule, for lines and for the whole file, and which of them suppressed a finding."""
 
     def __init__(self) -> None:
         self._on_lines: dict[str, list[tuple[int, int]]] = {}
@@ -99,8 +98,8 @@ class _Table:
         else:
             self._on_lines.setdefault(rule, []).append((directive.line, number))
 
-    def silence(self, findings: Iterable[Finding], source: Source) -> tuple[list[Finding], list[Suppressed]]:
-        """The findings that no comment covers, and those that one does."""
+    def apply(self, findings: Iterable[Finding], source: Source) -> tuple[list[Finding], list[Suppressed]]:
+        """The findings that remain, and the suppressed ones."""
         for lines in self._on_lines.values():
             lines.sort()
         kept: list[Finding] = []
@@ -117,7 +116,7 @@ class _Table:
         return kept, suppressed
 
     def _by(self, found: Finding, source: Source, covered: dict[str, list[tuple[int, int]]]) -> int | None:
-        """The entry that silences a finding: the first on its lines, else one for the file. All that could count as used."""
+        """The entry that suppresses a finding: the first on its lines, or else for the file. All entries that match it become used."""
         by = None
         lines = self._on_lines.get(found.rule)
         if lines is not None and found.span is not None:
@@ -134,7 +133,7 @@ class _Table:
         return by
 
     def _use(self, lines: list[tuple[int, int]], ranges: list[tuple[int, int]]) -> None:
-        """Marks the entries on the lines of `ranges`, each once however much the ranges overlap."""
+        """Marks the entries on the lines of `ranges` as used, in linear time even if the ranges overlap."""
         done = 0
         for first, last in sorted(ranges):
             at = max(done, bisect_left(lines, (first, -1)))
@@ -144,7 +143,7 @@ class _Table:
             done = max(done, at)
 
     def unused(self, rules: Collection[str]) -> Iterator[tuple[Directive, list[Entry]]]:
-        """Each suppression with those of its entries that are for these rules and silenced nothing."""
+        """The suppressions with unused entries for these rules."""
         waiting: list[Entry] = []
         of: Directive | None = None
         for number, (directive, entry, rule) in enumerate(self._entries):
@@ -158,33 +157,32 @@ class _Table:
             yield of, waiting
 
 
-def _enter(table: _Table, complaints: _Complaints, words: RuleNames, directive: Directive, entry: Entry) -> None:
-    """A name in the brackets: to the table where it is a rule's, else what is wrong with it."""
-    rule = words.by_word.get(entry.name)
+def _enter(table: _Table, diagnostics: Diagnostics, names: RuleNames, directive: Directive, entry: Entry) -> None:
+    """Adds an entry to the table if it names a rule, or else reports it."""
+    rule = names.by_word.get(entry.name)
     if rule is not None:
         info = DIAGNOSTICS.get(rule.code)
         if info is None or info.severity != "error":
             table.add(directive, entry, rule.name)
             return
-        message = f"{quoted(entry.name)} cannot be silenced: it says that something could not be judged"
-        complaints.add("MSAA911", message, entry.span)
-    elif complaints.full("MSAA912"):
+        message = f"{quoted(entry.name)} is an error and cannot be suppressed"
+        diagnostics.add("MSAA911", message, entry.span)
+    elif diagnostics.full("MSAA912"):
         return
-    elif words.selects_any(entry.name):
-        message = f"{quoted(entry.name)} names a group of rules: it silences nothing"
-        complaints.add("MSAA913", message, entry.span, "name each rule that is meant")
+    elif names.selects_any(entry.name):
+        diagnostics.add("MSAA913", f"{quoted(entry.name)} names a group of rules; name each rule to suppress", entry.span)
     else:
-        close = words.nearest(entry.name)
-        help = f"did you mean `{close}`?" if close else "commas separate the rules" if " " in entry.name else ""
+        close = names.nearest(entry.name)
+        hint = f"; did you mean `{close}`?" if close else "; separate rules with commas" if " " in entry.name else ""
         fix = Fix(f"write {close}", False, (Edit(entry.span, close),)) if close else None
-        complaints.add("MSAA912", f"unknown rule {quoted(entry.name)} in a suppression: it silences nothing", entry.span, help, fix)
+        diagnostics.add("MSAA912", f"unknown rule {quoted(entry.name)} in a suppression{hint}", entry.span, fix)
 
 
-def _report_unused(table: _Table, complaints: _Complaints, rules: Collection[str]) -> None:
+def _report_unused(table: _Table, diagnostics: Diagnostics, rules: Collection[str]) -> None:
     for directive, entries in table.unused(rules):
         whole = len(entries) == len(directive.entries)
         for entry in entries:
-            if complaints.full("MSAA911"):
+            if diagnostics.full("MSAA911"):
                 return
-            fix = Fix("remove it", True, (without(directive, entry, whole),))
-            complaints.add("MSAA911", f"unused suppression: no {quoted(entry.name)} here", entry.span, fix=fix)
+            fix = Fix("remove it", True, (removing(directive, entry, whole),))
+            diagnostics.add("MSAA911", f"unused suppression: no {quoted(entry.name)} finding here", entry.span, fix)

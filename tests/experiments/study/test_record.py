@@ -264,28 +264,28 @@ COUNT = ("studies", 0, "counts", "8")
 @pytest.mark.parametrize(
     ("edit", "words"),
     [
-        (put("schema", "msaa-lint/study-record-v2"), 'line 1: the schema is not "msaa-lint/study-record-v1"'),
+        (put("schema", "msaa-lint/study-record-v2"), 'line 1: expected the schema "msaa-lint/study-record-v1"'),
         (put("more", 1), "line 1: unknown key `more`"),
-        (put("studies", []), "line 1: `studies` is a list of at least one"),
-        (put("studies", {}), "`studies` is a list"),
-        (put("studies", 0, None), "line 1: an object with inputs, device, size, counts is due"),
-        (put("studies", 0, "size", [1]), "`size` is a width and a height"),
-        (put("studies", 0, "size", [1, 0]), "a whole number of pixels is due"),
-        (put("studies", 0, "size", [True, 1]), "a whole number of pixels is due"),
-        (put("studies", 0, "device", "x" * 201), "a text of at most 200 characters is due"),
-        (put("studies", 0, "device", None), "a text of at most 200 characters is due"),
-        (put("studies", 0, "inputs", "scene", 5), "a text of at most 200 characters is due"),
-        (put("studies", 0, "inputs", {}), "it lacks attachments, device, pipelines, scene, size"),
-        (put("studies", 0, "counts", {}), "`counts` is an object of at least one sample count"),
-        (put("studies", 0, "counts", "3", {}), "`3` is no sample count"),
-        (put("studies", 0, "counts", "8x" * 50, {}), "`8x8x8x8x8x8x8x8x8x8x` is no sample count"),
-        (put(*COUNT, "rmse", -1), "a number of at least 0 is due"),
-        (put(*COUNT, "rmse", "0.1"), "a number of at least 0 is due"),
-        (put(*COUNT, "rmse", True), "a number of at least 0 is due"),
-        (put(*COUNT, "rmse", float("nan")), "a number of at least 0 is due"),
-        (put(*COUNT, "time_ms", float("inf")), "a number of at least 0 is due"),
-        (put(*COUNT, "justified", 1), "`justified` is true or false"),
-        (put(*COUNT, "reason", []), "a text of at most 200 characters is due"),
+        (put("studies", []), "line 1: `studies` must be a list with at least one element"),
+        (put("studies", {}), "`studies` must be a list"),
+        (put("studies", 0, None), "line 1: expected an object with inputs, device, size, counts"),
+        (put("studies", 0, "size", [1]), "`size` must be a list of width and height"),
+        (put("studies", 0, "size", [1, 0]), "expected a positive integer number of pixels"),
+        (put("studies", 0, "size", [True, 1]), "expected a positive integer number of pixels"),
+        (put("studies", 0, "device", "x" * 201), "expected a string of at most 200 characters"),
+        (put("studies", 0, "device", None), "expected a string of at most 200 characters"),
+        (put("studies", 0, "inputs", "scene", 5), "expected a string of at most 200 characters"),
+        (put("studies", 0, "inputs", {}), "missing attachments, device, pipelines, scene, size"),
+        (put("studies", 0, "counts", {}), "`counts` must be an object with at least one sample count"),
+        (put("studies", 0, "counts", "3", {}), "`3` is not a sample count"),
+        (put("studies", 0, "counts", "8x" * 50, {}), "`8x8x8x8x8x8x8x8x8x8…` is not a sample count"),
+        (put(*COUNT, "rmse", -1), "expected a number of at least 0"),
+        (put(*COUNT, "rmse", "0.1"), "expected a number of at least 0"),
+        (put(*COUNT, "rmse", True), "expected a number of at least 0"),
+        (put(*COUNT, "rmse", float("nan")), "expected a number of at least 0"),
+        (put(*COUNT, "time_ms", float("inf")), "expected a number of at least 0"),
+        (put(*COUNT, "justified", 1), "`justified` must be true or false"),
+        (put(*COUNT, "reason", []), "expected a string of at most 200 characters"),
     ],
 )
 def test_a_malformed_record_is_said_to_be(beside: Path, edit: Any, words: str) -> None:
@@ -295,9 +295,9 @@ def test_a_malformed_record_is_said_to_be(beside: Path, edit: Any, words: str) -
 @pytest.mark.parametrize(
     ("data", "words"),
     [
-        (b"", ": one JSON object is due"),
-        (b"null", ", line 1: an object with schema, studies is due"),
-        (b"{} \n---\n{}", ": one JSON object is due"),
+        (b"", ": expected one JSON object"),
+        (b"null", ", line 1: expected an object with schema, studies"),
+        (b"{} \n---\n{}", ": expected one JSON object"),
         (b"{", "line 1"),
         (b"\xff\xfe\x00", "UTF-16"),
         (b"\xff", ": it is not UTF-8"),
@@ -377,7 +377,7 @@ def test_check_tells_a_broken_record_and_goes_on(beside: Path) -> None:
     Path(path_of(str(beside))).write_text('{"schema": "\\u001b[31m"}')
     done = check(beside)
     assert done.returncode == 1 and done.stderr == ""
-    assert "its study record cannot be used: frame.msaa.yaml.msaa-study.json, line 1: it lacks studies" in done.stdout
+    assert "its study record cannot be used: frame.msaa.yaml.msaa-study.json, line 1: missing studies" in done.stdout
     hostile = edited(put("studies", 0, "device", "\x1b[31m\u202e##[x]"))
     Path(path_of(str(beside))).write_bytes(hostile)
     done = check(beside)

@@ -321,9 +321,9 @@ def test_the_rest_of_a_file_with_mistakes_counts() -> None:
 @pytest.mark.parametrize(
     ("text", "at", "message"),
     [
-        ('a = "x"\nb = [1,,2]\n', (2, 8, 2, 9, ","), "the configuration is no TOML: Invalid value"),
-        ("a = 1\r\na = 2\r\n", (2, 6, 2, 6, ""), "the configuration is no TOML: Cannot overwrite a value"),
-        ('a = "', (1, 6, 1, 6, ""), "the configuration is no TOML: Unterminated string"),
+        ('a = "x"\nb = [1,,2]\n', (2, 8, 2, 9, ","), "the configuration is not valid TOML: Invalid value"),
+        ("a = 1\r\na = 2\r\n", (2, 6, 2, 6, ""), "the configuration is not valid TOML: Cannot overwrite a value"),
+        ('a = "', (1, 6, 1, 6, ""), "the configuration is not valid TOML: Unterminated string"),
     ],
 )
 def test_broken_toml_says_where(text: str, at: tuple[int, int, int, int, str], message: str) -> None:
@@ -336,17 +336,17 @@ def test_broken_toml_says_where(text: str, at: tuple[int, int, int, int, str], m
 
 def test_a_broken_pyproject_that_names_our_table_is_an_error() -> None:
     write("pyproject.toml", "[tool.msaa-lint]\nselect = [\n")
-    assert only(load("x.yaml")).message.startswith("the configuration is no TOML")
+    assert only(load("x.yaml")).message.startswith("the configuration is not valid TOML")
 
 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
         ("a = " + "[" * 100_000, "the configuration is nested too deeply"),
-        ("a = " + "9" * 5000, "the configuration is no TOML"),
-        (".".join("a" * 100_000) + " = 1", "too many dotted names in one line of the configuration"),
+        ("a = " + "9" * 5000, "the configuration is not valid TOML"),
+        (".".join("a" * 100_000) + " = 1", "too many dots in one line of the configuration"),
         ("#" * (1 << 20) + "#", "cannot read the configuration: it is larger than the limit of 1048576 bytes"),
-        ("a = '\0'", "the configuration is no TOML"),
+        ("a = '\0'", "the configuration is not valid TOML"),
         ("limits.depth = 0x" + "f" * 5000, "`depth` must be an integer from 1 to 100, found a longer number in `limits`"),
         ("ignore = [" + '"x",' * 1001 + "]", "expected at most 1000 elements, found 1001 in `ignore`"),
         ("exclude = [" + '"x",' * 201 + "]", "expected at most 200 elements, found 201 in `exclude`"),

@@ -195,7 +195,8 @@ def test_each_unused_name_is_reported_at_its_place_unless_its_rule_was_not_judge
     assert [(each.rule, each.severity, each.fatal, each.file) for each in outcome.extra] == [
         ("unused-suppression", "warning", False, FILE)
     ] * 2
-    assert [each.message for each in outcome.extra] == ["unused suppression: no `loaded` here", "unused suppression: no `MSAA301` here"]
+    messages = [f"unused suppression: no `{name}` finding here" for name in ("loaded", "MSAA301")]
+    assert [each.message for each in outcome.extra] == messages
     assert run(text, finding(text, "1"), enabled={"stored", "resolve-outside-pass"}).problems() == [("MSAA911", 1, 41, 48, "MSAA301")]
 
 
@@ -219,44 +220,52 @@ def test_errors_of_the_description_cannot_be_silenced() -> None:
     outcome = run(text, broken)
     assert outcome.kept == [broken]
     assert outcome.problems() == [("MSAA911", 1, 26, 37, "unknown-key"), ("MSAA911", 2, 26, 33, "MSAA902")]
-    assert outcome.extra[0].message == "`unknown-key` cannot be silenced: it says that something could not be judged"
+    assert outcome.extra[0].message == "`unknown-key` is an error and cannot be suppressed"
 
 
 @pytest.mark.parametrize(
-    ("name", "help"),
+    ("name", "hint"),
     [
-        ("resolve-outside-pas", "did you mean `resolve-outside-pass`?"),
-        ("msaa201", "did you mean `MSAA201`?"),
+        ("resolve-outside-pas", "; did you mean `resolve-outside-pass`?"),
+        ("msaa201", "; did you mean `MSAA201`?"),
         ("zzzz", ""),
-        ("stored loaded", "commas separate the rules"),
+        ("stored loaded", "; separate rules with commas"),
     ],
 )
-def test_an_unknown_rule_is_reported_with_the_nearest(name: str, help: str) -> None:
+def test_an_unknown_rule_is_reported_with_the_nearest(name: str, hint: str) -> None:
     text = f"a: 1 # msaa-lint: ignore[stored, {name}] why\n"
     outcome = run(text, finding(text, "1"))
     assert len(outcome.suppressed) == 1
     assert outcome.problems() == [("MSAA912", 1, 34, 34 + len(name), name)]
-    assert (outcome.extra[0].message, outcome.extra[0].help) == (f"unknown rule `{name}` in a suppression: it silences nothing", help)
+    assert outcome.extra[0].message == f"unknown rule `{name}` in a suppression{hint}"
+
+
+WRITE = "write `# msaa-lint: ignore[rule-name] reason`"
+EXPECTED = "expected `ignore[rule-name]` or `ignore-file[rule-name]`"
 
 
 @pytest.mark.parametrize(
     ("comment", "at", "message"),
     [
-        ("# msaa-lint: ignore", "# msaa-lint: ignore", "`ignore` without a rule: it silences nothing"),
-        ("# msaa-lint: ignore because I say so", "# msaa-lint: ignore", "`ignore` without a rule: it silences nothing"),
-        ("# msaa-lint: ignore-file", "# msaa-lint: ignore-file", "`ignore-file` without a rule: it silences nothing"),
-        ("# msaa-lint: ignore[] why", "# msaa-lint: ignore[]", "`ignore[]` names no rule: it silences nothing"),
-        ("# msaa-lint: ignore[ , ]", "# msaa-lint: ignore[ , ]", "`ignore[]` names no rule: it silences nothing"),
-        ("# msaa-lint: ignore[stored", "# msaa-lint: ignore[stored", "a suppression without its `]`: it silences nothing"),
-        ("# msaa-lint: ignore(stored)", "# msaa-lint: ignore(stored)", "`ignore` without square brackets: it silences nothing"),
-        ("# msaa-lint: ignore: stored", "# msaa-lint: ignore: stored", "`ignore` without square brackets: it silences nothing"),
-        ("# msaa-lint: ingore[stored]", "ingore", "unknown word `ingore` after `msaa-lint:`: it silences nothing"),
-        ("# msaa-lint: disable[stored]", "disable", "unknown word `disable` after `msaa-lint:`: it silences nothing"),
-        ("# msaa-lint: [stored]", "# msaa-lint: ", "no word after `msaa-lint:`: it silences nothing"),
-        ("# msaa-lint ignore[stored] x", "# msaa-lint ignore[stored] x", "not written as a suppression: it silences nothing"),
-        ("# msaa_lint: ignore[stored]", "# msaa_lint: ignore[stored]", "not written as a suppression: it silences nothing"),
-        ("# msaa-lint: ignore[ALL]", "ALL", "`ALL` names a group of rules: it silences nothing"),
-        ("# msaa-lint: ignore[MSAA2]", "MSAA2", "`MSAA2` names a group of rules: it silences nothing"),
+        ("# msaa-lint: ignore", "# msaa-lint: ignore", f"`ignore` names no rule; {WRITE}"),
+        ("# msaa-lint: ignore because I say so", "# msaa-lint: ignore", f"`ignore` names no rule; {WRITE}"),
+        (
+            "# msaa-lint: ignore-file",
+            "# msaa-lint: ignore-file",
+            "`ignore-file` names no rule; write `# msaa-lint: ignore-file[rule-name] reason`",
+        ),
+        ("# msaa-lint: ignore[] why", "# msaa-lint: ignore[]", f"`ignore[]` names no rule; {WRITE}"),
+        ("# msaa-lint: ignore[ , ]", "# msaa-lint: ignore[ , ]", f"`ignore[]` names no rule; {WRITE}"),
+        ("# msaa-lint: ignore[stored", "# msaa-lint: ignore[stored", f"suppression without a closing `]`; {WRITE}"),
+        ("# msaa-lint: ignore(stored)", "# msaa-lint: ignore(stored)", f"suppression without square brackets; {WRITE}"),
+        ("# msaa-lint: ignore: stored", "# msaa-lint: ignore: stored", f"suppression without square brackets; {WRITE}"),
+        ("# msaa-lint: ingore[stored]", "ingore", "unknown word `ingore` after `msaa-lint:`; did you mean `ignore`?"),
+        ("# msaa-lint: disable[stored]", "disable", f"unknown word `disable` after `msaa-lint:`; {EXPECTED}"),
+        ("# msaa-lint: [stored]", "# msaa-lint: ", f"no word after `msaa-lint:`; {EXPECTED}"),
+        ("# msaa-lint ignore[stored] x", "# msaa-lint ignore[stored] x", f"invalid suppression; {WRITE}"),
+        ("# msaa_lint: ignore[stored]", "# msaa_lint: ignore[stored]", f"invalid suppression; {WRITE}"),
+        ("# msaa-lint: ignore[ALL]", "ALL", "`ALL` names a group of rules; name each rule to suppress"),
+        ("# msaa-lint: ignore[MSAA2]", "MSAA2", "`MSAA2` names a group of rules; name each rule to suppress"),
     ],
 )
 def test_what_silences_nothing_says_so(comment: str, at: str, message: str) -> None:
@@ -270,7 +279,7 @@ def test_what_silences_nothing_says_so(comment: str, at: str, message: str) -> N
 
 def test_a_misspelt_word_is_recognised() -> None:
     text = "a: 1 # msaa-lint: ingore[stored]\n"
-    assert run(text).extra[0].help == "did you mean `ignore`?"
+    assert run(text).extra[0].message.endswith("; did you mean `ignore`?")
 
 
 @pytest.mark.parametrize(
@@ -335,7 +344,7 @@ def test_a_flood_of_comments_gives_a_bounded_number_of_findings() -> None:
     counts = {code: sum(each.code == code for each in outcome.extra) for code in ("MSAA911", "MSAA912", "MSAA913")}
     assert counts == dict.fromkeys(counts, MAX_FINDINGS)
     last = [each for each in outcome.extra if each.code == "MSAA912"][-1]
-    assert last.notes == ("further findings of this kind are not shown",)
+    assert last.notes == ("more findings of this kind are not shown",)
     assert next(each.span for each in outcome.extra if each.code == "MSAA912") == Span(25, 27)
 
 
