@@ -161,7 +161,7 @@ def test_terminal_escapes_of_an_input_do_not_reach_the_terminal(folder: Path) ->
         assert "\x1b" not in run(folder, "check", ".", "--output", format).stdout
 
 
-def test_colour(folder: Path) -> None:
+def test_color(folder: Path) -> None:
     assert "\x1b[" in run(folder, "check", "bad.msaa.yaml", "--color", "always").stdout
     assert "\x1b[" not in run(folder, "check", "bad.msaa.yaml").stdout
     assert "\x1b[" in run(folder, "check", "bad.msaa.yaml", FORCE_COLOR="1").stdout

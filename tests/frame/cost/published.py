@@ -30,8 +30,8 @@ class Configuration(NamedTuple):
 
 CONFIGURATIONS = {
     "A": Configuration("no MSAA", FOLDER / "single-sampled.msaa.yaml", 607.1, 413.1),
-    "B": Configuration("4x, colour resolved in the pass", FOLDER / "color-inline.msaa.yaml", 633.5, 433.1),
-    "C": Configuration("4x, colour resolved by command", EXAMPLES / "khronos-msaa/color-separate.msaa.yaml", 2803.3, 2715.1),
+    "B": Configuration("4x, color resolved in the pass", FOLDER / "color-inline.msaa.yaml", 633.5, 433.1),
+    "C": Configuration("4x, color resolved by a command", EXAMPLES / "khronos-msaa/color-separate.msaa.yaml", 2803.3, 2715.1),
     "D": Configuration("no MSAA, post-processing", FOLDER / "single-sampled-post.msaa.yaml", 1117.7, 905.4),
     "E": Configuration("4x, post-processing, both resolved in the pass", EXAMPLES / "khronos-msaa/inline.msaa.yaml", 1160.6, 930.7),
     "F": Configuration("4x, post-processing, neither", EXAMPLES / "khronos-msaa/depth-unresolved.msaa.yaml", 3527.0, 4881.6),
