@@ -1,4 +1,4 @@
-"""The prices of findings: by the cost model, the cost of the frame as written minus its cost with the fix. No rule has its own formula."""
+"""Prices of findings: the estimated cost of the frame as written minus its cost with the fix. No rule has its own formula."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ Reread = Callable[[Sequence[Change]], Document | None]
 """Makes changes in a document's text and reads it again; None if the changes cannot be written."""
 
 MAX_TRIALS = 16
-"""How many structural fixes are tried one by one if not all of them can be made together."""
+"""How many structural fixes are tried one by one if they cannot all be made together."""
 
 _DECIMALS = 6
-"""Differences of sums have noise below this."""
+"""Smaller differences are rounding errors."""
 
 
 class Part(NamedTuple):
@@ -52,7 +52,7 @@ class Prices:
         self._images: dict[Part, set[str]] = {}
 
     def of(self, changes: Sequence[Change]) -> Price | None:
-        """What the frame costs for lack of some changes; None if a size or format that this depends on is unknown.
+        """The saving from some changes; None if a size or format that this depends on is unknown.
 
         Only the passes and images that the changes concern are computed, because the rest costs the same before and after.
         """
@@ -62,7 +62,7 @@ class Prices:
         return None if after is None else _difference(before, after)
 
     def together(self, fixes: Iterable[Sequence[Change]]) -> Price | None:
-        """What a frame costs for lack of several fixes. If two set a member to different values, the first one counts.
+        """The saving from several fixes together. If two set a member to different values, the first one counts.
 
         If one fix removes what another changes, as many as possible are made together.
         """
@@ -116,7 +116,7 @@ class Prices:
         return frame_cost(Frame(document), self.device, self.terms)
 
     def _part(self, changes: Sequence[Change]) -> Part | None:
-        """The part that changes may alter; None, which is all, if one of them concerns neither a pass nor an image."""
+        """The part whose cost changes may alter. None, for the whole frame, if one of them concerns neither a pass nor an image."""
         passes: set[str] = set()
         images: set[str] = set()
         for change in changes:

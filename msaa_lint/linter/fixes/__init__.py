@@ -1,4 +1,4 @@
-"""Fixes: from a rule page's fix to changes of the description, to edits of its text, to the file.
+"""Turns the fix of a rule page into changes of the description, edits of its text, and a fixed file.
 
-A run that neither applies fixes nor reports them imports nothing of this.
+A run that neither applies nor reports fixes imports nothing from here.
 """

@@ -1,4 +1,4 @@
-"""The fixes that rule pages name by `do`, for frames in Vulkan's terms."""
+"""The fixes that rule pages name by `do`, in Vulkan descriptions."""
 
 from __future__ import annotations
 

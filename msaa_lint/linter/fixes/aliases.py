@@ -1,4 +1,4 @@
-"""Which members of a document the same text states, through aliases and merge keys, and what several fixes request of those."""
+"""Finds members that share their text through aliases and merge keys, and whether several fixes request the same change of them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Requests = Mapping[Member, Collection[tuple[str, str]]]
 """The actions and values that fixes request, by member."""
 
 MAX_SHARED = 1000
-"""How many members of a shared text are compared. With more, the fixes count as not agreeing."""
+"""How many members of a shared text are compared. With more, the fixes are taken to disagree."""
 
 _TOO_MANY: Member = (0, "")
 """Stands for more members than are compared: no fix requests anything of it."""
@@ -32,7 +32,7 @@ def requests(changes: Iterable[Change]) -> dict[Member, set[tuple[str, str]]]:
 
 
 def all_request(members: Iterable[Member], changes: Sequence[Change], requested: Requests) -> bool:
-    """Whether what the changes of one member request is requested of all of some members."""
+    """Whether the changes of one member are requested of all the given members."""
     own = {(change.action, str(change.value)) for change in changes}
     return all(own.issubset(requested.get(member, ())) for member in members)
 
@@ -71,7 +71,7 @@ class Aliases:
         return [_TOO_MANY] if len(members) > MAX_SHARED else [other for other in members if other not in same_key]
 
     def has_same_node(self, record: Record) -> bool:
-        """Whether the same place of the text states another record."""
+        """Whether another record is stated at the same place of the text."""
         return any(other != id(record) for other in self._by_node[id(record.node)])
 
     def of_mapping(self, record: Record) -> set[int]:

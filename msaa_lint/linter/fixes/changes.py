@@ -11,16 +11,20 @@ from msaa_lint.frame.description.record import Record
 
 
 class Change(NamedTuple):
-    """One change of a record's member.
+    """A change of one member of a record.
 
-    Actions on a single value are `set` (to a canonical name, a number or a boolean), `unset` (as if it were not stated), and `add` and
-    `remove` (of one flag, by its canonical name). The other actions are structural: they change the entries that a member holds.
+    | action | value | effect |
+    |---|---|---|
+    | `set` | a canonical name, a number or a boolean | replaces the value |
+    | `unset` | | removes the member |
+    | `add`, `remove` | a canonical name | adds a flag or removes it |
+    | `entry` | a name and plain data | adds an entry at the end of a mapping or a list |
+    | `append` | plain data | adds an item at the end of a list |
+    | `insert-after` | an index and plain data | inserts an item after another |
+    | `replace` | an index and a scalar | replaces an item |
+    | `drop` | an index | removes an entry |
 
-    `entry`: the value is a name and plain data, added at the end of a mapping or a list
-    `append`: the value is plain data, added at the end of a list
-    `insert-after`: the value is an index and plain data, inserted after the entry at that index
-    `replace`: the value is an index and a scalar, which replaces the entry at that index
-    `drop`: the value is the index of the entry to remove
+    The actions from `entry` on are structural.
     """
 
     record: Record

@@ -43,7 +43,7 @@ def draw_the_copy(subject: Subject, context: FixContext) -> list[Change]:
 
 
 def _command(subject: Subject, fact: str, context: FixContext) -> tuple[int, int | None]:
-    """The position, and the entry of vkCmdClearAttachments, of the only command at the place of a fact."""
+    """The only command at the place of a fact: its position and, for vkCmdClearAttachments, the entry."""
     place = subject.facts.places.get(fact)
     commands = context.commands_at.get(place, []) if place is not None else []
     if len(commands) != 1:

@@ -1,4 +1,4 @@
-"""Which commands of a frame use which images, and which usages that takes."""
+"""The images that each command of a frame uses, and the usages that it needs."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ COMMAND_USAGES = frozenset({"TRANSFER_SRC", "TRANSFER_DST", "SAMPLED", "STORAGE"
 
 
 class CommandUses:
-    """Which commands use which images, by position. Empty, with `complete` False, for a frame with more uses than are tracked."""
+    """The uses of images by commands. Empty, with `complete` False, for a frame with more uses than are tracked."""
 
     def __init__(self, frame: Frame) -> None:
         self._usages: dict[str, Counter[str]] = {}

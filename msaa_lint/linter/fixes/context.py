@@ -1,4 +1,4 @@
-"""What the fixes of one document look up in its frame."""
+"""Data about one frame that fixes look up."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Wait = SubpassDependency | PipelineBarrier
 
 
 class FixContext:
-    """The frame of a document and indexes of it, each built when a fix first needs it."""
+    """The frame of a document and indexes of it, all built on first use."""
 
     def __init__(self, document: Document) -> None:
         self.document = document
@@ -38,26 +38,26 @@ class FixContext:
 
     @cached_property
     def references(self) -> References:
-        """What names images or, for a frame in Metal's terms, textures."""
+        """The records that name images or, in a Metal description, textures."""
         description = self.document.description
         return References(description, "images") if description.metal is None else References(description.metal, "metal.textures")
 
     @property
     def metal(self) -> Metal:
-        """The section that describes the frame, for a frame in Metal's terms."""
+        """The `metal` section of a Metal description."""
         metal = self.document.description.metal
         assert metal is not None
         return metal
 
     @property
     def lowered(self) -> Lowered:
-        """Where the Vulkan records come from, for a frame in Metal's terms."""
+        """The Metal records that the Vulkan records of a Metal description come from."""
         assert self.document.metal is not None
         return self.document.metal
 
     @cached_property
     def commands_at(self) -> dict[Span, list[tuple[int, int | None]]]:
-        """The commands by the places that facts point to: each one's position and, for an entry of vkCmdClearAttachments, the entry."""
+        """The positions of commands, and the entries of vkCmdClearAttachments, by the places that facts point to."""
         commands: dict[Span, list[tuple[int, int | None]]] = {}
         for position, command in enumerate(self.frame.commands):
             commands.setdefault(command.head, []).append((position, None))

@@ -1,4 +1,4 @@
-"""The fixes of one document's findings: the changes that each makes, and the edits that those take."""
+"""Plans the fixes of one document's findings and writes their edits."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from .text_edits import TextEditor
 class DocumentFixes:
     """Plans and writes the fixes of one document.
 
-    `format` is the reader that was forced, if any. Without `editable`, the document comes from source code, whose text is not edited.
+    `format` is the reader that was forced, if any. `editable` is False for source code, whose text is never edited.
     """
 
     def __init__(self, result: DocumentResult, format: str | None = None, editable: bool = True) -> None:
@@ -37,7 +37,7 @@ class DocumentFixes:
         self._changes: dict[Key, tuple[Change, ...]] = {}
 
     def covers(self, finding: Finding) -> bool:
-        """Whether a finding is one of the document's and its rule has a fix for it."""
+        """Whether the finding belongs to the document and has a fix."""
         return finding_key(finding) in self.result.fix_specs
 
     def changes(self, finding: Finding) -> tuple[Change, ...]:
@@ -57,7 +57,7 @@ class DocumentFixes:
         return self._editor.edits(changes, requested)
 
     def with_edits(self, findings: Iterable[Finding]) -> list[Finding]:
-        """The findings, those of this document with the edits of their fixes. A fix that is only shown or cannot be made has none."""
+        """Adds the edits of fixes to the document's findings. A fix that is only shown or that cannot be made has no edits."""
         return [self._with_edits(finding) if self.covers(finding) else finding for finding in findings]
 
     def _with_edits(self, finding: Finding) -> Finding:
@@ -89,7 +89,7 @@ class DocumentFixes:
         return shorthand(self.result.document, self.result.number, self._requested()) if self._editable else None
 
     def _requested(self) -> tuple[list[Change], list[Change]]:
-        """The changes that the document's safe fixes make, and those that all its fixes make that are not only shown."""
+        """The changes of the document's safe fixes, and of all its fixes except those that are only shown."""
         safe: list[Change] = []
         applicable: list[Change] = []
         for specs in self.result.fix_specs.values():

@@ -1,4 +1,4 @@
-"""Which members of which records state the facts that a fix may change, for frames in Vulkan's terms."""
+"""The members that state the facts that a fix may change, in Vulkan descriptions."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def _image_member(member: str, subject: Subject, _: FixContext) -> list[Source]:
 
 
 def _samples(subject: Subject, context: FixContext) -> list[Source]:
-    """The sample counts of an image and of the attachments that it is bound to, where they are stated."""
+    """The stated sample counts of an image and of the attachments that it is bound to."""
     sources: list[Source] = []
     for target in images_of(subject):
         bound = context.analysis.bindings.attachments.get(id(target.record), ())

@@ -38,7 +38,7 @@ class FixedText(NamedTuple):
 def fix_input(
     data: bytes, result: FileResult, lint: Callable[[bytes], FileResult], selects: Callable[[Finding], bool], unsafe: bool, path: str | None
 ) -> FixedText:
-    """Fixes the findings of a linted input that `selects` accepts, and writes it to `path` if that is given.
+    """Fixes the findings of an input that `selects` accepts and, if `path` is given, writes the result there.
 
     `lint` lints other contents of the same input. `unsafe` applies unsafe fixes as well.
     """

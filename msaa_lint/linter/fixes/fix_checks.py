@@ -19,7 +19,7 @@ from .metal import METAL_ACTIONS, METAL_FACT_SOURCES
 
 
 def problems(rule: Rule) -> list[Finding]:
-    """The unknown actions, the facts that fixes cannot change, and the values that facts cannot have (MSAA921)."""
+    """Unknown actions, facts that fixes cannot change, and values that facts cannot have (MSAA921)."""
     found = dict.fromkeys(problem for spec in rule.fix_specs for problem in _problems(spec, rule))
     return [diagnostic("MSAA921", f"rule page `{rule.name}`: {message}", rule.source.name, span, rule.name) for span, message in found]
 

@@ -1,6 +1,6 @@
 """Fixes one text in rounds: each applies the fixes that do not overlap, then lints the result.
 
-A fix is only kept if the result can be read, its finding is gone, and no new finding appears.
+A fix is kept only if the result has no errors, its finding is gone, and no new finding appears.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from .document_fixes import DocumentFixes
 
 MAX_ROUNDS = 10
 MAX_TRIALS = 60
-"""How often a text is linted: a hostile one may hold thousands of fixes that fail, each of which bisection has to find."""
+"""How often a text is linted at most: a hostile text may have thousands of failing fixes, each found by bisection."""
 
 UNUSED_SUPPRESSION = "MSAA911"
 """A fix may leave a suppression without a finding. That is not the fix's fault, and the next round removes the suppression."""
@@ -97,7 +97,7 @@ class _Fixer:
         return FixResult(self.text, self.result, tuple(fixed_findings), tuple(self.failed_fixes))
 
     def candidates(self) -> list[_Fix]:
-        """The fixes that may be applied, the most severe findings' first. Those that share edits are one."""
+        """The fixes that may be applied, those of the most severe findings first. Fixes that share edits are joined."""
         if self.result.source is None:
             return []
         findings = sorted(filter(self.may_fix, self.result.findings), key=lambda finding: -rank(finding.severity))
@@ -137,9 +137,9 @@ class _Fixer:
         return candidates
 
     def apply(self, group: Sequence[_Fix], applied: list[_Fix], text: str, result: FileResult) -> list[_Fix]:
-        """Applies the fixes of a group that can be, in addition to those of the round that are applied already, and returns them all.
+        """Applies as many fixes of a group as possible, after those already applied in this round. Returns all applied fixes.
 
-        `text` and `result` are those before the round. Fixes that spoil a group are found by bisection.
+        `text` and `result` are those before the round. Failing fixes are found by bisection.
         """
         if self.trials >= MAX_TRIALS:
             self.fail(group, "too many fixes of this input failed")
@@ -172,7 +172,7 @@ class _Fixer:
 def _leaving_an_entry(plans: Iterable[tuple[Finding, tuple[Change, ...]]]) -> list[tuple[Finding, tuple[Change, ...]]]:
     """The fixes without those that would remove the last entry of a list after others removed the rest.
 
-    An empty list may mean something else than no list. In the next round, the entry is the only one, and its fix accounts for that.
+    An empty list may mean something other than no list. In the next round the entry is the only one, and its fix accounts for that.
     """
     drop_counts: Counter[Member] = Counter()
     remaining = []
@@ -188,7 +188,7 @@ def _leaving_an_entry(plans: Iterable[tuple[Finding, tuple[Change, ...]]]) -> li
 
 
 def _join(fixes: Sequence[_Fix]) -> list[_Fix]:
-    """The fixes, those that have edits in common joined at the place of the first."""
+    """Joins fixes that have edits in common, at the position of the first."""
     parents = list(range(len(fixes)))
 
     def root(n: int) -> int:
@@ -211,7 +211,7 @@ def _join(fixes: Sequence[_Fix]) -> list[_Fix]:
 
 
 def _without_overlaps(fixes: Iterable[_Fix]) -> list[_Fix]:
-    """The fixes that do not overlap an earlier one of those returned."""
+    """The fixes that do not overlap an earlier fix of the result."""
     selection: list[_Fix] = []
     edits: list[Edit] = []
     for fix in fixes:
@@ -224,7 +224,7 @@ def _without_overlaps(fixes: Iterable[_Fix]) -> list[_Fix]:
 
 
 def _overlaps(edit: Edit, others: Sequence[Edit]) -> bool:
-    """Whether an edit overlaps one of several sorted edits that do not overlap each other."""
+    """Whether an edit overlaps one of several edits, which are sorted and do not overlap each other."""
     at = bisect_left(others, edit)
     # Between an edit and its neighbor there may be insertions at the edit's ends, which do not overlap it.
     for other in others[max(at - 2, 0) : at + 2]:
@@ -243,7 +243,7 @@ def _with_suppressed(result: FileResult) -> list[Finding]:
 
 
 def _objection(before: FileResult, after: FileResult, fixed_findings: Sequence[Finding]) -> str:
-    """Why the result of fixes cannot be kept; empty if it can."""
+    """The reason why the result of fixes cannot be kept, or an empty string."""
     kinds_before = set(map(_kind, before.findings))
     error = next((finding for finding in after.findings if finding.fatal and _kind(finding) not in kinds_before), None)
     if error is not None:

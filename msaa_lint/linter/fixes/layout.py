@@ -1,7 +1,7 @@
 """Edits that insert entries into the collections of a text and remove entries from them.
 
 Block or flow style, commas, comments, indentation and line breaks stay as they are. The comments of a removed entry stay as well, each on a
-line of its own. All edits raise NoFix where they cannot be made cleanly.
+line of its own. Raises NoFix for edits that cannot be made cleanly.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _NOT_ON_OWN_LINES = "the entry shares its lines with other text"
 
 
 class CollectionEditor:
-    """A mapping or a sequence. `items` are the places of its entries: of a mapping's keys with their values, without those merged in."""
+    """A mapping or a sequence. `items` are the places of its entries, for a mapping of each key with its value, without merged entries."""
 
     def __init__(self, text: TextScanner, node: Node) -> None:
         self.text = text

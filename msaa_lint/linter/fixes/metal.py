@@ -1,4 +1,4 @@
-"""Fixes of frames in Metal's terms: which members state the facts that a fix may change, and the fixes that rule pages name by `do`."""
+"""Fixes of Metal descriptions: the members that state the facts that a fix may change, and the fixes that rule pages name by `do`."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def _attachment_record(subject: Subject, context: FixContext) -> Record:
 
 
 def _pipeline_member(names: tuple[str, ...], subject: Subject, context: FixContext) -> list[Source]:
-    """The property of a pipeline by the name that the description uses for it, or by the first name if it does not state it."""
+    """A property of a pipeline, by the name that the description uses, or by the first name if the property is not stated."""
     record = context.metal.renderPipelines.get(pipeline_of(subject).key)
     if record is None:
         raise NoFix("the description does not declare the pipeline")
@@ -77,7 +77,7 @@ METAL_FACT_SOURCES: dict[str, FindSources] = {
 
 
 def make_memoryless(subject: Subject, context: FixContext) -> list[Change]:
-    """Memoryless storage, without the usages that nothing needs and the stores that nothing reads."""
+    """Makes storage memoryless and drops the usages that nothing needs and the stores that nothing reads."""
     image = described_image(subject)
     texture = context.metal.textures.get(image.key)
     if texture is None:
@@ -95,7 +95,7 @@ def make_memoryless(subject: Subject, context: FixContext) -> list[Change]:
 
 
 def _render_target_usage(texture: MetalTexture, context: FixContext) -> list[Change]:
-    """Reduces the usage of a texture to renderTarget, as far as the commands show that nothing needs the rest."""
+    """Reduces the usage of a texture to renderTarget. Raises NoFix if a command may need another usage."""
     changes: list[Change] = []
     for usage in texture.usage or ():
         if usage == "renderTarget":

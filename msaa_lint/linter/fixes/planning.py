@@ -1,4 +1,4 @@
-"""From a rule page's fix to the changes that it makes for one subject."""
+"""Plans the changes that a rule page's fix makes for one subject."""
 
 from __future__ import annotations
 

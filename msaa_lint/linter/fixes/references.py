@@ -9,7 +9,7 @@ from msaa_lint.frame.description.record import Record
 
 
 def nested_records(value: object) -> Iterator[Record]:
-    """The records in a value: itself if it is one, and all that it holds."""
+    """All records in a value, including the value itself."""
     if isinstance(value, Record):
         yield value
         for member in value.SHAPE if not isinstance(value, Command) else ("body",):

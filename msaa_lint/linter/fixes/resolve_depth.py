@@ -18,7 +18,7 @@ _MODE = "SAMPLE_ZERO"
 
 
 def resolve_depth(subject: Subject, context: FixContext) -> list[Change]:
-    """Resolves depth to an image with one sample, has its readers read that, and does not store the samples."""
+    """Resolves depth to an image with one sample, which readers then use, and does not store the samples."""
     attachment, aspect = aspect_of(subject)
     source = attachment.target.image if attachment.target is not None else None
     bound = context.attachments.get(id(source), [])
@@ -66,7 +66,7 @@ def _depth_resolve(name: str, render_pass: Pass, attachment: Attachment, context
 
 
 def _transient(source: Image, attachment: Attachment, aspect: Aspect, subject: Subject) -> list[Change]:
-    """Makes the image of the samples transient if only its readers kept it from that."""
+    """Makes the multisampled image transient if only its readers prevented that."""
     others = [other for other in attachment.aspects if other.name != aspect.name]
     if source.usage is None or set(source.usage) - BESIDE_TRANSIENT != {"SAMPLED"} or aspect.load != "CLEAR":
         return []

@@ -1,8 +1,8 @@
 """`do: resolve-in-pass` and `do: resolve-before-read`: the pass that draws the samples resolves them.
 
 The first replaces a vkCmdResolveImage. The second replaces a shader that averages the samples it reads: the shader reads an image with one
-sample instead and has to be rewritten for it, so that this fix is only shown and priced. Both refuse a frame that leaves a doubt: other
-uses in between, barriers, several framebuffers, unknown sizes or formats.
+sample instead and has to be rewritten for it, so that this fix is only shown and priced. Both refuse a frame in which other uses or
+barriers come in between, or framebuffers, sizes or formats are ambiguous.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from .subject_parts import read_of, resolve_of
 from .transient import lazy_memory, transient_usage
 
 MAX_ATTACHMENTS = 64
-"""Per pass. No device supports more."""
+"""The most attachments of a pass. No device supports more."""
 
 _MULTISAMPLED_SUFFIXES = ("_multisampled", "_msaa", "_ms", "MSAA", "Ms", "MS")
 _FINAL_LAYOUTS = {"present": "PRESENT_SRC_KHR", "readImage": "SHADER_READ_ONLY_OPTIMAL"}
@@ -94,7 +94,7 @@ def resolve_before_read(subject: Subject, context: FixContext) -> list[Change]:
 
 
 def _find_drawing(source: Target, position: int, context: FixContext) -> DrawnSamples:
-    """The last pass before a position that draws to an image, as a plain color attachment."""
+    """The last pass before a position that draws to an image. Raises NoFix if the image is not a plain color attachment of it."""
     frame = context.frame
     begin, render_pass = context.analysis.timeline.last_writer(source, position) or (0, None)
     if render_pass is None or begin >= position or len(render_pass.begun) != 1 or render_pass.custom_resolve or _suspends(render_pass):
@@ -119,7 +119,7 @@ def _suspends(render_pass: Pass) -> bool:
 def _color_resolve(drawing: DrawnSamples, name: str, mode: str, final_layout: str | None, context: FixContext) -> list[Change]:
     """Resolves a color attachment to the image `name` at the end of its pass.
 
-    In a render pass that takes a new attachment, and a reference to it at the index of the color attachment in its last subpass.
+    A render pass gets a new attachment, which its last subpass refers to at the index of the color attachment.
     """
     attachment, record = drawing.attachment, drawing.render_pass.record
     if drawing.render_pass.kind == RENDERING:
@@ -138,7 +138,7 @@ def _color_resolve(drawing: DrawnSamples, name: str, mode: str, final_layout: st
 
 
 def _has_other_readers(drawing: DrawnSamples, context: FixContext) -> bool:
-    """Whether something besides the command reads the samples, or may."""
+    """Whether anything other than the command may read the samples."""
     readers = context.analysis.readers
     return not readers.timeline.followed or any(event.position != drawing.position for event in readers.reads(drawing.image.key))
 

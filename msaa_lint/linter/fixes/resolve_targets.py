@@ -1,4 +1,4 @@
-"""What fixes that resolve within a pass share: the image and the attachment that they resolve to."""
+"""Declares the images and attachments that a pass resolves to."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .context import FixContext
 
 
 def unused_name(name: str, taken: Container[str]) -> str:
-    """The name itself if it is free, else the name with the first number that makes it so."""
+    """The name itself if it is not taken, else the name with the first suffix `_2`, `_3`, ... that is free."""
     number, candidate = 1, name
     while candidate in taken:
         number += 1
@@ -23,7 +23,7 @@ def unused_name(name: str, taken: Container[str]) -> str:
 
 
 def rendering_resolve(record: Record, mode: str, image: str, layout: str | None = None) -> list[Change]:
-    """Resolves an attachment of a dynamic rendering to an image, which has the layout if the attachment states one."""
+    """Resolves an attachment of a dynamic rendering to an image, in the given layout if the attachment states its own."""
     if not isinstance(record, RenderingAttachment) or record.resolveImage is not None:
         raise NoFix("the pass already resolves the attachment to another image")
     changes = [Change(record, "resolveMode", "set", mode), Change(record, "resolveImage", "set", image)]
@@ -48,8 +48,8 @@ def new_attachment(
 ) -> tuple[list[Change], int | str]:
     """Adds an attachment, the target of a resolve of another one, to a render pass and to its framebuffer.
 
-    It states what the other one states: its image or, if a framebuffer binds that, its format and samples; and its layouts. Also returns
-    what subpasses refer to it by: its index, or its name if the attachments are named.
+    It states the same members as the other one: its image or, if a framebuffer binds that, its format and samples; and its layouts. Also
+    returns the reference for subpasses: its index, or its name if attachments are named.
     """
     stated = source.record
     assert isinstance(stated, AttachmentDescription) and source.format is not None

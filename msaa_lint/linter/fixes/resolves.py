@@ -98,7 +98,7 @@ def _without_ops(record: Record, members: Iterable[str]) -> list[Change]:
 
 
 def resolve_by_sample_zero(subject: Subject, _: FixContext) -> list[Change]:
-    """Sets SAMPLE_ZERO, which every device supports, for both aspects; an aspect that is not resolved stays so if the device allows it."""
+    """Sets SAMPLE_ZERO, which every device supports. An aspect that is not resolved stays so if the device allows it."""
     resolve = resolve_of(subject)
     both = subject.facts.values.get("resolve.pair_supported") is False
     ends = [end for end in (resolve, resolve.pair) if end is not None and (both or end.mode != "NONE")]

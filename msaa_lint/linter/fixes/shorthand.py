@@ -1,7 +1,7 @@
-"""Fixes of render targets: another word in place of one, if it expands to what the fix changes and to nothing else.
+"""Fixes of render targets: replaces a word if another one expands to what the fix changes, and to nothing else.
 
-A word of a render target stands for several members of several structures. What it stands for is not repeated here: each word that could
-take its place is tried, expanded and compared.
+A word of a render target stands for several members of several structures. This module does not repeat which: it tries each alternative,
+expands it, and compares the result.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from .changes import Change, NoFix
 from .references import nested_records
 
 MAX_WORDS = 4
-"""How many words of one fix are tried. A fix that concerns more is not a matter of a single word."""
+"""How many words of one fix are tried. A fix that concerns more cannot be made by a single word."""
 
 _CONFIGS = {"colorAttachmentConfig": AttachmentConfigMSAA, "stencilAttachmentConfig": AttachmentConfig}
 
 Place = tuple[str, str, int]
-"""The path of a structure, a member of it, and which of the structures of that path it is."""
+"""The path of a structure, a member, and the structure's number among those of the same path."""
 
 Values = dict[Place, Any]
 """The values of members, by place. Lists of flags are sets."""

@@ -122,7 +122,7 @@ def _metal_model(record: Record) -> str:
 
 
 def _form(record: Record, is_flag: bool) -> Form | None:
-    """The form of the first enumerant of a record, preferably of a flag or not as asked for."""
+    """The form of the first enumerant of a record, preferably of a flag if `is_flag`, else of another one."""
     fallback = None
     for shape, text in _enumerants(record):
         form = form_of(_enum(shape), text)

@@ -1,4 +1,4 @@
-"""Changes as edits of a document's text, which leave everything else as it is, byte for byte."""
+"""Edits a document's text. What does not change stays the same, byte for byte."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class TextEditor:
 
     @cached_property
     def _records(self) -> list[Record]:
-        # The Vulkan records of a frame in Metal's terms have places in the text, but are not written there.
+        # The Vulkan records of a Metal description have places in the text, but are not written there.
         return list(nested_records(self.document.description.metal or self.document.description))
 
     @cached_property
@@ -152,7 +152,7 @@ class TextEditor:
         return self.text.text[self.text.content(node) : node.end][:1] in ("|", ">")
 
     def _flags(self, group: Sequence[Change], key: Node, node: Node) -> list[Edit]:
-        """Adds flags to a list and removes flags from it. Added flags replace removed ones as far as there are any."""
+        """Adds flags to a list and removes flags from it. Added flags replace removed ones where possible."""
         record, member = group[0].record, group[0].member
         shape = record.SHAPE[member]
         enum = shape[1]
@@ -227,7 +227,7 @@ class TextEditor:
         return self._writer.flags(shape[1], flags or (), record)
 
     def _insert(self, record: Record, members: Sequence[tuple[str, str]], requested: Requests) -> list[Edit]:
-        """Inserts members, with the text of their values, that a record does not state in its own mapping."""
+        """Inserts members, with the text of their values, into a record's own mapping."""
         node = record.node
         if node.kind != "mapping" or (self.is_dump and any(record.SHAPE[member][0] == "list" for member, _ in members)):
             raise NoFix("the structure is not written as a mapping of its own")

@@ -1,6 +1,6 @@
 """`do: make-transient`: an image that nothing reads or loads becomes a transient attachment.
 
-Metal's memoryless textures take the same steps in other terms: what both need is here.
+Metal's memoryless textures need the same steps; the shared functions are here.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .subject_parts import described_image
 
 
 def make_transient(subject: Subject, context: FixContext) -> list[Change]:
-    """TRANSIENT_ATTACHMENT in place of usages that nothing needs, no stores, and lazily allocated memory if the device may offer it."""
+    """Replaces usages that nothing needs by TRANSIENT_ATTACHMENT, drops stores, and uses lazily allocated memory if available."""
     image = described_image(subject)
     check_unread(subject)
     return [
