@@ -11,7 +11,7 @@ from typing import IO
 from msaa_lint.core.finding import Result
 from msaa_lint.core.project import shown
 from msaa_lint.frame.cost.amounts import Terms
-from msaa_lint.frame.cost.input_cost import Compared, compared
+from msaa_lint.frame.cost.input_cost import CostComparison, compare_inputs
 from msaa_lint.frame.cost.samples import COUNTS
 from msaa_lint.frame.cost.variants import DEFAULT_COUNTS
 from msaa_lint.linter.cost_run import CostResult, run_costs, with_fixes
@@ -65,13 +65,13 @@ def _cost(arguments: Arguments) -> int:
     return 2 if result.errors.findings else 0
 
 
-def _comparison(result: CostResult, request: Request) -> Compared | None:
+def _comparison(result: CostResult, request: Request) -> CostComparison | None:
     """The comparison of two files; None for other inputs, and if one of the two cannot be used: the other is then shown alone."""
     if len(request.paths) != 2 or any(os.path.isdir(path) for path in request.paths):
         return None
     old, new = (request.input_name(path) if path == "-" else shown(path) for path in request.paths)
     old_frames, new_frames = result.of(old), result.of(new)
-    return compared(old, old_frames, new, new_frames) if old_frames and new_frames else None
+    return compare_inputs(old, old_frames, new, new_frames) if old_frames and new_frames else None
 
 
 def parse_terms(arguments: Arguments) -> Terms:
@@ -125,7 +125,7 @@ def _print_errors(errors: Result, arguments: Arguments) -> None:
             print(concise.line(finding, errors, options), file=sys.stderr)
 
 
-def _render(format: str, result: CostResult, comparison: Compared | None, arguments: Arguments, out: IO[str]) -> None:
+def _render(format: str, result: CostResult, comparison: CostComparison | None, arguments: Arguments, out: IO[str]) -> None:
     from .report import cost_full, cost_json, cost_markdown
 
     options = report_options(arguments, out, color=format == "full", width=0)
@@ -145,7 +145,7 @@ def _render(format: str, result: CostResult, comparison: Compared | None, argume
         cost_full.render(result.frames, out.write, options)
 
 
-def _draw_chart(path: str, result: CostResult, comparison: Compared | None) -> None:
+def _draw_chart(path: str, result: CostResult, comparison: CostComparison | None) -> None:
     from .report import cost_chart
     from .report.cost_rows import head
     from .report.paths import display_path

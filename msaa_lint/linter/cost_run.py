@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from msaa_lint.core.finding import Result
 from msaa_lint.frame.cost.amounts import FrameCost, Terms
-from msaa_lint.frame.cost.input_cost import Costed
+from msaa_lint.frame.cost.input_cost import CostedFrame
 from msaa_lint.frame.cost.model import frame_cost
 from msaa_lint.frame.cost.variants import variants
 from msaa_lint.frame.facts.frame import Frame
@@ -22,11 +22,11 @@ FixedCost = Callable[[FileResult, DocumentResult, Terms], FrameCost | None]
 class CostResult(NamedTuple):
     """The costs of the frames in order of the inputs; a result with the errors and nothing else; lines for standard error."""
 
-    frames: Sequence[Costed]
+    frames: Sequence[CostedFrame]
     errors: Result
     notes: Sequence[str]
 
-    def of(self, file: str) -> list[Costed]:
+    def of(self, file: str) -> list[CostedFrame]:
         """The frames of one input."""
         return [frame for frame in self.frames if frame.file == file]
 
@@ -39,7 +39,7 @@ def run_costs(request: Request, terms: Terms, counts: Sequence[int], fixed_cost:
     workspace = Workspace(request)
     discovered = workspace.discover()
     findings = workspace.findings
-    frames: list[Costed] = []
+    frames: list[CostedFrame] = []
     for path in discovered.files:
         file = workspace.open(path)
         if file is None:
@@ -54,7 +54,7 @@ def run_costs(request: Request, terms: Terms, counts: Sequence[int], fixed_cost:
             cost = frame_cost(Frame(document.document), document.device, terms)
             others = variants(document.document, document.device, terms, counts)
             fixed = fixed_cost(result, document, terms) if fixed_cost is not None else None
-            frames.append(Costed(result.file, document.number, len(result.documents), cost, others, fixed))
+            frames.append(CostedFrame(result.file, document.number, len(result.documents), cost, others, fixed))
     errors = [finding for finding in dict.fromkeys(findings) if finding.fatal]
     files = dict.fromkeys([*map(request.input_name, discovered.files), *(finding.file for finding in errors)])
     return CostResult(frames, Result(errors, [], [], list(files), workspace.sources, []), discovered.notes)

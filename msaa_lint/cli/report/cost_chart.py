@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from msaa_lint.frame.cost.amounts import FrameCost
-from msaa_lint.frame.cost.input_cost import Compared, Costed
+from msaa_lint.frame.cost.input_cost import CostComparison, CostedFrame
 from msaa_lint.frame.cost.variants import AS_WRITTEN, NONE, Variant
 
 from .figure import save_figure
@@ -27,13 +27,13 @@ class Bar(NamedTuple):
     milliwatts: float
 
 
-def bars(frame: Costed) -> list[Bar]:
+def bars(frame: CostedFrame) -> list[Bar]:
     """The bars of a frame, from top to bottom."""
     fixed = [] if frame.fixed is None else [_bar("fixed", "", frame.fixed)]
     return [_bar("as written", "", frame.cost), *fixed, *_variants(frame.variants)]
 
 
-def compared_bars(comparison: Compared) -> list[Bar]:
+def compared_bars(comparison: CostComparison) -> list[Bar]:
     """The bars of two inputs with one frame each: the old one as written, then all of the new one."""
     old = [_bar("old, as written", "", frame.cost) for frame in comparison.old]
     new = [bar if bar.group else bar._replace(name=f"new, {bar.name}") for frame in comparison.new for bar in bars(frame)]

@@ -10,7 +10,7 @@ from rich.measure import Measurement
 from rich.table import Table as RichTable
 from rich.text import Text
 
-from msaa_lint.frame.cost.input_cost import Compared, Costed
+from msaa_lint.frame.cost.input_cost import CostComparison, CostedFrame
 
 from . import Options, Write, cost_rows
 from .cost_rows import Row, Table
@@ -28,7 +28,7 @@ _UNLIMITED = 10_000
 _STYLES = {cost_rows.PASS: "bold", cost_rows.LINE: "", cost_rows.TOTAL: "bold"}
 
 
-def render(frames: Sequence[Costed], out: Write, options: Options) -> None:
+def render(frames: Sequence[CostedFrame], out: Write, options: Options) -> None:
     """Prints the tables of each frame; for several frames, their totals as well."""
     names = [frame_name(frame, options) for frame in frames]
     for number, (name, frame) in enumerate(zip(names, frames, strict=True)):
@@ -40,7 +40,7 @@ def render(frames: Sequence[Costed], out: Write, options: Options) -> None:
         _print_table(cost_rows.totals(frames, names), out, options)
 
 
-def render_comparison(compared: Compared, out: Write, options: Options) -> None:
+def render_comparison(compared: CostComparison, out: Write, options: Options) -> None:
     """Prints what the new input costs more than the old one, for passes that differ, and in total."""
     for number, comparison in enumerate(compared.frames):
         document = f", document {number + 1}" if len(compared.frames) > 1 else ""
@@ -50,7 +50,7 @@ def render_comparison(compared: Compared, out: Write, options: Options) -> None:
         _print_remarks(cost_rows.comparison_remarks(compared, number), out)
 
 
-def frame_name(frame: Costed, options: Options) -> str:
+def frame_name(frame: CostedFrame, options: Options) -> str:
     """A frame's input, and its document if there are several."""
     return display_path(frame.file, options.root) + (f", document {frame.number + 1}" if frame.documents > 1 else "")
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from msaa_lint.core.finding import Finding, Result
 from msaa_lint.frame.cost.amounts import Amount, FrameCost, Line, PassCost, Shading
 from msaa_lint.frame.cost.compare import Change, title
-from msaa_lint.frame.cost.input_cost import Compared, Costed
+from msaa_lint.frame.cost.input_cost import CostComparison, CostedFrame
 from msaa_lint.frame.cost.power import Rates
 
 from . import Options, Write
@@ -19,7 +19,7 @@ SCHEMA = "msaa-lint/cost-v1"
 _DIGITS = 6
 
 
-def render(frames: Sequence[Costed], errors: Result, out: Write, options: Options) -> None:
+def render(frames: Sequence[CostedFrame], errors: Result, out: Write, options: Options) -> None:
     """Prints one JSON object: `passes` of all frames and their `total`, `frames` with the details of each, `errors`.
 
     The details of an only frame are at the top as well.
@@ -27,7 +27,7 @@ def render(frames: Sequence[Costed], errors: Result, out: Write, options: Option
     write_object({**head(SCHEMA, options.version), **_inputs(frames, errors, options), "errors": _errors(errors, options)}, out)
 
 
-def render_comparison(comparison: Compared, errors: Result, out: Write, options: Options) -> None:
+def render_comparison(comparison: CostComparison, errors: Result, out: Write, options: Options) -> None:
     """Prints one JSON object: `old` and `new`, each with the members that `render` prints for frames, and their `difference`."""
     passes = [
         {**_change(change), "document": number, "name": text(change.name), "kind": change.kind}
@@ -51,7 +51,7 @@ def render_comparison(comparison: Compared, errors: Result, out: Write, options:
     write_object(members, out)
 
 
-def _inputs(frames: Sequence[Costed], errors: Result, options: Options) -> Json:
+def _inputs(frames: Sequence[CostedFrame], errors: Result, options: Options) -> Json:
     details = [_frame(frame, errors, options) for frame in frames]
     passes = [
         {"file": record["file"], "document": record["document"], **_pass(cost, frame, errors)}
@@ -64,7 +64,7 @@ def _inputs(frames: Sequence[Costed], errors: Result, options: Options) -> Json:
     return {"passes": passes, "total": total, "frames": details}
 
 
-def _frame(frame: Costed, errors: Result, options: Options) -> Json:
+def _frame(frame: CostedFrame, errors: Result, options: Options) -> Json:
     cost = frame.cost
     return {
         "file": escape_surrogates(relative(frame.file, options.root)),
@@ -89,7 +89,7 @@ def _frame(frame: Costed, errors: Result, options: Options) -> Json:
     }
 
 
-def _pass(cost: PassCost, frame: Costed, errors: Result) -> Json:
+def _pass(cost: PassCost, frame: CostedFrame, errors: Result) -> Json:
     rates = Rates(frame.cost.fps, frame.cost.milliwatts_per_gbps)
     return {
         "name": text(cost.name),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from msaa_lint.core.finding import Result
-from msaa_lint.frame.cost.input_cost import Compared, Costed
+from msaa_lint.frame.cost.input_cost import CostComparison, CostedFrame
 
 from . import Options, Write, cost_rows
 from .concise import line
@@ -59,7 +59,7 @@ class _Comment:
             self._out(f"\n{self._missing} more lines and tables do not fit into this comment.\n")
 
 
-def render(frames: Sequence[Costed], errors: Result, out: Write, options: Options) -> None:
+def render(frames: Sequence[CostedFrame], errors: Result, out: Write, options: Options) -> None:
     """Prints inputs that cannot be used, then the tables of each frame; for several frames, their totals first."""
     comment = _Comment(out)
     comment.add(f"{HEAD}### Cost of the {'frame' if len(frames) == 1 else 'frames'}\n")
@@ -75,7 +75,7 @@ def render(frames: Sequence[Costed], errors: Result, out: Write, options: Option
     comment.close()
 
 
-def render_comparison(compared: Compared, out: Write, options: Options) -> None:
+def render_comparison(compared: CostComparison, out: Write, options: Options) -> None:
     """Prints what the new input costs more than the old one: the sum in a sentence, then the passes that differ."""
     comment = _Comment(out)
     comment.add(f"{HEAD}### Cost of this change\n")

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from msaa_lint.frame.cost.amounts import Amount, FrameCost, Line, PassCost, Shading
 from msaa_lint.frame.cost.compare import SAME, Change, Comparison, title
-from msaa_lint.frame.cost.input_cost import Compared, Costed
+from msaa_lint.frame.cost.input_cost import CostComparison, CostedFrame
 from msaa_lint.frame.cost.power import Rates
 from msaa_lint.frame.cost.variants import AS_WRITTEN, NONE, Variant
 
@@ -35,7 +35,7 @@ class Table(NamedTuple):
     rows: list[Row]
 
 
-def frame_tables(frame: Costed) -> list[Table]:
+def frame_tables(frame: CostedFrame) -> list[Table]:
     """The tables of a frame: what its passes cost, what it would cost otherwise, and the memory of its images."""
     return [
         Table(COLUMNS, FIGURES, list(rows(frame.cost))),
@@ -44,7 +44,7 @@ def frame_tables(frame: Costed) -> list[Table]:
     ]
 
 
-def totals(frames: Sequence[Costed], names: Sequence[str]) -> Table:
+def totals(frames: Sequence[CostedFrame], names: Sequence[str]) -> Table:
     """The total of each frame, by name."""
     return Table(("frame",), FIGURES, [Row(LINE, (name,), _of_frame(frame.cost)) for name, frame in zip(names, frames, strict=True)])
 
@@ -113,7 +113,7 @@ def _share(amount: Amount, budget: float) -> str:
     return f"{figure(100 * amount.milliwatts / budget, 1)} %"
 
 
-def alternatives(frame: Costed) -> list[Row]:
+def alternatives(frame: CostedFrame) -> list[Row]:
     """The frame as written, with its findings fixed, and with other sample counts; empty if there is no alternative."""
     if not frame.variants and frame.fixed is None:
         return []
@@ -234,7 +234,7 @@ def remarks(cost: FrameCost) -> list[tuple[str, str]]:
     return [*(("assumed", text) for text in cost.assumed), *(("unknown", text) for text in cost.unknown)]
 
 
-def comparison_remarks(compared: Compared, number: int) -> list[tuple[str, str]]:
+def comparison_remarks(compared: CostComparison, number: int) -> list[tuple[str, str]]:
     """What makes a comparison uncertain: word and text. Remarks that apply to both sides appear once."""
     comparison = compared.frames[number]
     same = sum(change.status == SAME for change in comparison.passes)
@@ -250,6 +250,6 @@ def comparison_remarks(compared: Compared, number: int) -> list[tuple[str, str]]
     return lines
 
 
-def budget_of(compared: Compared) -> float:
+def budget_of(compared: CostComparison) -> float:
     """The power budget of a comparison, in mW."""
     return next(frame.cost.budget_milliwatts for frame in (*compared.new, *compared.old))

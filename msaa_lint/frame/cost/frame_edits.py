@@ -1,116 +1,121 @@
-"""Frames that are not described but reckoned: the same description with other commands, images or sample counts.
+"""Edits of a joined frame: other commands, images or sample counts than the description states.
 
-A frame belongs to whoever joined it from its document and may be changed in place: passes, attachments, targets. Records are shared by all
-frames of a document and are copied instead.
+A frame belongs to the caller that joined it: its passes, attachments and targets may be changed in place. Records are shared by all frames
+of a document and are copied instead.
 """
 
 from __future__ import annotations
 
 from typing import TypeVar
 
-from msaa_lint.frame.description.models import BeginRendering, BeginRenderPass, Command, Image
+from msaa_lint.frame.description.models import BeginRenderPass, Command, Image
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.commands import accesses
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.parts import Attachment, Pass, Resolve, Target
+from msaa_lint.frame.facts.walk import flags_of
 
-Kind = TypeVar("Kind", bound=Record)
-Order = list[tuple[Command, Pass | None]]
+RecordType = TypeVar("RecordType", bound=Record)
+CommandOrder = list[tuple[Command, Pass | None]]
 """Commands, each with the pass that it begins."""
 
 
-def blank(kind: type[Kind], like: Record, key: str) -> Kind:
-    """A record of which nothing is stated, at the place of another."""
+def blank_record(kind: type[RecordType], like: Record, key: str) -> RecordType:
+    """A record that states nothing, at the place of another."""
     return kind(like.node, like.path, key, like.head)
 
 
-def copied(record: Kind) -> Kind:
+def copy_record(record: RecordType) -> RecordType:
     """A record with the members of another."""
     kind = type(record)
-    made = kind.__new__(kind)
-    vars(made).update(vars(record))
-    return made
+    copy = kind.__new__(kind)
+    vars(copy).update(vars(record))
+    return copy
 
 
-def command(kind: str, body: Record | None, like: Record) -> Command:
+def make_command(kind: str, body: Record | None, like: Record) -> Command:
     """A command that the description does not record."""
-    made = Command(like.node, like.path, kind, like.head)
-    made.kind, made.body = kind, body
-    return made
+    command = Command(like.node, like.path, kind, like.head)
+    command.kind, command.body = kind, body
+    return command
 
 
-def recorded(frame: Frame) -> Order:
-    """The commands of a frame; where none are stated, those that run every pass once."""
+def command_order(frame: Frame) -> CommandOrder:
+    """The commands of a frame; if it states none, commands that run every pass once."""
     if frame.has_commands:
-        begins = {position: each for each in frame.passes for position in each.begun}
-        return [(each, begins.get(position)) for position, each in enumerate(frame.commands)]
-    order: Order = []
-    for each in frame.passes:
-        body = blank(BeginRenderPass, each.record, "beginRenderPass")
-        body.renderPass = each.name
-        order += [(command("beginRenderPass", body, each.record), each), (command("endRenderPass", None, each.record), None)]
+        begins = {position: render_pass for render_pass in frame.passes for position in render_pass.begun}
+        return [(command, begins.get(position)) for position, command in enumerate(frame.commands)]
+    order: CommandOrder = []
+    for render_pass in frame.passes:
+        record = render_pass.record
+        body = blank_record(BeginRenderPass, record, "beginRenderPass")
+        body.renderPass = render_pass.name
+        order += [(make_command("beginRenderPass", body, record), render_pass), (make_command("endRenderPass", None, record), None)]
     return order
 
 
-def record(frame: Frame, order: Order) -> None:
-    """Gives a frame other commands, which begin the same passes."""
-    for each in frame.passes:
-        each.begun = []
-    for position, (_, begun) in enumerate(order):
-        if begun is not None:
-            begun.begun.append(position)
-    frame.commands = tuple(each for each, _ in order)
-    frame.description = copied(frame.description)
+def set_commands(frame: Frame, order: CommandOrder) -> None:
+    """Replaces the commands of a frame by others, which begin the same passes."""
+    for render_pass in frame.passes:
+        render_pass.begun = []
+    for position, (_, render_pass_begun) in enumerate(order):
+        if render_pass_begun is not None:
+            render_pass_begun.begun.append(position)
+    frame.commands = tuple(command for command, _ in order)
+    frame.description = copy_record(frame.description)
     frame.description.commands = frame.commands
     frame.resolve_commands = []
 
 
-def image_of(target: Target) -> Image | None:
-    """The image of a target, as one that may be changed without another frame seeing it."""
+def own_image(target: Target) -> Image | None:
+    """The image of a target, as a copy that may be changed without affecting other frames."""
     if target.image is not None:
-        target.image = copied(target.image)
+        target.image = copy_record(target.image)
     return target.image
 
 
-def suspended(each: Pass) -> bool:
-    """Whether a rendering goes on in another one: it then stores and resolves nothing."""
-    return isinstance(each.record, BeginRendering) and "SUSPENDING" in each.record.flags
+def is_suspended(render_pass: Pass) -> bool:
+    """Whether another rendering continues a rendering, which then stores and resolves nothing."""
+    return "SUSPENDING" in flags_of(render_pass)
 
 
-def resolved(each: Pass) -> list[Resolve]:
-    """What a pass resolves itself, of more than one sample and into a target; one whose mode is not stated may resolve nothing."""
+def effective_resolves(render_pass: Pass) -> list[Resolve]:
+    """The resolves of a pass that certainly take effect: with a stated mode, of more than one sample and with a target."""
+    if is_suspended(render_pass):
+        return []
     return [
-        found
-        for subpass in each.subpasses
-        for found in subpass.resolves
-        if found.mode not in (None, "NONE") and found.source is not None and found.source.samples != 1
-        and (found.target is not None or found.target_image is not None)
-    ] if not suspended(each) else []  # fmt: skip
+        resolve
+        for subpass in render_pass.subpasses
+        for resolve in subpass.resolves
+        if resolve.mode not in (None, "NONE")
+        and (resolve.source is not None and resolve.source.samples != 1)
+        and (resolve.target is not None or resolve.target_image is not None)
+    ]
 
 
-def users(frame: Frame) -> dict[int, list[Attachment]]:
-    """By the identity of a target: the attachments that have it, of those that a subpass refers to."""
+def attachments_by_target(frame: Frame) -> dict[int, list[Attachment]]:
+    """The attachments that a subpass references, by the identity of each target that they have."""
     found: dict[int, list[Attachment]] = {}
-    for each in frame.passes:
-        for attachment in each.attachments:
+    for render_pass in frame.passes:
+        for attachment in render_pass.attachments:
             for target in attachment.targets if attachment.used else ():
                 found.setdefault(id(target), []).append(attachment)
     return found
 
 
-def mentioned(frame: Frame) -> set[str]:
-    """The images that commands outside of passes' begins and barriers name."""
+def images_of_commands(frame: Frame) -> set[str]:
+    """The images that commands name, apart from the beginning of passes and barriers."""
     return {name for command in frame.commands for name, _ in accesses(command)}
 
 
-def renamed(found: Command, names: dict[str, str]) -> Command:
+def rename_images(command: Command, names: dict[str, str]) -> Command:
     """A command with other images in place of some."""
-    body = found.body
-    stated = {access.member: names[name] for name, access in accesses(found) if name in names}
+    body = command.body
+    stated = {access.member: names[name] for name, access in accesses(command) if name in names}
     if not stated or not isinstance(body, Record):
-        return found
-    made, inner = copied(found), copied(body)
+        return command
+    renamed, renamed_body = copy_record(command), copy_record(body)
     for member, name in stated.items():
-        setattr(inner, member, name)
-    made.body = inner
-    return made
+        setattr(renamed_body, member, name)
+    renamed.body = renamed_body
+    return renamed

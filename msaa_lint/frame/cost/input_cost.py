@@ -1,4 +1,4 @@
-"""What `msaa-lint cost` has to show: frames of inputs with their costs, or two inputs side by side."""
+"""The results of `msaa-lint cost`: frames of inputs with their costs, or two inputs side by side."""
 
 from __future__ import annotations
 
@@ -10,11 +10,10 @@ from .compare import Comparison, compare
 from .variants import Variant
 
 
-class Costed(NamedTuple):
-    """A frame of an input and what it costs: as it is written, with other sample counts, and with its findings mended (None: it has none
-    that a fix would mend).
+class CostedFrame(NamedTuple):
+    """A frame of an input and its costs: as written, with other sample counts, and with all fixes applied (None if no fix applies).
 
-    `number` is the document's place in the input, of `documents`.
+    `number` is the index of its document in the input, of `documents`.
     """
 
     file: str
@@ -25,18 +24,18 @@ class Costed(NamedTuple):
     fixed: FrameCost | None = None
 
 
-class Compared(NamedTuple):
-    """Two inputs, each with its frames, and what the new one costs more: one comparison for each document, in their order."""
+class CostComparison(NamedTuple):
+    """Two inputs with their frames, and one comparison for each document, in order."""
 
     old_file: str
     new_file: str
-    old: Sequence[Costed]
-    new: Sequence[Costed]
+    old: Sequence[CostedFrame]
+    new: Sequence[CostedFrame]
     frames: Sequence[Comparison]
 
 
-def compared(old_file: str, old: Sequence[Costed], new_file: str, new: Sequence[Costed]) -> Compared:
-    """Two inputs side by side, the first document with the first; one that only one of them has is added, or removed."""
-    before, after = ({each.number: each.cost for each in side} for side in (old, new))
+def compare_inputs(old_file: str, old: Sequence[CostedFrame], new_file: str, new: Sequence[CostedFrame]) -> CostComparison:
+    """Compares two inputs document by document. A document that only one of them has counts as added or removed."""
+    before, after = ({frame.number: frame.cost for frame in frames} for frames in (old, new))
     numbers = sorted(before.keys() | after.keys())
-    return Compared(old_file, new_file, old, new, [compare(before.get(number), after.get(number)) for number in numbers])
+    return CostComparison(old_file, new_file, old, new, [compare(before.get(number), after.get(number)) for number in numbers])

@@ -9,7 +9,7 @@ from msaa_lint.frame.facts.parts import Target
 from .amounts import ImageMemory
 from .sizes import Sizes
 
-MOST_MIP_LEVELS = 32
+MAX_MIP_LEVELS = 32
 """A side has at most 2^31 texels."""
 
 
@@ -19,7 +19,7 @@ def image_bytes(target: Target, sizes: Sizes) -> int | None:
     if size is None or format is None or target.samples is None or image is None:
         return None
     total = 0
-    for level in range(min(image.mipLevels or 1, MOST_MIP_LEVELS)):
+    for level in range(min(image.mipLevels or 1, MAX_MIP_LEVELS)):
         width, height, depth = (max(side >> level, 1) for side in size)
         blocks = [-(-side // block) for side, block in zip((width, height, depth), format.block, strict=True)]
         total += blocks[0] * blocks[1] * blocks[2]

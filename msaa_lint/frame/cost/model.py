@@ -11,7 +11,7 @@ from msaa_lint.frame.facts.walk import Walk
 
 from .amounts import Amount, FrameCost, ImageMemory, Line, PassCost, Terms
 from .memory import images_memory
-from .power import ASSUMED_FPS, MOST, Rates, rates
+from .power import ASSUMED_FPS, MAX_RATE, Rates, rates
 from .shading import pass_shading
 from .sizes import Area, Sizes
 from .traffic import MOVING, Lines, command_lines, pass_lines
@@ -24,12 +24,12 @@ def frame_cost(frame: Frame, device: DeviceProfile | None, terms: Terms | None =
     be any that a reader gives.
     """
     terms = terms if terms is not None else Terms()
-    reckoned = rates(frame.description, device, terms)
+    frame_rates = rates(frame.description, device, terms)
     sizes = Sizes(frame, terms)
     images, assumed = images_memory(frame, sizes, device)
     committed = {image.name: image.committed or 0 for image in images}
     costs: list[PassCost] = []
-    entries, unknown = _entries(frame, device, sizes, reckoned)
+    entries, unknown = _entries(frame, device, sizes, frame_rates)
     read = written = 0
     corrected: tuple[float, float] | None = (0.0, 0.0) if device is not None and device.compression is not None else None
     taken: dict[str, None] = {}
@@ -48,8 +48,8 @@ def frame_cost(frame: Frame, device: DeviceProfile | None, terms: Terms | None =
             area.width if area is not None else None,
             area.height if area is not None else None,
             tuple(lines.found),
-            reckoned.amount(reads, writes, memory),
-            None if measured is None else reckoned.amount(*measured, memory),
+            frame_rates.amount(reads, writes, memory),
+            None if measured is None else frame_rates.amount(*measured, memory),
             pass_shading(each, area, frame) if each is not None and area is not None else None,
             _tile(each, device) if each is not None else None,
             tuple(lines.unknown),
@@ -64,13 +64,13 @@ def frame_cost(frame: Frame, device: DeviceProfile | None, terms: Terms | None =
     return FrameCost(
         tuple(costs),
         tuple(images),
-        reckoned.amount(read, written, everything),
-        None if corrected is None else reckoned.amount(*corrected, everything),
-        reckoned.fps,
+        frame_rates.amount(read, written, everything),
+        None if corrected is None else frame_rates.amount(*corrected, everything),
+        frame_rates.fps,
         device.name if device is not None else None,
-        (*_assumed(frame, device, terms, reckoned), *taken, *assumed),
+        (*_assumed(frame, device, terms, frame_rates), *taken, *assumed),
         tuple(dict.fromkeys(unknown)),
-        reckoned.milliwatts_per_gbps,
+        frame_rates.milliwatts_per_gbps,
         terms.budget_milliwatts,
     )
 
@@ -78,25 +78,25 @@ def frame_cost(frame: Frame, device: DeviceProfile | None, terms: Terms | None =
 Entry = tuple[str, str, str, Pass | None, Area | None, Lines]
 
 
-def _entries(frame: Frame, device: DeviceProfile | None, sizes: Sizes, reckoned: Rates) -> tuple[list[Entry], list[str]]:
+def _entries(frame: Frame, device: DeviceProfile | None, sizes: Sizes, frame_rates: Rates) -> tuple[list[Entry], list[str]]:
     """The passes and commands of a frame, with their lines, in the order in which they first come; and the passes that never do."""
     entries: dict[int, Entry] = {}
-    for render_pass in frame.passes if not frame.has_commands else ():
-        entries[id(render_pass)] = _of_pass(render_pass, device, sizes)
+    for each in frame.passes if not frame.has_commands else ():
+        entries[id(each)] = _pass_entry(each, device, sizes)
     for step in Walk(frame).steps:
-        command, render_pass_here = step.command, step.run.render_pass if step.run is not None else None
-        if step.begins and render_pass_here is not None:
-            if id(render_pass_here) not in entries:
-                entries[id(render_pass_here)] = _of_pass(render_pass_here, device, sizes)
+        command, render_pass = step.command, step.run.render_pass if step.run is not None else None
+        if step.begins and render_pass is not None:
+            if id(render_pass) not in entries:
+                entries[id(render_pass)] = _pass_entry(render_pass, device, sizes)
         elif command.kind not in MOVING:
             continue
-        elif render_pass_here is None:
+        elif render_pass is None:
             lines = Lines(device)
             entries[id(command)] = (command.kind, command.path, "command", None, None, lines)
             command_lines(lines, command, frame, sizes)
-        elif getattr(command.body, "image", None) not in _attached(render_pass_here):
+        elif getattr(command.body, "image", None) not in _attached(render_pass):
             # What a pass has attached it reads on the tile.
-            command_lines(entries[id(render_pass_here)][5], command, frame, sizes)
+            command_lines(entries[id(render_pass)][5], command, frame, sizes)
     never = [f"`{each.name}`: no command begins it" for each in frame.passes if frame.has_commands and not each.begun]
     return list(entries.values()), never
 
@@ -106,7 +106,7 @@ def _attached(render_pass: Pass) -> set[str]:
     return {target.name for attachment in render_pass.attachments for target in attachment.targets if target.image is not None}
 
 
-def _of_pass(each: Pass, device: DeviceProfile | None, sizes: Sizes) -> Entry:
+def _pass_entry(each: Pass, device: DeviceProfile | None, sizes: Sizes) -> Entry:
     area = sizes.area(each)
     lines = pass_lines(each, area, device)
     lines.assumed.update(dict.fromkeys(area.assumed))
@@ -147,14 +147,14 @@ def _corrected(lines: list[Line], device: DeviceProfile | None) -> tuple[float, 
     return read, written
 
 
-def _assumed(frame: Frame, device: DeviceProfile | None, terms: Terms, reckoned: Rates) -> list[str]:
+def _assumed(frame: Frame, device: DeviceProfile | None, terms: Terms, frame_rates: Rates) -> list[str]:
     """What was taken for granted of the frame as a whole."""
     found = []
     size = frame.description.frame
     if terms.fps is None and (size is None or size.fps is None):
         found.append(f"{ASSUMED_FPS:g} frames a second")
-    if MOST in reckoned:
-        found.append(f"rates above {MOST:g} are taken for that")
+    if MAX_RATE in frame_rates:
+        found.append(f"rates above {MAX_RATE:g} are taken for that")
     if device is not None and device.tiler is False:
         found.append(f"{device.name} renders to memory at once: the traffic is that of a tile-based GPU with the same frame")
     return found

@@ -13,7 +13,7 @@ MILLIWATTS_PER_GBPS = 100.0
 """10^9 bytes a second of external memory, by Arm ("Understanding render passes"; the Khronos MSAA sample reckons with it)."""
 
 ASSUMED_FPS = 60.0
-MOST = 1e9
+MAX_RATE = 1e9
 """Frames a second, and milliwatts per GB/s, above which an input's figure is taken for this one: every sum stays finite."""
 
 MIB = 2**20
@@ -38,7 +38,7 @@ def rates(description: Description, device: DeviceProfile | None, terms: Terms) 
     power = terms.milliwatts_per_gbps
     if power is None and device is not None:
         power = device.milliwatts_per_gbps
-    return Rates(min(float(fps), MOST), min(float(MILLIWATTS_PER_GBPS if power is None else power), MOST))
+    return Rates(min(float(fps), MAX_RATE), min(float(MILLIWATTS_PER_GBPS if power is None else power), MAX_RATE))
 
 
 def budget_share(amount: Amount, terms: Terms) -> float:

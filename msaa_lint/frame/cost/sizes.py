@@ -10,8 +10,6 @@ from msaa_lint.frame.facts.parts import RENDERING, Attachment, Pass, Target
 
 from .amounts import Terms
 
-MOST_LAYERS = 2**31
-
 
 class Area(NamedTuple):
     """What a pass renders in a frame: `pixels` of one layer, `layered` of all its layers, summed over the times that it begins.

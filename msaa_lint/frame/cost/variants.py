@@ -16,7 +16,7 @@ from msaa_lint.frame.facts.parts import Target
 from .amounts import FrameCost, Terms
 from .model import frame_cost
 from .resolves import inline, separate
-from .samples import COUNTS, multisampled, single_sampled, with_samples
+from .samples import COUNTS, is_multisampled, remove_multisampling, set_samples
 
 AS_WRITTEN = "as written"
 INLINE = "inline"
@@ -48,7 +48,7 @@ def variants(document: Document, device: DeviceProfile | None, terms: Terms, cou
     if wrong:
         raise ValueError(f"no sample count {wrong[0]}; there are {', '.join(map(str, COUNTS))}")
     written = Frame(document)
-    if not multisampled(written):
+    if not is_multisampled(written):
         return []
     return list(_variants(document, device, terms, sorted(set(counts)), written))
 
@@ -59,7 +59,7 @@ def _variants(document: Document, device: DeviceProfile | None, terms: Terms, co
         offered = _offered(written, device, count)
         if count == 1:
             frame = Frame(document)
-            single_sampled(frame)
+            remove_multisampling(frame)
             yield Variant(1, NONE, frame_cost(frame, device, terms), offered)
             continue
         for resolve, place in ((AS_WRITTEN, None), (INLINE, inline), (SEPARATE, separate)):
@@ -68,7 +68,7 @@ def _variants(document: Document, device: DeviceProfile | None, terms: Terms, co
             frame = Frame(document)
             if place is not None:
                 place(frame)
-            with_samples(frame, count)
+            set_samples(frame, count)
             yield Variant(count, resolve, frame_cost(frame, device, terms), offered)
 
 

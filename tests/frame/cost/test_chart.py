@@ -12,7 +12,7 @@ import pytest
 
 from msaa_lint.cli.report.cost_chart import READ_COLOR, WRITE_COLOR, Bar, bars, compared_bars, draw
 from msaa_lint.frame.cost.amounts import Terms
-from msaa_lint.frame.cost.input_cost import Costed, compared
+from msaa_lint.frame.cost.input_cost import CostedFrame, compare_inputs
 from msaa_lint.frame.cost.variants import variants
 from msaa_lint.frame.facts.global_facts import profile
 from tests.frame.cost.frames import EXAMPLES, cost, document, example
@@ -21,10 +21,10 @@ SEPARATE = (EXAMPLES / "khronos-msaa/color-separate.msaa.yaml").read_text(encodi
 SVG = "{http://www.w3.org/2000/svg}"
 
 
-def costed(text: str = SEPARATE) -> Costed:
+def costed(text: str = SEPARATE) -> CostedFrame:
     found = document(text)
     listed = variants(found, profile(found.description), Terms())
-    return Costed("frame.yaml", 0, 1, cost(text), listed, example("khronos-msaa/inline.msaa.yaml"))
+    return CostedFrame("frame.yaml", 0, 1, cost(text), listed, example("khronos-msaa/inline.msaa.yaml"))
 
 
 def texts(svg: bytes) -> list[str]:
@@ -48,8 +48,8 @@ def test_what_resolves_nothing_has_a_bar_for_each_count() -> None:
 
 
 def test_two_frames_stand_above_the_variants_of_the_new_one() -> None:
-    old, new = Costed("a", 0, 1, example("khronos-msaa/inline.msaa.yaml")), costed()
-    names = [bar.name for bar in compared_bars(compared("a", [old], "b", [new]))]
+    old, new = CostedFrame("a", 0, 1, example("khronos-msaa/inline.msaa.yaml")), costed()
+    names = [bar.name for bar in compared_bars(compare_inputs("a", [old], "b", [new]))]
     assert names[:4] == ["old, as written", "new, as written", "new, fixed", "1x"]
 
 

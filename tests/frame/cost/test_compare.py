@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from msaa_lint.frame.cost.amounts import Amount, FrameCost, Line, PassCost
 from msaa_lint.frame.cost.compare import ADDED, CHANGED, NOTHING, REMOVED, SAME, Change, compare
-from msaa_lint.frame.cost.input_cost import Costed, compared
+from msaa_lint.frame.cost.input_cost import CostedFrame, compare_inputs
 from tests.frame.cost.frames import example
 
 FOUR = 2247.7824
@@ -83,10 +83,10 @@ def test_per_cent_of_nothing_is_none() -> None:
 
 def test_documents_are_matched_by_their_number() -> None:
     costs = [a_frame(a_pass("a", ONE)), a_frame(a_pass("a", TWO))]
-    old = [Costed("old", 0, 1, costs[0])]
-    new = [Costed("new", number, 2, cost) for number, cost in enumerate(costs)]
-    assert [each.total.status for each in compared("old", old, "new", new).frames] == [SAME, ADDED]
-    assert [each.total.status for each in compared("new", new, "old", old).frames] == [SAME, REMOVED]
+    old = [CostedFrame("old", 0, 1, costs[0])]
+    new = [CostedFrame("new", number, 2, cost) for number, cost in enumerate(costs)]
+    assert [each.total.status for each in compare_inputs("old", old, "new", new).frames] == [SAME, ADDED]
+    assert [each.total.status for each in compare_inputs("new", new, "old", old).frames] == [SAME, REMOVED]
 
 
 figures = st.floats(0, 1e12)

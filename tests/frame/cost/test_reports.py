@@ -26,7 +26,7 @@ from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Result
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.cost.amounts import Amount, FrameCost, ImageMemory, Line, PassCost, Shading, Terms
-from msaa_lint.frame.cost.input_cost import Compared, Costed, compared
+from msaa_lint.frame.cost.input_cost import CostComparison, CostedFrame, compare_inputs
 from msaa_lint.frame.cost.variants import Variant, variants
 from msaa_lint.frame.devices.tiles import TileUse
 from msaa_lint.frame.facts.global_facts import profile
@@ -46,19 +46,19 @@ def validator() -> jsonschema.Draft202012Validator:
     return jsonschema.Draft202012Validator(schema)
 
 
-def costed(name: str, file: str | None = None) -> Costed:
+def costed(name: str, file: str | None = None) -> CostedFrame:
     text = (EXAMPLES / name).read_text(encoding="utf-8")
     found = document(text)
     listed = variants(found, profile(found.description), Terms())
-    return Costed(file or f"examples/{name}", 0, 1, cost(text), listed)
+    return CostedFrame(file or f"examples/{name}", 0, 1, cost(text), listed)
 
 
 INLINE, SEPARATE = "khronos-msaa/inline.msaa.yaml", "khronos-msaa/color-separate.msaa.yaml"
 
 
-def pair() -> Compared:
+def pair() -> CostComparison:
     old, new = costed(INLINE, "old.yaml"), costed(SEPARATE, "new.yaml")
-    return compared(old.file, [old], new.file, [new])
+    return compare_inputs(old.file, [old], new.file, [new])
 
 
 def printed(render: Callable[..., None], *given: Any, **options: Any) -> str:
@@ -125,7 +125,7 @@ def test_a_terminal_loses_no_figure() -> None:
 
 def test_what_is_not_counted_whole_is_said_to_be_more() -> None:
     text = "renderPasses: {main: {attachments: [{format: R8_UNORM, samples: 4, storeOp: STORE}], subpasses: [{colorAttachments: [0]}]}}"
-    table = printed(cost_full.render, [Costed("a.yaml", 0, 1, cost(text))])
+    table = printed(cost_full.render, [CostedFrame("a.yaml", 0, 1, cost(text))])
     assert "≥ 0.00" in table
     assert "assumed: 60 frames a second" in table
     assert "unknown: `main`: its size: no framebuffer, image or frame states it" in table
@@ -188,7 +188,7 @@ def test_json_of_a_comparison() -> None:
             assert value == pytest.approx(report["new"]["total"][name] - report["old"]["total"][name], abs=1e-5)
 
 
-def hostile_frame(words: list[str], value: float) -> Costed:
+def hostile_frame(words: list[str], value: float) -> CostedFrame:
     """A frame that has one of everything, with the words wherever an input's text may stand, and one figure everywhere."""
     word = itertools.cycle(words)
     amount = Amount(value, value, value, value)
@@ -204,7 +204,7 @@ def hostile_frame(words: list[str], value: float) -> Costed:
     )  # fmt: skip
     images = (ImageMemory(next(word), 2**40, 0, True), ImageMemory(next(word), None, None))
     cost = FrameCost(passes, images, amount, amount, 60, next(word), (next(word),), (next(word),))
-    return Costed(next(word) or "x", 0, 1, cost, [Variant(8, "inline", cost, False)], cost)
+    return CostedFrame(next(word) or "x", 0, 1, cost, [Variant(8, "inline", cost, False)], cost)
 
 
 words = st.lists(texts, min_size=1, max_size=3)
@@ -233,7 +233,7 @@ def one_structure(text: str) -> None:
 
 @hostile
 @given(st.lists(frames, min_size=1, max_size=2), st.integers(0, 120))
-def test_no_name_acts_on_its_reader(found: list[Costed], width: int) -> None:
+def test_no_name_acts_on_its_reader(found: list[CostedFrame], width: int) -> None:
     wrong = Result([diagnostic("MSAA901", found[0].file, found[0].file)], [], [], [], {}, [])
     for color in (False, True):
         harmless(re.sub("\x1b\\[[0-9;]*m", "", printed(cost_full.render, found, width=width, color=color)))
@@ -247,8 +247,8 @@ def test_no_name_acts_on_its_reader(found: list[Costed], width: int) -> None:
 
 @hostile
 @given(frames, frames)
-def test_no_name_acts_on_who_compares(old: Costed, new: Costed) -> None:
-    found = compared(old.file, [old], new.file, [new])
+def test_no_name_acts_on_who_compares(old: CostedFrame, new: CostedFrame) -> None:
+    found = compare_inputs(old.file, [old], new.file, [new])
     harmless(printed(cost_full.render_comparison, found))
     markdown = printed(cost_markdown.render_comparison, found)
     harmless(markdown)
