@@ -45,27 +45,27 @@ def test_text_of_a_report(folder: Path) -> None:
     assert rows["8x"][1:5] == ["yes", "-", "yes", "-"]
     assert rows["8x"][-4:] == ["80", "%", "18", "%"]
     text = " ".join(done.stdout.split())
-    assert "yes: a transient attachment in it takes memory only if it ever has to leave the tile" in text
-    assert "depth resolve SAMPLE_ZERO, MIN, MAX; not offered: AVERAGE (by 14 % of tilers)" in text
+    assert "yes: a transient attachment takes memory only if it has to leave the tile" in text
+    assert "depth resolve SAMPLE_ZERO, MIN, MAX; not supported: AVERAGE (by 14 % of tilers)" in text
     assert "depth and stencil modes are the same, or one is NONE" in text
-    assert "sampleRateShading shading once for every sample" in text
-    assert "not offered multisampledRenderToSingleSampled, variableMultisampleRate" in text
+    assert "sampleRateShading shading once per sample" in text
+    assert "not supported multisampledRenderToSingleSampled, variableMultisampleRate" in text
     assert "source phone.json: report of vulkan.gpuinfo.org" in text
     assert not any(line.endswith(" ") for line in lines)
 
 
 def test_tiles_of_a_built_in_device(folder: Path) -> None:
     lines = run(folder, "device", "mali-g76").stdout.splitlines()
-    assert lines[1].split() == ["samples", "colour", "depth", "stencil", "integer", "tile,", "RGBA8", "of", "devices", "of", "tilers"]
+    assert lines[1].split() == ["samples", "color", "depth", "stencil", "integer", "tile,", "RGBA8", "of", "devices", "of", "tilers"]
     assert lines[4].split() == ["4x", "yes", "yes", "yes", "?", "256", "px", "99", "%", "100", "%"]
     assert lines[5].split() == ["8x", "yes", "yes", "yes", "?", "128", "px", "80", "%", "18", "%"]
 
 
 def test_a_minimum_is_worded_as_one(folder: Path) -> None:
     text = run(folder, "device", "class.json#VP_OWN_base").stdout
-    assert text.splitlines()[0] == "VP_OWN_base (Vulkan 1.1.106, a minimum: what every such device guarantees)"
+    assert text.splitlines()[0] == "VP_OWN_base (Vulkan 1.1.106, a minimum that every such device guarantees)"
     assert "- not guaranteed; ? unknown" in text
-    assert "not offered" not in text
+    assert "not supported" not in text
 
 
 def test_json(folder: Path) -> None:
@@ -165,7 +165,7 @@ def test_a_report_decides_what_is_found(folder: Path) -> None:
     (folder / "a.msaa.yaml").write_text(EIGHT.format("four.json"))
     four = codes(folder, "a.msaa.yaml")
     (folder / "a.msaa.yaml").write_text(EIGHT.format("phone.json"))
-    assert set(four) - set(codes(folder, "a.msaa.yaml")), "8 samples are not offered by the one"
+    assert set(four) - set(codes(folder, "a.msaa.yaml")), "8 samples are not supported by the one"
     (folder / "a.msaa.yaml").write_text(EIGHT.split("\n", 1)[1].replace("{{", "{").replace("}}", "}"))
     assert codes(folder, "--profile", "four.json", "a.msaa.yaml") == four
     (folder / "msaa-lint.toml").write_text('profile = "four.json"\n')

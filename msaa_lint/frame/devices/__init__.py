@@ -1,6 +1,5 @@
-"""Devices: what one offers, and the built-in profiles that a description names."""
+"""Devices: what they support, and the built-in profiles that a description can name."""
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
@@ -9,14 +8,14 @@ if TYPE_CHECKING:
 
 
 class DeviceProfile(NamedTuple):
-    """What a device offers. None is unknown, never "nothing".
+    """What a device supports. None is unknown, never "nothing".
 
-    Names are canonical short ones (`SAMPLE_ZERO`, `LAZILY_ALLOCATED`); features and extensions are Vulkan's whole names. `minimum` marks a
-    class of devices: it holds what all of them guarantee, and what it does not list is "not guaranteed" rather than "not offered".
+    Enumerants have canonical short names (`SAMPLE_ZERO`, `LAZILY_ALLOCATED`); features and extensions have Vulkan's full names. `minimum`
+    marks a class of devices: the profile has what all of them guarantee, and what it does not list is not guaranteed.
 
-    `tile` is how it sizes its tiles, `compression` what it leaves of the traffic by sample count (of reads, of writes; 1 is what plain
-    arithmetic says), `milliwatts_per_gbps` the power of 10^9 bytes a second of external memory. `source` says where the facts are from. Of
-    built-in profiles, `builtin_profiles.py` says which features and extensions are recorded.
+    `tile` is the model of its tile sizes, `compression` the measured traffic relative to plain arithmetic by sample count (reads, writes),
+    `milliwatts_per_gbps` the power of 10^9 bytes per second of external memory traffic, `source` the origin of the facts.
+    `builtin_profiles.py` says which features and extensions built-in profiles record.
     """
 
     name: str
@@ -43,7 +42,7 @@ class DeviceProfile(NamedTuple):
 
 
 def sample_counts(mask: int) -> tuple[int, ...]:
-    """The counts of a VkSampleCountFlags mask, rising: (1, 4, 8) of 13. Unknown bits are left out."""
+    """The counts in a VkSampleCountFlags mask in ascending order: (1, 4, 8) for 13. Unknown bits are left out."""
     return tuple(count for count in (1, 2, 4, 8, 16, 32, 64) if mask & count)
 
 
@@ -55,15 +54,15 @@ def names() -> tuple[str, ...]:
 
 
 def builtin(name: str) -> DeviceProfile | None:
-    """The built-in profile of a name, by case; None where there is none."""
+    """The built-in profile of a name, which is case-sensitive; None if there is none."""
     from .builtin_profiles import PROFILES
 
-    if name not in _made and name in PROFILES:
-        _made[name] = _profile(PROFILES[name])
-    return _made.get(name)
+    if name not in _profiles and name in PROFILES:
+        _profiles[name] = _profile(PROFILES[name])
+    return _profiles.get(name)
 
 
-_made: dict[str, DeviceProfile] = {}
+_profiles: dict[str, DeviceProfile] = {}
 
 
 def _profile(row: "Row") -> DeviceProfile:

@@ -1,4 +1,4 @@
-"""A device as the `device` of a description: what can be pasted there and lints the same."""
+"""A device as the `device` of a description: YAML that can be pasted there and lints the same."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ WIDTH = 120
 def description(offer: Offer) -> str:
     """The `device` of a description, as YAML.
 
-    Of features and extensions only those that multisampling has to do with. A class of devices is named, not written out: in a mapping
-    what is not listed would be not offered.
+    It has only the features and extensions that concern multisampling. A class of devices is named instead, as a mapping would say that
+    what it does not list is unsupported.
     """
     profile = offer.profile
     head = f"# {_printable(profile.name)}: {_printable(profile.source)}\n"
     if profile.minimum:
         named = offer.key is not None and (builtin(offer.key) is not None or is_path(offer.key))
-        return head + (f"device: {_text(offer.key or '')}\n" if named else "# A class of devices is named by the path of its report.\n")
+        return head + (f"device: {_text(offer.key or '')}\n" if named else "# Name a class of devices by the path of its report.\n")
     members = [(key, value) for key, value in _members(profile) if value]
     return head + "device:\n" + "".join(_line(key, value) for key, value in members)
 
@@ -58,7 +58,7 @@ def _members(profile: DeviceProfile) -> list[tuple[str, str]]:
 
 
 def _line(key: str, value: str) -> str:
-    """A member, its list over several lines where it is long."""
+    """A member; a long list takes several lines."""
     if len(value) + len(key) + 4 <= WIDTH or not value.startswith("["):
         return f"  {key}: {value}\n"
     lines, line = [], "   "
@@ -71,7 +71,7 @@ def _line(key: str, value: str) -> str:
 
 
 def _items(text: str) -> list[str]:
-    """What stands between the commas of a flow list, lists in it whole."""
+    """The items of a flow list, which may be lists themselves."""
     items, depth, start = [], 0, 0
     for place, letter in enumerate(text):
         depth += (letter == "[") - (letter == "]")
@@ -98,7 +98,7 @@ def _tile(profile: DeviceProfile) -> str:
         return f"{{model: {name}}}"
     if model.kind == "adreno":
         return f"{{kind: adreno, gmemBytes: {model.color_bytes}}}"
-    numbers = f"colorBytes: {model.color_bytes}, depthBytes: {model.depth_bytes}, maxPixels: {model.most_pixels}"
+    numbers = f"colorBytes: {model.color_bytes}, depthBytes: {model.depth_bytes}, maxPixels: {model.max_pixels}"
     return f"{{kind: mali, {numbers}, limitBytes: {model.limit_bytes}}}"
 
 
@@ -110,12 +110,12 @@ def _compression(compression: dict[int, tuple[float, float]] | None) -> str:
 
 
 def _text(text: str) -> str:
-    """A scalar in double quotes, what is not printable as YAML's escapes."""
+    """A scalar in double quotes, with unprintable characters escaped."""
     return '"' + _printable(text.replace("\\", "\\\\").replace('"', '\\"')) + '"'
 
 
 def _printable(text: str) -> str:
-    return "".join(each if each.isprintable() else _escape(ord(each)) for each in text)
+    return "".join(letter if letter.isprintable() else _escape(ord(letter)) for letter in text)
 
 
 def _escape(point: int) -> str:

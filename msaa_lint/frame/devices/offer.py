@@ -1,6 +1,5 @@
 """What a device offers for multisampling, put together from its profile, its report and the shares of other devices."""
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 from typing import NamedTuple
 
 from msaa_lint.frame.vulkan.formats import format_of

@@ -1,8 +1,9 @@
 """What a tile holds: the budgets of tile-based GPUs, as their open-source drivers reckon. Vendors' own drivers may choose otherwise."""
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 from collections.abc import Mapping
 from typing import NamedTuple
+
+from msaa_lint.core.suggestions import did_you_mean
 
 PANFROST = "Mesa, Panfrost (pan_desc.c, pan_props.h, pan_model.c)"
 ASAHI = "Mesa, Asahi (agx_tilebuffer.c): 32767 bytes a tile, 64 bytes a sample, of G13"
@@ -19,14 +20,14 @@ class TileModel(NamedTuple):
     """How a GPU sizes its tiles; `tiles.py` reckons by it.
 
     `kind` is the formula: `mali`, `apple`, `v3d4`, `v3d7`, `powervr` or `adreno`. `color_bytes` is what colour may take of a tile,
-    `depth_bytes` what depth may, `most_pixels` the largest tile; `limit_bytes` what colour may take where less than the smallest tile would
+    `depth_bytes` what depth may, `max_pixels` the largest tile; `limit_bytes` what colour may take where less than the smallest tile would
     be left otherwise (a Mali keeps half of its memory for the next tile, and gives that up). An Adreno's `color_bytes` is its whole GMEM.
     """
 
     kind: str
     color_bytes: int = 0
     depth_bytes: int = 0
-    most_pixels: int = 0
+    max_pixels: int = 0
     limit_bytes: int = 0
     source: str = ""
 
@@ -56,16 +57,16 @@ MODELS: dict[str, TileModel] = {
 """Tile models by name. T760 stands for T760 to T880; G51 for G31 and G52 r1; G76 for G52, G57 and G310 v1-3; G610 for G310 v4-5 and what is
 between it and G720."""
 
-MOST_BYTES = 2**31
+MAX_BYTES = 2**31
 _NUMBERS = {
     "mali": {"colorBytes": True, "depthBytes": True, "maxPixels": True, "limitBytes": False},
     "adreno": {"gmemBytes": True},
 }
-"""The kinds that a description may state by numbers, and of which numbers it needs."""
+"""The kinds that a description may state by numbers: whether each number is required."""
 
 
 class Misstated(NamedTuple):
-    """A mistake in a mapping: at which of its keys (None: the mapping as a whole), what is wrong, and what it may be."""
+    """A mistake in a mapping: its key (None: the mapping as a whole), a message, and help."""
 
     key: str | None
     message: str
@@ -80,21 +81,23 @@ def stated_tile(mapping: Mapping[str, float | str | None]) -> TileModel | Missta
     if "model" in mapping:
         extra = next((key for key in mapping if key != "model"), None)
         if extra is not None:
-            return Misstated(extra, f"`{extra[:40]}` beside `model`", "a model has its numbers; state `kind` to give your own")
+            return Misstated(extra, f"`{extra[:40]}` cannot be combined with `model`; state `kind` instead of `model`", "")
         name = mapping["model"]
         found = MODELS.get(name) if isinstance(name, str) else None
-        return found or Misstated("model", f"no tile model `{str(name)[:40]}`", f"tile models: {', '.join(MODELS)}")
+        return found or Misstated("model", f"unknown tile model `{str(name)[:40]}`", f"tile models: {', '.join(MODELS)}")
     kind = mapping.get("kind")
     numbers = _NUMBERS.get(kind) if isinstance(kind, str) else None
     if numbers is None:
         where = "kind" if "kind" in mapping else None
-        help = f"kind is one of {', '.join(_NUMBERS)}; model of {', '.join(MODELS)}"
-        return Misstated(where, "a tile is stated by `model` or by `kind`", help)
+        help = f"the kinds are {', '.join(_NUMBERS)}; the models are {', '.join(MODELS)}"
+        return Misstated(where, "a tile needs a `model` or a `kind`", help)
     for key, value in mapping.items():
         if key != "kind" and key not in numbers:
-            return Misstated(key, f"`{key[:40]}` is no number of kind {kind}", f"it may hold {', '.join(numbers)}")
-        if key != "kind" and not (isinstance(value, int) and 16 <= value <= MOST_BYTES):
-            return Misstated(key, f"`{key}` is a whole number from 16 to {MOST_BYTES}", "")
+            return Misstated(
+                key, f"unknown key `{key[:40]}` for kind {kind}{did_you_mean(key, numbers, ': ')}", f"the keys are {', '.join(numbers)}"
+            )
+        if key != "kind" and not (isinstance(value, int) and 16 <= value <= MAX_BYTES):
+            return Misstated(key, f"`{key}` must be an integer from 16 to {MAX_BYTES}", "")
     lacking = next((key for key, needed in numbers.items() if needed and key not in mapping), None)
     if lacking is not None:
         return Misstated(None, f"kind {kind} needs `{lacking}`", "")
@@ -106,14 +109,14 @@ def stated_tile(mapping: Mapping[str, float | str | None]) -> TileModel | Missta
 
 
 Compression = dict[int, tuple[float, float]]
-"""By sample count: measured bytes read, and written, by those of plain arithmetic."""
+"""By sample count: the measured bytes read and written, relative to plain arithmetic."""
 
 _COUNTS = ("1", "2", "4", "8", "16", "32", "64")
-MOST_RATIO = 16
+MAX_RATIO = 16
 
 
 def stated_compression(mapping: Mapping[str, float | None]) -> Compression | Misstated:
-    """What a device mapping's `compression` states: by sample count what is left of the traffic, of reads and writes alike or apart.
+    """The compression that a device mapping's `compression` states: by sample count, one ratio or separate ratios for reads and writes.
 
     `{1: 0.5, 4: 1.0}`, or `{1 read: 0.48, 1 write: 0.46, 4: 1.0}`.
     """
@@ -121,9 +124,13 @@ def stated_compression(mapping: Mapping[str, float | None]) -> Compression | Mis
     for key, value in mapping.items():
         text, _, direction = key.partition(" ")
         if text not in _COUNTS or direction not in ("", "read", "write"):
-            return Misstated(key, f"`{key[:40]}` is no sample count", "a key is a sample count, alone or with ` read` or ` write`")
-        if value is None or not 0 < value <= MOST_RATIO:
-            return Misstated(key, f"a ratio is above 0 and at most {MOST_RATIO}", "1 is what arithmetic says, 0.5 half of it")
+            return Misstated(
+                key, f"`{key[:40]}` is not a sample count", "a key is a sample count, optionally followed by ` read` or ` write`"
+            )
+        if value is None or not 0 < value <= MAX_RATIO:
+            return Misstated(
+                key, f"`{key}` must be above 0 and at most {MAX_RATIO}", "1 is the traffic of plain arithmetic, 0.5 half of it"
+            )
         pair = found.setdefault(int(text), [None, None])
         for n, name in enumerate(("read", "write")):
             if direction == name or (not direction and f"{text} {name}" not in mapping):
@@ -131,17 +138,17 @@ def stated_compression(mapping: Mapping[str, float | None]) -> Compression | Mis
     for count, (read, write) in found.items():
         if read is None or write is None:
             stated, lacking = ("write", "read") if read is None else ("read", "write")
-            return Misstated(f"{count} {stated}", f"`{count} {stated}` without `{count} {lacking}`", "state both, or the count alone")
+            return Misstated(f"{count} {stated}", f"`{count} {stated}` needs `{count} {lacking}`; state both, or the count alone", "")
     return {count: (read, write) for count, (read, write) in found.items() if read is not None and write is not None}
 
 
 def known_tile(mapping: Mapping[str, float | str | None] | None) -> TileModel | None:
-    """The tile model that a mapping states; None where it states none, or not rightly."""
+    """The tile model that a mapping states; None if it states none or is invalid."""
     found = stated_tile(mapping) if mapping is not None else None
     return found if isinstance(found, TileModel) else None
 
 
 def known_compression(mapping: Mapping[str, float | None] | None) -> Compression | None:
-    """The compression that a mapping states; None where it states none, or not rightly."""
+    """The compression that a mapping states; None if it states none or is invalid."""
     found = stated_compression(mapping) if mapping is not None else None
     return found if isinstance(found, dict) else None

@@ -51,7 +51,7 @@ def tile_use(model: TileModel, colors: Targets, depth: tuple[Format, int] | None
 def _mali(model: TileModel, colors: Targets, depth: tuple[Format, int] | None) -> tuple[int, int]:
     """The largest power of two that fits in the budgets. Blendable formats take 4 bytes, others their size rounded up to a power of two."""
     size = sum((4 if _blendable(format) else _power_of_two(format.bytes)) * samples for format, samples in colors)
-    pixels = model.most_pixels
+    pixels = model.max_pixels
     if size:
         fitting = model.color_bytes // _power_of_two(size)
         if fitting < SMALLEST["mali"]:

@@ -1,6 +1,5 @@
-"""What a device offers for multisampling, in words and rows. What a class of devices does not list is not guaranteed, never not offered."""
+"""What a device supports for multisampling, as a table and rows of text. What a class of devices does not list is not guaranteed."""
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -10,29 +9,29 @@ from .offer import COUNTS, DEFAULT_EFFICIENT_SAMPLES, Offer, counts_of, lazily_a
 from .shares import ATTRIBUTION, lazily_allocated_share, resolve_mode_share, sample_count_share
 
 COLUMNS = {
-    "color": "colour",
+    "color": "color",
     "depth": "depth",
     "stencil": "stencil",
     "integer": "integer",
     "no_attachments": "none",
-    "sampled_color": "read colour",
+    "sampled_color": "read color",
     "sampled_integer": "read integer",
     "sampled_depth": "read depth",
     "sampled_stencil": "read stencil",
     "storage": "storage",
 }
-"""The table's columns: attachments by aspect (`none`: passes without), then images that shaders read or write."""
+"""The columns of the table: attachments by aspect (`none`: passes without attachments), then images that shaders read or write."""
 
 PRINCIPAL = (
     "sampleRateShading", "dynamicRendering", "multisampledRenderToSingleSampled", "shaderStorageImageMultisample",
     "variableMultisampleRate", "extendedDynamicState3RasterizationSamples", "customResolve",
 )  # fmt: skip
 PRINCIPAL_EXTENSIONS = ("VK_KHR_depth_stencil_resolve", "VK_EXT_sample_locations")
-"""What is worth saying of a device that does not offer it."""
+"""Features and extensions whose absence is shown."""
 
 
 class Table(NamedTuple):
-    """Sample counts, a row each, and what the marks mean."""
+    """A row for each sample count, and the meaning of the marks."""
 
     heads: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
@@ -40,25 +39,25 @@ class Table(NamedTuple):
 
 
 class Row(NamedTuple):
-    """A fact and what is to be known of it."""
+    """A fact about a device: its label and its text."""
 
     label: str
     text: str
 
 
 def title(offer: Offer) -> str:
-    """The device's name, and in brackets what kind of device it is."""
+    """The name of the device, with its kind in parentheses."""
     profile = offer.profile
     kinds = {True: "tile-based", False: "not tile-based", None: ""}
     parts = [profile.vendor or "", kinds[profile.tiler], offer.details.device_type or ""]
     parts += [f"Vulkan {profile.api_version}" if profile.api_version else ""]
-    parts += ["a minimum: what every such device guarantees" if profile.minimum else ""]
+    parts += ["a minimum that every such device guarantees" if profile.minimum else ""]
     known = ", ".join(part for part in parts if part)
     return f"{profile.name} ({known})" if known else profile.name
 
 
 def table(offer: Offer) -> Table:
-    """Which sample counts are there, for what; the tile of each; how many other devices have it."""
+    """For each sample count: its uses, its tile size, and the share of devices that support it."""
     profile = offer.profile
     counts = counts_of(offer)
     known = [use for use in COLUMNS if counts[use] is not None or use in ("color", "depth", "stencil", "integer")]
@@ -72,11 +71,11 @@ def table(offer: Offer) -> Table:
         share = [f"{sample_count_share(count)} %", f"{sample_count_share(count, True)} %"]
         rows.append((f"{count}x", *cells, *tile, *share))
     heads = tuple(COLUMNS[use] for use in known)
-    missing = "not guaranteed" if profile.minimum else "not offered"
+    missing = "not guaranteed" if profile.minimum else "not supported"
     legend = [f"- {missing}; ? unknown"]
     if len(known) > 4:
         legend.append("read: images that shaders fetch from; storage: images that they write; none: passes without attachments")
-    legend.append(f"of devices, of tilers: how many offer the count for colour; {ATTRIBUTION}")
+    legend.append(f"of devices, of tilers: the share that supports the count for color; {ATTRIBUTION}")
     return Table(("samples", *heads, *(["tile, RGBA8"] if size else []), "of devices", "of tilers"), tuple(rows), tuple(legend))
 
 
@@ -85,7 +84,7 @@ def _mark(counts: tuple[int, ...] | None, count: int) -> str:
 
 
 def rows(offer: Offer) -> list[Row]:
-    """The facts beside the sample counts."""
+    """The facts other than the sample counts."""
     return [row for row in _rows(offer) if row.text]
 
 
@@ -126,7 +125,7 @@ def _modes(profile: DeviceProfile, modes: tuple[str, ...] | None, depth: bool) -
         return ", ".join(modes)
     lacking = [mode for mode in ("AVERAGE", "MIN", "MAX") if mode not in modes]
     shares = ", ".join(f"{mode} (by {resolve_mode_share(mode, True)} % of tilers)" for mode in lacking)
-    word = "not guaranteed" if profile.minimum else "not offered"
+    word = "not guaranteed" if profile.minimum else "not supported"
     return ", ".join(modes) + (f"; {word}: {shares}" if lacking else "")
 
 
@@ -143,24 +142,24 @@ def _independent(profile: DeviceProfile) -> str:
 def _lazily(profile: DeviceProfile) -> str:
     found = lazily_allocated(profile)
     share = lazily_allocated_share(profile.vendor) if profile.vendor is not None else None
-    others = f" ({share} % of {profile.vendor}'s devices offer it)" if share is not None else ""
+    others = f" ({share} % of {profile.vendor}'s devices support it)" if share is not None else ""
     if found:
-        return "yes: a transient attachment in it takes memory only if it ever has to leave the tile"
+        return "yes: a transient attachment takes memory only if it has to leave the tile"
     if found is None:
-        return ("not guaranteed" if profile.minimum else "unknown: no memory types are stated") + others
-    return f"no: a transient attachment takes its whole size{others}"
+        return ("not guaranteed" if profile.minimum else "unknown: the memory types are not stated") + others
+    return f"no: a transient attachment takes its full size{others}"
 
 
 def _efficient(profile: DeviceProfile) -> str:
     if profile.max_efficient_samples is not None:
-        return f"up to {profile.max_efficient_samples}, as the vendor's guide says"
-    return f"not stated: rules take {DEFAULT_EFFICIENT_SAMPLES}"
+        return f"up to {profile.max_efficient_samples}, according to the vendor's guide"
+    return f"not stated; rules assume {DEFAULT_EFFICIENT_SAMPLES}"
 
 
 def _locations(offer: Offer) -> str:
     details = offer.details
-    words = {True: "standard", False: "not the standard ones", None: ""}[details.standard_sample_locations]
-    own = f"one's own at {', '.join(map(str, details.sample_locations))} samples" if details.sample_locations else ""
+    words = {True: "standard", False: "not standard", None: ""}[details.standard_sample_locations]
+    own = f"chosen by the application at {', '.join(map(str, details.sample_locations))} samples" if details.sample_locations else ""
     snap = details.sub_pixel_precision_bits
     bits = f"vertices snap to 1/{1 << snap} pixel" if snap is not None and snap < 32 else ""
     return "; ".join(part for part in (words, own, bits) if part)
@@ -168,7 +167,7 @@ def _locations(offer: Offer) -> str:
 
 def _lacking(offer: Offer) -> Iterator[Row]:
     states = [(name, offered(offer, name)) for name in PRINCIPAL] + [(name, offered(offer, name, True)) for name in PRINCIPAL_EXTENSIONS]
-    yield Row("not offered", ", ".join(name for name, state in states if state is False))
+    yield Row("not supported", ", ".join(name for name, state in states if state is False))
     unknown = "not guaranteed" if offer.profile.minimum else "not known"
     yield Row(unknown, ", ".join(name for name, state in states if state is None))
 

@@ -1,6 +1,5 @@
 """The formats: their bytes, aspects, components and numeric types."""
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 from typing import NamedTuple
 
 from .formats_table import ARM_FLOAT_BLEND, ROWS

@@ -190,7 +190,7 @@ def test_a_class_of_devices_is_written_as_its_path(tmp_path: Path) -> None:
     text = mapping(Offer(first, "own.json#1"))
     assert text.splitlines()[1:] == ['device: "own.json#1"']
     assert facts_of(text, tmp_path)["device.minimum"] is True
-    assert mapping(Offer(first)).splitlines()[1] == "# A class of devices is named by the path of its report."
+    assert mapping(Offer(first)).splitlines()[1] == "# Name a class of devices by the path of its report."
 
 
 def test_a_hostile_name_is_written_so_that_it_reads_back() -> None:

@@ -1,6 +1,5 @@
 """What a report says, whichever the dialect: the members that are looked for, as found and as read."""
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
