@@ -316,7 +316,7 @@ def test_fixes_are_in_the_words_of_the_shorthand(tmp_path: Path) -> None:
     made, left = fixed(tmp_path, text)
     assert made == safe
     assert [(each["rule"], each["fixable"], each["fix"]["title"], each["fix"]["shown"]) for each in left] == [
-        ("resolve-target-loaded", False, "loadOp: DONT_CARE", True),
+        ("resolve-target-loaded", False, "set loadOp to DONT_CARE", True),
         ("multisampled-image-not-transient", True, "storageMode: kDeviceTransient", False),
     ]
     made, left = fixed(tmp_path, text, "--unsafe-fixes")
@@ -371,7 +371,7 @@ def test_convert_tells_mistakes_and_where(tmp_path: Path) -> None:
     (tmp_path / "a.yaml").write_text("renderTargets:\n  a: {api: vulcan}\n", encoding="utf-8")
     made = run(tmp_path, "convert", "a.yaml")
     assert (made.returncode, made.stdout) == (2, "")
-    assert made.stderr == "a.yaml:2:12: `api` must be vulkan or metal, found `vulcan`; did you mean `vulkan`? (MSAA903)\n"
+    assert made.stderr == "msaa-lint: a.yaml:2:12: `api` must be vulkan or metal, found `vulcan`; did you mean `vulkan`? (MSAA903)\n"
 
 
 def test_convert_of_a_stream_has_every_document(tmp_path: Path) -> None:
