@@ -33,8 +33,8 @@ def requests(changes: Iterable[Change]) -> dict[Member, set[tuple[str, str]]]:
 
 def all_request(members: Iterable[Member], changes: Sequence[Change], requested: Requests) -> bool:
     """Whether the changes of one member are requested of all the given members."""
-    own = {(change.action, str(change.value)) for change in changes}
-    return all(own.issubset(requested.get(member, ())) for member in members)
+    actions = {(change.action, str(change.value)) for change in changes}
+    return all(actions.issubset(requested.get(member, ())) for member in members)
 
 
 class Aliases:

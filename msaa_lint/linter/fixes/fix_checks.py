@@ -20,30 +20,30 @@ from .metal import METAL_ACTIONS, METAL_FACT_SOURCES
 
 def problems(rule: Rule) -> list[Finding]:
     """Unknown actions, facts that fixes cannot change, and values that facts cannot have (MSAA921)."""
-    found = dict.fromkeys(problem for spec in rule.fix_specs for problem in _problems(spec, rule))
-    return [diagnostic("MSAA921", f"rule page `{rule.name}`: {message}", rule.source.name, span, rule.name) for span, message in found]
+    messages = dict.fromkeys(problem for spec in rule.fix_specs for problem in _problems(spec, rule))
+    return [diagnostic("MSAA921", f"rule page `{rule.name}`: {message}", rule.source.name, span, rule.name) for span, message in messages]
 
 
 def _problems(spec: FixSpec, rule: Rule) -> Iterator[tuple[Span, str]]:
     actions = {**ACTIONS, **METAL_ACTIONS}
     if spec.do and spec.do not in actions:
         yield spec.at, f"unknown action `do: {spec.do[:80]}`; use one of {', '.join(actions)}"
-    known = {fact.name for fact in SUBJECTS[rule.subject]}
+    facts = {fact.name for fact in SUBJECTS[rule.subject]}
     sources = {**FACT_SOURCES, **METAL_FACT_SOURCES}
     for setting in (*spec.set, *spec.add, *spec.remove):
-        if setting.fact not in known:
+        if setting.fact not in facts:
             yield setting.at, f"subject `{rule.subject}` has no fact `{setting.fact}`"
         elif setting.fact not in sources:
             yield setting.at, f"fixes cannot change `{setting.fact}`; use one of {', '.join(sources)}"
         else:
-            yield from _value_problems(setting, known)
+            yield from _value_problems(setting, facts)
 
 
-def _value_problems(setting: Setting, known: set[str]) -> Iterator[tuple[Span, str]]:
+def _value_problems(setting: Setting, facts: set[str]) -> Iterator[tuple[Span, str]]:
     value, fact = setting.value, FACTS[setting.fact]
     if isinstance(value, str) and value[:1] == "{":
         other = FACTS.get(value[1:-1])
-        if other is None or other.name not in known or other.type != fact.type:
+        if other is None or other.name not in facts or other.type != fact.type:
             yield setting.at, f"`{value}` does not refer to a fact of type {fact.type}"
     elif setting.fact in ONLY_VALUES and value not in ONLY_VALUES[setting.fact]:
         yield setting.at, f"fixes can only set `{setting.fact}` to {str(ONLY_VALUES[setting.fact][0]).lower()}"

@@ -132,8 +132,8 @@ class CollectionEditor:
         if self.node.kind == "mapping" or self.text.comments_in(*whole):
             raise NoFix("comments or merge keys may stand between the entries")
         first, *others = indices
-        kept = [text[slice(*items[first])], *(text[items[n - 1].end : items[n].end] for n in others)]
-        return [Edit(whole, "".join(kept))]
+        texts = [text[slice(*items[first])], *(text[items[n - 1].end : items[n].end] for n in others)]
+        return [Edit(whole, "".join(texts))]
 
     def _remove_from_flow(self, index: int) -> list[Edit]:
         text, items = self.text, self.items

@@ -50,8 +50,8 @@ class References:
 
     def has_others(self, name: str, records: Iterable[Record]) -> bool:
         """Whether any record outside `records` names an entry."""
-        known = {id(record) for record in records}
-        return any(id(record) not in known for record in self.records(name))
+        identities = {id(record) for record in records}
+        return any(id(record) not in identities for record in self.records(name))
 
 
 def _holds_names(shape: object, section: str) -> bool:

@@ -21,25 +21,25 @@ def resolve_depth(subject: Subject, context: FixContext) -> list[Change]:
     """Resolves depth to an image with one sample, which readers then use, and does not store the samples."""
     attachment, aspect = aspect_of(subject)
     source = attachment.target.image if attachment.target is not None else None
-    bound = context.attachments.get(id(source), [])
-    if source is None or attachment.format is None or len(bound) != 1:
+    uses = context.attachments.get(id(source), [])
+    if source is None or attachment.format is None or len(uses) != 1:
         raise NoFix("the description does not declare the image, or more than one attachment uses it")
-    render_pass, own = bound[0]
-    if not own.depth_stencil or not render_pass.subpasses:
+    render_pass, attachment_in_pass = uses[0]
+    if not attachment_in_pass.depth_stencil or not render_pass.subpasses:
         raise NoFix("no subpass draws to the image")
     changes: list[Change] = []
-    name = _existing_result(render_pass, own, aspect)
+    name = _existing_result(render_pass, attachment_in_pass, aspect)
     if name is None:
         images = context.document.description.images
         name = unused_name(f"{source.key}_resolved", images)
         changes.append(new_image(name, source, attachment.format.name, ["DEPTH_STENCIL_ATTACHMENT", "SAMPLED"], context))
-        changes += _depth_resolve(name, render_pass, own, context)
+        changes += _depth_resolve(name, render_pass, attachment_in_pass, context)
     changes.append(Change(attachment.record, aspect.store_member, "set", "DONT_CARE"))
     for reader in context.references.records(source.key):
         if isinstance(reader, ReadImage):
             changes.append(Change(reader, "image", "set", name))
             changes += [Change(reader, "samples", "unset")] if reader.states("samples") else []
-    return [*changes, *_transient(source, own, aspect, subject)]
+    return [*changes, *_transient(source, attachment_in_pass, aspect, subject)]
 
 
 def _existing_result(render_pass: Pass, attachment: Attachment, aspect: Aspect) -> str | None:

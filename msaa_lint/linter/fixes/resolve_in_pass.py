@@ -134,7 +134,7 @@ def _color_resolve(drawing: DrawnSamples, name: str, mode: str, final_layout: st
             raise NoFix("the pass already resolves the attachment to another image")
         return [*changes, Change(subpass.record, "resolveAttachments", "replace", (index, reference))]
     references = [*(None for _ in range(len(resolves), index)), reference]
-    return [*changes, *(Change(subpass.record, "resolveAttachments", "append", each) for each in references)]
+    return [*changes, *(Change(subpass.record, "resolveAttachments", "append", item) for item in references)]
 
 
 def _has_other_readers(drawing: DrawnSamples, context: FixContext) -> bool:

@@ -51,13 +51,13 @@ def new_attachment(
     It states the same members as the other one: its image or, if a framebuffer binds that, its format and samples; and its layouts. Also
     returns the reference for subpasses: its index, or its name if attachments are named.
     """
-    stated = source.record
-    assert isinstance(stated, AttachmentDescription) and source.format is not None
-    data: dict[str, Any] = {"image": image} if stated.image is not None else {"format": source.format.name, "samples": 1}
+    source_record = source.record
+    assert isinstance(source_record, AttachmentDescription) and source.format is not None
+    data: dict[str, Any] = {"image": image} if source_record.image is not None else {"format": source.format.name, "samples": 1}
     data |= {"loadOp": "DONT_CARE", "storeOp": "STORE"}
-    if stated.states("initialLayout"):
+    if source_record.states("initialLayout"):
         data["initialLayout"] = "UNDEFINED"
-    if stated.states("finalLayout") and final_layout is not None:
+    if source_record.states("finalLayout") and final_layout is not None:
         data["finalLayout"] = final_layout
     is_list = record.spelled["attachments"][1].kind == "sequence"
     key = unused_name(image, {attachment.key for attachment in record.attachments})

@@ -50,8 +50,8 @@ def drop_resolve(subject: Subject, context: FixContext) -> list[Change]:
 
 def _is_unread(resolve: Resolve, context: FixContext) -> bool:
     # The finding's subject belongs to another instance of the frame than the results.
-    own = context.resolves.get((id(resolve.record), resolve.aspect))
-    return own is not None and context.analysis.resolve_uses.is_read(own) is False
+    counterpart = context.resolves.get((id(resolve.record), resolve.aspect))
+    return counterpart is not None and context.analysis.resolve_uses.is_read(counterpart) is False
 
 
 def _drop_one_aspect(resolve: Resolve) -> list[Change]:

@@ -203,11 +203,11 @@ class TextEditor:
         new = [self._spelling.name(enum, name, parts[0], record) for name in additions]
         remaining = []
         for part in parts:
-            known = enumerant(enum, part)
-            if known in removals:
+            flag = enumerant(enum, part)
+            if flag in removals:
                 remaining += new[:1]
                 del new[:1]
-            elif known is not None and (enum not in VALUES or VALUES[enum][known]):
+            elif flag is not None and (enum not in VALUES or VALUES[enum][flag]):
                 remaining.append(part)
         remaining += new
         if not remaining:

@@ -89,10 +89,10 @@ class TextScanner:
         match = _BREAK.search(self.text, last)
         end = match.end() if match is not None else len(self.text)
         indent = self.indent(first) if indent is None else indent
-        kept = "".join(f"{indent}{comment}{self.line_break(start)}" for comment in self.comments_in(start, end))
+        lines = "".join(f"{indent}{comment}{self.line_break(start)}" for comment in self.comments_in(start, end))
         if match is None:
             # The text ends without a line break, and so does what remains.
-            kept = kept.removesuffix(self.line_break(start))
-            if not kept and start > 0:
+            lines = lines.removesuffix(self.line_break(start))
+            if not lines and start > 0:
                 start -= 2 if self.text.startswith("\r\n", start - 2) else 1
-        return Edit(Span(start, end), kept)
+        return Edit(Span(start, end), lines)
