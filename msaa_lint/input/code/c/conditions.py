@@ -58,10 +58,10 @@ class ConditionEvaluator(Variables):
     """Evaluates conditions."""
 
     def preprocessor_condition(self, text: str) -> bool | Guards:
-        default_value = text[1:].strip()
-        if default_value in ("0", "1"):
-            return default_value == "1"
-        return frozenset({condition_key(default_value)})
+        bare = text[1:].strip()
+        if bare in ("0", "1"):
+            return bare == "1"
+        return frozenset({condition_key(bare)})
 
     def condition(self, term: Term, scope: Scope) -> bool | Guards:
         """Returns the value of a condition if it is known, otherwise the guards under which it holds."""

@@ -58,8 +58,8 @@ class Configuration:
         slots = list(self.sample_slots())
         for value in slots:
             # Prefer the count that every device supports, then the lowest.
-            assume_multisampled = [item for item in value if type(item.value) is int and item.value > 1]
-            for alternative in sorted(assume_multisampled, key=lambda a: (a.value != ASSUMED, a.value)):
+            multisampled = [item for item in value if type(item.value) is int and item.value > 1]
+            for alternative in sorted(multisampled, key=lambda a: (a.value != ASSUMED, a.value)):
                 self.assume(alternative.guards)
         for value in slots:
             for alternative in value:
@@ -196,11 +196,11 @@ class Configuration:
                 return None
             item = self.dereference(sole_value(writes))
             structs.append(item if isinstance(item, Struct) else None)
-        count_value = COUNTS.get(name, "")
-        count = self.known_value(struct, count_value)
+        count_member = COUNTS.get(name, "")
+        count = self.known_value(struct, count_member)
         if type(count) is int and 0 <= count <= len(structs):
             return structs[:count]
-        count_cell = struct.fields.get(count_value)
+        count_cell = struct.fields.get(count_member)
         # The number of elements depends on another condition.
         return None if count_cell is not None and len(self.settle(count_cell.writes)) > 1 else structs
 

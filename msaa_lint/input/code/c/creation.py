@@ -110,9 +110,9 @@ class ObjectCreation(ListMethods):
                 if value and all(_of_memory(a.value) for a in value):
                     return value
         if VIEW.search(name):
-            view_of_argument = self.view_of_argument(values, term, scope)
-            if view_of_argument is not None:
-                return view_of_argument
+            view = self.view_of_argument(values, term, scope)
+            if view is not None:
+                return view
         for argument in term[2]:
             if argument[0] == ADDRESS:
                 cell = self.run.cell_of(argument[1], scope)
@@ -134,9 +134,9 @@ class ObjectCreation(ListMethods):
                     mark_escaped(alternative.value)
         if not name or (name[0].isupper() and owner is None and vulkan_struct(name)):
             return UNKNOWN_VALUE
-        helped = self.initializer(term, name, values, place)
-        if helped is not None:
-            return helped
+        helper_value = self.initializer(term, name, values, place)
+        if helper_value is not None:
+            return helper_value
         return (Alternative(Symbol(canonical_text(term), name, bool(COUNTS.search(name))), place),)
 
     def takes_const(self, name: str, argument: Term, term: Term) -> bool:
@@ -147,16 +147,16 @@ class ObjectCreation(ListMethods):
 
     def escape_argument(self, name: str, argument: Term, term: Term, scope: Scope) -> None:
         """Handles a list or a structure that is passed to an external function, which may change it through a reference."""
-        for constant in [item.value for item in self.run.value(argument, scope)]:
-            if isinstance(constant, Closure):
-                forget_captures(constant)
+        for alternative_value in [item.value for item in self.run.value(argument, scope)]:
+            if isinstance(alternative_value, Closure):
+                forget_captures(alternative_value)
                 continue
-            value = pointee(constant)
+            value = pointee(alternative_value)
             if not isinstance(value, (Array, Struct)) or self.takes_const(name, argument, term):
                 continue
             parameters = self.run.unit.prototypes.get(name, ())
             position = term[2].index(argument)
-            if isinstance(constant, Struct) and name not in _MOVES:
+            if isinstance(alternative_value, Struct) and name not in _MOVES:
                 # In C++, any argument may be passed by reference; a macro may do anything.
                 by_reference = parameters[position].by_reference if position < len(parameters) else self.run.is_cpp or name.isupper()
                 if not by_reference:

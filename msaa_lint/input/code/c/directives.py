@@ -44,7 +44,7 @@ def clear_list_directives(text: str, root: SyntaxNode) -> tuple[str, tuple[Secti
     """Returns the text without the directives inside lists that cause parse errors, and the sections that depend on them."""
     if not root.has_error or "#if" not in text.replace(" ", ""):
         return text, ()
-    has_directives = sorted(_error_ranges(root))
+    errors = sorted(_error_ranges(root))
     sections: list[Section] = []
     blanked: list[tuple[int, int]] = []
     open_groups: list[list[re.Match[str]]] = []
@@ -56,7 +56,7 @@ def clear_list_directives(text: str, root: SyntaxNode) -> tuple[str, tuple[Secti
             open_groups[-1].append(match)
             if word == "endif":
                 group = open_groups.pop()
-                if any(_is_error(has_directives, item) for item in group) and _in_a_list(text, group[0].start()):
+                if any(_is_error(errors, item) for item in group) and _in_a_list(text, group[0].start()):
                     sections += _of_group(group)
                     blanked += [item.span() for item in group]
     if not blanked:
@@ -79,11 +79,11 @@ def _error_ranges(root: SyntaxNode) -> Iterator[tuple[int, int]]:
         stack += [child for child in node.children if child.has_error]
 
 
-def _is_error(has_directives: list[tuple[int, int]], match: re.Match[str]) -> bool:
+def _is_error(errors: list[tuple[int, int]], match: re.Match[str]) -> bool:
     """Returns whether a parse error starts or ends on the line of a directive, or surrounds it closely."""
     start, end = match.span()
-    at = bisect_left(has_directives, (start, 0))
-    return any(a < end and b > start and (a >= start or b - a < MAX_LIST_LENGTH) for a, b in has_directives[max(at - 8, 0) : at + 8])
+    at = bisect_left(errors, (start, 0))
+    return any(a < end and b > start and (a >= start or b - a < MAX_LIST_LENGTH) for a, b in errors[max(at - 8, 0) : at + 8])
 
 
 def _in_a_list(text: str, at: int) -> bool:

@@ -119,8 +119,8 @@ class Evaluator(ConditionEvaluator):
                 return (Alternative(condition, term[-1]),)
             return (Alternative(True, term[-1], condition), Alternative(False, term[-1], negated(condition)))
         left, right = self.value(term[2], scope), self.value(term[3], scope)
-        if sign == "+" and (offset_pointer := self.offset_pointer(left, right, term[-1])) is not None:
-            return offset_pointer
+        if sign == "+" and (pointer := self.offset_pointer(left, right, term[-1])) is not None:
+            return pointer
         alternatives = []
         for a in left:
             for b in right:
@@ -234,9 +234,9 @@ class Evaluator(ConditionEvaluator):
 
     def store(self, cell: Cell, value: Value, place: Span, scope: Scope) -> None:
         """Writes to a cell. A structure assigned to a member is written member by member."""
-        has_single_images = sole_value(value)
-        if cell.kind == MEMBER and isinstance(has_single_images, Struct) and not has_single_images.kind:
-            for name, inner in has_single_images.fields.items():
+        known = sole_value(value)
+        if cell.kind == MEMBER and isinstance(known, Struct) and not known.kind:
+            for name, inner in known.fields.items():
                 self.store(self.member_cell(f"{cell.name}.{name}"), inner.read(scope.guards), place, scope)
             return
         cell.write(value, place, scope.guards)
@@ -258,9 +258,9 @@ def _bits(value: Any, place: Span) -> tuple[tuple[str, Span], ...] | None:
 def _calculated(sign: str, left: Alternative, right: Alternative, place: Span) -> Any:
     a, b = left.value, right.value
     if sign == "|":
-        first_duplicate, second = _bits(a, left.at), _bits(b, right.at)
-        if first_duplicate is not None and second is not None and not (isinstance(a, int) and isinstance(b, int)):
-            return Flags((*first_duplicate, *second))
+        first, second = _bits(a, left.at), _bits(b, right.at)
+        if first is not None and second is not None and not (isinstance(a, int) and isinstance(b, int)):
+            return Flags((*first, *second))
     if type(a) is int and type(b) is int and abs(a) < 2**40 and abs(b) < 2**40:
         if sign == "<<":
             return a << b if 0 <= b < 40 else UNKNOWN

@@ -85,6 +85,11 @@ class Expressions(SyntaxReader, ABC):
             return (FIELD, *self.parts(node, deeper, "argument"), name, span(member))
         if kind == "call_expression":
             return self.call(node, deeper, at)
+        if kind == "number_literal":
+            literal = number(self.text_of(node))
+            return (LITERAL, literal, at) if literal is not None else (UNPARSED, self.text_of(node)[:40], at)
+        if kind in ("true", "false", "null"):
+            return (LITERAL, None if kind == "null" else kind == "true", at)
         if kind == "initializer_list":
             return (BRACES, "", tuple(self.items(node, deeper)), at)
         if kind == "compound_literal_expression":
@@ -119,11 +124,6 @@ class Expressions(SyntaxReader, ABC):
             if index is not None and index.type == "subscript_argument_list" and index.named_child_count:
                 index = index.named_children[0]
             return (INDEX, *self.parts(node, deeper, "argument"), self.expression(index, deeper), at)
-        if kind == "number_literal":
-            literal = number(self.text_of(node))
-            return (LITERAL, literal, at) if literal is not None else (UNPARSED, self.text_of(node)[:40], at)
-        if kind in ("true", "false", "null"):
-            return (LITERAL, None if kind == "null" else kind == "true", at)
         if kind == "lambda_expression":
             declarator, body = fields(node, "declarator", "body")
             list_node = declarator.child_by_field_name("parameters") if declarator is not None else None
@@ -172,7 +172,7 @@ class Expressions(SyntaxReader, ABC):
             if child.type != "initializer_pair":
                 yield None, self.conditional_item(child, self.expression(child, depth))
                 continue
-            member_cell: list[str | int] = []
+            path: list[str | int] = []
             value_node = child.child_by_field_name("value")
             for part in child.children_by_field_name("designator"):
                 inner = part.named_children[0] if part.named_child_count else None
@@ -180,10 +180,10 @@ class Expressions(SyntaxReader, ABC):
                     continue
                 if part.type == "subscript_designator":
                     index = self.expression(inner, depth)
-                    member_cell.append(index[1] if index[0] == LITERAL and isinstance(index[1], int) else f"[{self.text_of(inner)}")
+                    path.append(index[1] if index[0] == LITERAL and isinstance(index[1], int) else f"[{self.text_of(inner)}")
                 else:
-                    member_cell.append(self.text_of(inner))
-            yield tuple(member_cell), self.conditional_item(child, self.expression(value_node, depth))
+                    path.append(self.text_of(inner))
+            yield tuple(path), self.conditional_item(child, self.expression(value_node, depth))
 
     def has_directives(self, nodes: list[SyntaxNode]) -> bool:
         """Returns whether a preprocessor directive remains between the items of a list."""

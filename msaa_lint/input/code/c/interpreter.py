@@ -89,8 +89,8 @@ class Interpreter(Evaluator):
             if parameter.name:
                 scope.scopes[-1][parameter.name] = cell
         self.block(function.body, scope)
-        for return_values in scope.return_values:
-            mark_escaped(return_values.value)
+        for alternative in scope.return_values:
+            mark_escaped(alternative.value)
         self.program.create_unused(scope)
 
     def block(self, statements: Sequence[Term], scope: Scope) -> None:
@@ -101,11 +101,11 @@ class Interpreter(Evaluator):
 
     def run_block(self, statements: Sequence[Term], scope: Scope, guards: Guards, scoped: bool = True) -> bool:
         """Executes a block under guards with its own variables. Returns whether the block leaves the enclosing one."""
-        read_declarations, scopes = scope.guards, scope.scopes
-        scope.guards = read_declarations | guards
+        outer, scopes = scope.guards, scope.scopes
+        scope.guards = outer | guards
         scope.scopes = (*scopes, {}) if scoped else scopes
         self.block(statements, scope)
-        scope.guards, scope.scopes = read_declarations, scopes
+        scope.guards, scope.scopes = outer, scopes
         left, scope.unreachable = scope.unreachable, False
         return left
 
@@ -202,11 +202,11 @@ class Interpreter(Evaluator):
             return None
         if test[0] != BINARY or test[1] not in ("<", "!=", "<=") or test[2][:2] != (NAME, name):
             return None
-        first_duplicate, last = sole_value(self.value(declared[0][3], scope)), sole_value(self.value(test[3], scope))
-        if type(first_duplicate) is not int or type(last) is not int:
+        first, last = sole_value(self.value(declared[0][3], scope)), sole_value(self.value(test[3], scope))
+        if type(first) is not int or type(last) is not int:
             return None
         last += test[1] == "<="
-        return (first_duplicate, last) if 0 <= last - first_duplicate <= MAX_TURNS else None
+        return (first, last) if 0 <= last - first <= MAX_TURNS else None
 
     def list_elements(self, over: Term, scope: Scope) -> list[Cell] | None:
         """Returns the elements of a list if all are known, or None."""

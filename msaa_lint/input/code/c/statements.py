@@ -36,19 +36,19 @@ class Statements(Declarations):
         if kind == "if_statement":
             return self.if_chain(node, depth)
         if kind in ("for_statement", "while_statement", "do_statement"):
-            first_duplicate = node.child_by_field_name("initializer")
+            first = node.child_by_field_name("initializer")
             body = node.child_by_field_name("body")
             test = node.child_by_field_name("condition")
-            terms = self.declared(first_duplicate, depth) if first_duplicate is not None and first_duplicate.type == "declaration" else []
-            nested_statements = self.nested_statements(body, depth)
+            terms = self.declared(first, depth) if first is not None and first.type == "declaration" else []
+            nested = self.nested_statements(body, depth)
             update = node.child_by_field_name("update")
             if update is not None:
-                nested_statements.append((DO, self.expression(update, depth), at))
+                nested.append((DO, self.expression(update, depth), at))
             if test is not None:
-                nested_statements = [(DO, self.expression(test, depth), at), *nested_statements]
+                nested = [(DO, self.expression(test, depth), at), *nested]
             if kind == "do_statement":
-                return nested_statements
-            return [(LOOP, tuple(terms), None, tuple(nested_statements), at)]
+                return nested
+            return [(LOOP, tuple(terms), None, tuple(nested), at)]
         if kind == "for_range_loop":
             over, body = fields(node, "right", "body")
             name, _, indirect = self.declarator(node.child_by_field_name("declarator"))
@@ -97,13 +97,13 @@ class Statements(Declarations):
         while current is not None:
             test, then, other = fields(current, "condition", "consequence", "alternative")
             at = span(current)
-            first_duplicate: list[Term] = []
+            first: list[Term] = []
             if test is not None and test.type == "condition_clause":
                 start = test.child_by_field_name("initializer")
-                first_duplicate = self.block(start, depth) if start is not None else []
+                first = self.block(start, depth) if start is not None else []
                 test = test.child_by_field_name("value") or test
             condition = self.expression(test, depth) if test is not None else (UNPARSED, "", at)
-            links.append((condition, tuple(self.nested_statements(then, depth)), first_duplicate, at))
+            links.append((condition, tuple(self.nested_statements(then, depth)), first, at))
             current = None
             if other is not None:
                 next_node = other.named_children[-1] if other.type == "else_clause" and other.named_child_count else other
@@ -111,8 +111,8 @@ class Statements(Declarations):
                     current = next_node
                 else:
                     otherwise = self.nested_statements(next_node, depth)
-        for condition, nested_statements, first_duplicate, at in reversed(links):
-            otherwise = [*first_duplicate, (IF, condition, nested_statements, tuple(otherwise), at)]
+        for condition, body, first, at in reversed(links):
+            otherwise = [*first, (IF, condition, body, tuple(otherwise), at)]
         return otherwise
 
     def preprocessor_block(self, node: SyntaxNode, depth: int) -> list[Term]:
@@ -144,9 +144,9 @@ class Statements(Declarations):
             condition: Term = (
                 (BINARY, "==", value, self.expression(value_node, depth), at) if value_node is not None else (UNPARSED, "default", at)
             )
-            nested_statements: list[Term] = []
+            terms_inside: list[Term] = []
             for inner in child.named_children:
                 if inner != value_node and inner.type != "break_statement":
-                    nested_statements += self.statement(inner, depth + 1)
-            terms.append((IF, condition, tuple(nested_statements), (), at))
+                    terms_inside += self.statement(inner, depth + 1)
+            terms.append((IF, condition, tuple(terms_inside), (), at))
         return terms

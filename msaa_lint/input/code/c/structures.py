@@ -94,10 +94,10 @@ class Structures(ABC):
         elif hpp and struct.kind not in WITHOUT_TYPE:
             names.append("pNext")
         n = 0
-        for member_cell, term in items:
-            if member_cell:
-                self.initialize_designated(struct, member_cell, term, scope)
-                name = str(member_cell[0])
+        for path, term in items:
+            if path:
+                self.initialize_designated(struct, path, term, scope)
+                name = str(path[0])
                 n = names.index(name) + 1 if name in names else n
                 continue
             if n >= len(names):
@@ -116,20 +116,20 @@ class Structures(ABC):
             struct.cell(member(name)).write(copy_alternatives(value), term[-1], ALWAYS)
             n += 1
 
-    def initialize_designated(self, struct: Struct, member_cell: Sequence[str | int], term: Term, scope: Scope) -> None:
+    def initialize_designated(self, struct: Struct, path: Sequence[str | int], term: Term, scope: Scope) -> None:
         """Initializes a designated member: `.extent.width = 4`."""
         guards = ALWAYS
         if term[0] == SOME:
             guards, term = self.unwrap_conditions(term)
         target: Struct = struct
-        for part in member_cell[:-1]:
+        for part in path[:-1]:
             cell = target.cell(member(str(part)))
             value = sole_value(cell.writes)
             if not isinstance(value, Struct):
                 value = Struct("", term[-1], True)
                 cell.writes = (Alternative(value, term[-1]),)
             target = value
-        name = str(member_cell[-1])
+        name = str(path[-1])
         value = self.run.as_pointer(name, self.run.value(term, scope, member_type(target.kind, name)), term, scope)
         target.cell(member(name)).write(copy_alternatives(value), term[-1], guards)
 
@@ -160,10 +160,10 @@ class Structures(ABC):
             )
             return (Alternative(struct, place),)
         inner = element_type(kind)
-        if items and all(member_cell for member_cell, _ in items) and isinstance(items[0][0][0], str) and inner is None:
+        if items and all(path for path, _ in items) and isinstance(items[0][0][0], str) and inner is None:
             struct = Struct("", place, True)
-            for member_cell, item in items:
-                self.initialize_designated(struct, member_cell, item, scope)
+            for path, item in items:
+                self.initialize_designated(struct, path, item, scope)
             return (Alternative(struct, place),)
         if not items and kind in ("", "auto") and not struct_name:
             # `{}` stands for no flags.
@@ -192,7 +192,7 @@ class Structures(ABC):
             ):
                 items = inner
         array.zeroed = True
-        for member_cell, term in items:
+        for path, term in items:
             if term[:2] == (LITERAL, 0) and len(items) == 1 and vulkan_struct(kind):
                 continue
             guards, term = self.unwrap_conditions(term)
@@ -201,7 +201,7 @@ class Structures(ABC):
             cell.writes = tuple(Alternative(copy_value(a.value), a.at, a.guards | guards) for a in value) or (
                 Alternative(UNKNOWN, term[-1], guards),
             )
-            index = member_cell[0] if member_cell else len(array.items)
+            index = path[0] if path else len(array.items)
             if isinstance(index, str):
                 index = sole_value(self.run.value((NAME, index.removeprefix("["), term[-1]), scope))
             if not isinstance(index, int) or index > 64:
@@ -245,8 +245,8 @@ class Structures(ABC):
             return built
         struct = Struct("", place, False)
         names = list(self.run.members.get(self.run.class_of(kind, scope.namespace) or "", ()))
-        for name, (member_cell, term) in zip(names, items, strict=False):
-            if not member_cell:
+        for name, (path, term) in zip(names, items, strict=False):
+            if not path:
                 value = self.run.value(term, scope)
                 struct.cell(member(name)).writes = copy_alternatives(value)
         return (Alternative(struct, place),)
@@ -265,14 +265,14 @@ class Structures(ABC):
         """Executes `memset(&x, 0, sizeof x)`."""
         if sole_value(self.run.value(arguments[1], scope)) == 0:
             value = pointee(sole_value(self.run.value(arguments[0], scope)))
-            first_duplicate = arguments[0]
-            if isinstance(value, Array) and first_duplicate[0] == ADDRESS and first_duplicate[1][0] == INDEX:
+            target = arguments[0]
+            if isinstance(value, Array) and target[0] == ADDRESS and target[1][0] == INDEX:
                 size = arguments[2][1] if arguments[2][0] == UNPARSED else ""
                 if "[" in size or "sizeof(Vk" in size.replace("struct", "").replace(" ", ""):
                     value = pointee(sole_value(value.items[0].writes)) if value.items else None
                 elif not size.startswith("sizeof"):
                     for cell in value.items:
-                        cell.writes = (Alternative(UNKNOWN, first_duplicate[-1]),)
+                        cell.writes = (Alternative(UNKNOWN, target[-1]),)
                     return UNKNOWN_VALUE
             for element in (
                 [value] if isinstance(value, Struct) else [sole_value(c.writes) for c in value.items] if isinstance(value, Array) else []

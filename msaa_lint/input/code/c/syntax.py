@@ -127,16 +127,16 @@ class _Reader(Statements):
     def relevant_functions(self) -> list[tuple[str, str, SyntaxNode]]:
         """Returns the relevant functions: those that mention multisampling, and their callers, transitively."""
         texts = [self.text_of(node) for _, _, node in self.found]
-        relevant_functions = [RELEVANT.search(text) is not None for text in texts]
-        fresh = relevant_functions
+        relevant = [RELEVANT.search(text) is not None for text in texts]
+        fresh = relevant
         for _ in range(4):
             names = {self.function_name(self.found[n][2]) for n, new in enumerate(fresh) if new} - {""}
-            if not names or all(relevant_functions):
+            if not names or all(relevant):
                 break
             calls = re.compile(r"\b(?:" + "|".join(map(re.escape, sorted(names))) + r")\s*\(")
-            fresh = [not old and calls.search(text) is not None for old, text in zip(relevant_functions, texts, strict=True)]
-            relevant_functions = [old or new for old, new in zip(relevant_functions, fresh, strict=True)]
-        return [item for item, matters in zip(self.found, relevant_functions, strict=True) if matters]
+            fresh = [not old and calls.search(text) is not None for old, text in zip(relevant, texts, strict=True)]
+            relevant = [old or new for old, new in zip(relevant, fresh, strict=True)]
+        return [item for item, matters in zip(self.found, relevant, strict=True) if matters]
 
     def note_public_members(self, node: SyntaxNode) -> None:
         """Records which members of a class are public."""

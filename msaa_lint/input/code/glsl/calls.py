@@ -91,9 +91,9 @@ def _sample_access(
     expressions: Expressions, node: SyntaxNode, name: str, arguments: list[SyntaxNode], image: Place | Value, depth: int
 ) -> Value:
     """Lowers a sample fetch or a query for the number of samples."""
-    load = expressions.load(image) if isinstance(image, Place) else image
+    image_value = expressions.load(image) if isinstance(image, Place) else image
     if name in _QUERIES:
-        return expressions.result(op.IMAGE_QUERY_SAMPLES, INT, load.id)
+        return expressions.result(op.IMAGE_QUERY_SAMPLES, INT, image_value.id)
     if name == "subpassLoad":
         sample = expressions.value(arguments[1], depth) if len(arguments) == 2 else None
         at = expressions.splat(expressions.constant_value(INT, 0), 2)
@@ -105,7 +105,7 @@ def _sample_access(
     expressions.fetches.append((expressions.text_of(arguments[0]), node.start_byte, node.end_byte))
     kind = texel(image.type)
     number = op.IMAGE_FETCH if name.startswith("texel") else op.IMAGE_READ
-    return expressions.result(number, kind, load.id, at.id, op.SAMPLE_OPERAND, expressions.as_type(sample, INT).id)
+    return expressions.result(number, kind, image_value.id, at.id, op.SAMPLE_OPERAND, expressions.as_type(sample, INT).id)
 
 
 def _built_in(expressions: Expressions, node: SyntaxNode, name: str, arguments: list[SyntaxNode], depth: int) -> Value:

@@ -293,8 +293,8 @@ class Declarations(Expressions):
             if kind == VOID:
                 continue
             words = set(_WORD.findall(self.text[child.start_byte : parameter_type.start_byte]))
-            evaluate_call, kind = self.declarator(target, kind) if target is not None else ("", kind)
-            parameters.append((kind, bool(words & {"out", "inout"}), evaluate_call))
+            name_text, kind = self.declarator(target, kind) if target is not None else ("", kind)
+            parameters.append((kind, bool(words & {"out", "inout"}), name_text))
         function = Function(node, returns, tuple(parameters), self.out.id())
         self.functions.setdefault(self.text_of(name), []).append(function)
 

@@ -97,11 +97,11 @@ def _tree(lowered: Shader, reflected: Reflected, module: str) -> Node | None:
     sections = [("images", at, mapping(images, at))]
     if lowered.stage == "FRAGMENT":
         count = next((image.total for _, image in named), None)
-        with_binding = Span(*lowered.constants[count]) if count is not None and count in lowered.constants else at
+        count_at = Span(*lowered.constants[count]) if count is not None and count in lowered.constants else at
         stage = [
             ("stage", at, scalar("FRAGMENT", at)),
             ("module", at, scalar(module, at)),
-            ("specialization", with_binding, mapping([], with_binding)),
+            ("specialization", count_at, mapping([], count_at)),
         ]
         stages = sequence([mapping(stage, at)], at)
         pipeline = mapping([(lowered.entry, at, mapping([("stages", at, stages)], at))], at)

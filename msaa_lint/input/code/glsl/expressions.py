@@ -122,14 +122,14 @@ class Expressions(Values):
 
     def branch(self, condition: int, then: Callable[[], None], other: Callable[[], None] | None) -> None:
         """Lowers a selection with one or two branches."""
-        yes, unsupported, merge = self.out.id(), self.out.id(), self.out.id()
+        yes, no, merge = self.out.id(), self.out.id(), self.out.id()
         self.out.emit(op.SELECTION_MERGE, merge, 0)
-        self.terminate(op.BRANCH_CONDITIONAL, condition, yes, unsupported if other is not None else merge)
+        self.terminate(op.BRANCH_CONDITIONAL, condition, yes, no if other is not None else merge)
         self.label(yes)
         then()
         self.terminate(op.BRANCH, merge)
         if other is not None:
-            self.label(unsupported)
+            self.label(no)
             other()
             self.terminate(op.BRANCH, merge)
         self.label(merge)

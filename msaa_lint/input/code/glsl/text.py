@@ -101,29 +101,29 @@ def preprocess(text: str) -> PreprocessedText:
 
 def _apply_directive(name: str, rest: str, macros: dict[str, Macro], branches: list[tuple[bool, bool]]) -> None:
     """Applies a directive."""
-    ensure_block = all(item for item, _ in branches)
+    live = all(item for item, _ in branches)
     if name in ("ifdef", "ifndef"):
         word = rest.split()[0] if rest.split() else ""
         holds = (word in macros) == (name == "ifdef")
         branches.append((holds, holds))
     elif name == "if":
-        holds = ensure_block and _condition_holds(rest, macros)
+        holds = live and _condition_holds(rest, macros)
         branches.append((holds, holds))
     elif name in ("else", "elif") and branches:
         _, before = branches.pop()
-        global_declaration = all(item for item, _ in branches)
-        holds = not before and (name == "else" or (global_declaration and _condition_holds(rest, macros)))
+        outer = all(item for item, _ in branches)
+        holds = not before and (name == "else" or (outer and _condition_holds(rest, macros)))
         branches.append((holds, before or holds))
     elif name == "endif" and branches:
         branches.pop()
-    elif name == "define" and ensure_block:
+    elif name == "define" and live:
         match = _DEFINE.fullmatch(rest)
         if match is not None:
             parameters = tuple(word.strip() for word in match[2][1:-1].split(",") if word.strip()) if match[2] else None
             macros[match[1]] = Macro(parameters, match[3].strip())
             if len(macros) > MAX_MACROS:
                 raise UnsupportedShader("the shader has too many macros")
-    elif name == "undef" and ensure_block:
+    elif name == "undef" and live:
         macros.pop(rest, None)
     # An `include` may define anything; a missing definition is reported where it is used.
 

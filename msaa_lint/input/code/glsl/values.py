@@ -225,8 +225,8 @@ class Values(SyntaxReader):
         if not size or size_of(value.type) != size:
             raise UnsupportedShader(f"conversion from {type_text(value.type)} to {type_text(kind)} is not supported")
         if one == BOOL:
-            yes, unsupported = (self.splat(self.constant_value(other, literal_of(other, n)), size).id for n in (1, 0))
-            return self.result(SELECT, kind, value.id, yes, unsupported)
+            yes, no = (self.splat(self.constant_value(other, literal_of(other, n)), size).id for n in (1, 0))
+            return self.result(SELECT, kind, value.id, yes, no)
         if other == BOOL:
             zero = self.splat(self.constant_value(one, literal_of(one, 0)), size)
             return self.result(SIGNS["!="][column(one)], kind, value.id, zero.id)

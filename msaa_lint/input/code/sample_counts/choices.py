@@ -96,7 +96,7 @@ def _entry(choice: Choice, uses: Uses) -> Node:
 
 
 def _of_mask(mask: Mask) -> Iterator[tuple[str, Span, Node]]:
-    if mask.bindings:
+    if mask.known:
         at = mask.limits[0][1] if mask.limits else mask.at
         yield "limits", at, sequence([scalar(name, span) for name, span in mask.limits], at)
         yield "combined", mask.at, scalar(mask.combined, mask.at)

@@ -47,7 +47,7 @@ class Mask(NamedTuple):
     combined: str
     at: Span
     allowed: int = EVERY
-    bindings: bool = True
+    known: bool = True
 
     @property
     def bit(self) -> int | None:
@@ -85,7 +85,7 @@ def combine(masks: Iterable[Mask], how: str, at: Span) -> Mask:
         allowed = allowed & mask.allowed if how == "AND" else allowed | mask.allowed
         if RANK.index(mask.combined) > RANK.index(worst):
             worst, worst_at = mask.combined, mask.at
-    return Mask(tuple(limits.items()), worst, worst_at, allowed, all(mask.bindings for mask in every))
+    return Mask(tuple(limits.items()), worst, worst_at, allowed, all(mask.known for mask in every))
 
 
 class Expressions(SyntaxReader):
@@ -142,7 +142,7 @@ class Expressions(SyntaxReader):
             return Mask(((name, at),), "NONE", at)
         value = bindings[name] if name in bindings else self.members.get(name)
         if value is None and name == "sampleCounts" and node.type == "field_expression":
-            return Mask((), "NONE", span(node), bindings=False)
+            return Mask((), "NONE", span(node), known=False)
         return value
 
     def _binary(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
@@ -201,9 +201,9 @@ class Expressions(SyntaxReader):
             return None
         return left, right, operator[0] == "<", span(node)
 
-    def minimum(self, comparison: tuple[Mask, Mask, bool, Span], then: Value | None, other: Value | None) -> Mask | None:
+    def minimum(self, compared: tuple[Mask, Mask, bool, Span], then: Value | None, other: Value | None) -> Mask | None:
         """Returns the minimum or maximum of two compared masks, by the branch that is taken; None for other values."""
-        left, right, less, at = comparison
+        left, right, less, at = compared
         if not (isinstance(then, Mask) and isinstance(other, Mask)):
             return None
         names = [[name for name, _ in mask.limits] for mask in (left, right, then, other)]
@@ -215,9 +215,9 @@ class Expressions(SyntaxReader):
         then, other = (self.value(node.child_by_field_name(side), bindings, depth) for side in ("consequence", "alternative"))
         if not (isinstance(then, Mask) and isinstance(other, Mask)):
             return None
-        comparison = self.comparison(node.child_by_field_name("condition"), bindings, depth)
-        if comparison is not None:
-            return self.minimum(comparison, then, other)
+        compared = self.comparison(node.child_by_field_name("condition"), bindings, depth)
+        if compared is not None:
+            return self.minimum(compared, then, other)
         more = then if len(then.limits) >= len(other.limits) else other
         both = combine((then, other), more.combined, more.at)
         return both._replace(allowed=then.allowed | other.allowed)

@@ -75,7 +75,7 @@ class ChoiceReader:
             kind, name = fields(child, "type", "declarator")
             if kind is not None and name is not None and name.type == "identifier":
                 mask = _MASK_TYPE.search(self.expressions.text_of(kind)) is not None
-                bindings[self.expressions.text_of(name)] = Mask((), "NONE", span(name), bindings=False) if mask else None
+                bindings[self.expressions.text_of(name)] = Mask((), "NONE", span(name), known=False) if mask else None
         return bindings
 
     def block(self, node: SyntaxNode, bindings: Bindings, owner: Owner, depth: int) -> None:
@@ -134,13 +134,13 @@ class ChoiceReader:
                     bindings[name] = None
                     self.assign(name, value_node, type_node, bindings, owner, chains)
                 elif name:
-                    bindings[name] = Mask((), "NONE", span(child), bindings=False) if _MASK_TYPE.search(type_node) else None
+                    bindings[name] = Mask((), "NONE", span(child), known=False) if _MASK_TYPE.search(type_node) else None
 
     def assign(self, target: str, node: SyntaxNode | None, typed: str, bindings: Bindings, owner: Owner, chains: dict[str, Chain]) -> None:
         """Assigns the value of an expression to a variable, or returns it."""
         value = self.expressions.value(node, bindings)
         if value is None and node is not None and _MASK_TYPE.search(typed) and target:
-            value = Mask((), "NONE", span(node), bindings=False)
+            value = Mask((), "NONE", span(node), known=False)
         if isinstance(value, Mask):
             logical = value.combined.startswith("LOGICAL") and not re.search(r"SampleCount|int|VkFlags", typed)
             if value.combined not in ("NONE", "AND", "OR") and not logical:
@@ -205,9 +205,9 @@ class ChoiceReader:
 
     def comparison(self, condition: SyntaxNode | None, then: SyntaxNode, node: SyntaxNode, bindings: Bindings, owner: Owner) -> None:
         """Reads `if (a < b) counts = a; else counts = b;` and the same with returns."""
-        comparison = self.expressions.comparison(condition, bindings) if condition is not None else None
+        compared = self.expressions.comparison(condition, bindings) if condition is not None else None
         other = node.child_by_field_name("alternative")
-        if comparison is None:
+        if compared is None:
             return
         first, second = (
             self.assignment_of(then),
@@ -215,11 +215,9 @@ class ChoiceReader:
         )
         if first is None or second is None or first[0] != second[0]:
             return
-        minimum = self.expressions.minimum(
-            comparison, self.expressions.value(first[1], bindings), self.expressions.value(second[1], bindings)
-        )
-        if minimum is not None:
-            self.combined.setdefault(minimum.at, (first[0] or owner.name, minimum))
+        lesser = self.expressions.minimum(compared, self.expressions.value(first[1], bindings), self.expressions.value(second[1], bindings))
+        if lesser is not None:
+            self.combined.setdefault(lesser.at, (first[0] or owner.name, lesser))
 
     def assignment_of(self, node: SyntaxNode | None) -> "tuple[str, SyntaxNode] | None":
         """Returns the target and the value that a branch assigns or returns."""
@@ -284,7 +282,7 @@ class ChoiceReader:
     def finish(self, target: str, chain: Chain, owner: Owner) -> None:
         """Adds the choice of a chain at the end of its block."""
         tests = chain.ordered()
-        if not tests or not (tests[0].mask.bindings or all(test.spelled for test in tests)):
+        if not tests or not (tests[0].mask.known or all(test.spelled for test in tests)):
             return
         mask = tests[0].mask
         if len({(tuple(name for name, _ in test.mask.limits), test.mask.combined) for test in tests}) > 1:

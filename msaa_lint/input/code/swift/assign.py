@@ -43,9 +43,9 @@ def set_target(interpreter: Interpreter, sign: str, target: Term, value: Term, f
     elif kind == INDEX:
         owner = evaluate(interpreter, target[1], frame)
         if not set_index(interpreter, owner, evaluate(interpreter, target[2], frame), new_value, target[-1], place):
-            place_of = cell(target[1], frame)
-            if place_of is not None:
-                interpreter.set_property(place_of[0], place_of[1], new_value, place)
+            property_at = cell(target[1], frame)
+            if property_at is not None:
+                interpreter.set_property(property_at[0], property_at[1], new_value, place)
     elif kind == TUPLE and isinstance(new_value, Aggregate):
         for index, (_, item) in enumerate(target[1]):
             if item[0] == NAME and frame.find(item[1]) is not None:

@@ -61,9 +61,9 @@ def interpret(code: Code) -> Interpreter:
             interpreter.end()
         interpreter.begin()
         _begin(interpreter)
-        evaluate_call = frozenset(interpreter.called_functions)
+        called = frozenset(interpreter.called_functions)
         for function in functions:
-            if function.name == "init" or not (function.at.start in evaluate_call if turn else function.name in mentioned):
+            if function.name == "init" or not (function.at.start in called if turn else function.name in mentioned):
                 _root(interpreter, function)
         for function in functions:
             if function.at.start not in interpreter.inlined:

@@ -23,7 +23,7 @@ class Names:
         self.taken: set[str] = set()
         self.numbers: dict[str, int] = {}
 
-    def set_field(self, items: list[tuple[object, str, str]]) -> None:
+    def assign(self, items: list[tuple[object, str, str]]) -> None:
         """Assigns names to items by their own name and context."""
         often: dict[str, int] = {}
         for _, name, _ in items:

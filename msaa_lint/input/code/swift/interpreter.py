@@ -177,8 +177,8 @@ class Interpreter:
         field = item.fields.get(name)
         if field is None or field.by == self.root:
             return field
-        join_all = self.member_values.get((id(item), name), field.value)
-        return field if join_all == field.value else field._replace(value=join_all)
+        common = self.member_values.get((id(item), name), field.value)
+        return field if common == field.value else field._replace(value=common)
 
     def snapshot(self, item: MetalObject) -> dict[str, Field]:
         """Returns the current members of an object."""

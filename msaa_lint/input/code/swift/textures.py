@@ -45,14 +45,14 @@ class Textures:
 
     def fields(self, texture: Texture) -> dict[str, Field]:
         """Returns the members on which all creations of a texture agree; of those, only the multisampled ones if there are any."""
-        join_all = self.given.get(id(texture))
-        if join_all is None:
+        common = self.given.get(id(texture))
+        if common is None:
             several = [fields for fields in texture.made if type_of(fields) in MULTISAMPLED_TYPES]
-            join_all = {}
+            common = {}
             for index, texture_fields in enumerate(several or texture.made):
-                join_all = texture_fields if index == 0 else join_fields(join_all, texture_fields)
-            self.given[id(texture)] = join_all
-        return join_all
+                common = texture_fields if index == 0 else join_fields(common, texture_fields)
+            self.given[id(texture)] = common
+        return common
 
     def add_pass(self, textures: list[Texture]) -> None:
         """Records the textures of a pass. They all have the same sample count, so a count known for one applies to all."""

@@ -54,9 +54,9 @@ class DescriptionWriter:
             entry for entry in interpreter.objects.values() if entry.kind == "pipeline" and entry.fields and id(entry) not in descriptors
         ]
         pipelines = [*interpreter.pipelines.values(), *(pipeline_of(interpreter, entry, entry.at, entry.type_name) for entry in built)]
-        self.textures.names.set_field([(item, item.name or "texture", item.type_name) for item in self.textures.all.values()])
+        self.textures.names.assign([(item, item.name or "texture", item.type_name) for item in self.textures.all.values()])
         pass_names = Names()
-        pass_names.set_field([(entry, entry.descriptor.name or "renderPass", entry.descriptor.type_name) for entry, _ in passes])
+        pass_names.assign([(entry, entry.descriptor.name or "renderPass", entry.descriptor.type_name) for entry, _ in passes])
         textures = [
             (self.textures.name(texture), texture.at, mapping(members, texture.at))
             for texture in self.textures.all.values()
@@ -85,10 +85,7 @@ class DescriptionWriter:
         render_passes: list[Pass] = []
         values_by_descriptor: dict[int, list[dict[str, dict[str, Value]]]] = {}
         for render_pass in interpreter.passes.values():
-            values = {
-                attachment_slot: {name: field.value for name, field in fields.items()}
-                for attachment_slot, fields in render_pass.attachments.items()
-            }
+            values = {slot: {name: field.value for name, field in fields.items()} for slot, fields in render_pass.attachments.items()}
             before = values_by_descriptor.setdefault(id(render_pass.descriptor), [])
             same = next((index for index, one in enumerate(before[:8]) if one == values), None)
             before.append(values)
@@ -146,13 +143,13 @@ class DescriptionWriter:
             entries.insert(0, ("colorAttachments", colors[0][1], mapping(colors, colors[0][1])))
         return mapping(entries, render_pass.descriptor.at)
 
-    def attachment(self, render_pass: Pass, attachment_slot: str, fields: dict[str, Field]) -> list[Entry]:
+    def attachment(self, render_pass: Pass, slot: str, fields: dict[str, Field]) -> list[Entry]:
         entries: list[Entry] = []
         for name in ("texture", "resolveTexture"):
             field = fields.get(name)
             if field is not None and isinstance(field.value, Texture):
                 entries.append((name, field.key, scalar(self.textures.name(field.value), field.at)))
-        kind = "color" if attachment_slot.startswith("color") else attachment_slot.removesuffix("Attachment")
+        kind = "color" if slot.startswith("color") else slot.removesuffix("Attachment")
         for index, (name, allowed) in enumerate((("loadAction", _LOADS), ("storeAction", _STORES))):
             field = fields.get(name)
             if field is not None:
@@ -171,7 +168,7 @@ class DescriptionWriter:
 
     def pipelines(self, pipelines: list[Pipeline], passes: dict[int, str]) -> list[Entry]:
         names = Names()
-        names.set_field([(pipeline, pipeline.name or pipeline.descriptor.name or "pipeline", pipeline.type_name) for pipeline in pipelines])
+        names.assign([(pipeline, pipeline.name or pipeline.descriptor.name or "pipeline", pipeline.type_name) for pipeline in pipelines])
         entries = [(names.of[id(pipeline)], pipeline.descriptor.at, self.pipeline(pipeline, passes)) for pipeline in pipelines]
         return [entry for entry in entries if entry[2].value]
 
@@ -197,11 +194,11 @@ class DescriptionWriter:
             if name in pipeline.fields:
                 entries.extend(plain(name, pipeline.fields[name]))
         colors: list[Entry] = []
-        for attachment_slot in sorted(pipeline.colors):
-            fields = pipeline.colors[attachment_slot]
+        for slot in sorted(pipeline.colors):
+            fields = pipeline.colors[slot]
             members = [entry for name in ("pixelFormat", "isBlendingEnabled") if name in fields for entry in plain(name, fields[name])]
             if members:
-                colors.append((attachment_slot.removeprefix("color"), members[0][1], mapping(members, members[0][1])))
+                colors.append((slot.removeprefix("color"), members[0][1], mapping(members, members[0][1])))
         if colors:
             entries.append(("colorAttachments", colors[0][1], mapping(colors, colors[0][1])))
         return mapping(entries, pipeline.descriptor.at)
