@@ -1,8 +1,8 @@
-"""What must be found in the programs of the corpus, as their comments say, and what is found.
+"""Compares the findings in the corpus programs with the marks in their comments.
 
-`// expect: MSAA201` on a line: a finding of that rule, a warning or an error, must stand there. `// may: MSAA201`: it may.
-`// expect-later: MSAA201`: it is true, and nothing finds it yet. `MSAA201#color` on several lines: one of them will do. No other warning
-or error may stand anywhere.
+`// expect: MSAA201` requires a finding of that rule, a warning or error, on its line; `// may: MSAA201` allows one. `// expect-later:
+MSAA201` marks a mistake that is not detected yet. Of several lines with `MSAA201#color`, one must have the finding. Any other warning or
+error is false.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Found:
 
 @dataclass(frozen=True)
 class Outcome:
-    """A program held against its comments. What was to be found is named by code and line, or code and group."""
+    """The comparison of a program with its marks. Expected findings are named by code and line, or code and group."""
 
     expected: tuple[str, ...]
     missed: tuple[str, ...]
@@ -44,7 +44,7 @@ class Outcome:
 
 
 def marks(text: str) -> list[tuple[int, str, str, str]]:
-    """The marks of a program: line, kind, code, and the name of what is expected."""
+    """Returns the marks of a program: line, kind, code, and the name of the expected finding."""
     found = []
     for number, line in enumerate(text.split("\n"), 1):
         for match in _MARK.finditer(line):
@@ -54,7 +54,7 @@ def marks(text: str) -> list[tuple[int, str, str, str]]:
 
 
 def findings(path: Path) -> list[Found]:
-    """The warnings and errors of `msaa-lint check`, which has no reason to fail on any program."""
+    """Returns the warnings and errors of `msaa-lint check`, which must not fail for any program."""
     given = parse("check", [str(path), "--isolated", "--output", "json"])
     assert given is not None
     out, err = io.StringIO(), io.StringIO()
@@ -67,7 +67,7 @@ def findings(path: Path) -> list[Found]:
 
 
 def outcome(path: Path) -> Outcome:
-    """What is found in a program, held against what it says."""
+    """Compares the findings in a program with its marks."""
     marked = marks(path.read_text(encoding="utf-8"))
     found = findings(path)
     places = {(each.line, each.code) for each in found}

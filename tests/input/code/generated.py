@@ -1,4 +1,4 @@
-"""C++ as long as one likes, for measuring: modules of an application, half of it Vulkan, half what else an application is made of."""
+"""Generates C++ of any length for measurements: the modules of an application, half of which use Vulkan."""
 
 from __future__ import annotations
 
@@ -155,7 +155,8 @@ HEAD = """\
 
 
 def program(lines: int, wrong: int = 3) -> tuple[str, list[int]]:
-    """C++ of at least so many lines, and the lines in which a multisampled attachment is stored for nobody: in every third module."""
+    """Returns C++ of at least a number of lines, and the lines of the multisampled attachments that are stored but unused, in every
+    third module."""
     parts, places = [HEAD], []
     count = HEAD.count("\n")
     while count < lines:

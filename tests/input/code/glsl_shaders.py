@@ -1,4 +1,4 @@
-"""Shaders in many styles: what is asked of them as GLSL must be what is asked of glslang's SPIR-V."""
+"""Shaders in many styles. As GLSL, they must give the same results as glslang's SPIR-V."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Prints what is found in the programs of the corpus, what is missed and what is false: `python tests/input/code/recall.py [NAME...]`.
+"""Prints the expected, missed, and false findings in the corpus: `python tests/input/code/recall.py [NAME...]`.
 
-With `--compile` it asks gcc and g++ whether they are programs (Vulkan's headers have to be installed; a minute), and finds nothing.
+With `--compile`, it only checks that gcc and g++ accept the programs, which takes a minute and needs the Vulkan headers.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ COMPILERS = {".c": ("gcc", "-std=c11"), ".cpp": ("g++", "-std=c++20")}
 
 
 def main() -> int:
-    """A line for each program, one for each miss and each false finding, and the sums; 1 where anything is missed or false."""
+    """Prints a line for each program, missed finding, and false finding, and the totals. Returns 1 if any is missed or false."""
     sys.path.insert(0, str(ROOT))
     from tests.input.code.expected import PROGRAMS, outcome
 

@@ -1,4 +1,4 @@
-"""Trees of programs as documents: what cannot be bound is left out, and is nobody's mistake."""
+"""Documents from trees of source code: members that cannot be bound are removed, not reported."""
 
 from __future__ import annotations
 

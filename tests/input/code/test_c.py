@@ -1,4 +1,4 @@
-"""What C and C++ are read as: places, worlds, objects, and what is too much."""
+"""Descriptions read from C and C++: locations, configurations, objects, limits."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ HEAD = "#include <vulkan/vulkan.h>\n"
 
 
 def read(text: str, language: str = "cpp", fragments: bool = False) -> dict[str, object]:
-    """What a program is read as, without places."""
+    """Returns the description of a program, without locations."""
     found = trees(Code(ascii_only(text), language, fragments))
     assert len(found) <= 1
     made = yaml.safe_load(emit(found[0].tree)) if found else {}
@@ -28,7 +28,7 @@ def read(text: str, language: str = "cpp", fragments: bool = False) -> dict[str,
 
 
 def node(text: str, *path: str | int) -> Node:
-    """A node of what a program is read as."""
+    """Returns a node of a program's description."""
     (found,) = trees(Code(ascii_only(text), "cpp"))
     at = found.tree
     for part in path:
@@ -37,7 +37,7 @@ def node(text: str, *path: str | int) -> Node:
 
 
 def image(body: str, before: str = "") -> str:
-    """A program that makes one image, which a rendering draws to."""
+    """Returns a program that creates an image and renders to it."""
     return f"""{HEAD}{before}
 void make(VkDevice device, VkCommandBuffer commands, VkFormat format, bool msaa, int level) {{
     VkImageCreateInfo info{{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO}};
@@ -89,7 +89,7 @@ def test_a_count(body: str, count: int | None) -> None:
 
 
 def test_what_hangs_on_the_same_condition_goes_the_same_way() -> None:
-    """The world with several samples is described, whatever the condition is called."""
+    """The multisampled configuration is described, whatever the condition is called."""
     for condition in ("msaa", "level > 1", "level != 1", "settings.samples > VK_SAMPLE_COUNT_1_BIT", "isOn()"):
         body = f"""
             info.samples = {condition} ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
@@ -106,7 +106,7 @@ def test_what_hangs_on_another_condition_is_not_known() -> None:
 
 @pytest.mark.parametrize("count", [1, 10, 11, 12, 13, 30])
 def test_conditional_writes_leave_the_value_before_them_possible(count: int) -> None:
-    """However many there are: with too many alternatives to keep, the value is unknown."""
+    """Whatever their number: with too many alternatives, the value is unknown."""
     conditional = "".join(f"if (device_{n}) info.tiling = VK_IMAGE_TILING_LINEAR;\n" for n in range(count))
     body = f"info.samples = VK_SAMPLE_COUNT_4_BIT; info.tiling = VK_IMAGE_TILING_OPTIMAL; {conditional}"
     images = read(image(body).replace("info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO}", "info"))["images"]
@@ -124,7 +124,7 @@ def test_an_unconditional_write_is_kept_below_conditional_ones(count: int) -> No
 
 @pytest.mark.parametrize("count", [12, 13, 30])
 def test_a_member_with_too_many_writers_is_unknown(count: int) -> None:
-    """The thirteenth function may write what the first twelve do not."""
+    """The last function may write a value that the others do not."""
     last = "void last() { tiling = VK_IMAGE_TILING_LINEAR; }"
     before = "".join(f"void set{n}() {{ tiling = VK_IMAGE_TILING_OPTIMAL; }}\n" for n in range(count))
     text = image("info.samples = VK_SAMPLE_COUNT_4_BIT; info.tiling = tiling;", f"VkImageTiling tiling;\n{before}{last}")
@@ -235,7 +235,7 @@ LISTED = [
 
 @pytest.mark.parametrize(("listed", "count"), LISTED)
 def test_a_directive_in_braces(listed: str, count: int | None) -> None:
-    """The grammar knows none there."""
+    """The grammar has none there."""
     text = f"""{HEAD}
 void create(VkDevice device, VkImage* image) {{
     VkImageCreateInfo info{{

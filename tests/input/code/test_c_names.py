@@ -1,4 +1,4 @@
-"""Vulkan's names as C and C++ spell them, held to the registry."""
+"""Vulkan names as C and C++ spell them, compared with the registry."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def test_members_come_in_the_registrys_order(kind: str, registry: dict[str, list
     members = next(registry[f"Vk{kind}{suffix}"] for suffix in ("", "KHR", "EXT") if f"Vk{kind}{suffix}" in registry)
     assert ("sType" not in members) == (kind in WITHOUT_TYPE)
     own = [name for name in members if name not in ("sType", "pNext")]
-    # Of some structures the first members are all that rules ask for.
+    # Of some structures, rules need only the first members.
     assert list(MEMBERS[kind]) == own[: len(MEMBERS[kind])]
 
 

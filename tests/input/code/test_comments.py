@@ -1,4 +1,4 @@
-"""Comments of source code, told from strings that look like them."""
+"""Comments in source code, as opposed to strings that look like comments."""
 
 from __future__ import annotations
 

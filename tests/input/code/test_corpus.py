@@ -1,4 +1,4 @@
-"""Programs in many styles: what is wrong with them is found at its line, and nothing else is said of them."""
+"""Programs in many styles: mistakes are reported on their lines, and nothing else is reported."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def test_the_marks_of_a_program() -> None:
 
 
 def test_a_program_is_held_against_its_marks(tmp_path: Path) -> None:
-    """A mark in a wrong line is a miss and a false finding: this test can fail."""
+    """A mark on the wrong line is both missed and false, so this test can fail."""
     text = (CORPUS / "positional.cpp").read_text(encoding="utf-8")
     moved = tmp_path / "moved.cpp"
     text = text.replace("  // expect: MSAA205", "").replace("#define CHECK", "// expect: MSAA205\n#define CHECK")
@@ -41,7 +41,7 @@ def test_a_program_is_held_against_its_marks(tmp_path: Path) -> None:
 
 
 def test_a_long_program(tmp_path: Path) -> None:
-    """Classes with methods of the same names, and other code between them."""
+    """Classes with methods of the same name, and other code between them."""
     text, places = generated(800)
     path = tmp_path / "long.cpp"
     path.write_text(text, encoding="utf-8")
@@ -51,7 +51,7 @@ def test_a_long_program(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("count", [1, 11, 12, 13, 40])
 def test_conditional_stores_leave_it_unknown_whether_samples_are_stored(tmp_path: Path, count: int) -> None:
-    """With more alternatives than are kept, none of them may be taken for the value."""
+    """If there are more alternatives than are kept, none of them is taken as the value."""
     stored = "att[1].storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;"
     text = (CORPUS / "zeroed_fields.c").read_text(encoding="utf-8")
     assert stored in text

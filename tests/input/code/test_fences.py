@@ -1,4 +1,4 @@
-"""The code of Markdown pages, by CommonMark's rules for fences and what they stand in."""
+"""Code in Markdown pages, by CommonMark's rules for fences and containers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""GLSL: the same answers as of glslang's modules, findings at their places, and nothing said of what is not understood."""
+"""GLSL: the same results as for glslang's modules, findings at their locations, and no findings for unsupported shaders."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ FETCH = "texelFetch(scene, ivec2(gl_FragCoord.xy), i)"
 
 
 def said(found: Reflected) -> dict[str, Any]:
-    """What counts of an answer: not how long it took, nor the order of places that have none."""
+    """The part of a result that matters: without duration and without the order of findings that have no location."""
     return {**found._asdict(), "steps": 0, "capabilities": 0, "fetches": sorted(map(repr, found.fetches))}
 
 
@@ -281,7 +281,7 @@ def test_a_text_without_main(tmp_path: Path) -> None:
 
 
 def test_a_page_is_converted(tmp_path: Path) -> None:
-    """Its shaders lie beside the description, which says the same."""
+    """The shaders are in files next to the description."""
     (tmp_path / "page.md").write_text(page(("cpp", MADE), ("glsl", PART)), encoding="utf-8")
     done = run(tmp_path, "convert", "page.md", "-o", "page.msaa.yaml")
     assert done.returncode == 0
@@ -314,7 +314,7 @@ def test_without_the_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     assert (code, severity, message) == ("MSAA903", "warning", "`resolve.frag` is GLSL")
 
 
-# Hostile texts
+# Malicious texts
 
 HOSTILE = {
     "parentheses": AVERAGES.replace("sum / float(COUNT)", "(" * 3000 + "sum" + ")" * 3000),
@@ -355,7 +355,7 @@ def test_hostile_text_ends_soon(name: str) -> None:
 
 
 def test_what_stands_where() -> None:
-    """Each character of what is parsed knows the one that it is from."""
+    """Each parsed character maps to the original one."""
     text = "#define N 4\n#define ADD(a, b) (a + b)\nint x = N; int y = ADD(N, 2) * N;\nint z;\n"
     made = preprocess(text)
     assert made.text.split() == ["int", "x", "=", "4;", "int", "y", "=", "(4", "+", "2)", "*", "4;", "int", "z;"]
@@ -366,7 +366,7 @@ def test_what_stands_where() -> None:
 
 
 def test_by_the_real_command(tmp_path: Path) -> None:
-    """A file by its name, and a page; both are shown and fail nothing."""
+    """A file selected by its name, and a page; both are shown, and neither fails."""
     (tmp_path / "resolve.frag").write_text(AVERAGES, encoding="utf-8")
     done = run(tmp_path, "check", "--isolated", "--output", "concise", "resolve.frag")
     assert done.returncode == 0

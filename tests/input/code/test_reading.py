@@ -1,4 +1,4 @@
-"""Source code as an input, through the real command: told by name and content, judged with low confidence, silenced by its comments."""
+"""Source code as an input of the command: detected by name and content, checked with low confidence, suppressed by its comments."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def write(folder: Path, name: str, text: str | bytes = CODE) -> str:
 
 
 def without_extra(folder: Path, *arguments: str, stdin: bytes = b"") -> subprocess.CompletedProcess[str]:
-    """A run of an installation without the extra."""
+    """Runs an installation without the extra."""
     blocked = folder / "blocked"
     write(blocked, "sitecustomize.py", "import sys\nsys.modules['tree_sitter'] = None\n")
     separator = ";" if ";" in __import__("os").pathsep else ":"
@@ -100,7 +100,7 @@ def places(folder: Path, *arguments: str) -> list[tuple[int, int, int]]:
 WHOLE = [(LINE, COLUMN, COLUMN + len("VK_ATTACHMENT_STORE_OP_DONT_CARE"))]
 
 
-# Told by name and content.
+# Detection by name and content.
 
 
 @pytest.mark.parametrize("name", ["a.cpp", "a.cc", "A.CXX", "a.hpp", "a.h", "a.c", "a.inl", "a.h++"])
@@ -161,7 +161,7 @@ def test_the_hook_takes_the_endings_of_source_code() -> None:
     assert f"files: \\.({'|'.join(ending[1:].replace('+', chr(92) + '+') for ending in SOURCES)})$" in hooks
 
 
-# What it comes to.
+# Findings.
 
 
 def test_findings_of_code_fail_nothing_unless_asked_to(tmp_path: Path) -> None:
@@ -220,7 +220,7 @@ def test_the_same_bytes_every_time(tmp_path: Path) -> None:
     assert files == sorted(files)
 
 
-# The bounds.
+# Limits.
 
 
 @pytest.mark.parametrize(
@@ -310,7 +310,7 @@ def test_without_the_extra_descriptions_need_none(tmp_path: Path) -> None:
 
 
 def checked(folder: Path, *arguments: str) -> int:
-    """How many files a run took."""
+    """Returns the number of files of a run."""
     done = run(folder, "check", "--isolated", "--output", "json", *arguments)
     count: int = json.loads(done.stdout)["summary"]["files"]
     return count
@@ -408,7 +408,7 @@ def test_a_page_without_code_has_no_findings(tmp_path: Path) -> None:
 
 
 def silenced(folder: Path, text: str, *arguments: str, name: str = "a.cpp") -> tuple[int, list[tuple[str, int, int]]]:
-    """How many findings comments silence, and the others by rule, line and column."""
+    """Returns the number of findings that comments suppress, and the others by rule, line, and column."""
     write(folder, name, text)
     done = run(folder, "check", "--output", "json", *ONLY, *arguments, name)
     result = json.loads(done.stdout)
@@ -508,7 +508,7 @@ def test_cost_reckons_what_the_code_states(tmp_path: Path) -> None:
     write(tmp_path, "a.cpp", GOOD)
     done = run(tmp_path, "cost", "a.cpp", "--isolated", "--size", "1920x1080", "--fps", "60", "--output", "json")
     assert done.returncode == 0
-    # One sample a pixel of four bytes, stored sixty times a second.
+    # One sample per pixel with four bytes, stored sixty times a second.
     assert json.loads(done.stdout)["total"]["write_mb_per_s"] == pytest.approx(1920 * 1080 * 4 * 60 / 1e6)
 
 
@@ -529,7 +529,7 @@ def test_code_is_not_drawn(tmp_path: Path, command: str) -> None:
     assert "a.cpp: source code does not describe a complete frame: complete the description that `msaa-lint convert` writes" in done.stderr
 
 
-# What is assumed.
+# Assumptions.
 
 
 def test_what_is_assumed_is_a_note(monkeypatch: pytest.MonkeyPatch) -> None:

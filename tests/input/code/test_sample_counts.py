@@ -1,4 +1,4 @@
-"""How programs choose their sample count: what is read of them, where, and what must not be."""
+"""How programs choose their sample count: entries, locations, and what must not be reported."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def asked(found: dict[str, Any]) -> list[tuple[int, int]]:
 
 
 def fired(text: str, language: str = "cpp") -> list[tuple[str, int, str]]:
-    """The findings about choices: code, line, and the text that is pointed at."""
+    """Returns the findings about choices: code, line, and the text at their location."""
     name = f"example.{language}"
     linted = ENGINE.lint(read_source_file(text.encode(), name, language), name, LintOptions(as_written))
     assert linted.source is not None
@@ -164,7 +164,7 @@ def test_a_count_that_waits_for_its_bit() -> None:
 
 
 def test_masks_are_followed() -> None:
-    """Through functions, members, parameters, `&=`, conditions and lambdas."""
+    """Through functions, members, parameters, `&=`, conditions, and lambdas."""
     both = f"VkSampleCountFlags both() {{ return p.limits.{COLOR} & p.limits.{DEPTH}; }}"
     taken = f"VkSampleCountFlagBits top() {{ auto c = both(); {chain(FROM_EIGHT).replace('counts', 'c')} return VK_SAMPLE_COUNT_1_BIT; }}"
     assert only(both + taken)["limits"] == [COLOR, DEPTH]
@@ -177,7 +177,7 @@ def test_masks_are_followed() -> None:
     chosen = f"auto counts = stencil ? p.limits.{COLOR} & p.limits.{STENCIL} : p.limits.{COLOR}; {chain(FROM_EIGHT)}"
     assert only(f"VkSampleCountFlagBits f() {{ {chosen} }}")["limits"] == [COLOR, STENCIL]
     given = f"VkSampleCountFlagBits f(VkSampleCountFlags counts) {{ {chain(FROM_EIGHT)} return VK_SAMPLE_COUNT_1_BIT; }}"
-    # Whose the mask is, and what is left of it, is the caller's.
+    # The caller decides which mask it is and what is left of it.
     assert list(only(given)) == ["tests"]
     inner = f"void f() {{ {BOTH} auto pick = [&]() {{ {chain(FROM_EIGHT)} return VK_SAMPLE_COUNT_1_BIT; }}; samples = pick(); }}"
     assert list(read(inner)) == ["pick"]
@@ -226,7 +226,7 @@ def test_what_is_given_of_either_mask() -> None:
 
 
 def test_a_bit_that_is_tested_again() -> None:
-    """Where the second test stands."""
+    """The location of the second test."""
     text = function(chain([(8, 8), (8, 4), (8, 2)], "if(counts & vk::SampleCountFlagBits::e{0}) return vk::SampleCountFlagBits::e{1};"))
     assert [each for each in fired(text) if each[0] == "MSAA853"] == [("MSAA853", 4, "counts & vk::SampleCountFlagBits::e8")]
     ternary = "return counts & 4 ? VK_SAMPLE_COUNT_4_BIT : counts & 4 ? VK_SAMPLE_COUNT_2_BIT : VK_SAMPLE_COUNT_1_BIT;"
@@ -251,7 +251,7 @@ bool hasStencil(VkFormat f) { return f == VK_FORMAT_D16_UNORM_S8_UINT; }
 
 
 def test_formats_of_images_that_get_the_count() -> None:
-    """Through a function, a variable, a call that makes the image; a comparison names none."""
+    """Through a function, a variable, and a call that creates the image; a comparison names no format."""
     text = function(chain([(4, 4)])) + DEPTH_FORMAT + "void a() { m_samples = pick(p); }\nvoid b() { VkFormat format = findDepthFormat();\n"
     found = only(text + "createImage(w, h, 1, m_samples, format, image); }")
     assert found["formats"] == ["D32_SFLOAT", "D24_UNORM_S8_UINT"]
@@ -297,7 +297,7 @@ def test_caps() -> None:
 
 
 def test_four_is_offered_everywhere() -> None:
-    """What stands behind the test of four is never given, but for counts that may lack it."""
+    """Tests after that of four are unreachable, except for masks that may lack it."""
     order = [(4, 4), (2, 2), (8, 8), (16, 16)]
     assert only(function(chain(order)))["atMost"] == 4
     assert only(function(chain(order)).replace(COLOR, "framebufferIntegerColorSampleCounts"))["atMost"] == 16

@@ -1,4 +1,4 @@
-"""Metal in Swift: what its descriptors say when textures, passes and pipelines are made of them, each at its place."""
+"""Metal in Swift: the state of descriptors when textures, passes, and pipelines are created, each with its location."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def metal(text: str, fragments: bool = False) -> Any:
 
 
 def written(text: str, *path: str) -> tuple[str, str]:
-    """What stands in the text where a member has its key and its value."""
+    """Returns the text at the locations of a member's key and value."""
     node = found(text).tree.value["metal"]
     key = node
     for step in path:
@@ -58,7 +58,7 @@ def written(text: str, *path: str) -> tuple[str, str]:
 
 
 def color(text: str) -> Any:
-    """The first color attachment of the only pass."""
+    """Returns the first color attachment of the only pass."""
     (only,) = metal(text)["renderPasses"].values()
     return only["colorAttachments"]["0"]
 
@@ -243,7 +243,7 @@ def test_what_is_set_after_other_code_is_known() -> None:
 
 
 def test_a_function_that_another_calls_runs_there_alone() -> None:
-    """Also where things of other types have functions of the caller's name."""
+    """Also if other types have functions with the caller's name."""
     text = (
         "class A {\nvar color: MTLTexture!\nfunc resize() {\n" + MADE.replace("let color", "color") + "}\n"
         "func draw() {\nresize()\nfor mesh in meshes { mesh.draw() }\n}\n}\n"
@@ -331,7 +331,7 @@ def test_the_world_with_multisampling(condition: str) -> None:
 
 
 def test_the_same_words_go_the_same_way() -> None:
-    """What is set under the same condition is of the same world, also where a branch by itself says nothing of multisampling."""
+    """Everything set under the same condition belongs to the same configuration, even if a branch alone does not mention multisampling."""
     text = (
         MADE
         + PASS
@@ -395,7 +395,7 @@ def test_a_pass_is_what_it_was_when_it_was_encoded() -> None:
 
 
 def test_defaults_are_those_of_an_encoded_pass_alone() -> None:
-    """Of one that is handed on, other code may set the rest; a fragment says what it is about."""
+    """Other code may complete a descriptor that is passed on; a fragment states what it is about."""
     assert color(MADE + PASS + "use(pass)\n") == {"texture": "color"}
     fragment = metal(MADE + PASS + ENCODED, fragments=True)
     assert fragment["renderPasses"]["pass"] == {"colorAttachments": {"0": {"texture": "color"}}}
@@ -523,7 +523,7 @@ def test_a_parameter_is_the_argument_of_its_calls() -> None:
 
 
 def test_textures_that_a_tuple_hands_over() -> None:
-    """A page makes them in one function and takes them in another, by the same names."""
+    """A page creates them in one function and uses them in another, with the same names."""
     text = (
         "func make() -> (ms: MTLTexture, plain: MTLTexture) {\n" + MADE + "let p = MTLTextureDescriptor()\n"
         "let other = device.makeTexture(descriptor: p)!\nreturn (color, other)\n}\nfunc pass(ms: MTLTexture, plain: MTLTexture) {\n"
@@ -544,7 +544,7 @@ def test_what_is_resolved_has_several_samples() -> None:
 
 
 def test_samples_that_some_frames_load_may_be_stored() -> None:
-    """Whether the store is for anybody depends on what the load is; what is said of it would be a guess."""
+    """Whether anything reads the stored samples depends on the load action, so a finding would be a guess."""
     text = MADE + PASS + "pass.colorAttachments[0].storeAction = .store\npass.colorAttachments[0].loadAction = %s\nuse(pass)\n"
     assert color(text % "first ? .clear : .load") == {"texture": "color"}
     assert color(text % "first ? .clear : .dontCare") == {"texture": "color", "storeAction": "store"}
@@ -754,7 +754,7 @@ def test_the_family_by_what_a_file_imports() -> None:
         assert "family" not in metal(other + MADE)
 
 
-# Fragments, and what is no Swift
+# Fragments, and text that is not Swift
 
 
 PAGE = """\

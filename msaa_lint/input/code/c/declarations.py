@@ -81,9 +81,9 @@ class Declarations(Expressions):
             name_node = target if target is not None else child
             at = span(name_node)
             extent = BLANKS.sub("", self.text_of(size)) if size is not None and size.type in ("number_literal", "identifier") else ""
-            complete = f"{text}[{extent}]" if size is not None else text
-            value = self.value(value_node, complete, depth) if value_node is not None else value
-            terms.append((DECLARE, complete, name, value, indirect, fixed, at))
+            full_type = f"{text}[{extent}]" if size is not None else text
+            value = self.value(value_node, full_type, depth) if value_node is not None else value
+            terms.append((DECLARE, full_type, name, value, indirect, fixed, at))
         return terms
 
     def is_construction(self, node: SyntaxNode) -> bool:

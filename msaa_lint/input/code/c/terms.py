@@ -1,27 +1,27 @@
-"""What C and C++ say, in a dozen kinds of terms: syntax trees of both, without what no question of ours depends on.
+"""Terms: the syntax trees of C and C++ reduced to about two dozen kinds of nodes.
 
-A term is a tuple whose first item is its kind and whose last is its place. Expressions:
+A term is a tuple of its kind, its parts, and its location. Expressions:
 
-    (NAME, text, at)                      a name, qualified as it stands: `vk::Format::eUndefined`, `samples`
-    (LITERAL, value, at)                  a number, a truth value, None for a null pointer
-    (FIELD, object, name, at)             `object.name` and `object->name`; the place is the name's
+    (NAME, text, at)                      a name as written, with its qualifiers: `vk::Format::eUndefined`, `samples`
+    (LITERAL, value, at)                  a number, a boolean, or None for a null pointer
+    (FIELD, object, name, at)             `object.name` or `object->name`; the location is that of the name
     (INDEX, object, index, at)
     (ADDRESS, of, at), (TARGET, of, at)   `&of` and `*of`
     (UNARY, operator, of, at), (BINARY, operator, left, right, at), (ASSIGN, operator, target, value, at)
     (CHOICE, condition, then, otherwise, at)
-    (CALL, function, arguments, at)       constructors and casts by a type's name as well
-    (BRACES, type or "", items, at)       items are (path of members or None, expression); `type` is the one that stands before
+    (CALL, function, arguments, at)       also constructors and functional casts
+    (BRACES, type or "", items, at)       items are (path of members or None, expression); the type is the one before the braces
     (LAMBDA, parameters, body, at)
-    (SOME, text, way, expression, at)     in braces: there if a condition of the preprocessor holds, or does not
+    (SOME, text, way, expression, at)     an item in braces that exists only if a preprocessor condition has the value `way`
     (UNPARSED, text, at)
 
 Statements:
 
-    (DECLARE, type, name, value or None, reference, fixed, at)     `fixed`: it is const, or stands for a value of a macro or an enum
+    (DECLARE, type, name, value or None, reference, fixed, at)     `fixed`: const, or the value of a macro or enumerator
     (DO, expression, at), (RETURN, expression or None, at), (LEAVE, at)
     (IF, condition, then, otherwise, at)
-    (LOOP, declared, over or None, body, at)     `over` is what a range-based loop goes through
-    (SOME, text, then, otherwise, at)            blocks of the preprocessor
+    (LOOP, declared, over or None, body, at)     `over` is the range of a range-based loop
+    (SOME, text, then, otherwise, at)            a preprocessor block
     (BLOCK, statements, at)
 """
 

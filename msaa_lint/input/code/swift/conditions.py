@@ -54,9 +54,9 @@ def decide(interpreter: Interpreter, conditions: tuple[Term, ...], then: object,
     """Returns whether conditions are taken as true; None if undecided."""
     if not conditions:
         return None
-    path = truth(interpreter, conditions, frame)
-    if path is not None:
-        return path
+    result = truth(interpreter, conditions, frame)
+    if result is not None:
+        return result
     words = words_of(conditions, interpreter.text)
     goes = interpreter.decisions.get(words)
     if goes is None:

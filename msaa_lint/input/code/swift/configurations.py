@@ -26,8 +26,8 @@ def by_words(condition: Term) -> bool | None:
     turned = False
     while condition[0] == NOT:
         condition, turned = condition[1], not turned
-    path = _by_words(condition)
-    return None if path is None else path != turned
+    result = _by_words(condition)
+    return None if result is None else result != turned
 
 
 def _by_words(condition: Term) -> bool | None:

@@ -1,30 +1,30 @@
-"""What Swift says, in a dozen kinds of terms: its syntax tree without what no question of ours depends on.
+"""Terms: the syntax trees of Swift reduced to about two dozen kinds of nodes.
 
-A term is a tuple whose first item is its kind and whose last is its place. What unwraps, tries, awaits or casts is left out: `a!`, `try a`
-and `a as! B` are `a`. Expressions:
+A term is a tuple of its kind, its parts, and its location. Unwrapping, `try`, `await`, and casts are removed: `a!`, `try a`, and `a as! B`
+are `a`. Expressions:
 
-    (NAME, text, at)                          `self` too
-    (LITERAL, value, at)                      a number, a truth value, a text, None for nil
-    (MEMBER, object or None, name, at)        `object.name`; None for `.name`; the place of the name is `name_at`
+    (NAME, text, at)                          including `self`
+    (LITERAL, value, at)                      a number, a boolean, a string, or None for nil
+    (MEMBER, object or None, name, at)        `object.name`, or `.name` for None; `name_at` is the location of the name
     (INDEX, object, index, at)
     (LIST, items, at)
     (TUPLE, ((label, item), ...), at)
     (CALL, function, ((label, argument), ...), closure or None, at)
-    (CLOSURE, names of its parameters, statements, at)
+    (CLOSURE, parameter names, statements, at)
     (BINARY, operator, left, right, at), (NOT, of, at)
     (CHOICE, conditions, then, otherwise, at)
     (OTHER, text, at)
 
 Statements:
 
-    (LET, names, type, value or None, at)     several names take a tuple apart
+    (LET, names, type, value or None, at)     several names destructure a tuple
     (SET, operator, target, value, at)
     (DO, expression, at), (RETURN, expression or None, at), (LEAVE, at)
-    (IF, conditions, then, otherwise, at)     also #if: a single condition of the kind OTHER
+    (IF, conditions, then, otherwise, at)     also #if, with a single condition of the kind OTHER
     (GUARD, conditions, otherwise, at)
-    (CASES, bodies, at)                       of a switch
+    (CASES, bodies, at)                       a switch
     (BLOCK, statements, at), (LOOP, names, statements, at)
-    (FUNC, function, at)                      one that is declared in another
+    (FUNC, function, at)                      a nested function
 
 A condition is an expression, or (BIND, name, expression or None, at) for `let name = expression`.
 """
