@@ -1,1 +1,2 @@
-"""A described frame tried on a Vulkan device: created, drawn, compared with its fixed version, timed. Drivers run in a child process."""
+"""Confirms a described frame on a Vulkan device: creates and renders it, compares it with its fixed version, and times both. Drivers run in
+a child process."""

@@ -1,14 +1,13 @@
-"""The one module that knows the package `vulkan`, mended: structures keep what they point to, and failed calls have one exception.
+"""The only module that imports the package `vulkan`, with fixes: structures keep alive what they point to, and failed calls raise one
+exception.
 
-`load()` gives the package, to be used as its own documentation says, but that
+`load()` returns the package. It works as documented, except that
 
-- a structure keeps alive everything that it was made of. The package (1.3.275.1) frees what the elements of a list point to, what a
-  structure nested by value points to, and the bytes of `pCode`: a driver then reads freed memory.
-- every result but VK_SUCCESS raises `VulkanError`, with Vulkan's name, also results that the package does not know.
-- any sequence is taken for an array: an empty one, a generator, a NumPy array.
-- the constants that the package lacks are there, and those of errors have Vulkan's values.
-
-`push_bytes` makes what `vkCmdPushConstants` takes. `instance.py` opens instances and devices with it.
+- a structure keeps alive everything that it was created from. The package (1.3.275.1) frees what the elements of a list point to, what a
+  structure nested by value points to, and the bytes of `pCode`, so that a driver would read freed memory.
+- every result except VK_SUCCESS raises `VulkanError` with Vulkan's name, including results that the package does not know.
+- any sequence is accepted as an array: an empty one, a generator, a NumPy array.
+- missing constants are added, and those of errors have Vulkan's values.
 """
 
 from __future__ import annotations
@@ -18,16 +17,15 @@ from collections.abc import Callable, Iterable
 from types import ModuleType
 from typing import Any
 
-from .vulkan_errors import RESULTS, Unusable, VulkanError
+from .vulkan_errors import NO_PACKAGE, RESULTS, Unusable, VulkanError
 
-PACKAGE = "the Python package `vulkan` is not there: pip install 'msaa-lint[confirm]'"
-LOADER = "there is no Vulkan loader (libvulkan.so.1, vulkan-1.dll): install a Vulkan driver; on Debian `apt install libvulkan1`"
+LOADER = "there is no Vulkan loader (libvulkan.so.1, vulkan-1.dll): install a Vulkan driver; on Debian run `apt install libvulkan1`"
 
 _loaded: ModuleType | None = None
 
 
 def load() -> Any:
-    """The package `vulkan`, mended. Unusable where it, or the loader that it opens, is not there."""
+    """The package `vulkan` with the fixes applied. Unusable if it or the Vulkan loader is not installed."""
     global _loaded
     if _loaded is None:
         try:
@@ -35,7 +33,7 @@ def load() -> Any:
             from vulkan import _vulkan
         except ImportError as error:
             missing = error.name in ("vulkan", "cffi", "_cffi_backend")
-            raise Unusable(PACKAGE if missing else f"`vulkan` cannot be loaded: {error}") from None
+            raise Unusable(NO_PACKAGE if missing else f"`vulkan` cannot be loaded: {error}") from None
         except OSError:
             raise Unusable(LOADER) from None
         _keep_alive(_vulkan)
@@ -48,7 +46,7 @@ def load() -> Any:
 
 
 class _Results:
-    """In the place of the package's exceptions by their codes: `raise exception_codes[result]` is what its functions do."""
+    """Replaces the package's table of exceptions, which its functions use as `raise exception_codes[result]`."""
 
     def __getitem__(self, result: int) -> VulkanError:
         return VulkanError(result, sys._getframe(1).f_code.co_name)
@@ -71,7 +69,7 @@ def _keep_alive(module: Any) -> None:
     def _new(ctype: str, **members: Any) -> Any:
         stated = {name: listed(value) for name, value in members.items()}
         made = new(ctype, **stated)
-        # Lists as they are now: their owner may empty them.
+        # Copy lists: their owner may modify them.
         kept[made] = (*kept.get(made, ()), *(tuple(v) if isinstance(v, list) else v for v in stated.values() if v is not None))
         return made
 
@@ -90,12 +88,12 @@ def _constants() -> dict[str, Any]:
 
 
 def packed(variant: int, major: int, minor: int, patch: int) -> int:
-    """A version as Vulkan packs it into 32 bits."""
+    """A version packed into 32 bits, as in Vulkan."""
     return variant << 29 | major << 22 | minor << 12 | patch
 
 
 def has(function: str) -> bool:
-    """Whether the loader exports a function: an old one lacks those of later versions."""
+    """Whether the loader exports a function; old loaders lack those of later versions."""
     try:
         return bool(getattr(load().lib, function, None))
     except AttributeError:
@@ -111,7 +109,7 @@ def text(value: Any) -> str:
 
 
 def chain(head: Any, *following: Any) -> Any:
-    """Links structures by pNext, in that order, and keeps them alive by the first; gives the first."""
+    """Links structures by pNext in that order and returns the first one, which keeps the others alive."""
     vk = load()
     kept = vk._vulkan._weakkey_dict
     for before, after in zip((head, *following), following, strict=False):
@@ -121,18 +119,19 @@ def chain(head: Any, *following: Any) -> Any:
 
 
 def push_bytes(data: bytes) -> Any:
-    """Bytes as the `const void*` that vkCmdPushConstants and vkCmdUpdateBuffer take. Whoever asks keeps it until the call is done."""
+    """Bytes as the `const void*` that vkCmdPushConstants and vkCmdUpdateBuffer take. The caller must keep the result alive until the call
+    returns."""
     return load().ffi.from_buffer("char[]", data)
 
 
 def procedure(owner: Any, name: str, device: bool = False) -> Callable[..., Any]:
-    """A function of an instance (or `device`), whether core or of an enabled extension. VulkanError where there is none."""
+    """A function of an instance or device, core or of an enabled extension. VulkanError if there is none."""
     vk = load()
     try:
         found: Callable[..., Any] = (vk.vkGetDeviceProcAddr if device else vk.vkGetInstanceProcAddr)(owner, name)
         return found
     except vk.ExtensionNotSupportedError:
-        # The package's word for core functions, which it has as its own.
+        # The package raises this for core functions, which it exports itself.
         if hasattr(vk, name) and has(name):
             found = getattr(vk, name)
             return found
@@ -142,23 +141,23 @@ def procedure(owner: Any, name: str, device: bool = False) -> Callable[..., Any]
 
 
 def instance_version() -> tuple[int, int, int]:
-    """The version of Vulkan that the loader knows."""
+    """The Vulkan version of the loader."""
     number = load().vkEnumerateInstanceVersion() if has("vkEnumerateInstanceVersion") else packed(0, 1, 0, 0)
     return version_of(number)
 
 
 def version_of(number: int) -> tuple[int, int, int]:
-    """Major, minor and patch of a packed version."""
+    """The major, minor and patch numbers of a packed version."""
     return number >> 22 & 0x7F, number >> 12 & 0x3FF, number & 0xFFF
 
 
 def layers() -> dict[str, tuple[int, int, int]]:
-    """The layers there are, and the version of Vulkan that each is written for."""
+    """The installed layers and the Vulkan version of each."""
     return {text(each.layerName): version_of(each.specVersion) for each in load().vkEnumerateInstanceLayerProperties()}
 
 
 def extensions(layer: str | None = None) -> frozenset[str]:
-    """The instance extensions there are, or those of a layer."""
+    """The available instance extensions, or those of a layer."""
     return frozenset(text(each.extensionName) for each in load().vkEnumerateInstanceExtensionProperties(layer))
 
 

@@ -1,4 +1,4 @@
-"""One child process from its start to its end: asked, listened to with a time limit, and ended whatever state it is in."""
+"""A child process: requests, answers within a time limit, and termination in whatever state it is."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ from .protocol import MAX_LINE, Event, ProtocolError, event, line
 from .worker import EXECUTE
 
 MAX_WAITING = 4096
-"""Answers that may wait to be read; then the child has to wait."""
+"""Maximum number of unread answers; beyond it the child blocks."""
 
 MAX_OUTPUT = 16 << 10
-"""Bytes kept of the beginning, and of the end, of what driver and layer print."""
+"""Bytes kept of the beginning and of the end of the output of driver and layer."""
 
 
 class Limits(NamedTuple):
-    """What a child may take: `seconds` for each pass by the wall clock, `memory` bytes of address space (0: unlimited)."""
+    """The limits of a child: `seconds` of wall-clock time per pass, and `memory` bytes of address space (0: unlimited)."""
 
     seconds: float = 30.0
     memory: int = 8 << 30
 
 
 class ChildExit(Exception):
-    """A child that is no more: `how` is `died`, `timed-out` or `garbage`; `signal` its name, empty where there was none."""
+    """The end of a child: `how` is `died`, `timed-out` or `garbage`; `signal` is the signal's name, empty without any."""
 
     def __init__(self, how: str, text: str, signal: str = "") -> None:
         super().__init__(text)
@@ -41,12 +41,12 @@ class ChildExit(Exception):
 
 
 class Child:
-    """A running worker. Whoever makes one closes it."""
+    """A running worker. The creator must close it."""
 
     def __init__(self, folder: str, limits: Limits, environment: Mapping[str, str], execute: str = EXECUTE) -> None:
         self.limits = limits
         given = json.dumps({"memory": limits.memory, "execute": execute})
-        # -P: what lies in the folder is no module of ours.
+        # -P: do not import modules from the working directory.
         command = [sys.executable, "-P", "-m", "msaa_lint.experiments.confirm.worker", given]
         self._process = subprocess.Popen(
             command,
@@ -65,16 +65,16 @@ class Child:
         self._listener.start()
 
     def send(self, request: Mapping[str, Any], seconds: float | None = None) -> None:
-        """Asks something; `answers` has what comes of it. A child that does not read does not hold us up."""
+        """Sends a request; `answers` returns the answers to it. A child that does not read does not block the caller."""
         limit = seconds if seconds is not None else self.limits.seconds
         text = line({**request, "seconds": _patience(limit, request)})
         threading.Thread(target=self._write, args=(text,), daemon=True).start()
 
     def answers(self, seconds: float | None = None) -> Iterator[Event]:
-        """The answers to a request, the last of them included (`done`, `failed`, `opened`, `devices`).
+        """The answers to a request up to the last one (`done`, `failed`, `opened` or `devices`).
 
-        Ended where the child dies, writes garbage or goes on for longer than the limit from now, or from the last pass that it announced
-        or timed. It is then closed already.
+        ChildExit if the child dies, writes garbage, or takes longer than the limit from now or from the last pass that it announced or
+        timed. The child is closed by then.
         """
         limit = seconds if seconds is not None else self.limits.seconds
         deadline = time.monotonic() + limit
@@ -90,7 +90,7 @@ class Child:
                 found = event(text)
             except ProtocolError as error:
                 self.close()
-                raise ChildExit("garbage", f"the process with the driver in it wrote {error}, and was ended") from None
+                raise ChildExit("garbage", f"the driver's process wrote {error} and was terminated") from None
             if found["event"] in ("pass", "time"):
                 deadline = time.monotonic() + limit
             yield found
@@ -101,12 +101,12 @@ class Child:
                 raise ChildExit("timed-out", f"it took longer than {limit:g} s")
 
     def close(self) -> None:
-        """Ends the child and all that it started; nothing of it is left."""
+        """Terminates the child and all processes that it started."""
         self._closing = True
         process = self._process
         with suppress(OSError):
             if hasattr(os, "killpg"):
-                # The group's number is the child's, and stays its own until it has been waited for.
+                # The process group has the child's id, which stays reserved until the child has been waited for.
                 os.killpg(process.pid, signal.SIGKILL)
             else:
                 process.kill()
@@ -122,7 +122,7 @@ class Child:
                     pipe.close()
 
     def _write(self, text: bytes) -> None:
-        # A child that is gone is seen by its answers.
+        # The end of a child shows in its answers.
         with suppress(OSError, ValueError):
             assert self._process.stdin is not None
             self._process.stdin.write(text)
@@ -141,30 +141,30 @@ class Child:
                     break
 
     def _ended(self) -> ChildExit:
-        """What a child that closed its answers came to."""
+        """How a child that closed its answers ended."""
         try:
             code = self._process.wait(1)
         except subprocess.TimeoutExpired:
             self.close()
-            return ChildExit("garbage", "the process with the driver in it closed its answers, and was ended")
+            return ChildExit("garbage", "the driver's process closed its answers and was terminated")
         self.close()
         text = self.printed.last()
         agreement = f"; its last words: {text}" if text else ""
         if code >= 0:
             return ChildExit("died", f"the driver ended the process with code {code}{agreement}")
         name = signal_name(-code)
-        hint = ", as the system does when memory runs out" if name == "SIGKILL" else ""
+        hint = ", which may mean that memory ran out" if name == "SIGKILL" else ""
         return ChildExit("died", f"{name}{hint}{agreement}", name)
 
 
 def _patience(limit: float, request: Mapping[str, Any]) -> float:
-    """Seconds after which the child ends by itself, should the parent be gone: more than the parent would ever wait."""
+    """Seconds after which the child ends by itself if the parent is gone: more than the parent would ever wait."""
     repeats = int((request.get("want") or {}).get("repeats", 0))
     return min(limit * (2 + len(request.get("passes") or ())) * (1 + repeats) + 5, 1e6)
 
 
 def signal_name(number: int) -> str:
-    """`SIGSEGV` of 11."""
+    """The name of a signal: `SIGSEGV` for 11."""
     try:
         return signal.Signals(number).name
     except ValueError:
@@ -172,7 +172,7 @@ def signal_name(number: int) -> str:
 
 
 class ChildOutput:
-    """What a child prints, read by a thread to the end so that it never waits; of that the beginning and the end."""
+    """The beginning and the end of a child's output. A thread reads all of it so that the child never blocks."""
 
     def __init__(self, pipe: IO[bytes]) -> None:
         self._pipe = pipe
@@ -183,16 +183,16 @@ class ChildOutput:
         self._thread.start()
 
     def join(self, seconds: float) -> None:
-        """Waits for the end of what is printed, at most so long."""
+        """Waits for the end of the output, at most `seconds`."""
         self._thread.join(seconds)
 
     def text(self) -> str:
-        """What is kept, as text."""
+        """The kept output as text."""
         left = f"\n... {self.dropped} bytes ...\n" if self.dropped else ""
         return self.head.decode("utf-8", "replace") + left + self.tail.decode("utf-8", "replace")
 
     def last(self) -> str:
-        """The last line that is not empty, at most 200 characters; empty where nothing was printed."""
+        """The last nonempty line, at most 200 characters; empty without output."""
         lines = [each.strip() for each in self.text().splitlines() if each.strip()]
         return lines[-1][:200] if lines else ""
 

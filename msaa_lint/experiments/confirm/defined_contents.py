@@ -1,4 +1,4 @@
-"""Which images hold what the description says, and which anything: what is undefined is neither shown nor compared."""
+"""Which images have defined contents: undefined contents are neither shown nor compared."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from . import parts
 from .parts import CLEAR, COLOR, DEPTH, LOAD, NONE, RESUMING, STENCIL, STORE, SUSPENDING, Framebuffer, Pass, Plan, Step, Subpass
 
 Key = tuple[int, int]
-"""An image by its number, and one of its aspects."""
+"""The number of an image and one of its aspects."""
 
 
 class Contents:
-    """What the images of a plan hold, step by step."""
+    """Tracks the contents of the images of a plan step by step."""
 
     def __init__(self, plan: Plan) -> None:
         self.plan = plan
@@ -18,7 +18,7 @@ class Contents:
         self.suspended: set[Key] = set()
 
     def outputs(self) -> list[Key]:
-        """Single-sampled images that hold what is defined, aspect by aspect."""
+        """The aspects of single-sampled images with defined contents."""
         return [
             (number, aspect)
             for number, image in enumerate(self.plan.images)
@@ -27,23 +27,23 @@ class Contents:
         ]
 
     def whole(self, number: int, aspects: int | None = None) -> bool:
-        """Whether all that an image holds (or some aspects) is defined."""
+        """Whether the contents of an image, or of some aspects, are entirely defined."""
         own = self.plan.images[number].aspects if aspects is None else aspects
         return all((number, aspect) in self.known for aspect in (COLOR, DEPTH, STENCIL) if own & aspect)
 
     def reads(self, step: Step) -> list[int]:
-        """The images that a pass reads and that hold something; the others it does not read."""
+        """The images that a pass reads, except for those without defined contents."""
         return [inner.image for inner in step.inner if inner.kind == "read" and self.readable(inner.image)]
 
     def readable(self, number: int) -> bool:
-        """Whether a shader of ours can read an image: it holds something, may be sampled, and is not of integers."""
+        """Whether a built-in shader can read an image: its contents are defined, it may be sampled, and it has no integer format."""
         image = self.plan.images[number]
         usage = image.usage & parts.SAMPLED and not image.usage & parts.TRANSIENT
         aspect = image.aspects & (COLOR | DEPTH)
         return bool(usage and aspect and image.numeric not in ("UINT", "SINT") and image.type == 1) and self.whole(number, aspect)
 
     def begin(self, each: Pass, step: Step) -> None:
-        """What a pass leaves."""
+        """Applies the effects of a pass."""
         framebuffer = each.framebuffers[step.framebuffer]
         if each.kind == parts.RENDERING:
             self._rendering(each, step, framebuffer)
@@ -51,7 +51,7 @@ class Contents:
             self._render_pass(each, step, framebuffer)
 
     def transfer(self, step: Step) -> None:
-        """What a command outside of passes leaves."""
+        """Applies the effects of a command outside passes."""
         if step.kind in ("resolve", "copy", "blit"):
             source, target = (self.plan.images[n] for n in (step.source, step.target))
             aspects = source.aspects & target.aspects
@@ -116,7 +116,7 @@ class Contents:
                     self._resolve(step, images[depth.attachment], images[target.attachment], aspect, layers)
 
     def _drawn(self, each: Pass, step: Step, at: int, colors: list[int], depth: int, covered: bool, layers: int) -> None:
-        """What draws leave in colours: all of it defined where they cover every pixel, none of it where undefined depth decides."""
+        """Applies the effects of draws on color: defined if they cover every pixel, undefined if they depend on undefined depth."""
         drawn = [each.pipelines[i.pipeline] for i in step.inner if i.kind == "draw" and i.subpass == at]
         tests = any(p.depth_test and p.depth_compare not in (NEVER, ALWAYS) for p in drawn)
         if depth != NONE and tests and self.plan.images[depth].aspects & DEPTH and (depth, DEPTH) not in self.known:
@@ -128,12 +128,12 @@ class Contents:
                 self._set(number, COLOR, True)
 
     def _covers(self, step: Step, subpass: int) -> bool:
-        """Whether what a subpass draws covers every pixel."""
+        """Whether the draws of a subpass cover every pixel."""
         own = [inner for inner in step.inner if inner.subpass == subpass]
         return any(i.covers for i in own if i.kind == "draw") or any(i.kind == "read" and self.readable(i.image) for i in own)
 
     def _resolve(self, step: Step, source: int, target: int, aspect: int, layers: int) -> None:
-        # A source of one sample, or a target of several, is no resolve.
+        # A resolve needs a multisampled source and a single-sampled target.
         fitting = self.plan.images[source].samples > 1 and self.plan.images[target].samples == 1
         whole = self._full(step, target, layers) or (target, aspect) in self.known
         self._set(target, aspect, fitting and whole and (source, aspect) in self.known)
@@ -151,7 +151,7 @@ class Contents:
         colors = [r.image for r, aspect in rendered if aspect == COLOR]
         self._drawn(each, step, 0, colors, next((r.image for r, aspect in rendered if aspect == DEPTH), NONE), covered, layers)
         if each.flags & SUSPENDING:
-            # Nothing is stored before the rendering ends.
+            # Nothing is stored until the rendering ends.
             keys = {(r.image, aspect) for r, aspect in rendered}
             self.suspended |= self.known & keys
             self.known -= keys

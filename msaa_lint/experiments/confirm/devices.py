@@ -1,6 +1,6 @@
-"""What the running drivers offer, as vkjson: the form that `devices/reports/vkjson.py` reads.
+"""The properties of the installed devices as vkjson, the format that `devices/reports/vkjson.py` reads.
 
-`devices()` talks to the drivers and belongs in a child process; `running()` starts one and is what everybody else calls.
+`devices()` calls the drivers and must run in a child process; `running()` starts one.
 """
 
 from __future__ import annotations
@@ -35,13 +35,13 @@ FEATURES = {
     "VkPhysicalDeviceFragmentShaderInterlockFeaturesEXT": "VK_EXT_fragment_shader_interlock",
     "VkPhysicalDeviceTilePropertiesFeaturesQCOM": "VK_QCOM_tile_properties",
 }
-"""Structures that are asked for, and of which version or extension of the device."""
+"""Structures to query, and the version or extension that a device needs for each."""
 
 
 def running(seconds: float = 30.0) -> list[Report]:
-    """The devices of the drivers that the loader finds (VK_DRIVER_FILES is respected), asked in a child process with a time limit.
+    """The devices of the drivers that the loader finds (VK_DRIVER_FILES is respected), queried in a child process with a time limit.
 
-    Unusable where there is none, where the drivers' process dies or takes longer, or answers what cannot be read.
+    Unusable if there is none, or if the child process dies, times out or gives a malformed answer.
     """
     from . import session
     from .child import Limits
@@ -51,25 +51,26 @@ def running(seconds: float = 30.0) -> list[Report]:
 
 
 def reports(found: list[dict[str, Any]]) -> list[Report]:
-    """What `devices` gives, read. Unusable where it is not that: a driver may have written over it."""
+    """The result of `devices`, parsed. Unusable if it is malformed: a driver may have overwritten it."""
     from msaa_lint.frame.devices.reports import vkjson
     from msaa_lint.frame.devices.reports.reading import report
 
     root = {"devices": found}
     if not vkjson.claims(root):
-        raise Unusable("the drivers' answer cannot be read")
+        raise Unusable("the answer of the driver's process is malformed")
     return [report(each._replace(what="the running driver")) for each in vkjson.read(root)]
 
 
 def devices() -> list[dict[str, Any]]:
-    """Every device of every driver. Talks to them in this process. Unusable where there is none."""
+    """Every device of every driver, queried in this process. Unusable if there is none."""
     from .instance import Instance
 
     with Instance() as instance:
-        return [_device(physical) for physical in instance.physical_devices()[:MAX_DEVICES]]
+        return [describe(physical) for physical in instance.physical_devices()[:MAX_DEVICES]]
 
 
-def _device(physical: Any) -> dict[str, Any]:
+def describe(physical: Any) -> dict[str, Any]:
+    """The properties, features, memory and extensions of a physical device."""
     from . import binding
 
     vk = binding.load()
@@ -105,7 +106,7 @@ def _memory(memory: Any) -> dict[str, Any]:
 
 
 def plain(structure: Any) -> Any:
-    """A structure as objects, lists, numbers and texts; what it points to, and its sType, is left out."""
+    """A structure as JSON values, without pointers and sType."""
     from . import binding
 
     ffi = binding.load().ffi

@@ -1,4 +1,4 @@
-"""A plan's steps, recorded into command buffers."""
+"""Records the steps of a plan into command buffers."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from .parts import CLEAR, COLOR, DEPTH, DEPTH_READ_LAYOUT, NONE, READ_LAYOUT, SO
 from .scene import BACKDROP, CLEARED, CLEARED_INTEGERS, CLEARED_STENCIL
 
 PEAK, HDR_PEAK = 1.0, 8.0
-"""The brightest that the scene is drawn."""
+"""The peak brightness of the scene."""
 
 ALL_LEVELS = 1000.0
 """VK_LOD_CLAMP_NONE."""
 
 
 class Recorder:
-    """Records the steps of a plan, in order, and follows what the images are in and hold."""
+    """Records the steps of a plan in order, and tracks the layouts and contents of the images."""
 
     def __init__(self, built: FrameObjects) -> None:
         self.built = built
@@ -47,7 +47,7 @@ class Recorder:
             self.contents.transfer(step)
 
     def _read(self, step: Step) -> list[int]:
-        """The images that a pass reads, where it can."""
+        """The images that a pass reads, as far as they are readable."""
         return list(dict.fromkeys(self.contents.reads(step)))
 
     def _reading(self, image: int) -> tuple[int, int, None]:
@@ -129,7 +129,7 @@ class Recorder:
         self.call("vkCmdEndRendering")(buffer)
 
     def _inner(self, buffer: Any, each: Pass, step: Step, subpass: int, reads: list[int]) -> None:
-        """What is recorded in a subpass."""
+        """Records the commands of a subpass."""
         vk, framebuffer = self.vk, each.framebuffers[step.framebuffer]
         near, far = (1.0, 0.0) if self.plan.reversed else (0.0, 1.0)
         own = [inner for inner in step.inner if inner.subpass == subpass]
@@ -167,7 +167,7 @@ class Recorder:
             self.call("vkCmdSetAlphaToCoverageEnableEXT")(buffer, int(pipeline.alpha_to_coverage))
 
     def _fill(self, buffer: Any, step: Step, subpass: int, images: list[int]) -> bool:
-        """Puts what is read on every pixel: each image on a stripe of its own."""
+        """Writes the images that are read to every pixel, each to its own stripe."""
         vk, opened = self.vk, self.built.opened
         x, y, width, height = step.area
         layout, set_layout = opened.layout("read")
@@ -191,7 +191,7 @@ class Recorder:
         return done
 
     def descriptor(self, set_layout: Any, number: int, storage: Any = None) -> Any:
-        """A descriptor set with an image to be sampled, and a buffer to be written to."""
+        """A descriptor set with a sampled image and an optional storage buffer."""
         vk, handle, built = self.vk, self.built.opened.handle, self.built
         sizes = [vk.VkDescriptorPoolSize(type=1, descriptorCount=1)]
         if storage is not None:
@@ -228,7 +228,7 @@ class Recorder:
         return self.vk.VkClearDepthStencilValue(0.0 if self.plan.reversed else 1.0, CLEARED_STENCIL)
 
     def _clears(self, each: Pass, images: tuple[int, ...]) -> list[Any]:
-        """The values of a pass's attachments, up to the last that is cleared."""
+        """The clear values of a pass's attachments, up to the last one that is cleared."""
         clearing = [
             index
             for index, (a, image) in enumerate(zip(each.attachments, images, strict=True))
@@ -250,7 +250,7 @@ class Recorder:
         return vk.VkRect2D(offset=vk.VkOffset2D(area[0], area[1]), extent=vk.VkExtent2D(area[2], area[3]))
 
     def _barrier(self, buffer: Any, step: Step) -> None:
-        """A barrier of the frame: its masks as they are stated, layouts from where the images are."""
+        """Records a barrier of the frame with its stated masks; the old layouts are the actual ones."""
         vk = self.vk
         source, target, source_access, target_access = step.masks
         if not source or not target:
@@ -319,7 +319,7 @@ class Recorder:
         self.layouts.into(buffer, [(step.target, TARGET_LAYOUT, None)])
         whole = vk.VkImageSubresourceRange(aspectMask=image.aspects, levelCount=image.levels, layerCount=image.layers)
         if image.aspects & COLOR:
-            # Kept, for the colour is within it.
+            # Keep a reference, because `color` points into it.
             clear = self._clear(step.target)
             color = vk.ffi.addressof(clear.color)
             vk.vkCmdClearColorImage(buffer, self.built.image(step.target), TARGET_LAYOUT, color, 1, [whole])
@@ -328,7 +328,7 @@ class Recorder:
             vk.vkCmdClearDepthStencilImage(buffer, self.built.image(step.target), TARGET_LAYOUT, clear, 1, [whole])
 
     def _nothing(self, buffer: Any, step: Step) -> None:
-        """Copies from and to buffers of the frame, which nothing else sees, and presenting, which has no screen here."""
+        """Ignores copies from and to buffers, which nothing else uses, and presenting, for which there is no screen."""
 
 
 _TRANSFERS = {

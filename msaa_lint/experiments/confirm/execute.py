@@ -1,4 +1,4 @@
-"""Runs plans on a device, in the process that it is called in: a driver may end it, so `worker` is what calls it."""
+"""Runs plans on a device in the current process. A driver may kill the process, so only `worker` calls this."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from .vulkan_errors import VulkanError
 
 
 class RunOptions(NamedTuple):
-    """What is asked of a run. `pixels` is a folder that images are written to. With `repeats` passes are timed, after `warmups`, at the
-    size that is described, otherwise pictures of at most 512 texels a side are drawn; `size` draws at a size. `samples_of` is an image
-    whose samples are written one by one."""
+    """The options of a run. `pixels` is a folder to write images to. With `repeats`, passes are timed after `warmups` at the described
+    size; otherwise pictures of at most 512x512 texels are drawn. `size` overrides the size. `samples_of` is an image whose samples are
+    written one by one."""
 
     pixels: str | None = None
     repeats: int = 0
@@ -30,10 +30,11 @@ class RunOptions(NamedTuple):
 
 
 def run(session: Session, plan: Plan, passes: Sequence[int] | None, want: RunOptions, emit: Emit) -> None:
-    """Creates and draws passes of a plan (None: all that are not refused) in the frame's order, and tells of what comes of it.
+    """Creates and draws passes of a plan (None: all that are not refused) in the frame's order, and reports events.
 
-    Events: `pass` before a pass is touched, `created`, `message` of the layer, `pixels` and `sample` of files, `time`, at last `done`. A
-    pass that the driver does not create is left out, and a device that is lost ends it. Unusable and programming errors are raised.
+    The events are `pass` before a pass is touched, `created`, `message` for those of the layer, `pixels` and `sample` for files, `time`,
+    and finally `done`. A pass that the driver fails to create is skipped; a lost device ends the run. Unusable and programming errors are
+    raised.
     """
     plan = _sized(plan, want)
     asked = range(len(plan.passes)) if passes is None else passes
@@ -62,7 +63,7 @@ def run(session: Session, plan: Plan, passes: Sequence[int] | None, want: RunOpt
             made.append(at)
             emit({"event": "created", "pass": at, "ok": True, "error": ""})
         submitter = Submitter(opened, want.repeats > 0)
-        # Twice for the layer: what a frame leaves is what the next finds.
+        # Twice with the layer, so that it sees the transition from one frame to the next.
         for turn in range(want.warmups + want.repeats if want.repeats else 2 if session.layer is not None else 1):
             recorder = Recorder(built)
             times: dict[int, float] = {}
@@ -100,13 +101,13 @@ def _sized(plan: Plan, want: RunOptions) -> Plan:
 
 
 def _read_back(plan: Plan) -> dict[int, int]:
-    """The usage that reading back needs, of the images that it may be of."""
+    """The additional usage for reading back, by image."""
     one = {n: image for n, image in enumerate(plan.images) if image.samples == 1 and not image.usage & TRANSIENT}
     return {n: TRANSFER_SOURCE for n, image in one.items() if image.type == 1}
 
 
 def segments(plan: Plan, made: Sequence[int]) -> Iterator[tuple[int, list[Step]]]:
-    """The steps of the passes that are there, in groups that are submitted together: a pass with the commands after it."""
+    """The steps of the created passes in groups that are submitted together: a pass with the commands after it."""
     group: list[Step] = []
     there = set(made)
     images = {image for number in made for image in plan.passes[number].images}

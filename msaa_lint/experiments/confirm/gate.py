@@ -1,6 +1,6 @@
-"""The gate: what a device does not support is known from what it says of itself, before a driver is asked to do it.
+"""The gate: skips what a device does not support according to its properties.
 
-Drivers are not asked what they have said they cannot do: some crash, some draw nothing and say that all is well.
+Drivers that are asked for more than they support may crash, or draw nothing and report success.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ DYNAMIC = {
 }
 
 OP_NONE = {1000400000: ("VK_EXT_load_store_op_none", "VK_KHR_load_store_op_none")}
-"""VK_ATTACHMENT_LOAD_OP_NONE. STORE_OP_NONE is part of dynamic rendering too, so that no device of Vulkan 1.3 lacks it."""
+"""VK_ATTACHMENT_LOAD_OP_NONE. STORE_OP_NONE is part of dynamic rendering too, so that every device with Vulkan 1.3 has it."""
 STORE_OP_NONE = 1000301000
 STORING_NONE = ("VK_EXT_load_store_op_none", "VK_KHR_load_store_op_none", "VK_KHR_dynamic_rendering", "VK_QCOM_render_pass_store_ops")
 
 FIRST_VERSION_FORMATS = 185
-"""Formats below this number are those that the device was asked about."""
+"""The device was queried about formats below this number."""
 
 USAGES = (
     (parts.SAMPLED, "sampled", "SAMPLED"), (parts.STORAGE, "storage", "STORAGE"), (parts.TRANSIENT, "transient", "TRANSIENT_ATTACHMENT"),
@@ -43,79 +43,85 @@ USAGES = (
 
 
 def gate(plan: Plan, device: Mapping[str, Any]) -> dict[int, str]:
-    """The passes that a device does not support, by their number, and the first reason of each in words.
+    """The passes that a device does not support, by number, with the first reason for each.
 
-    `device` is what `opening.Session.device` holds. What the device does not say is not held against a pass.
+    `device` is `opening.Session.device`. Unknown properties count as supported.
     """
     offered = DeviceSupport(device)
-    found = {}
-    for number, each in enumerate(plan.passes):
-        reason = "" if each.refused else next(_reasons(plan, each, offered), "")
+    refused = {}
+    for number, frame_pass in enumerate(plan.passes):
+        reason = "" if frame_pass.refused else next(_reasons(plan, frame_pass, offered), "")
         if reason:
-            found[number] = reason
-    return found
+            refused[number] = reason
+    return refused
 
 
 class DeviceSupport:
-    """What a device says of itself."""
+    """The properties of a device."""
 
     def __init__(self, device: Mapping[str, Any]) -> None:
         self.device = device
         self.limits: Mapping[str, Any] = device.get("properties", {}).get("limits", {})
-        self.names = frozenset(each.get("extensionName") for each in device.get("extensions", ()))
+        self.names = frozenset(frame_pass.get("extensionName") for frame_pass in device.get("extensions", ()))
         number = int(device.get("properties", {}).get("apiVersion", 0))
         self.version = (number >> 22 & 0x7F, number >> 12 & 0x3FF)
         self.formats: Mapping[str, Mapping[str, int]] = device.get("formats", {})
 
     def feature(self, name: str) -> bool:
-        """Whether a feature of any of its structures is offered; an unknown one is."""
-        stated = [value[name] for key, value in self.device.items() if "eatures" in key and isinstance(value, Mapping) and name in value]
-        return any(stated) if stated else True
+        """Whether a feature is supported according to any of its structures, or unknown."""
+        values = [value[name] for key, value in self.device.items() if "eatures" in key and isinstance(value, Mapping) and name in value]
+        return any(values) if values else True
 
     def extension(self, name: str) -> bool:
-        """Whether an extension is offered, or part of its version of Vulkan."""
+        """Whether an extension is supported, or part of the device's version of Vulkan."""
         return name in self.names or self.version >= TAKEN_UP.get(name, (9, 9))
 
     def most(self, name: str) -> int:
-        """A limit; a large number where it is not stated."""
+        """A limit; a large number if unknown."""
         return int(self.limits.get(name, 1 << 30))
 
     @property
     def dynamic_rendering(self) -> bool:
-        """Whether there are passes and pipelines without render passes."""
+        """Whether dynamic rendering is supported."""
         return self.extension("VK_KHR_dynamic_rendering") and self.feature("dynamicRendering")
 
     def resolves(self, name: str) -> int | None:
-        """A member of VkPhysicalDeviceDepthStencilResolveProperties; None where nothing is said."""
+        """A member of VkPhysicalDeviceDepthStencilResolveProperties; None if unknown."""
         for structure in ("VkPhysicalDeviceVulkan12Properties", "VkPhysicalDeviceDepthStencilResolveProperties"):
             if name in self.device.get(structure, {}):
                 return int(self.device[structure][name])
         return None
 
 
-def _reasons(plan: Plan, each: Pass, offered: DeviceSupport) -> Iterator[str]:
+def _reasons(plan: Plan, frame_pass: Pass, offered: DeviceSupport) -> Iterator[str]:
     for check in _CHECKS:
-        yield from check(plan, each, offered)
+        yield from check(plan, frame_pass, offered)
 
 
-def _way(plan: Plan, each: Pass, offered: DeviceSupport) -> Iterator[str]:
-    """What its kind of pass needs."""
-    if each.kind == parts.RENDERING and not offered.dynamic_rendering:
-        yield "the device has no dynamic rendering"
-    if each.api == 2 and not offered.extension("VK_KHR_create_renderpass2"):
+def _way(plan: Plan, frame_pass: Pass, offered: DeviceSupport) -> Iterator[str]:
+    """Requirements of the kind of pass."""
+    if frame_pass.kind == parts.RENDERING and not offered.dynamic_rendering:
+        yield "the device does not support dynamic rendering"
+    if frame_pass.api == 2 and not offered.extension("VK_KHR_create_renderpass2"):
         yield "the device has no VK_KHR_create_renderpass2"
-    viewed = any(s.view_mask for s in each.subpasses) or each.view_mask
-    if viewed and not (offered.extension("VK_KHR_multiview") and offered.feature("multiview")):
-        yield "the device has no multiview"
-    views = max([each.view_mask.bit_length(), *(s.view_mask.bit_length() for s in each.subpasses)])
-    most = offered.device.get("VkPhysicalDeviceVulkan11Properties", {}).get("maxMultiviewViewCount")
-    if most is not None and views > int(most):
-        yield f"it renders {views} views, and the device has maxMultiviewViewCount {most}"
-    single = each.single_sampled or any(s.single_sampled for s in each.subpasses)
-    if single and not (offered.extension(SINGLE_SAMPLED) and offered.feature("multisampledRenderToSingleSampled")):
+    multiview = any(s.view_mask for s in frame_pass.subpasses) or frame_pass.view_mask
+    if multiview and not (offered.extension("VK_KHR_multiview") and offered.feature("multiview")):
+        yield "the device does not support multiview"
+    views = max([frame_pass.view_mask.bit_length(), *(s.view_mask.bit_length() for s in frame_pass.subpasses)])
+    max_views = offered.device.get("VkPhysicalDeviceVulkan11Properties", {}).get("maxMultiviewViewCount")
+    if max_views is not None and views > int(max_views):
+        yield f"it renders {views} views, and the device has maxMultiviewViewCount {max_views}"
+    single_sampled = frame_pass.single_sampled or any(s.single_sampled for s in frame_pass.subpasses)
+    if single_sampled and not (offered.extension(SINGLE_SAMPLED) and offered.feature("multisampledRenderToSingleSampled")):
         yield f"the device has no {SINGLE_SAMPLED}"
-    loads = {a.load for a in each.attachments} | {a.stencil_load for a in each.attachments} | {r.load for r in each.rendered}
-    stores = {a.store for a in each.attachments} | {a.stencil_store for a in each.attachments} | {r.store for r in each.rendered}
+    loads = (
+        {a.load for a in frame_pass.attachments} | {a.stencil_load for a in frame_pass.attachments} | {r.load for r in frame_pass.rendered}
+    )
+    stores = (
+        {a.store for a in frame_pass.attachments}
+        | {a.stencil_store for a in frame_pass.attachments}
+        | {r.store for r in frame_pass.rendered}
+    )
     for operation, extensions in OP_NONE.items():
         if operation in loads and not any(map(offered.extension, extensions)):
             yield f"the device has no {extensions[0]}, which loadOp NONE needs"
@@ -123,13 +129,13 @@ def _way(plan: Plan, each: Pass, offered: DeviceSupport) -> Iterator[str]:
         yield f"the device has no {STORING_NONE[0]}, which storeOp NONE needs"
 
 
-def _images(plan: Plan, each: Pass, offered: DeviceSupport) -> Iterator[str]:
-    for number in each.images:
+def _images(plan: Plan, frame_pass: Pass, offered: DeviceSupport) -> Iterator[str]:
+    for number in frame_pass.images:
         yield from _image(plan.images[number], offered)
 
 
 def _image(image: Image, offered: DeviceSupport) -> Iterator[str]:
-    """Why an image cannot be had."""
+    """Why an image cannot be created."""
     if image.tiling == MODIFIER_TILING:
         yield f"{image.name} has the tiling DRM_FORMAT_MODIFIER_EXT, whose modifiers are not described"
     side = {0: "maxImageDimension1D", 2: "maxImageDimension3D"}.get(image.type, "maxImageDimension2D")
@@ -138,29 +144,29 @@ def _image(image: Image, offered: DeviceSupport) -> Iterator[str]:
     if image.layers > offered.most("maxImageArrayLayers"):
         yield f"{image.name} has {image.layers} layers, and the device has maxImageArrayLayers {offered.most('maxImageArrayLayers')}"
     if image.samples > 1 and (image.type != 1 or image.tiling == 1 or image.levels > 1 or image.flags & CUBE_COMPATIBLE):
-        yield f"{image.name} has {image.samples} samples, which an image that is not 2D, is linear, a cube or has levels cannot have"
+        yield f"{image.name} has {image.samples} samples, which requires a 2D image with optimal tiling, one mip level and no cube faces"
     name = format_name(image.format)
-    agreement = offered.formats.get(str(image.format))
-    if agreement is None:
+    support = offered.formats.get(str(image.format))
+    if support is None:
         if offered.formats and image.format < FIRST_VERSION_FORMATS:
-            yield f"the device has no images of {name}, as {image.name} is one"
+            yield f"the device does not support {name}, the format of {image.name}"
         return
-    attached = image.usage & (parts.COLOR_ATTACHMENT | parts.DEPTH_ATTACHMENT)
-    if not attached and image.samples == 1:
+    attachment_usage = image.usage & (parts.COLOR_ATTACHMENT | parts.DEPTH_ATTACHMENT)
+    if not attachment_usage and image.samples == 1:
         return
-    if "counts" not in agreement:
-        yield f"the device does not render to {name}, as {image.name} is one"
+    if "counts" not in support:
+        yield f"the device cannot render to {name}, the format of {image.name}"
         return
     if image.type != 1 or image.tiling == 1:
         return
-    with_usage = [(agreement[key], f" with the usage {word}") for bit, key, word in USAGES if image.usage & bit]
-    for counts, usage in ((agreement["counts"], ""), *with_usage):
+    counts_by_usage = [(support[key], f" with the usage {word}") for bit, key, word in USAGES if image.usage & bit]
+    for counts, usage in ((support["counts"], ""), *counts_by_usage):
         if not counts & image.samples:
-            has = _counts(counts)
+            supported = _counts(counts)
             yield (
-                f"the device does not have {image.samples} samples of {name}{usage} ({has}), as {image.name} has"
-                if has
-                else (f"the device does not have {name}{usage}, as {image.name} is one")
+                f"{image.name} has {image.samples} samples, but the device supports only {supported} for {name}{usage}"
+                if supported
+                else f"the device does not support {name}{usage}, the format of {image.name}"
             )
 
 
@@ -171,33 +177,39 @@ MODIFIER_TILING = 1000158000
 """VK_IMAGE_TILING_DRM_FORMAT_MODIFIER_EXT."""
 
 
-def _mixed(plan: Plan, each: Pass, offered: DeviceSupport) -> Iterator[str]:
-    """Attachments that are drawn to together and differ in their counts."""
-    for subpass, (colors, depths, single) in enumerate(_drawn_together(plan, each)):
-        wanted = [name for name in MIXED if name in plan.extensions]
-        allowed = len(set(colors)) < 2 and any(name in offered.names for name in wanted)
-        drawn = sorted({*colors, *depths} - ({1} if single else set()))
-        if len(drawn) > 1 and not allowed:
-            yield f"its attachments differ in their sample counts ({_list(drawn)}), which the device cannot draw to together"
-        own = [p.samples for p in each.pipelines if p.subpass == subpass]
-        if wanted and not allowed and not single and any(samples not in drawn for samples in own if drawn):
-            yield f"the device has no {wanted[0]}"
+def _mixed(plan: Plan, frame_pass: Pass, offered: DeviceSupport) -> Iterator[str]:
+    """Attachments of one subpass that differ in their sample counts."""
+    for subpass, (colors, depths, single) in enumerate(_drawn_together(plan, frame_pass)):
+        extensions = [name for name in MIXED if name in plan.extensions]
+        allowed = len(set(colors)) < 2 and any(name in offered.names for name in extensions)
+        distinct_counts = sorted({*colors, *depths} - ({1} if single else set()))
+        if len(distinct_counts) > 1 and not allowed:
+            counts = _list(distinct_counts)
+            yield f"its attachments differ in their sample counts ({counts}), which cannot be rendered together on this device"
+        pipeline_counts = [p.samples for p in frame_pass.pipelines if p.subpass == subpass]
+        if (
+            extensions
+            and not allowed
+            and not single
+            and any(samples not in distinct_counts for samples in pipeline_counts if distinct_counts)
+        ):
+            yield f"the device has no {extensions[0]}"
 
 
-def _drawn_together(plan: Plan, each: Pass) -> Iterator[tuple[list[int], list[int], bool]]:
-    for subpass in each.subpasses:
-        colors = [each.attachments[r.attachment].samples for r in subpass.colors if r.attachment != NONE]
-        depths = [each.attachments[r.attachment].samples for r in subpass.depth_stencil if r.attachment != NONE]
+def _drawn_together(plan: Plan, frame_pass: Pass) -> Iterator[tuple[list[int], list[int], bool]]:
+    for subpass in frame_pass.subpasses:
+        colors = [frame_pass.attachments[r.attachment].samples for r in subpass.colors if r.attachment != NONE]
+        depths = [frame_pass.attachments[r.attachment].samples for r in subpass.depth_stencil if r.attachment != NONE]
         yield colors, depths, subpass.single_sampled > 0
-    if each.kind == parts.RENDERING:
-        counts = [(r.role, plan.images[r.image].samples) for r in each.rendered if r.image != NONE]
-        yield [n for role, n in counts if role == "color"], [n for role, n in counts if role != "color"], each.single_sampled > 0
+    if frame_pass.kind == parts.RENDERING:
+        counts = [(r.role, plan.images[r.image].samples) for r in frame_pass.rendered if r.image != NONE]
+        yield [n for role, n in counts if role == "color"], [n for role, n in counts if role != "color"], frame_pass.single_sampled > 0
 
 
-def _images_of_attachments(plan: Plan, each: Pass, offered: DeviceSupport) -> Iterator[str]:
-    """Images and attachments that are not of one count, and framebuffers that are too large."""
-    for framebuffer in each.framebuffers:
-        for attachment, number in zip(each.attachments, framebuffer.images, strict=False):
+def _images_of_attachments(plan: Plan, frame_pass: Pass, offered: DeviceSupport) -> Iterator[str]:
+    """Images whose sample count differs from that of their attachment, and framebuffers that are too large."""
+    for framebuffer in frame_pass.framebuffers:
+        for attachment, number in zip(frame_pass.attachments, framebuffer.images, strict=False):
             image = plan.images[number]
             if attachment.samples != image.samples:
                 yield f"{image.name} has sample count {image.samples}, and its attachment has {attachment.samples}"
@@ -207,25 +219,25 @@ def _images_of_attachments(plan: Plan, each: Pass, offered: DeviceSupport) -> It
         if framebuffer.layers > offered.most("maxFramebufferLayers"):
             most = offered.most("maxFramebufferLayers")
             yield f"it renders to {framebuffer.layers} layers, and the device has maxFramebufferLayers {most}"
-    colors = max([len(s.colors) for s in each.subpasses] + [sum(r.role == "color" for r in each.rendered)])
+    colors = max([len(s.colors) for s in frame_pass.subpasses] + [sum(r.role == "color" for r in frame_pass.rendered)])
     if colors > offered.most("maxColorAttachments"):
         yield f"it has {colors} color attachments, and the device has maxColorAttachments {offered.most('maxColorAttachments')}"
 
 
-def _resolves(plan: Plan, each: Pass, offered: DeviceSupport) -> Iterator[str]:
-    """Resolves that drivers crash on, and modes of depth and stencil."""
-    if not each.single_sampled and any(r.image != NONE and r.mode and r.resolve_image == NONE for r in each.rendered):
-        yield "it resolves, and names no image to resolve to"
-    for subpass in each.subpasses:
+def _resolves(plan: Plan, frame_pass: Pass, offered: DeviceSupport) -> Iterator[str]:
+    """Resolves that crash drivers, and unsupported modes of depth and stencil."""
+    if not frame_pass.single_sampled and any(r.image != NONE and r.mode and r.resolve_image == NONE for r in frame_pass.rendered):
+        yield "it resolves without an image to resolve to"
+    for subpass in frame_pass.subpasses:
         if not subpass.depth_resolve:
             continue
         if not subpass.depth_stencil:
-            yield "it resolves depth or stencil in a subpass that has no such attachment"
+            yield "it resolves depth or stencil in a subpass without a depth-stencil attachment"
             continue
-        own, target = (each.attachments[r[0].attachment].format for r in (subpass.depth_stencil, subpass.depth_resolve))
-        aspects = _aspects(own) & _aspects(target)
+        source_format, target = (frame_pass.attachments[r[0].attachment].format for r in (subpass.depth_stencil, subpass.depth_resolve))
+        aspects = _aspects(source_format) & _aspects(target)
         yield from _modes(subpass.depth_mode, subpass.stencil_mode, aspects, offered)
-    modes = {r.role: r.mode for r in each.rendered if r.role != "color" and r.image != NONE}
+    modes = {r.role: r.mode for r in frame_pass.rendered if r.role != "color" and r.image != NONE}
     if any(modes.values()):
         aspects = (DEPTH if "depth" in modes else 0) | (STENCIL if "stencil" in modes else 0)
         yield from _modes(modes.get("depth", 0), modes.get("stencil", 0), aspects, offered)
@@ -235,56 +247,57 @@ def _modes(depth: int, stencil: int, aspects: int, offered: DeviceSupport) -> It
     for aspect, mode, word in ((DEPTH, depth, "Depth"), (STENCIL, stencil, "Stencil")):
         supported = offered.resolves(f"supported{word}ResolveModes")
         if aspects & aspect and mode and supported is not None and not supported & mode:
-            yield f"the device does not resolve {word.lower()} by {mode_name(mode)} (supported{word}ResolveModes: {_mode_names(supported)})"
+            modes = _mode_names(supported)
+            yield f"the device does not resolve {word.lower()} with {mode_name(mode)} (supported{word}ResolveModes: {modes})"
     if aspects != DEPTH | STENCIL or depth == stencil:
         return
     limit = "independentResolve" if depth and stencil else "independentResolveNone"
     if offered.resolves(limit) == 0 and offered.resolves("independentResolve") == 0:
-        yield f"the device does not resolve depth by {mode_name(depth)} and stencil by {mode_name(stencil)} ({limit} is false)"
+        yield f"the device does not resolve depth with {mode_name(depth)} and stencil with {mode_name(stencil)} ({limit} is false)"
 
 
-def _pipelines(plan: Plan, each: Pass, offered: DeviceSupport) -> Iterator[str]:
-    number = next(n for n, one in enumerate(plan.passes) if one is each)
+def _pipelines(plan: Plan, frame_pass: Pass, offered: DeviceSupport) -> Iterator[str]:
+    number = next(n for n, one in enumerate(plan.passes) if one is frame_pass)
     set_counts = {i.value for step in plan.steps if step.number == number for i in step.inner if i.kind == "samples"}
     counts = offered.limits.get("framebufferColorSampleCounts")
     for samples in sorted(set_counts):
         if counts is not None and not int(counts) & samples:
             yield f"the device does not rasterize with {samples} samples (framebufferColorSampleCounts: {_counts(int(counts))})"
-    for pipeline in each.pipelines:
-        for reason in _pipeline(plan, each, pipeline, offered):
+    for pipeline in frame_pass.pipelines:
+        for reason in _pipeline(plan, frame_pass, pipeline, offered):
             yield f"{pipeline.name}: {reason}"
 
 
-def _pipeline(plan: Plan, each: Pass, pipeline: Pipeline, offered: DeviceSupport) -> Iterator[str]:
-    subpass = each.subpasses[pipeline.subpass] if 0 <= pipeline.subpass < len(each.subpasses) else None
+def _pipeline(plan: Plan, frame_pass: Pass, pipeline: Pipeline, offered: DeviceSupport) -> Iterator[str]:
+    subpass = frame_pass.subpasses[pipeline.subpass] if 0 <= pipeline.subpass < len(frame_pass.subpasses) else None
     depth = pipeline.depth_format or pipeline.stencil_format or (subpass is not None and subpass.depth_stencil)
     if pipeline.subpass == NONE and not offered.dynamic_rendering:
-        yield "the device has no dynamic rendering"
+        yield "the device does not support dynamic rendering"
     limits = ["framebufferDepthSampleCounts"] if depth else []
-    # Integers have a limit of their own that drivers and the layer do not keep to; images are asked about by format.
+    # Integers have a limit of their own that drivers and the layer ignore; images are checked by format.
     limits += ["framebufferColorSampleCounts"] if any(kind not in ("UINT", "SINT", "") for kind in pipeline.numerics) else []
     for limit in limits if depth or any(pipeline.numerics) else ["framebufferNoAttachmentsSampleCounts"]:
         counts = offered.limits.get(limit)
         if counts is not None and not int(counts) & pipeline.samples:
             yield f"the device does not rasterize with {pipeline.samples} samples ({limit}: {_counts(int(counts))})"
-    for wanted, name in (
+    for needed, name in (
         (pipeline.sample_shading >= 0, "sampleRateShading"),
         (pipeline.alpha_to_one, "alphaToOne"),
         (pipeline.depth_clamp, "depthClamp"),
         (pipeline.polygon_mode in (1, 2), "fillModeNonSolid"),
         (len(set(pipeline.blends)) > 1, "independentBlend"),
     ):
-        if wanted and name not in plan.without and not offered.feature(name):
+        if needed and name not in plan.without and not offered.feature(name):
             yield f"the device has no {name}"
     for state, name in DYNAMIC.items():
         if state in pipeline.dynamic and not ("VK_EXT_extended_dynamic_state3" in offered.names and offered.feature(name)):
             yield f"the device has no {name}"
     formats = pipeline.formats
     if subpass is not None:
-        formats = tuple(each.attachments[r.attachment].format if r.attachment != NONE else 0 for r in subpass.colors)
+        formats = tuple(frame_pass.attachments[r.attachment].format if r.attachment != NONE else 0 for r in subpass.colors)
     for number, blend in zip(formats, pipeline.blends, strict=False):
-        agreement = offered.formats.get(str(number))
-        if blend.enable and agreement is not None and not agreement.get("features", 0) & BLEND_FEATURE:
+        support = offered.formats.get(str(number))
+        if blend.enable and support is not None and not support.get("features", 0) & BLEND_FEATURE:
             yield f"the device does not blend {format_name(number)}"
 
 
@@ -295,14 +308,14 @@ _CHECKS: tuple[_Check, ...] = (_way, _mixed, _images, _images_of_attachments, _r
 def _aspects(number: int) -> int:
     from msaa_lint.frame.vulkan.formats import format_of
 
-    found = format_of(format_name(number))
-    if found is None:
+    format = format_of(format_name(number))
+    if format is None:
         return DEPTH | STENCIL
-    return sum({"depth": DEPTH, "stencil": STENCIL, "color": COLOR}[each] for each in found.aspects)
+    return sum({"depth": DEPTH, "stencil": STENCIL, "color": COLOR}[frame_pass] for frame_pass in format.aspects)
 
 
 def mode_name(number: int) -> str:
-    """A VkResolveModeFlagBits by its short name."""
+    """The short name of a VkResolveModeFlagBits."""
     return next((name for name, value in VALUES["VkResolveModeFlagBits"].items() if value == number), str(number))
 
 
@@ -315,5 +328,5 @@ def _counts(mask: int) -> str:
 
 
 def _list(numbers: list[int]) -> str:
-    text = [str(each) for each in numbers]
+    text = [str(frame_pass) for frame_pass in numbers]
     return " and ".join([", ".join(text[:-1]), text[-1]]) if len(text) > 1 else "".join(text)

@@ -1,4 +1,4 @@
-"""The documents to confirm: found, read and judged as `check` does it, each with the version that the safe fixes make of it."""
+"""The documents to confirm: found, read and linted as by `check`, each with its version after safe fixes."""
 
 from __future__ import annotations
 
@@ -19,12 +19,11 @@ from msaa_lint.linter.workspace import InputFile, Request, Workspace
 
 
 class Input(NamedTuple):
-    """One document: its frame as written and, where safe fixes change its text, as fixed.
+    """A document: its frame as written and, if safe fixes change its text, as fixed.
 
-    `findings` are those of the document, `silenced` those that a comment suppresses, `undecided` rules that could say nothing of it;
-    `mended` are those that the fixes took away. `device` is the profile that it is judged for. `number` of `many` says which document of a
-    stream it is. `by_vulkan` is, of a frame in Metal's words, what the rules for Vulkan say of the frame of the same meaning that is drawn:
-    its findings, and what is undecided.
+    `findings` are those of the document, `silenced` those that a comment suppresses, `undecided` the undecided rules; `mended` are the
+    findings that the fixes removed. `device` is the profile that it is linted for. `number` is its index among the `many` documents of a
+    stream. For a frame described in terms of Metal, `by_vulkan` has the findings and the undecided rules of the equivalent Vulkan frame.
     """
 
     file: str
@@ -41,12 +40,12 @@ class Input(NamedTuple):
 
     @property
     def prefix(self) -> str:
-        """What the paths of a document of a stream begin with."""
+        """The prefix of the paths of a document in a stream."""
         return _prefix(self.number, self.many)
 
 
 class Inputs(NamedTuple):
-    """What there is to confirm, findings that say why some of it cannot be, and lines for the standard error stream."""
+    """The documents to confirm, findings that say why others cannot be, and lines for standard error."""
 
     inputs: list[Input]
     wrong: list[Finding]
@@ -121,13 +120,16 @@ def _fixed(mended: FixedText | None, number: int) -> Frame | None:
     """The frame of a document after the fixes; None if they leave the document unchanged."""
     if mended is None or not mended.changed or number >= len(mended.result.documents):
         return None
-    if not any(found.subject.startswith(f"documents[{number}].") for found in mended.fixed_findings) and len(mended.result.documents) > 1:
+    if (
+        not any(finding.subject.startswith(f"documents[{number}].") for finding in mended.fixed_findings)
+        and len(mended.result.documents) > 1
+    ):
         return None
     return Frame(mended.result.documents[number].document)
 
 
 def _own(findings: Sequence[Finding], prefix: str) -> tuple[Finding, ...]:
-    """The findings of one document of a stream, their subjects without its number."""
+    """The findings of one document of a stream, with subjects relative to it."""
     if not prefix:
         return tuple(findings)
     return tuple(f._replace(subject=f.subject.removeprefix(prefix)) for f in findings if f.subject.startswith(prefix))
@@ -145,22 +147,22 @@ def concerns(frame: Frame, described: Pass, path: str) -> bool:
 
 
 class _Owners:
-    """The passes of a frame that have to do with what is at a path."""
+    """The passes of a frame that a path concerns."""
 
     def __init__(self, frame: Frame) -> None:
         self._by_path: dict[str, set[int]] = {}
         self._known: dict[str, frozenset[int]] = {}
-        for each in frame.passes:
-            for path in _paths(frame, each):
-                self._by_path.setdefault(path, set()).add(id(each))
+        for described in frame.passes:
+            for path in _paths(frame, described):
+                self._by_path.setdefault(path, set()).add(id(described))
 
-    def has(self, each: Pass, subject: str) -> bool:
-        """Whether a path, or what it is within, is a pass's; what is of no pass is every pass's."""
+    def has(self, described: Pass, subject: str) -> bool:
+        """Whether a path concerns a pass; a path of no pass concerns every pass."""
         owners = self.of(subject)
-        return not owners or id(each) in owners
+        return not owners or id(described) in owners
 
     def of(self, path: str) -> frozenset[int]:
-        """The passes of a path, by their identity."""
+        """The passes that a path concerns, by identity."""
         if path not in self._known:
             cut = max(path.rfind("."), path.rfind("["))
             above = self.of(path[:cut]) if cut > 0 else frozenset()
@@ -173,17 +175,17 @@ def _owners(frame: Frame) -> _Owners:
     return _Owners(frame)
 
 
-def _paths(frame: Frame, each: Pass) -> set[str]:
-    images = {target.name for attachment in each.attachments for target in attachment.targets if target.image is not None}
-    for subpass in each.subpasses:
+def _paths(frame: Frame, described: Pass) -> set[str]:
+    images = {target.name for attachment in described.attachments for target in attachment.targets if target.image is not None}
+    for subpass in described.subpasses:
         images.update(r.target_image.name for r in subpass.resolves if r.target_image is not None and r.target_image.image is not None)
-    paths = {each.path, *(frame.targets[name].path for name in images if name in frame.targets)}
-    paths.update(pipeline.path for pipeline, of in frame.pipelines if of is each or of is None)
-    paths.update(framebuffer.path for framebuffer in frame.framebuffers.get(each.name, ()))
-    for position in each.begun:
+    paths = {described.path, *(frame.targets[name].path for name in images if name in frame.targets)}
+    paths.update(pipeline.path for pipeline, of in frame.pipelines if of is described or of is None)
+    paths.update(framebuffer.path for framebuffer in frame.framebuffers.get(described.name, ()))
+    for position in described.begun:
         paths.add(frame.commands[position].path)
     for command in frame.commands:
-        named = {getattr(command.body, member, None) for member in ("image", "srcImage", "dstImage")}
-        if named & images:
+        images_named = {getattr(command.body, member, None) for member in ("image", "srcImage", "dstImage")}
+        if images_named & images:
             paths.add(command.path)
     return paths

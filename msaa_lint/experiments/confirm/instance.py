@@ -1,6 +1,6 @@
-"""Instances and devices of Vulkan, opened and closed again.
+"""Vulkan instances and logical devices as context managers.
 
-One debug messenger can be open at a time in a process: the package `vulkan` has a single callback for all of them.
+A process can have only one debug messenger at a time: the package `vulkan` has a single callback for all of them.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ from typing import Any, NamedTuple
 from .binding import chain, extensions, instance_version, layers, load, packed, physical_name, procedure, text
 from .vulkan_errors import Unusable, VulkanError
 
-DRIVER = "the Vulkan loader finds no driver: install one; on Debian `apt install mesa-vulkan-drivers`, which needs no GPU"
-LAYER = "the layer {} is not there{}"
+DRIVER = "the Vulkan loader finds no driver: install one; on Debian run `apt install mesa-vulkan-drivers`, which needs no GPU"
+LAYER = "the layer {} is not installed{}"
 PACKAGES = {"VK_LAYER_KHRONOS_validation": "vulkan-validationlayers", "VK_LAYER_LUNARG_gfxreconstruct": "gfxreconstruct"}
-"""Debian's packages of layers."""
+"""The Debian packages of layers."""
 
 
 class Message(NamedTuple):
-    """What a layer, the loader or a driver says. `severity` is error, warning, info or verbose; `id` the name of the message's id."""
+    """A message of a layer, the loader or a driver. `severity` is error, warning, info or verbose; `id` is the name of the message id."""
 
     severity: str
     id: str
@@ -36,11 +36,11 @@ _listening = False
 
 
 class Instance:
-    """A Vulkan instance. `with Instance() as instance:`; it is destroyed at the end, with its messenger.
+    """A Vulkan instance: `with Instance() as instance:`. It is destroyed at the end, with its messenger.
 
-    `layers` and `extensions` are enabled; `on_message` is told what they say (`severities` and above); `following` are structures for
-    pNext, such as VkValidationFeaturesEXT; `api` the highest version asked for. An exception of `on_message` goes no further than
-    `sink_error`: there is C between it and us. Unusable where a layer or every driver is missing.
+    `layers` and `extensions` are enabled; `on_message` receives messages of the `severities`; `following` are structures for pNext, such as
+    VkValidationFeaturesEXT; `api` is the highest version to request. An exception in `on_message` cannot pass through the C code and is
+    stored in `sink_error`. Unusable if a layer or every driver is missing.
     """
 
     def __init__(
@@ -69,12 +69,12 @@ class Instance:
         self._look_for_layers()
         flags = 0
         if "VK_KHR_portability_enumeration" in extensions():
-            # Without it the loader hides MoltenVK.
+            # The loader hides MoltenVK without it.
             self._extensions["VK_KHR_portability_enumeration"] = None
             flags = 1
         if self._sink is not None:
             if _listening:
-                raise RuntimeError("a second debug messenger: the package has one callback for all")
+                raise RuntimeError("there is already a debug messenger, and the package has a single callback")
             self._extensions["VK_EXT_debug_utils"] = None
             self._following.append(self._messenger_info())
         application = vk.VkApplicationInfo(pApplicationName="msaa-lint", apiVersion=packed(0, *self.version, 0))
@@ -111,7 +111,7 @@ class Instance:
         there = layers() if self.layers else {}
         for name in self.layers:
             if name not in there:
-                package = f"; on Debian `apt install {PACKAGES[name]}`" if name in PACKAGES else ""
+                package = f"; on Debian run `apt install {PACKAGES[name]}`" if name in PACKAGES else ""
                 raise Unusable(LAYER.format(name, package))
 
     def _messenger_info(self) -> Any:
@@ -130,7 +130,7 @@ class Instance:
         return 0
 
     def physical_devices(self) -> list[Any]:
-        """The handles of the devices there are. Unusable where there is none."""
+        """The handles of the physical devices. Unusable if there is none."""
         try:
             found = list(self.vk.vkEnumeratePhysicalDevices(self.handle))
         except VulkanError as error:
@@ -143,7 +143,7 @@ class Instance:
 
 
 def no_driver() -> str:
-    """That there is no driver, and which setting may be why."""
+    """The message that there is no driver, with the setting that may be the cause."""
     for name in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES", "VK_LOADER_DRIVERS_SELECT", "VK_LOADER_DRIVERS_DISABLE"):
         if os.environ.get(name):
             return f"{DRIVER} ({name} is set: {os.environ[name][:200]})"
@@ -151,10 +151,10 @@ def no_driver() -> str:
 
 
 class Device:
-    """A logical device with one queue of the first family that does all of `queue` (VkQueueFlagBits; graphics).
+    """A logical device with one queue of the first family that supports all of `queue` (VkQueueFlagBits, graphics by default).
 
-    `with Device(physical) as device:`; at the end it is waited for and destroyed. `features` is a VkPhysicalDeviceFeatures2 with what
-    follows it, or a VkPhysicalDeviceFeatures. Unusable where no family does.
+    `with Device(physical) as device:`; at the end it becomes idle and is destroyed. `features` is a VkPhysicalDeviceFeatures2 with chained
+    structures, or a VkPhysicalDeviceFeatures. Unusable if no family supports them.
     """
 
     def __init__(self, physical: Any, extensions: Iterable[str] = (), features: Any = None, queue: int = 1) -> None:
@@ -193,5 +193,5 @@ class Device:
             self.handle = None
 
     def procedure(self, name: str) -> Callable[..., Any]:
-        """A function of the device, whether core or of an enabled extension."""
+        """A function of the device, core or of an enabled extension."""
         return procedure(self.handle, name, device=True)

@@ -1,4 +1,4 @@
-"""The layouts that the images of a frame are in, and the barriers of our own between its steps."""
+"""The current layouts of the images of a frame, and the barriers that confirm adds between its steps."""
 
 from __future__ import annotations
 
@@ -36,16 +36,16 @@ USES = {
     UNDEFINED: (0x1, 0),
     PRESENT_LAYOUT: (0x2000, 0),
 }
-"""By layout: the stages and accesses that use an image in it; in others, any."""
+"""The stages and accesses that use an image, by layout; all of them for other layouts."""
 
 READING = (DEPTH_READ_LAYOUT, READ_LAYOUT)
 
 LayoutRequest = tuple[int, int, int | None]
-"""An image, the layout it is to be in, and stencil's own where that is another."""
+"""An image, the required layout, and that of stencil if it differs."""
 
 
 class Layouts:
-    """Where every aspect of every image is."""
+    """The layout of every aspect of every image."""
 
     def __init__(self, built: FrameObjects) -> None:
         self.built = built
@@ -57,19 +57,19 @@ class Layouts:
         return self.known.get((image, aspect), UNDEFINED)
 
     def left(self, image: int, layout: int, stencil: int | None = None) -> None:
-        """What a pass or a barrier of the frame left an image in."""
+        """Notes the layout in which a pass or a barrier of the frame leaves an image."""
         for aspect in self._aspects(image):
             self.known[image, aspect] = stencil if stencil is not None and aspect == STENCIL else layout
 
     def into(self, buffer: Any, wanted: Sequence[LayoutRequest]) -> None:
-        """Records barriers that bring images into layouts: (image, layout, stencil's own or None). UNDEFINED asks for nothing."""
+        """Records the barriers that transition images to the requested layouts. UNDEFINED requests nothing."""
         through: list[LayoutRequest] = [(image, GENERAL, None) for image, layout, _ in wanted if self._blank(image) and layout in READING]
         if through:
             self._barrier(buffer, through)
         self._barrier(buffer, wanted)
 
     def fence(self, buffer: Any) -> None:
-        """Records that everything so far is done, and seen by everything after."""
+        """Records a full barrier between everything before and everything after."""
         barrier = self.vk.VkMemoryBarrier(srcAccessMask=MEMORY, dstAccessMask=MEMORY)
         self.vk.vkCmdPipelineBarrier(buffer, EVERYTHING, EVERYTHING, 0, 1, [barrier], 0, None, 0, None)
 

@@ -1,4 +1,4 @@
-"""A device, opened for plans: the instance with the validation layer and its messages, and logical devices with what plans need of them."""
+"""A device opened for plans: the instance with the validation layer and its messages, and logical devices with what plans need."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 from . import binding
 from .binding import chain, extensions, layers, load, procedure
-from .devices import _device
+from .devices import describe
 from .instance import Device, Instance, Message, no_driver
 from .parts import Plan
 from .scene import VERTEX_BYTES, vertices
@@ -21,14 +21,14 @@ VALIDATION = "VK_LAYER_KHRONOS_validation"
 BEST_PRACTICES = "VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT"
 VENDOR_CHECKS = "VALIDATION_CHECK_ENABLE_VENDOR_SPECIFIC_"
 ENABLES = "VK_LAYER_ENABLES"
-"""Vendors' checks are turned on by the environment alone; on Linux its separator is a colon."""
+"""The checks of vendors can only be enabled by the environment; the separator on Linux is a colon."""
 
 EXTENSIONS = (
     "VK_KHR_swapchain", "VK_EXT_extended_dynamic_state3", "VK_EXT_load_store_op_none", "VK_KHR_load_store_op_none",
     "VK_KHR_create_renderpass2", "VK_KHR_depth_stencil_resolve", "VK_KHR_multiview", "VK_KHR_maintenance2", "VK_KHR_dynamic_rendering",
     "VK_KHR_synchronization2", "VK_KHR_separate_depth_stencil_layouts", "VK_EXT_rasterization_order_attachment_access",
 )  # fmt: skip
-"""Enabled wherever offered; those that Vulkan has since taken up only below that version."""
+"""Enabled if offered; extensions that were promoted only below the version of Vulkan that includes them."""
 
 TAKEN_UP = {
     "VK_KHR_create_renderpass2": (1, 2), "VK_KHR_depth_stencil_resolve": (1, 2), "VK_KHR_multiview": (1, 1),
@@ -40,10 +40,10 @@ FEATURES = (
     "sampleRateShading", "alphaToOne", "independentBlend", "depthClamp", "fillModeNonSolid", "dualSrcBlend",
     "shaderStorageImageMultisample",
 )  # fmt: skip
-"""Features of VkPhysicalDeviceFeatures that are enabled wherever offered."""
+"""Features of VkPhysicalDeviceFeatures that are enabled if offered."""
 
 FORMAT_USAGES = {"attachment": 0, "sampled": 0x4, "storage": 0x8, "input": 0x80, "transient": 0x40}
-"""Usages besides that of an attachment by which formats are asked for their sample counts."""
+"""Usages, in addition to attachment, for which the sample counts of formats are queried."""
 
 VERTEX_BUFFER, VISIBLE = 0x80, 0x6
 """VK_BUFFER_USAGE_VERTEX_BUFFER_BIT; host-visible and coherent memory, of VkMemoryPropertyFlagBits."""
@@ -53,10 +53,10 @@ MAX_FORMAT = 185
 
 
 class Session:
-    """An instance, and one physical device of it; one in a process. `emit` is told of what the layer says.
+    """An instance and one of its physical devices; one per process. `emit` receives the messages of the layer.
 
-    `name` is a part of the device's name (None: the first that is the CPU, else the first); `validation` asks for the validation layer,
-    which is left out where it is not there; `vendors` are those whose checks it makes. Unusable where no device is there.
+    `name` is a part of the device's name (None: the first CPU device, otherwise the first device); `validation` enables the validation
+    layer if it is installed; `vendors` are those whose checks it makes. Unusable if there is no such device.
     """
 
     def __init__(self, name: str | None = None, validation: bool = True, vendors: Iterable[str] = ("arm", "img")) -> None:
@@ -75,9 +75,9 @@ class Session:
         self.instance = self._instance()
         try:
             self.physical = self._chosen(name)
-            # What asking for what is not supported comes to is no news.
+            # Ignore messages about queries of unsupported features.
             self._deaf = True
-            self.device: dict[str, Any] = {**_device(self.physical), "formats": formats(self.physical)}
+            self.device: dict[str, Any] = {**describe(self.physical), "formats": formats(self.physical)}
             self._deaf = False
         except BaseException:
             self.instance.__exit__(None, None, None)
@@ -89,7 +89,7 @@ class Session:
         wanted = [name for name in ("VK_KHR_surface",) if name in extensions()]
         following = []
         if self.layer is not None:
-            # Best practices by a structure; the environment may ask for more.
+            # Best practices are enabled by a structure; the environment may enable more.
             checks = [BEST_PRACTICES, *(VENDOR_CHECKS + vendor.upper() for vendor in self.vendors)]
             stated = os.environ.get(ENABLES, "")
             os.environ[ENABLES] = ":".join(dict.fromkeys([*filter(None, stated.split(":")), *checks]))
@@ -108,7 +108,7 @@ class Session:
             self.emit({"event": "message", "pass": self.at, "id": message.id, "severity": message.severity, "text": message.text[:4000]})
 
     def telling(self, emit: Emit) -> None:
-        """Has `emit` told of what the layer says, and of what it said before anyone listened."""
+        """Sends the messages of the layer to `emit`, including those it sent earlier."""
         self.emit = emit
         waiting, self._waiting = self._waiting, []
         for message in waiting:
@@ -124,10 +124,10 @@ class Session:
         for device, its in zip(found, names, strict=True):
             if name.casefold() in its.casefold():
                 return device
-        raise Unusable(f"no device is named {name}: there are {', '.join(names)}" if names else no_driver())
+        raise Unusable(f"there is no device named {name}; the devices are {', '.join(names)}" if names else no_driver())
 
     def opened(self, plan: Plan) -> OpenDevice:
-        """A logical device with what a plan needs; the same one for plans that need the same."""
+        """A logical device with what a plan needs, shared by plans with the same needs."""
         key = (tuple(name for name in plan.extensions if name in self.names), plan.without)
         if key not in self._devices:
             self.at, before = None, self.at
@@ -144,7 +144,7 @@ class Session:
 
 
 class OpenDevice:
-    """A logical device, with what lives as long as it: the command pool, shader modules, layouts."""
+    """A logical device and the objects that live as long as it: the command pool, shader modules, layouts."""
 
     def __init__(self, session: Session, special: tuple[str, ...], without: tuple[str, ...]) -> None:
         self.vk = vk = session.vk
@@ -153,7 +153,7 @@ class OpenDevice:
         if "VK_KHR_surface" not in extensions() and "VK_KHR_swapchain" in wanted:
             wanted.remove("VK_KHR_swapchain")
         if "VK_EXT_load_store_op_none" in wanted and "VK_KHR_load_store_op_none" in wanted:
-            # The same under two names; layers that are older than the second do not know it.
+            # The same extension under two names; old layers do not know the second one.
             wanted.remove("VK_KHR_load_store_op_none")
         self.extensions = frozenset((*wanted, *special))
         self.device = Device(session.physical, sorted(self.extensions), self._features(special, without))
@@ -196,7 +196,7 @@ class OpenDevice:
         return chain(vk.VkPhysicalDeviceFeatures2(features=core), *following)
 
     def call(self, name: str) -> Callable[..., Any]:
-        """A function of the device: of Vulkan itself, else of an extension. VulkanError where it has neither."""
+        """A function of the device, core or of an extension. VulkanError if it has neither."""
         if name not in self._functions:
             core = self.session.version >= SINCE.get(name, (1, 0)) and not name.endswith("EXT")
             found = getattr(self.vk, name, None) if core and binding.has(name) else None
@@ -206,7 +206,7 @@ class OpenDevice:
         return self._functions[name]
 
     def module(self, shader: str, outputs: tuple[str, ...] | None = None) -> Any:
-        """The module of a built-in shader; of a fragment shader that has every kind of output with those of `outputs` alone."""
+        """The module of a built-in shader; for a fragment shader, with only the kinds of outputs in `outputs`."""
         key = (shader, outputs)
         if key not in self.modules:
             self.modules[key] = self.compiled(read(shader, outputs))
@@ -217,7 +217,7 @@ class OpenDevice:
         return self.vk.vkCreateShaderModule(self.handle, self.vk.VkShaderModuleCreateInfo(codeSize=len(code), pCode=code), None)
 
     def layout(self, kind: str) -> tuple[Any, Any]:
-        """The pipeline layout of `scene`, `read` or `samples`, and its set layout if it has one."""
+        """The pipeline layout of `scene`, `read` or `samples`, and its descriptor set layout, if any."""
         if kind not in self._layouts:
             self._layouts[kind] = self._new_layout(kind)
         found: tuple[Any, Any] = self._layouts[kind]
@@ -239,13 +239,13 @@ class OpenDevice:
         return vk.vkCreatePipelineLayout(self.handle, create, None), sets[0] if sets else None
 
     def vertices(self) -> tuple[Any, int]:
-        """A buffer with the scene's vertices, and how many they are."""
+        """A buffer with the scene's vertices, and their number."""
         if self._vertices is None:
             self._vertices = self.buffer(vertices())
         return self._vertices[0], len(vertices()) // VERTEX_BYTES
 
     def buffer(self, data: bytes) -> tuple[Any, Any]:
-        """A buffer of vertices with their data, and its memory, which are the caller's to destroy."""
+        """A vertex buffer with data, and its memory. The caller must destroy them."""
         vk = self.vk
         buffer = vk.vkCreateBuffer(self.handle, vk.VkBufferCreateInfo(size=len(data), usage=VERTEX_BUFFER), None)
         needs = vk.vkGetBufferMemoryRequirements(self.handle, buffer)
@@ -257,7 +257,7 @@ class OpenDevice:
         return buffer, memory
 
     def memory_type(self, bits: int, *wishes: int) -> int:
-        """The first type of memory within `bits` that has all of the first of some masks of properties that any has."""
+        """The first memory type in `bits` with the properties of the first mask that any type satisfies."""
         memory = self.memory
         for wish in (*wishes, 0):
             for number in range(memory.memoryTypeCount):
@@ -287,8 +287,8 @@ SINCE = {
 
 
 def formats(physical: Any) -> dict[str, dict[str, int]]:
-    """What can be rendered to, by the VkFormat's number: `features` and `linear` are VkFormatFeatureFlags of both tilings, `counts` the
-    sample counts of attachments, `sampled`, `storage`, `input` and `transient` those with that usage too (0: not at all)."""
+    """The supported formats by the VkFormat's number: `features` and `linear` are the VkFormatFeatureFlags of both tilings, `counts` the
+    sample counts of attachments; `sampled`, `storage`, `input` and `transient` are those with the additional usage (0: unsupported)."""
     vk = load()
     found = {}
     for number in range(1, MAX_FORMAT):

@@ -1,9 +1,8 @@
-"""The parts of a plan: what is created and recorded, in Vulkan's integers, as it goes to the child process.
+"""The parts of a plan: what is created and recorded, in Vulkan's integers, as sent to the child process.
 
-A plan is made of named tuples of numbers, texts and one another; `to_json` and `from_json` carry it over a pipe. An index of -1 is none.
+A plan consists of nested named tuples of numbers and texts; `to_json` and `from_json` carry it over a pipe. An index of -1 means none.
 """
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
@@ -12,7 +11,7 @@ NONE = -1
 RENDER_PASS = "renderPass"
 RENDERING = "rendering"
 FRAME = "frame"
-"""Kinds of passes. `frame` stands for a description without any: its images, pipelines and commands."""
+"""Kinds of passes. `frame` stands for a description without passes: its images, pipelines and commands."""
 
 COLOR, DEPTH, STENCIL = 1, 2, 4
 """VkImageAspectFlagBits."""
@@ -35,13 +34,13 @@ SUSPENDING, RESUMING = 2, 4
 VIEWPORT, SCISSOR = 0, 1
 SAMPLES_DYNAMIC, MASK_DYNAMIC, COVERAGE_DYNAMIC = 1000455005, 1000455006, 1000455007
 KEPT_DYNAMIC = (SAMPLES_DYNAMIC, MASK_DYNAMIC, COVERAGE_DYNAMIC)
-"""VkDynamicState: of multisampling's own, RASTERIZATION_SAMPLES_EXT, SAMPLE_MASK_EXT and ALPHA_TO_COVERAGE_ENABLE_EXT are driven; what
-plans keep but these are the viewport and the scissor."""
+"""VkDynamicState: plans support RASTERIZATION_SAMPLES_EXT, SAMPLE_MASK_EXT and ALPHA_TO_COVERAGE_ENABLE_EXT besides the viewport and the
+scissor."""
 
 
 class Image(NamedTuple):
-    """An image. `width` to `layers` are as described; `numeric` is the colour's type (`SFLOAT`, `UINT`, ..., empty without colour), `bytes`
-    what a texel takes, `lazy` asks for lazily allocated memory where there is such."""
+    """An image. `width` to `layers` are as described; `numeric` is the type of the color (`SFLOAT`, `UINT`, ..., empty without color),
+    `bytes` the size of a texel; `lazy` requests lazily allocated memory if the device has any."""
 
     name: str
     format: int
@@ -62,7 +61,7 @@ class Image(NamedTuple):
 
 
 class Attachment(NamedTuple):
-    """VkAttachmentDescription2; the layouts of stencil alone are -1 where they are those of the whole."""
+    """VkAttachmentDescription2; the separate layouts of stencil are -1 if stencil has the attachment's layouts."""
 
     format: int
     samples: int
@@ -116,7 +115,7 @@ class Dependency(NamedTuple):
 
 
 class RenderTarget(NamedTuple):
-    """VkRenderingAttachmentInfo. `role` is color, depth or stencil; an unused slot has no image."""
+    """VkRenderingAttachmentInfo. `role` is `color`, `depth` or `stencil`; an unused attachment has no image."""
 
     role: str
     image: int = NONE
@@ -129,7 +128,7 @@ class RenderTarget(NamedTuple):
 
 
 class Framebuffer(NamedTuple):
-    """VkFramebufferCreateInfo, with images in place of views."""
+    """VkFramebufferCreateInfo, with images instead of views."""
 
     images: tuple[int, ...]
     width: int
@@ -160,8 +159,8 @@ class Stage(NamedTuple):
 
 
 class Pipeline(NamedTuple):
-    """VkGraphicsPipelineCreateInfo. `subpass` is the one it is of; `formats` the attachments' in dynamic rendering, 0 for unused ones;
-    `sample_shading` the least share of samples that is shaded, -1 where it is off."""
+    """VkGraphicsPipelineCreateInfo. `formats` are those of the color attachments in dynamic rendering, 0 for unused ones; `sample_shading`
+    is minSampleShading, -1 if sample shading is disabled."""
 
     name: str
     subpass: int
@@ -189,10 +188,10 @@ class Pipeline(NamedTuple):
 
 
 class PassCommand(NamedTuple):
-    """What is recorded within a pass.
+    """A command within a pass.
 
-    `draw` draws the scene by `pipeline`, over a backdrop where `backdrop`; `covers` says that it then writes to every pixel.
-    `read` puts `image` on every pixel, as a shader that reads it does; `samples` sets the dynamic count to `value`; `clear` clears.
+    `draw` draws the scene with `pipeline`, over a backdrop if `backdrop` is set; `covers` says that it then writes to every pixel. `read`
+    writes `image` to every pixel, as a shader that reads it does; `samples` sets the dynamic sample count to `value`; `clear` clears.
     """
 
     kind: str
@@ -206,8 +205,8 @@ class PassCommand(NamedTuple):
 
 
 class Pass(NamedTuple):
-    """A render pass (`api` 1 or 2: by which structure it is created), a dynamic rendering, or the frame itself. `refused` says why no
-    device can run it, empty where one may."""
+    """A render pass (`api` 1 or 2: the version of the structures that create it), a dynamic rendering, or the frame itself. `refused` says
+    why no device can run it, empty if one may."""
 
     name: str
     path: str
@@ -228,8 +227,8 @@ class Pass(NamedTuple):
 
 
 class Step(NamedTuple):
-    """What is recorded, in order: `begin` a pass with a framebuffer over an area (x, y, width, height), or a command outside of passes
-    (`resolve`, `copy`, `blit`, `clear`, `copyOut`, `barrier`, `present`) on images. `number` is the pass it is told with."""
+    """A step of a frame: the `begin` of a pass with a framebuffer and a render area (x, y, width, height), or a command outside passes
+    (`resolve`, `copy`, `blit`, `clear`, `copyOut`, `copyIn`, `barrier`, `present`). `number` is the pass that it is reported with."""
 
     kind: str
     number: int
@@ -243,9 +242,9 @@ class Step(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """A frame. `steps` are recorded in their order; `defaults` say in words what was not described and what was taken for it;
-    `extensions` and `without` are what of a device must and must not be enabled; `reversed` that greater depths are nearer. `vertices` is a
-    file of triangles to draw in place of the scene: x, y and depth in clip coordinates, 32-bit floats."""
+    """A frame. `steps` are recorded in order; `defaults` state in words what was assumed where the description is silent; `extensions` must
+    be enabled and the features `without` must not; `reversed` says that greater depths are nearer. `vertices` is a file of triangles to
+    draw instead of the scene: x, y and depth in clip coordinates, 32-bit floats."""
 
     file: str = ""
     images: tuple[Image, ...] = ()
@@ -260,14 +259,14 @@ class Plan(NamedTuple):
 
 
 def to_json(plan: Any) -> Any:
-    """A plan, or a part of one, as objects, lists, numbers and texts."""
+    """A plan, or a part of one, as JSON values."""
     if hasattr(plan, "_asdict"):
         return {name: to_json(value) for name, value in plan._asdict().items()}
     return [to_json(each) for each in plan] if isinstance(plan, tuple) else plan
 
 
 def from_json(data: Mapping[str, Any]) -> Plan:
-    """The plan that `to_json` gave. KeyError, TypeError or ValueError where it is none."""
+    """The inverse of `to_json`. KeyError, TypeError or ValueError for data that is not a plan."""
     made: Plan = _read(Plan, data)
     return made
 
@@ -277,7 +276,7 @@ _WITHIN: dict[str, type] = {
     "rendered": RenderTarget, "framebuffers": Framebuffer, "pipelines": Pipeline, "inputs": Reference, "colors": Reference,
     "resolves": Reference, "depth_stencil": Reference, "depth_resolve": Reference, "blends": Blend, "stages": Stage, "inner": PassCommand,
 }  # fmt: skip
-"""By the name of a member: what its elements are."""
+"""The types of elements, by the name of the member."""
 
 
 def _read(kind: Any, data: Mapping[str, Any]) -> Any:

@@ -1,4 +1,4 @@
-"""The picture as written against that of the fixed version: which images differ, by how many pixels, and where the first is."""
+"""Compares the picture as written with that of the fixed version: which images differ, in how many pixels, and where first."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .texels import Texels, aspect_of, format_name, format_of, texel_bytes, texe
 
 
 class RawImage(NamedTuple):
-    """An image as it was read back."""
+    """An image as read back."""
 
     format: int
     width: int
@@ -21,10 +21,11 @@ class RawImage(NamedTuple):
 
 
 class ImageComparison(NamedTuple):
-    """One image of both versions. `equal` is None where they are not compared, and `reason` says why.
+    """The comparison of an image in both versions. `equal` is None if they were not compared, and `reason` says why.
 
-    `differing` of `pixels` differ; `first` is the first of them by rows. `greatest` is in steps of the format (codes of normalised and
-    integer components, units in the last place of floats). `tolerance` are the steps that the specification allows, `why` for what.
+    `differing` of `pixels` differ; `first` is the first of them in row order. `greatest` is the greatest difference in steps of the format
+    (codes of normalized and integer components, units in the last place of floats). `tolerance` is the number of steps that the
+    specification allows, `why` the reason.
     """
 
     image: str
@@ -39,11 +40,11 @@ class ImageComparison(NamedTuple):
 
     @property
     def text(self) -> str:
-        """What is to be said of it, in one line."""
+        """A one-line summary."""
         if self.equal is None:
             return f"not compared: {self.reason}"
         if not self.differing:
-            return f"the same, {self.pixels} pixels"
+            return f"equal, {self.pixels} pixels"
         steps = "not a number" if math.isinf(self.greatest) else f"{self.greatest:.0f} step{'s' if self.greatest != 1 else ''}"
         at = f"({self.first[0]}, {self.first[1]})" if self.first is not None else "?"
         found = f"{self.differing} of {self.pixels} pixels differ, the first at {at}, by at most {steps}"
@@ -53,10 +54,10 @@ class ImageComparison(NamedTuple):
 def compare(
     as_written: Mapping[str, RawImage], fixed: Mapping[str, RawImage], tolerances: Mapping[str, tuple[int, str]] | None = None
 ) -> list[ImageComparison]:
-    """Every image of either version, in the order of their names.
+    """The comparisons of all images of both versions, ordered by name.
 
-    `tolerances` give the steps that may lie between two right answers, and why: Vulkan does not say how an average is rounded. An image
-    that only one version leaves defined is not compared.
+    `tolerances` are the steps by which two correct results may differ, and why: Vulkan does not specify how an average is rounded. An image
+    with defined contents in only one version is not compared.
     """
     allowed = tolerances or {}
     out = []
@@ -64,7 +65,7 @@ def compare(
         before, after = as_written.get(name), fixed.get(name)
         if before is None or after is None:
             left = "the fixed version" if after is None else "the version as written"
-            out.append(ImageComparison(name, None, reason=f"{left} leaves nothing defined in it"))
+            out.append(ImageComparison(name, None, reason=f"its contents are undefined in {left}"))
         else:
             out.append(_compare(name, before, after, *allowed.get(name, (0, ""))))
     return out
@@ -72,13 +73,13 @@ def compare(
 
 def _compare(name: str, before: RawImage, after: RawImage, tolerance: int, why: str) -> ImageComparison:
     if (before.format, before.width, before.height) != (after.format, after.width, after.height):
-        return ImageComparison(name, None, reason="its format or size is another in the fixed version")
+        return ImageComparison(name, None, reason="its format or size differs in the fixed version")
     form = format_of(format_name(before.format))
     size = texel_bytes(form, aspect_of(form, before.aspect)) if form is not None else 0
     if not size or not before.width:
         return ImageComparison(name, None, reason="its format cannot be compared")
     if len(before.data) != len(after.data) or len(before.data) % (size * before.width):
-        return ImageComparison(name, None, reason="it did not come back whole")
+        return ImageComparison(name, None, reason="it was not read back completely")
     count = len(before.data) // size
     one, other = _masked(before, form), _masked(after, form)
     if one == other:
@@ -90,7 +91,7 @@ def _compare(name: str, before: RawImage, after: RawImage, tolerance: int, why: 
 
 
 def _masked(raw: RawImage, form: object) -> bytes:
-    """The bytes that mean something: of 24-bit depth in 32 bits the highest eight do not."""
+    """The bytes without padding: the highest eight bits of 24-bit depth are undefined."""
     if getattr(form, "depth_bits", 0) == 24 and raw.aspect != "stencil":
         data = bytearray(raw.data)
         data[3::4] = bytes(len(data) // 4)
@@ -119,19 +120,19 @@ def _steps(a: float, b: float, of: Texels, component: str) -> float:
         return math.inf
     bits = of.bits[component]
     if bits in (10, 11) or of.numeric == "UFLOAT":
-        # Both are exact in a half float, whose last place is 2^(bits of its mantissa - theirs) of theirs.
+        # Both are exact in a half float, whose units in the last place are smaller by 2^(difference of the mantissa bits).
         return abs(_ordered(a, 16) - _ordered(b, 16)) / (1 << (15 - bits if bits in (10, 11) else 1))
     return float(abs(_ordered(a, bits) - _ordered(b, bits)))
 
 
 def _ordered(value: float, bits: int) -> int:
-    """A float's place among all floats of its width: neighbours are 1 apart, and both zeros are 0."""
+    """The rank of a float among all floats of its width: neighbors are 1 apart, and both zeros are 0."""
     form, whole = {16: ("<e", "<h"), 32: ("<f", "<i"), 64: ("<d", "<q")}[bits]
     (code,) = struct.unpack(whole, struct.pack(form, value))
     return int(code) if code >= 0 else -(int(code) + (1 << (bits - 1)))
 
 
 def read(raw: RawImage) -> Texels | None:
-    """An image's components; None where its format has none that can be shown."""
+    """The components of an image; None if its format cannot be decoded."""
     form = format_of(format_name(raw.format))
     return texels(form, raw.data, raw.width, raw.aspect) if form is not None else None

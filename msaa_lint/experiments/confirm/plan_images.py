@@ -1,4 +1,4 @@
-"""The images of a plan: what is not described of them comes from how they are used, and is said in words."""
+"""The images of a plan. Properties that are not described are derived from their use, and noted in words."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ RENDER_TO_SINGLE_SAMPLED = 0x40000
 
 
 class _Used:
-    """What a frame does with an image."""
+    """How a frame uses an image."""
 
     def __init__(self, target: Target, name: str) -> None:
         self.target = target
@@ -59,11 +59,11 @@ class _Used:
 
 
 class Images:
-    """The images of a frame, by number. `base` is the size in pixels of what does not state one."""
+    """The images of a frame, by number. `base` is the size in pixels of images that do not state one."""
 
     def __init__(self, frame: Frame) -> None:
         self.frame = frame
-        self.text: list[str] = []
+        self.notes: list[str] = []
         self._used: dict[int, _Used] = {}
         self._numbers: dict[int, int] = {}
         self.base, self._sized = _base(frame)
@@ -73,11 +73,11 @@ class Images:
             self._pass(each)
         self._commands()
         self._settle()
-        self.made = tuple(self._image(used) for used in self._used.values())
+        self.images = tuple(self._image(used) for used in self._used.values())
 
     @property
     def sized(self) -> bool:
-        """Whether every image has a size that something states."""
+        """Whether the size of every image is stated somewhere."""
         return self._sized or all(used.area != (0, 0) for used in self._used.values())
 
     def of(self, target: Target) -> int:
@@ -85,7 +85,7 @@ class Images:
         return self._numbers[id(target.record)]
 
     def named(self, name: str | None) -> int:
-        """The number of the image that a description names; -1 for none."""
+        """The number of the image with a name; -1 for none."""
         target = self.frame.target(name)
         return self.of(target) if target is not None else -1
 
@@ -96,12 +96,12 @@ class Images:
             self._used[key] = _Used(target, name)
         return self._used[key]
 
-    def _targets(self, each: Pass, attachment: Attachment) -> list[_Used]:
-        return [self._add(t, t.name if t.image is not None else f"{each.name}.{attachment.name}") for t in attachment.targets]
+    def _targets(self, described: Pass, attachment: Attachment) -> list[_Used]:
+        return [self._add(t, t.name if t.image is not None else f"{described.name}.{attachment.name}") for t in attachment.targets]
 
-    def _pass(self, each: Pass) -> None:
-        by_attachment = {id(a): self._targets(each, a) for a in each.attachments}
-        for attachment in each.attachments:
+    def _pass(self, described: Pass) -> None:
+        by_attachment = {id(a): self._targets(described, a) for a in described.attachments}
+        for attachment in described.attachments:
             for used in by_attachment[id(attachment)]:
                 used.format = used.format or attachment.format
                 used.samples = used.samples or attachment.samples
@@ -112,17 +112,17 @@ class Images:
                 used.usage |= INPUT_ATTACHMENT if attachment.input else 0
                 layouts = {getattr(attachment.record, member, None) for member in ("initialLayout", "finalLayout")}
                 used.usage |= sum(bit for name, bit in _BY_LAYOUT.items() if name in layouts)
-        for subpass in each.subpasses:
-            drawn = [u for a in (*subpass.color, *subpass.depth_stencil) if a is not None for u in by_attachment[id(a)]]
-            for used in drawn:
-                used.beside += [other for other in drawn if other is not used][:16]
+        for subpass in described.subpasses:
+            attached = [u for a in (*subpass.color, *subpass.depth_stencil) if a is not None for u in by_attachment[id(a)]]
+            for used in attached:
+                used.beside += [other for other in attached if other is not used][:16]
             for resolve in subpass.resolves:
                 self._resolve(resolve, by_attachment)
             views = (subpass.record.viewMask or 0).bit_length()
-            for used in drawn:
+            for used in attached:
                 used.viewed = max(used.viewed, views)
                 used.single_sampled = used.single_sampled or subpass.single_sampled is True
-        self._sizes(each, by_attachment)
+        self._sizes(described, by_attachment)
 
     def _resolve(self, resolve: Resolve, by_attachment: dict[int, list[_Used]]) -> None:
         sources = by_attachment.get(id(resolve.source), []) if resolve.source is not None else []
@@ -137,12 +137,12 @@ class Images:
             used.partners += sources[:16]
             used.usage |= COLOR_ATTACHMENT if resolve.aspect == "color" else DEPTH_ATTACHMENT
 
-    def _sizes(self, each: Pass, by_attachment: dict[int, list[_Used]]) -> None:
+    def _sizes(self, described: Pass, by_attachment: dict[int, list[_Used]]) -> None:
         sizes, layers = [], [1]
-        for framebuffer in self.frame.framebuffers.get(each.name, ()):
+        for framebuffer in self.frame.framebuffers.get(described.name, ()):
             sizes.append((framebuffer.width or 0, framebuffer.height or 0))
             layers.append(framebuffer.layers or 1)
-        records = [each.record, *(self.frame.commands[at].body for at in each.begun)]
+        records = [described.record, *(self.frame.commands[at].body for at in described.begun)]
         for record in records:
             area = getattr(record, "renderArea", None)
             if area is not None:
@@ -175,24 +175,24 @@ class Images:
         return self._add(target, target.name) if target is not None else None
 
     def _settle(self) -> None:
-        """Formats and counts that nothing states: those of what it is resolved with or drawn beside, else the usual ones."""
+        """Determines unstated formats and sample counts from the images that an image is resolved or drawn with, or by default."""
         for used in self._used.values():
             if used.format is None:
                 known = next((p.format for p in used.partners if p.format is not None), None)
                 depth = used.usage & DEPTH_ATTACHMENT and not used.usage & COLOR_ATTACHMENT
                 used.format = known or format_of(DEPTH_FORMAT if depth else COLOR_FORMAT)
                 assert used.format is not None
-                self.text.append(f"the format of {used.name} is not stated: {used.format.name} is taken")
+                self.notes.append(f"the format of {used.name} is not stated: {used.format.name} is assumed")
         for used in self._used.values():
             if used.samples is None:
                 beside = [other.samples for other in used.beside if other.samples is not None]
                 used.samples = 1 if used.resolved_to and not used.source else max(beside) if beside else 4 if used.source else 1
-                self.text.append(f"the sample count of {used.name} is not stated: {used.samples} is taken")
+                self.notes.append(f"the sample count of {used.name} is not stated: {used.samples} is assumed")
 
     def _image(self, used: _Used) -> Image:
         record = used.target.image
-        form = used.format
-        assert form is not None and used.samples is not None
+        format = used.format
+        assert format is not None and used.samples is not None
         usage, flags, lazy = used.usage, 0, False
         type_name, tiling, levels, layers, depth = "2D", 0, 1, max(used.layers, used.viewed, 1), 1
         width, height = used.area if used.area[0] > self.base[0] or used.area[1] > self.base[1] or not self._sized else self.base
@@ -214,17 +214,17 @@ class Images:
             if record.extent is not None:
                 width, height, depth = record.extent.width or width, record.extent.height or height, record.extent.depth or 1
         if not usage:
-            usage = DEPTH_ATTACHMENT if "color" not in form.aspects else COLOR_ATTACHMENT
-        aspects = sum(ASPECTS[each] for each in form.aspects) or COLOR
+            usage = DEPTH_ATTACHMENT if "color" not in format.aspects else COLOR_ATTACHMENT
+        aspects = sum(ASPECTS[each] for each in format.aspects) or COLOR
         kind = number("VkImageType", type_name)
         return Image(
-            used.name, number("VkFormat", form.name), used.samples, usage, width, 1 if kind == 0 else height, depth, layers, levels,
-            kind, tiling, flags, lazy, aspects, form.numeric, form.bytes,
+            used.name, number("VkFormat", format.name), used.samples, usage, width, 1 if kind == 0 else height, depth, layers, levels,
+            kind, tiling, flags, lazy, aspects, format.numeric, format.bytes,
         )  # fmt: skip
 
 
 def _base(frame: Frame) -> tuple[tuple[int, int], bool]:
-    """The size of what states none, and whether anything states it."""
+    """The size of images that do not state one, and whether the description states it."""
     size = frame.description.frame
     if size is not None and size.width is not None and size.height is not None:
         return (size.width, size.height), True
@@ -232,5 +232,5 @@ def _base(frame: Frame) -> tuple[tuple[int, int], bool]:
         *((f.width, f.height) for f in frame.description.framebuffers.values()),
         *((i.extent.width, i.extent.height) for i in frame.description.images.values() if i.extent is not None),
     )
-    known = [(width, height) for width, height in stated if width is not None and height is not None]
-    return (max(known), True) if known else (DEFAULT_SIZE, False)
+    sizes = [(width, height) for width, height in stated if width is not None and height is not None]
+    return (max(sizes), True) if sizes else (DEFAULT_SIZE, False)

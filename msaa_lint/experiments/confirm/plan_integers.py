@@ -1,4 +1,4 @@
-"""Vulkan's names as its integers, for plans."""
+"""The integers of Vulkan's names, for plans."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ def number(enum: str, name: str) -> int:
 
 
 def mask(enum: str, names: Iterable[str] | None) -> int:
-    """The bits of some short names; 0 without any."""
+    """The bit mask of short names; 0 without any."""
     bits = 0
     for name in names or ():
         bits |= VALUES[enum].get(name, 0)
@@ -21,5 +21,5 @@ def mask(enum: str, names: Iterable[str] | None) -> int:
 
 
 def layout(name: str | None, default: int) -> int:
-    """A layout by its short name; `default` where it is not stated."""
+    """The value of a layout's short name; `default` if unstated."""
     return VALUES["VkImageLayout"][name] if name is not None else default

@@ -1,4 +1,4 @@
-"""Pictures for people: PNG files of images as written, fixed, their difference, and an edge enlarged. No library but zlib."""
+"""PNG files of images as written and fixed, their difference, and an enlarged edge. It needs no library except zlib."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from .texels import Plane, Texels
 from .vulkan_errors import NotWritten
 
 EDGE = 16
-"""Pixels, each way, of what is enlarged, and how many each of them becomes."""
+"""Width and height in pixels of an enlarged part, and the factor by which it is enlarged."""
 
 _GAP = 8
 _LEVELS = 1 << 14
 
 
 class Picture(NamedTuple):
-    """Pixels of three bytes, red, green, blue, as a display takes them (sRGB)."""
+    """Pixels of three bytes, red, green and blue, encoded as sRGB."""
 
     width: int
     height: int
@@ -30,7 +30,7 @@ class Picture(NamedTuple):
 
 
 def png(picture: Picture) -> bytes:
-    """A picture as a PNG file (ISO/IEC 15948): 8-bit RGB, marked as sRGB; the same picture gives the same bytes."""
+    """A picture as a PNG file (ISO/IEC 15948): 8-bit RGB, marked as sRGB. The same picture always gives the same bytes."""
     row = picture.width * 3
     lines = b"".join(b"\0" + picture.rgb[n * row : (n + 1) * row] for n in range(picture.height))
     header = struct.pack(">IIBBBBB", picture.width, picture.height, 8, 2, 0, 0, 0)
@@ -41,7 +41,7 @@ def png(picture: Picture) -> bytes:
 
 
 def encoded(linear: float) -> float:
-    """The sRGB code, 0 to 1, of linear light (IEC 61966-2-1); what is out of range is clamped, what is no number is 0."""
+    """The sRGB code, 0 to 1, of linear light (IEC 61966-2-1). Values out of range are clamped; NaN is 0."""
     if not linear > 0:
         return 0.0
     return linear * 12.92 if linear <= 0.0031308 else min(1.055 * linear ** (1 / 2.4) - 0.055, 1.0)
@@ -50,8 +50,8 @@ def encoded(linear: float) -> float:
 def picture(image: Texels) -> Picture:
     """An image as a display shows it.
 
-    Stored codes of UNORM and sRGB formats are what a display takes. Floats are linear light, clamped and encoded. Integers, depth and
-    stencil are grey or coloured from their least to their greatest value. Alpha is left out.
+    Codes of UNORM and sRGB formats are shown as stored. Floats are linear light, clamped and encoded. Integers, depth and stencil are
+    scaled from their smallest to their greatest value. Alpha is ignored.
     """
     scale = _scale(image)
     planes = {name: _codes(plane, image, name, scale) for name, plane in image.planes.items() if name in "RGBDS"}
@@ -65,7 +65,7 @@ def picture(image: Texels) -> Picture:
 
 
 def _scale(image: Texels) -> tuple[float, float]:
-    """The least and greatest value of what is shown from one to the other."""
+    """The smallest and greatest value of an image that is scaled; zeros for others."""
     if image.aspect == "color" and image.numeric not in ("UINT", "SINT"):
         return 0.0, 0.0
     values = [v for name, plane in image.planes.items() if name != "A" for v in (min(plane), max(plane)) if math.isfinite(v)]
@@ -99,13 +99,13 @@ def _code(share: float) -> int:
 
 
 _OF_LIGHT = bytes(_code(encoded(n / _LEVELS)) for n in range(_LEVELS + 1))
-"""Codes of linear light in 16384 steps: the steepest part of the curve has one code for five of them."""
+"""Codes of linear light in 16384 steps: even the steepest part of the curve has five steps per code."""
 
 
 def difference(before: Texels, after: Texels) -> Picture:
-    """Where two images differ: black where they do not, else their difference, scaled so that the greatest is white.
+    """The difference of two images: black where they are equal, otherwise scaled so that the greatest difference is white.
 
-    The least is still plainly seen, and so is one that only alpha has.
+    The smallest difference is still clearly visible, including differences in alpha only.
     """
     count = before.width * before.height
     amounts = [0.0] * count
@@ -123,18 +123,18 @@ def difference(before: Texels, after: Texels) -> Picture:
 
 
 def edge(picture: Picture) -> tuple[int, int]:
-    """The corner of the part of a picture with the most different colours: an edge, smoothed if anything is."""
+    """The corner of the part of a picture with the most distinct colors: an edge, and a smoothed one if there is any."""
     best, at = 0, (0, 0)
     for y in range(0, max(picture.height - EDGE, 0) + 1, EDGE // 2):
         for x in range(0, max(picture.width - EDGE, 0) + 1, EDGE // 2):
-            colours = len(set(_pixels(picture, x, y)))
-            if colours > best:
-                best, at = colours, (x, y)
+            colors = len(set(_pixels(picture, x, y)))
+            if colors > best:
+                best, at = colors, (x, y)
     return at
 
 
 def around(picture: Picture, place: tuple[int, int]) -> tuple[int, int]:
-    """The corner of the part that has a pixel in its middle, as far as the picture goes."""
+    """The corner of the part centered on a pixel, within the picture."""
     x, y = place
     return max(min(x - EDGE // 2, picture.width - EDGE), 0), max(min(y - EDGE // 2, picture.height - EDGE), 0)
 
@@ -146,7 +146,7 @@ def _pixels(picture: Picture, x: int, y: int) -> list[bytes]:
 
 
 def enlarged(pictures: list[Picture], corner: tuple[int, int]) -> Picture:
-    """The same part of pictures of one size, each pixel sixteen wide and high, beside each other."""
+    """The same part of pictures of equal size side by side, enlarged sixteen times."""
     x, y = corner
     first = pictures[0]
     wide, high = min(EDGE, first.width - x), min(EDGE, first.height - y)
@@ -164,13 +164,13 @@ def enlarged(pictures: list[Picture], corner: tuple[int, int]) -> Picture:
 
 
 def file_name(*parts: str) -> str:
-    """A file's name from names of an input: letters, digits, `.`, `-`, `_`; nothing hidden or that leads elsewhere; none too long."""
+    """A safe file name from names in an input: letters, digits, `.`, `-` and `_` only, not hidden, without folders, and not too long."""
     clean = [re.sub(r"[^A-Za-z0-9._-]+", "_", part.replace(os.sep, "-").replace("/", "-"))[-60:].strip("._-") or "_" for part in parts]
     return "-".join(clean)[-200:]
 
 
 class PictureFolder:
-    """A folder of pictures. What is in it under a name is replaced, never followed where it is a link. NotWritten where it cannot be."""
+    """A folder of pictures. Existing files are replaced, and links are not followed. NotWritten if the folder cannot be created."""
 
     def __init__(self, folder: str) -> None:
         self.folder = folder
@@ -178,10 +178,10 @@ class PictureFolder:
         try:
             os.makedirs(folder, exist_ok=True)
         except OSError as error:
-            raise NotWritten(f"no pictures can be written to {folder}: {error.strerror}") from None
+            raise NotWritten(f"cannot write pictures to {folder}: {error.strerror}") from None
 
     def write(self, picture: Picture, *parts: str) -> str:
-        """Writes a picture and gives its path. Names that come out the same are told apart by a number."""
+        """Writes a picture and returns its path. A number distinguishes names that would be equal."""
         stem = file_name(*parts)
         name, count = f"{stem}.png", 1
         while name.lower() in self.written:
@@ -192,12 +192,13 @@ class PictureFolder:
         try:
             write_file(path, png(picture))
         except OSError as error:
-            raise NotWritten(f"{path} cannot be written: {error.strerror}") from None
+            raise NotWritten(f"cannot write {path}: {error.strerror}") from None
         return path
 
 
 def show(album: PictureFolder, stem: tuple[str, ...], before: Texels, after: Texels | None, first: tuple[int, int] | None) -> list[str]:
-    """The pictures of one image: as written; and where there is a fixed version that, the difference, and an edge of all three."""
+    """Writes the pictures of one image and returns their paths: as written; fixed, if there is a fixed version, and the difference; and an
+    enlarged edge."""
     as_written = picture(before)
     paths = [album.write(as_written, *stem, "as-written")]
     beside = [as_written]

@@ -1,7 +1,7 @@
-"""What parent and child say to each other: JSON objects, one a line.
+"""The messages between parent and child: JSON objects, one per line.
 
-The child is asked on its standard input and answers on what was its standard output; what its driver and its layer print goes elsewhere.
-Neither trusts the other's lines to be whole: a driver may write over the child's memory, or over its pipes.
+The child reads requests from its standard input and writes answers to its original standard output; the output of driver and layer goes
+elsewhere. Lines may be corrupt: a driver may overwrite the child's memory or write to its pipes.
 """
 
 from __future__ import annotations
@@ -11,36 +11,36 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 MAX_LINE = 8 << 20
-"""Bytes of one line, at most: a plan of many passes, or a long message of the layer."""
+"""Maximum size of a line in bytes: a plan with many passes, or a long message of the layer."""
 
 EVENTS = frozenset({"opened", "devices", "failed", "pass", "created", "message", "pixels", "time", "sample", "done"})
-"""What the child may say. `opened`: the device and the layer there are; `failed`: why a request cannot be done, `kind` says by whom
-(`environment`, `memory`, `program`); the others are `execute.run`'s."""
+"""The child's answers. `opened` has the device and the layer; `failed` has the reason and its `kind` (`environment`, `memory`, `program`);
+the others come from `execute.run`."""
 
 Event = dict[str, Any]
 
 
 class ProtocolError(Exception):
-    """A line that no sane child writes, in words."""
+    """A line that a working child would not write; the message describes it."""
 
 
 def line(request: Mapping[str, Any]) -> bytes:
-    """A request or an answer as its line."""
+    """The line of a request or an answer."""
     return json.dumps(request, separators=(",", ":"), allow_nan=False).encode("ascii") + b"\n"
 
 
 def event(text: bytes) -> Event:
-    """The answer that a line holds. Garbage where it holds none."""
+    """The answer in a line. ProtocolError for a malformed line."""
     if not text.endswith(b"\n"):
-        raise ProtocolError("a line that is cut off" if len(text) < MAX_LINE else "a line without an end")
+        raise ProtocolError("a truncated line" if len(text) < MAX_LINE else "a line that is too long")
     try:
         found = json.loads(text)
     except (ValueError, RecursionError):
-        raise ProtocolError("a line that is no JSON") from None
+        raise ProtocolError("a line that is not JSON") from None
     if not isinstance(found, dict) or found.get("event") not in EVENTS:
-        raise ProtocolError("an answer to nothing that was asked")
+        raise ProtocolError("an unknown answer")
     if not _WELL_FORMED[found["event"]](found):
-        raise ProtocolError(f"an answer `{found['event']}` that lacks a part")
+        raise ProtocolError(f"a malformed answer `{found['event']}`")
     return found
 
 

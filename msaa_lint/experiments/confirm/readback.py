@@ -1,4 +1,4 @@
-"""What images hold, brought back: their texels as they are stored, and single samples of multisampled ones."""
+"""Reads images back: their texels as stored, and the samples of multisampled images."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from .parts import COLOR, DEPTH, DEPTH_READ_LAYOUT, READ_LAYOUT, SOURCE_LAYOUT, 
 from .submit import Submitter
 
 MAX_BYTES = 1 << 30
-"""Bytes of one image that are brought back."""
+"""Maximum size in bytes of an image that is read back."""
 
 DEPTH_BYTES = {124: 2, 128: 2, 125: 4, 126: 4, 129: 4, 130: 4}
-"""By the VkFormat's number: bytes of a texel's depth in a buffer."""
+"""Bytes of a texel's depth in a buffer, by the VkFormat's number."""
 
 NAMES = {COLOR: "", DEPTH: "", STENCIL: "stencil"}
 
 
 class Buffer:
-    """Memory that the device writes and we read."""
+    """Memory that the device writes and the host reads."""
 
     def __init__(self, built: FrameObjects, size: int, usage: int) -> None:
         self.built, self.size = built, size
@@ -34,7 +34,7 @@ class Buffer:
         vk.vkBindBufferMemory(handle, self.handle, self.memory, 0)
 
     def write_to(self, path: str) -> None:
-        """Its bytes, into a file."""
+        """Writes its bytes to a file."""
         vk, handle = self.built.vk, self.built.opened.handle
         mapped = vk.vkMapMemory(handle, self.memory, 0, self.size, 0)
         try:
@@ -51,14 +51,14 @@ class Buffer:
 
 
 def texel_bytes(image: Image, aspect: int) -> int:
-    """Bytes of a texel's aspect in a buffer; 0 where they are not known."""
+    """Bytes of a texel's aspect in a buffer; 0 if unknown."""
     if aspect == STENCIL:
         return 1
     return DEPTH_BYTES.get(image.format, 0) if aspect == DEPTH else image.bytes
 
 
 def bring_back(recorder: Recorder, submitter: Submitter, folder: str, emit: Emit) -> None:
-    """Writes every image that holds what is defined into a file, and tells of it. The images are left as they are for nothing after."""
+    """Writes every image with defined contents to a file and reports it. Nothing may use the images afterwards."""
     built, vk = recorder.built, recorder.vk
     taken: list[tuple[int, int, Buffer]] = []
     buffer = submitter.begin()
@@ -90,7 +90,7 @@ def _source(built: FrameObjects, number: int) -> bool:
 
 
 def bring_samples(recorder: Recorder, submitter: Submitter, number: int, folder: str, emit: Emit) -> None:
-    """Writes every sample of a multisampled image into a file: four 32-bit floats a sample, sample after sample, rows from the top."""
+    """Writes the samples of a multisampled image to a file: four 32-bit floats per sample, sample by sample, in rows from the top."""
     built, vk, opened = recorder.built, recorder.vk, recorder.built.opened
     image = built.plan.images[number]
     target = Buffer(built, image.width * image.height * image.samples * 16, 0x20)

@@ -1,4 +1,4 @@
-"""Plans of another size or with another sample count."""
+"""Plans with another size or sample count."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ CUBE_COMPATIBLE = 0x10
 """VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT."""
 
 MAX_IMAGE = 512
-"""Texels of the longer side of a picture."""
+"""Maximum width and height of a picture in texels."""
 
 
 def resized(plan: Plan, size: tuple[int, int]) -> Plan:
-    """A plan whose largest pass is of a size in pixels, everything else in proportion."""
+    """A plan whose largest pass has a size in pixels, with everything else in proportion."""
     width = max([f.width for each in plan.passes for f in each.framebuffers] or [i.width for i in plan.images] or [1])
     height = max([f.height for each in plan.passes for f in each.framebuffers] or [i.height for i in plan.images] or [1])
     return _scaled(plan, (size[0], width), (size[1], height))
 
 
 def pictured(plan: Plan, largest: int = MAX_IMAGE) -> Plan:
-    """A plan for a picture: at most `largest` texels on each side, in the described proportion."""
+    """A plan for a picture: at most `largest` texels wide and high, in the described proportion."""
     side = max([max(i.width, i.height) for i in plan.images] or [1])
     return plan if side <= largest else _scaled(plan, (largest, side), (largest, side))
 
@@ -34,7 +34,7 @@ def _scaled(plan: Plan, by_x: tuple[int, int], by_y: tuple[int, int]) -> Plan:
     def image(each: Image) -> Image:
         width, height = across(each.width), down(each.height) if each.type else each.height
         if each.flags & CUBE_COMPATIBLE:
-            # A cube's faces are squares; views and framebuffers may be smaller than the image.
+            # The faces of a cube are square; views and framebuffers may be smaller than the image.
             width = height = max(width, height)
         levels = min(each.levels, max(width, height, each.depth).bit_length()) if each.levels <= _most_levels(each) else each.levels
         return each._replace(width=width, height=height, levels=levels)
@@ -56,21 +56,21 @@ def _scaled(plan: Plan, by_x: tuple[int, int], by_y: tuple[int, int]) -> Plan:
 
 
 def _most_levels(image: Image) -> int:
-    """The levels of a whole chain."""
+    """The number of levels of a complete mip chain."""
     return max(image.width, image.height, image.depth).bit_length()
 
 
 def resampled(plan: Plan, samples: int) -> Plan:
-    """A plan with `samples` wherever several are described.
+    """A plan with `samples` instead of every described sample count above one.
 
-    With one sample a pass draws to what it resolves to, and a command that resolves copies.
+    With one sample, passes draw directly to their resolve targets, and resolve commands become copies.
     """
 
     def count(stated: int) -> int:
         return samples if stated > 1 else stated
 
     def single(stated: int) -> int:
-        # Vulkan renders multisampled to single-sampled with several samples or not at all.
+        # Multisampled rendering to single-sampled attachments needs more than one sample.
         return count(stated) if samples > 1 else 0
 
     def made(each: Pass) -> Pass:
@@ -101,7 +101,7 @@ def _counted(each: Pipeline, samples: int) -> Pipeline:
 
 
 def _unresolved(each: Pass) -> Pass:
-    """A pass of one sample, drawing to what it resolves to."""
+    """A single-sampled pass that draws directly to its resolve targets."""
     instead: dict[int, int] = {}
     for subpass in each.subpasses:
         for color, resolved in zip(subpass.colors, subpass.resolves, strict=False):

@@ -1,15 +1,14 @@
-"""What a resolve is to give, from the samples that it is of: the value that is due, and how far from it a right answer may lie.
+"""The expected result of a resolve, from its samples, and the tolerance around it.
 
-Values are taken as they are stored: codes of normalised formats, numbers of floats, whole numbers of integers and of stencil.
+Values are as stored: codes of normalized formats, numbers of floats, integers of integer formats and stencil.
 
-- UNORM and SNORM, averaged: at most a code beside the exact average, as Vulkan says neither how the average is rounded nor how precisely
-  it is made.
-- sRGB, averaged: a code beside the encoded average of the decoded samples; drivers encode by approximations.
-- Floats, averaged: one of the two neighbours of the average in the format, because rounding is free. Where single precision adds the
-  samples to other sums in other orders, that order is free too: then it may be off by half a unit in the last place of the sum for each
-  sample, 2 units in single precision itself for 4 samples. What is subnormal may be zero.
-- A sample, or the least or greatest of them: that very value. 24 bits of depth may be off by one, as the samples are read back as single
-  precision, which does not tell all of them apart.
+- UNORM and SNORM, averaged: within one code of the exact average, because Vulkan specifies neither the rounding nor the precision.
+- sRGB, averaged: within one code of the encoded average of the decoded samples, because drivers encode by approximations.
+- Floats, averaged: one of the two neighbors of the average in the format, because the rounding is unspecified. If single precision gives
+  different sums for different orders, the order is unspecified too: the result may then be off by half a unit in the last place of the sum
+  for each sample, 2 units in single precision itself for 4 samples. Subnormals may become zero.
+- A single sample, the minimum or the maximum: exactly that value. 24-bit depth may be off by one, because the samples are read back in
+  single precision, which does not distinguish all codes.
 """
 
 from __future__ import annotations
@@ -26,15 +25,15 @@ ZERO, AVERAGE, LEAST, GREATEST = 1, 2, 4, 8
 """VkResolveModeFlagBits."""
 
 MANTISSAS = {10: 5, 11: 6, 16: 10, 32: 23}
-"""By the bits of a float: those of its mantissa."""
+"""Mantissa bits by the width of a float."""
 
 SINGLE = 23
 TWENTY_FOUR = (1 << 24) - 1
 
 
 class Component(NamedTuple):
-    """A component of a format: its name and place among those that a shader reads; of floats the bits of the mantissa and the least
-    exponent of a normal one, of normalised values the greatest code. `numeric` is UNORM, SNORM, SRGB, FLOAT or WHOLE."""
+    """A component of a format: its name and its position among those that a shader reads. Floats have the number of mantissa bits and the
+    smallest normal exponent (`least`), normalized values the greatest code. `numeric` is UNORM, SNORM, SRGB, FLOAT or WHOLE (integer)."""
 
     name: str
     place: int
@@ -45,19 +44,19 @@ class Component(NamedTuple):
 
 
 class Expected(NamedTuple):
-    """The value that is due, and the least and the greatest that are right."""
+    """The expected value, and the smallest and greatest correct values."""
 
     value: float
     low: float
     high: float
 
     def met(self, given: float) -> bool:
-        """Whether a value is right."""
+        """Whether a value is correct."""
         return self.low <= given <= self.high or (math.isnan(given) and math.isnan(self.value))
 
 
 def components(form: Format, aspect: int) -> list[Component]:
-    """The components of an aspect that can be judged; none of formats with others than these."""
+    """The components of an aspect that can be checked; none for formats with unsupported components."""
     if aspect == STENCIL:
         return [Component("S", 0, "WHOLE")]
     if aspect != COLOR:
@@ -88,19 +87,19 @@ def _float(name: str, place: int, bits: int) -> Component:
 
 
 def stored(own: Component, read: float) -> float:
-    """What a sample is stored as, of the number that a shader reads."""
+    """The stored value of a sample, from the number that a shader reads."""
     if own.numeric in ("FLOAT", "WHOLE") or not math.isfinite(read):
         return read
     return round((encoded(read) if own.numeric == "SRGB" else read) * own.codes)
 
 
 def value(own: Component, code: float) -> float:
-    """What is stored as a number: of 0 to 1 where it is normalised, without decoding it."""
+    """A stored value as a number: from 0 to 1 for normalized formats, without decoding sRGB."""
     return code / own.codes if own.codes else code
 
 
 def due(own: Component, mode: int, samples: Sequence[float]) -> Expected:
-    """What the stored samples of a pixel resolve to."""
+    """The expected result of resolving the stored samples of a pixel."""
     if mode == AVERAGE:
         return _averaged(own, samples)
     if own.numeric == "FLOAT" and any(map(math.isnan, samples)) and mode != ZERO:
@@ -123,7 +122,7 @@ def _averaged(own: Component, samples: Sequence[float]) -> Expected:
 
 def _float_average(own: Component, samples: Sequence[float]) -> Expected:
     if not all(map(math.isfinite, samples)):
-        # As IEEE 754 adds them: infinities of both signs are no number.
+        # As IEEE 754 adds them: infinities of both signs give NaN.
         total = sum(samples)
         return Expected(total, total, total)
     exact = math.fsum(samples) / len(samples)
@@ -137,11 +136,11 @@ def _float_average(own: Component, samples: Sequence[float]) -> Expected:
 
 
 def _order_slack(samples: Sequence[float]) -> float:
-    """How far single precision may be from the average by the order in which it adds; 0 where every order adds exactly."""
+    """The possible error of the average in single precision due to the order of addition; 0 if every order is exact."""
     size = math.fsum(map(abs, samples))
     if not size:
         return 0.0
-    # The lowest bit that any sample has set: every partial sum is a multiple of it.
+    # Every partial sum is a multiple of the lowest bit that any sample has set.
     lowest = min((numerator & -numerator) / denominator for numerator, denominator in (abs(s).as_integer_ratio() for s in samples if s))
     if size / lowest <= 1 << (SINGLE + 1):
         return 0.0
@@ -150,7 +149,7 @@ def _order_slack(samples: Sequence[float]) -> float:
 
 
 def beside(own: Component, number: float) -> tuple[float, float]:
-    """The greatest float of a component's format that is not above a number, and the least that is not below it."""
+    """The neighbors of a number in a component's format: the greatest float not above it and the smallest not below it."""
     if not number:
         return 0.0, 0.0
     exponent = max(math.frexp(number)[1] - 1, own.least)
@@ -159,18 +158,18 @@ def beside(own: Component, number: float) -> tuple[float, float]:
 
 
 def decoded(encoded_value: float) -> float:
-    """Linear light of an sRGB value, both of 0 to 1 (IEC 61966-2-1)."""
+    """The linear light of an sRGB value, both from 0 to 1 (IEC 61966-2-1)."""
     return encoded_value / 12.92 if encoded_value <= 0.04045 else ((encoded_value + 0.055) / 1.055) ** 2.4
 
 
 def encoded(light: float) -> float:
-    """The sRGB value of linear light, both of 0 to 1 (IEC 61966-2-1)."""
+    """The sRGB value of linear light, both from 0 to 1 (IEC 61966-2-1)."""
     return 12.92 * light if light <= 0.0031308 else 1.055 * light ** (1 / 2.4) - 0.055
 
 
 def likeness(own: Component, wrong: Sequence[tuple[float, Sequence[float]]]) -> str:
-    """What wrong values are instead, where one thing explains all of them: each is given with the samples that it was made of."""
-    guesses = {"the least of the samples": (LEAST, own), "the greatest of the samples": (GREATEST, own)}
+    """What incorrect values are instead, if one cause explains all of them; each value comes with its samples."""
+    guesses = {"the minimum of the samples": (LEAST, own), "the maximum of the samples": (GREATEST, own)}
     if own.numeric != "WHOLE":
         guesses["the average of the samples"] = AVERAGE, own
     if own.numeric == "SRGB":
@@ -185,4 +184,4 @@ def likeness(own: Component, wrong: Sequence[tuple[float, Sequence[float]]]) -> 
     return ""
 
 
-ENCODED_AVERAGE = "the average of what is stored, not of its light"
+ENCODED_AVERAGE = "the average of the encoded values instead of the light"

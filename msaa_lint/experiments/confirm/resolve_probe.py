@@ -1,4 +1,4 @@
-"""Which resolves a plan makes, and the tiny frames that show what a device makes of them."""
+"""The resolves of a plan, and the tiny frames that probe them on a device."""
 
 from __future__ import annotations
 
@@ -36,24 +36,24 @@ from .resolve_expected import AVERAGE, ZERO
 from .texels import format_name, format_of
 
 COMMAND = "command"
-"""The way of vkCmdResolveImage; the others are the kinds of passes."""
+"""Resolving by vkCmdResolveImage; the other ways are the kinds of passes."""
 
 SAMPLES, WITNESS = "samples", "witness"
 """The names of a probe's multisampled images."""
 
 WITNESS_FORMAT = 37
-"""VK_FORMAT_R8G8B8A8_UNORM, which can have every sample count that any colour can."""
+"""VK_FORMAT_R8G8B8A8_UNORM, which supports every sample count that any color format does."""
 
 SIDE, WITNESS_SIDE = 16, 32
-"""Pixels a side. With a witness, triangles have to cover pixels whole."""
+"""Width and height in pixels. With a witness, triangles must cover whole pixels."""
 
 LESS = 1
 """VkCompareOp."""
 
 
 class Resolve(NamedTuple):
-    """A way of resolving: by a pass (`renderPass`, `rendering`) or a `command`, of which VkFormat, how many samples and which aspects, by
-    which VkResolveModeFlagBits; `stencil_mode` is that of stencil, `mode` that of the colour or the depth."""
+    """A way of resolving: in a pass (`renderPass`, `rendering`) or by a `command`; the VkFormat, the sample count, the aspects, and the
+    VkResolveModeFlagBits of color or depth (`mode`) and of stencil."""
 
     way: str
     format: int
@@ -64,14 +64,14 @@ class Resolve(NamedTuple):
 
     @property
     def modes(self) -> list[tuple[int, int]]:
-        """Each aspect that is resolved, and its mode."""
+        """The resolved aspects and their modes."""
         modes = {COLOR: self.mode, DEPTH: self.mode, STENCIL: self.stencil_mode}
         return [(aspect, mode) for aspect, mode in modes.items() if self.aspects & aspect and mode]
 
 
 class Probe(NamedTuple):
-    """A frame that makes some resolves of one format and sample count: each with the number of its pass, into an image named by its own
-    number. `seen` are the images whose samples say what is due."""
+    """A frame with resolves of one format and sample count, each with the number of its pass; each resolves into an image named by its
+    index. `seen` are the images whose samples determine the expected results."""
 
     plan: Plan
     resolves: tuple[tuple[Resolve, int], ...]
@@ -79,7 +79,7 @@ class Probe(NamedTuple):
 
 
 def resolves(plan: Plan) -> dict[int, tuple[Resolve, ...]]:
-    """What the passes of a plan resolve, and the commands after them, by the number of the pass."""
+    """The resolves of the passes of a plan, and of the commands after them, by the number of the pass."""
     found: dict[int, list[Resolve]] = {}
     for number, each in enumerate(plan.passes):
         if not each.refused:
@@ -108,7 +108,7 @@ def _of_subpasses(each: Pass) -> Iterator[Resolve]:
 
 
 def _pair(each: Pass, source: Reference, target: Reference) -> Attachment | None:
-    """The multisampled attachment that is resolved; None where it is none."""
+    """The attachment that is resolved; None if this is not a valid resolve."""
     if NONE in (source.attachment, target.attachment):
         return None
     own, other = each.attachments[source.attachment], each.attachments[target.attachment]
@@ -135,7 +135,7 @@ def _of_rendering(plan: Plan, each: Pass) -> Iterator[Resolve]:
 
 
 def probe(wanted: Sequence[Resolve], like: Plan) -> Probe | None:
-    """The frame for resolves of one format and sample count, on a device opened as for another plan; None where nothing shows them."""
+    """The frame that probes resolves of one format and sample count, on a device opened for another plan; None if they cannot be probed."""
     form = format_of(format_name(wanted[0].format))
     if form is None:
         return None
@@ -147,7 +147,7 @@ def probe(wanted: Sequence[Resolve], like: Plan) -> Probe | None:
 
 
 class _Frame:
-    """The parts of a probe's frame. Image 0 has the samples, the last ones are resolved to."""
+    """The parts of a probe's frame. Image 0 is multisampled, the last images are the resolve targets."""
 
     def __init__(self, form: Format, wanted: Sequence[Resolve], side: int, witnessed: bool, read: bool) -> None:
         self.form, self.wanted, self.side, self.witnessed, self.read = form, wanted, side, witnessed, read
@@ -157,7 +157,7 @@ class _Frame:
         self.first = 2 if witnessed else 1
         inline = [each for each in wanted if each.way != COMMAND]
         commands = [each for each in wanted if each.way == COMMAND]
-        # Commands resolve what the last of the passes leaves; pipelines take most of a probe's time.
+        # Commands resolve the result of the last pass, because creating pipelines takes most of a probe's time.
         self.drawn = inline or commands[:1]
         self.resolves = (*((each, n) for n, each in enumerate(inline)), *((each, len(self.drawn) - 1) for each in commands))
 
@@ -234,7 +234,7 @@ class _Frame:
         return (*own, *beside)
 
     def _pipeline(self, each: Resolve) -> Pipeline:
-        """A pipeline that draws the scene to the image and the witness."""
+        """A pipeline that draws the scene into the image and the witness."""
         numerics = ((self.form.numeric,) if self.color else ()) + (("UNORM",) if self.witnessed else ())
         formats = ((self.format,) if self.color else ()) + ((WITNESS_FORMAT,) if self.witnessed else ())
         rendering = each.way == RENDERING
@@ -247,7 +247,7 @@ class _Frame:
 
 
 def _color_mode(number: int) -> int:
-    """How colours are resolved: integers by sample 0, everything else by the average."""
+    """The resolve mode of colors: SAMPLE_ZERO for integers, AVERAGE for everything else."""
     form = format_of(format_name(number))
     return ZERO if form is not None and form.is_integer else AVERAGE
 

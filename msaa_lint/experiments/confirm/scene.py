@@ -1,6 +1,6 @@
-"""The scene that `confirm` draws: triangles with edges at many angles, one over another at different depths.
+"""The scene that `confirm` draws: overlapping triangles at different depths, with edges at many angles.
 
-Every triangle has a colour of its own (shaders/scene.vert). The first is a backdrop behind everything, over every pixel.
+Every triangle has its own color (shaders/scene.vert). The first one is a backdrop behind all others that covers every pixel.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 import struct
 
 GRID = 128
-"""Corners lie on a grid of 1/128 of the half of the picture, in x and in y."""
+"""Corners lie on a grid of 1/128 of half the picture, in x and y."""
 
 DEPTHS = 256
 """Depths lie on a grid of 1/256."""
@@ -34,19 +34,19 @@ CORNERS = (
     (47, 94, 56), (56, 37, 56), (101, 56, 56),
     (-118, 8, 126), (-85, -10, 126), (-77, 21, 126),
 )  # fmt: skip
-"""By vertex: x to the right and y down, from the middle of the picture, and depth; three vertices are a triangle."""
+"""By vertex: x to the right and y down from the center of the picture, and depth; three vertices form a triangle."""
 
 BACKDROP = 3
-"""Vertices of the backdrop, which come first."""
+"""The number of vertices of the backdrop, which come first."""
 
 VERTEX_BYTES = 12
 
 CLEARED = (0.125, 0.25, 0.5, 1.0)
 CLEARED_INTEGERS = (3, 5, 7, 11)
 CLEARED_STENCIL, DRAWN_STENCIL = 0, 1
-"""What attachments are cleared to: of colours that are numbers, of integers, of stencil; and what stencil is where the scene is."""
+"""The clear values of color attachments, of integer color attachments and of stencil, and the stencil value that the scene writes."""
 
 
 def vertices() -> bytes:
-    """The vertices as shaders/scene.vert takes them: three 32-bit floats each, the position in clip coordinates."""
+    """The vertices in the input format of shaders/scene.vert: the position in clip coordinates as three 32-bit floats."""
     return b"".join(struct.pack("<3f", x / GRID, y / GRID, z / DEPTHS) for x, y, z in CORNERS)

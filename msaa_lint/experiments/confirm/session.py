@@ -1,4 +1,4 @@
-"""The parent's side: frames run in one child as long as it lives, and what killed it is found, tried alone and left out."""
+"""The parent's side: frames run in one child as long as it lives; a pass that kills it is identified, tried alone, and skipped."""
 
 from __future__ import annotations
 
@@ -16,23 +16,24 @@ from msaa_lint.core import package
 from .child import Child, ChildExit, Limits
 from .frame_results import FrameRun, PassOutcome, RunCollector
 from .protocol import Event
-from .vulkan_errors import Unusable
+from .vulkan_errors import NO_PACKAGE, Unusable
 from .worker import EXECUTE
 
 ICD_FOLDERS = ("/etc/vulkan/icd.d", "/usr/local/share/vulkan/icd.d", "/usr/share/vulkan/icd.d")
 PINNED = ("VK_DRIVER_FILES", "VK_ICD_FILENAMES", "VK_LOADER_DRIVERS_SELECT", "VK_ADD_DRIVER_FILES")
 
 MAX_DEATHS = 16
-"""Deaths of a frame's passes, after which the rest of that frame is left: each costs two new processes."""
+"""Deaths in a frame after which its remaining passes are skipped: each costs two new processes."""
 
 OPENING = 30.0
-"""Seconds that a driver may take to show itself, at least: the first run after a start of the machine loads everything from disk."""
+"""Minimum time limit in seconds for opening a driver: the first run after a reboot loads everything from disk."""
 
 
 def environment(device: str | None) -> dict[str, str]:
-    """What a child's environment is: ours, and where neither it nor `device` says which driver, lavapipe's alone if that is installed.
+    """The environment of a child: the current one, restricted to lavapipe if it is installed and neither the environment nor `device`
+    selects a driver.
 
-    Loading one driver takes a third of the time that loading all of Mesa's takes.
+    Loading one driver takes a third of the time of loading all of Mesa's.
     """
     made = dict(os.environ)
     if device is None and not any(made.get(name) for name in PINNED):
@@ -43,7 +44,7 @@ def environment(device: str | None) -> dict[str, str]:
 
 
 class Session:
-    """A device in child processes. `with Session(...) as session:`; nothing is left of it afterwards, in memory or on disk."""
+    """A device in child processes. `with Session(...) as session:`; afterwards nothing remains in memory or on disk."""
 
     def __init__(
         self,
@@ -65,7 +66,7 @@ class Session:
         self.layer: dict[str, Any] | None = None
         self.printed: list[str] = []
         self.meanwhile: Callable[[], None] | None = None
-        """Called once, while the child works on the next run."""
+        """Called once while the child works on the next run."""
         self._folder = ""
         self._child: Child | None = None
         self._opened = False
@@ -81,7 +82,7 @@ class Session:
             shutil.rmtree(self._folder, ignore_errors=True)
 
     def close(self) -> None:
-        """Ends the child, if there is one."""
+        """Terminates the child, if there is one."""
         child, self._child, self._opened = self._child, None, False
         if child is not None:
             child.close()
@@ -90,12 +91,12 @@ class Session:
                 self.printed.append(text)
 
     def start(self) -> None:
-        """Has a child open the device, without waiting for it."""
+        """Lets a child open the device, without waiting for it."""
         if self._child is None:
             self._start({"do": "open", "device": self.name, "validation": self.validation, "vendors": list(self.vendors)})
 
     def open(self) -> dict[str, Any]:
-        """The device, opened. Unusable where there is none."""
+        """Opens the device and returns its properties. Unusable if there is none."""
         if not self._opened:
             self.start()
             found = self._first()
@@ -104,7 +105,7 @@ class Session:
         return self.device
 
     def devices(self) -> list[dict[str, Any]]:
-        """Every device that the loader finds. Unusable where it finds no driver."""
+        """Every device that the loader finds. Unusable without a driver."""
         self.close()
         self._start({"do": "devices"})
         try:
@@ -113,13 +114,13 @@ class Session:
             self.close()
 
     def folder(self, name: str) -> str:
-        """A folder of the session's own for files of a run."""
+        """A folder of the session for the files of a run."""
         path = os.path.join(self._folder, name)
         os.makedirs(path, exist_ok=True)
         return path
 
     def run(self, plan: Mapping[str, Any], passes: Sequence[int], want: Mapping[str, Any]) -> FrameRun:
-        """Runs passes of a plan, in their order; what the driver does is in what is returned. Unusable where no device opens any more."""
+        """Runs passes of a plan in order. The result says how the driver behaved. Unusable if the device cannot be opened any more."""
         done: dict[int, PassOutcome] = {}
         left = list(passes)
         while left:
@@ -129,7 +130,7 @@ class Session:
             except ChildExit as ended:
                 guilty = collected.at
                 if guilty is None:
-                    # Before any pass: each has a run of its own to show whether it was its doing.
+                    # It ended before any pass: run each pass alone to find the cause.
                     done.update((number, self._alone(plan, number, want, ended)) for number in left[:MAX_DEATHS])
                     done.update((number, _left(number)) for number in left[MAX_DEATHS:])
                     return FrameRun(done, tuple(collected.messages), {}, False)
@@ -145,7 +146,7 @@ class Session:
         return FrameRun(done, whole=False)
 
     def _alone(self, plan: Mapping[str, Any], number: int, want: Mapping[str, Any], ended: ChildExit) -> PassOutcome:
-        """A pass that its process died at, by itself in a fresh one. One that took too long is not waited for again."""
+        """Runs a pass during which the child died, alone in a fresh child. A pass that timed out is not repeated."""
         if ended.how == "timed-out":
             return PassOutcome(number, end="timed-out", reason=str(ended))
         self.close()
@@ -158,7 +159,7 @@ class Session:
         finally:
             self.close()
         ran = collected.outcome(number)
-        return ran._replace(end="died", signal=ended.signal, reason=f"{ended} (in company: alone it lives)")
+        return ran._replace(end="died", signal=ended.signal, reason=f"{ended} (only together with other passes, not alone)")
 
     def _collect(self, plan: Mapping[str, Any], passes: Sequence[int], want: Mapping[str, Any], into: RunCollector) -> None:
         self.open()
@@ -186,7 +187,7 @@ class Session:
             *_, found = self._child.answers(max(OPENING, self.limits.seconds))
         except ChildExit as ended:
             self.close()
-            raise Unusable(f"the driver cannot be opened: {ended}") from None
+            raise Unusable(f"cannot open the driver: {ended}") from None
         if found["event"] == "failed":
             self.close()
             raise Unusable(_advice(found))
@@ -194,22 +195,22 @@ class Session:
 
 
 def _left(number: int) -> PassOutcome:
-    return PassOutcome(number, end="left", reason=f"left: the driver died {MAX_DEATHS} times in this frame")
+    return PassOutcome(number, end="left", reason=f"skipped: the driver died {MAX_DEATHS} times in this frame")
 
 
 def _advice(found: Event) -> str:
-    """What to do about a child that cannot open a device."""
+    """What to do if a child cannot open a device."""
     if found.get("missing") == "vulkan":
-        return "the Python package `vulkan` is not there: pip install 'msaa-lint[confirm]'"
+        return NO_PACKAGE
     if found.get("missing"):
-        return f"the module `{found['missing']}` is not there: {found['reason']}"
+        return f"the module `{found['missing']}` is not installed: {found['reason']}"
     if found.get("kind") == "memory":
-        return "no memory is left to open a device in"
+        return "there is not enough memory to open a device"
     return str(found["reason"])
 
 
 def _own_path(environment: Mapping[str, str] | None) -> dict[str, str]:
-    """Where the child finds this package, however it is installed."""
+    """The PYTHONPATH with which a child finds this package, however it is installed."""
     root = os.path.dirname(package.FOLDER)
     stated = (os.environ if environment is None else environment).get("PYTHONPATH", "")
     with suppress(ValueError):

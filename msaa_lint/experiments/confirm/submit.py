@@ -1,4 +1,4 @@
-"""Command buffers, submitted and waited for, and how long the device took."""
+"""Submits command buffers, waits for them, and measures the time."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ FOREVER = 0xFFFFFFFFFFFFFFFF
 
 
 class Submitter:
-    """Records and submits, one command buffer at a time."""
+    """Submits one command buffer at a time."""
 
     def __init__(self, opened: OpenDevice, timed: bool = False) -> None:
         self.opened = opened
@@ -38,17 +38,18 @@ class Submitter:
         return self.buffer
 
     def start(self) -> None:
-        """Records where the device's clock is read first."""
+        """Records the start timestamp."""
         if self.queries is not None:
             self.vk.vkCmdWriteTimestamp(self.buffer, BOTTOM, self.queries, 0)
 
     def stop(self) -> None:
-        """Records where the device's clock is read last."""
+        """Records the end timestamp."""
         if self.queries is not None:
             self.vk.vkCmdWriteTimestamp(self.buffer, BOTTOM, self.queries, 1)
 
     def end(self, buffer: Any, timed: bool = False) -> float:
-        """Submits and waits: milliseconds between `start` and `stop`, without a clock of the device those of submitting and waiting."""
+        """Submits and waits. Returns the milliseconds between `start` and `stop`, or those of submitting and waiting if the device has no
+        timestamps."""
         vk, opened = self.vk, self.opened
         vk.vkEndCommandBuffer(buffer)
         before = time.perf_counter()
@@ -59,13 +60,13 @@ class Submitter:
         if not timed or self.queries is None:
             return passed
         read = vk.ffi.new("uint64_t[2]")
-        # With 64 bits each, once they are there.
+        # VK_QUERY_RESULT_64_BIT and VK_QUERY_RESULT_WAIT_BIT.
         vk.vkGetQueryPoolResults(opened.handle, self.queries, 0, 2, 16, read, 8, 3)
         passed = float((read[1] - read[0]) & self.mask)
         return passed * self.period / 1e6
 
     def close(self) -> None:
-        """Destroys its own."""
+        """Destroys its objects."""
         vk, handle = self.vk, self.opened.handle
         vk.vkDestroyFence(handle, self.fence, None)
         if self.queries is not None:

@@ -1,4 +1,4 @@
-"""Raw texels of an image, as vkCmdCopyImageToBuffer lays them out, taken apart into the values of their components."""
+"""Decodes raw texels, as vkCmdCopyImageToBuffer lays them out, into the values of their components."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ _NAMES: dict[int, str] = {}
 
 
 class Texels(NamedTuple):
-    """The components of an image, a value each texel, rows from the top. `numeric` is UNORM, SRGB, SNORM, UINT, SINT, SFLOAT or UFLOAT;
-    `bits` by component; values are as stored: codes of normalised formats, numbers of floats."""
+    """The components of an image, one value per texel, in rows from the top. `numeric` is UNORM, SRGB, SNORM, UINT, SINT, SFLOAT or UFLOAT;
+    `bits` are by component; values are as stored: codes of normalized formats, numbers of floats."""
 
     width: int
     height: int
@@ -29,15 +29,15 @@ class Texels(NamedTuple):
 
 
 def format_name(number: int) -> str:
-    """The short name of a VkFormat's number (37: `R8G8B8A8_UNORM`); the number where it is none."""
+    """The short name of a VkFormat's number (37: `R8G8B8A8_UNORM`); the number itself if unknown."""
     if not _NAMES:
         _NAMES.update((value, name) for name, value in reversed(VALUES["VkFormat"].items()))
     return _NAMES.get(number, str(number))
 
 
 def texel_bytes(form: Format, aspect: str) -> int:
-    """Bytes of one texel in a buffer: of depth and stencil each aspect is copied by itself, 24 bits as 32 (Copying Data, "Depth/stencil
-    aspect copy table")."""
+    """Bytes of one texel in a buffer: depth and stencil are copied separately, 24 bits as 32 (Copying Data, "Depth/stencil aspect copy
+    table")."""
     if aspect == "stencil":
         return 1
     if aspect == "depth":
@@ -46,12 +46,12 @@ def texel_bytes(form: Format, aspect: str) -> int:
 
 
 def aspect_of(form: Format, stated: str = "") -> str:
-    """The aspect that was copied: as stated, else colour, depth, or stencil where there is nothing else."""
+    """The copied aspect: the stated one, otherwise color, depth, or stencil for a stencil-only format."""
     return stated if stated in form.aspects else form.aspects[0] if form.aspects else "color"
 
 
 def texels(form: Format, data: bytes, width: int, aspect: str = "") -> Texels | None:
-    """Raw bytes taken apart; the layers of an image stand below each other. None for formats that nothing renders to."""
+    """The components of raw bytes, with the layers of an image below each other. None for formats that cannot be rendered to."""
     aspect = aspect_of(form, aspect)
     size = texel_bytes(form, aspect)
     if not width or not size or form.block != (1, 1, 1):
@@ -79,7 +79,7 @@ def _depth(form: Format, data: bytes, width: int, height: int) -> Texels:
 
 
 def _planes(form: Format, data: bytes) -> dict[str, Plane]:
-    """Components of one width, one after the other."""
+    """The components of a format with components of one width."""
     widths = {bits for _, bits in form.components}
     if len(widths) != 1 or (bits := widths.pop()) not in _WORDS or (form.numeric == "SFLOAT" and bits == 8):
         return {}
@@ -93,7 +93,7 @@ def _planes(form: Format, data: bytes) -> dict[str, Plane]:
 
 
 def _packed(form: Format, data: bytes) -> dict[str, Plane]:
-    """Components in one word, the first in its highest bits."""
+    """The components of a packed format: the first one has the highest bits of a word."""
     text = _array(_WORDS[form.bytes * 8], data)
     if form.name.startswith("E5B9G9R9"):
         shifts = (("R", 0), ("G", 9), ("B", 18))
@@ -115,7 +115,7 @@ def _packed(form: Format, data: bytes) -> dict[str, Plane]:
 
 
 def _small_float(code: int, mantissa: int) -> float:
-    """The value of an unsigned 10- or 11-bit float: five bits of exponent, no sign."""
+    """The value of an unsigned 10- or 11-bit float: five exponent bits, no sign."""
     exponent, fraction = code >> mantissa, (code & ((1 << mantissa) - 1)) / (1 << mantissa)
     if exponent == 31:
         return float("nan") if fraction else float("inf")

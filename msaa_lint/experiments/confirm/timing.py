@@ -1,4 +1,4 @@
-"""Times of a pass: their median with an interval that supposes no distribution, and whether two of them differ at all."""
+"""The times of a pass: their median with a distribution-free confidence interval, and whether two of them differ."""
 
 from __future__ import annotations
 
@@ -9,17 +9,18 @@ from typing import Any, NamedTuple
 CONFIDENCE = 0.95
 
 NOTHING = 0.10
-"""Share below which a difference on a software driver is none: identical work showed 5.5 % there, where a buffer lies being enough."""
+"""Relative differences below this are not significant on a software driver: identical work differed by 5.5 % depending on where a buffer
+was placed in memory."""
 
 PROCESSES = 3
-"""Fresh processes that the repeats are spread over, so that one unlucky placement of memory does not decide."""
+"""Fresh processes over which the repeats are distributed, so that an unlucky memory placement does not decide."""
 
 
 class Timing(NamedTuple):
-    """Milliseconds of a pass: the median of `n` repeats, and the interval that holds the true median with `confidence`.
+    """Milliseconds of a pass: the median of `n` repeats, and the interval that contains the true median with probability `confidence`.
 
-    The interval is between two of the repeats themselves (order statistics). Fewer than six repeats do not reach 95 %; what they do reach
-    is stated. `source` is `timestamp`, the GPU's own clock, or `wall`, from submission to the fence.
+    The interval lies between two of the repeats (order statistics). Fewer than six repeats do not reach 95 %; `confidence` states what they
+    reach. `source` is `timestamp`, the GPU's clock, or `wall`, from submission to the fence.
     """
 
     median: float
@@ -30,28 +31,28 @@ class Timing(NamedTuple):
     source: str
 
     def json(self) -> dict[str, Any]:
-        """As the report has it: milliseconds, to the nanosecond."""
+        """The JSON of reports: milliseconds, rounded to nanoseconds."""
         rounded = {name: round(getattr(self, name), 6) for name in ("median", "low", "high")}
         return {**rounded, "n": self.n, "confidence": round(self.confidence, 4), "source": self.source}
 
 
 def median(values: Sequence[float]) -> float:
-    """The middle one, or the mean of the two in the middle. ValueError of none."""
+    """The middle value, or the mean of the two middle values. ValueError without values."""
     if not values:
-        raise ValueError("the median of nothing")
+        raise ValueError("no values to take the median of")
     ordered = sorted(values)
     half = len(ordered) // 2
     return ordered[half] if len(ordered) % 2 else (ordered[half - 1] + ordered[half]) / 2
 
 
 def ranks(count: int, confidence: float = CONFIDENCE) -> tuple[int, int, float]:
-    """Which of `count` ordered values (from 0) bound the median with at least that confidence, and with which they do.
+    """The ranks (from 0) among `count` ordered values that bound the median with at least that confidence, and the confidence they reach.
 
-    The number of values below the true median is binomial, whatever they are distributed like. The narrowest symmetric pair is taken;
-    where even the first and the last do not do, those.
+    The number of values below the true median has a binomial distribution, whatever the distribution of the values. The narrowest symmetric
+    pair is chosen; if even the first and the last value do not reach the confidence, those.
     """
     if count < 1:
-        raise ValueError("the median of nothing")
+        raise ValueError("no values to take the median of")
     outside = 0
     best = 0, count - 1, max(1 - 2 * 0.5**count, 0.0)
     for below in range(count // 2):
@@ -64,14 +65,14 @@ def ranks(count: int, confidence: float = CONFIDENCE) -> tuple[int, int, float]:
 
 
 def timing(values: Sequence[float], source: str = "wall", confidence: float = CONFIDENCE) -> Timing:
-    """The repeats of a pass as its timing."""
+    """The timing of the repeats of a pass."""
     ordered = sorted(values)
     low, high, covered = ranks(len(ordered), confidence)
     return Timing(median(ordered), ordered[low], ordered[high], len(ordered), covered, source)
 
 
 class Difference(NamedTuple):
-    """What the fixed version's time is to that as written: `share` -0.2 is 20 % less. `real` where it is more than chance and noise."""
+    """The relative difference of the fixed version's time: a `share` of -0.2 is 20 % less. `real` says that it exceeds chance and noise."""
 
     share: float
     real: bool
@@ -79,24 +80,25 @@ class Difference(NamedTuple):
 
 
 def difference(as_written: Timing, fixed: Timing, software: bool) -> Difference:
-    """Compares two timings: they differ where their intervals lie apart and, on a software driver, the medians by 10 % at least."""
+    """Compares two timings: they differ if their intervals do not overlap and, on a software driver, their medians differ by at least
+    10 %."""
     if as_written.median <= 0:
         return Difference(0.0, False, "no time was measured")
     share = fixed.median / as_written.median - 1
     apart = fixed.high < as_written.low or as_written.high < fixed.low
     if software and abs(share) < NOTHING:
-        return Difference(share, False, "no difference: less than 10 % is nothing on a software driver")
+        return Difference(share, False, "no difference: less than 10 % is not significant on a software driver")
     if not apart:
         return Difference(share, False, "no difference: the intervals overlap")
     if as_written.n < 6 or fixed.n < 6:
-        return Difference(share, False, "no difference can be told of fewer than 6 repeats")
+        return Difference(share, False, "fewer than 6 repeats cannot show a difference")
     return Difference(share, True, f"{abs(share):.0%} {'less' if share < 0 else 'more'} time")
 
 
 def rounds(repeats: int) -> Iterator[tuple[int, tuple[str, str], int]]:
-    """How the repeats of the two versions alternate: by process, the order of the versions in it, and how many each.
+    """The rounds in which the repeats of the two versions alternate: the process, the order of the versions, and the repeats of each.
 
-    The order changes from process to process, and each is run twice in it as `A B B A`, so that a machine that slows down slows both.
+    The order changes from process to process, and each process runs `A B B A`, so that a machine that slows down affects both versions.
     """
     processes = min(PROCESSES, repeats)
     for number in range(processes):
@@ -109,13 +111,13 @@ def rounds(repeats: int) -> Iterator[tuple[int, tuple[str, str], int]]:
 
 
 def cannot_show(device: Mapping[str, Any], tiler: bool | None) -> str:
-    """What of the cost of multisampling this device's times do not show, in words; empty for a tile-based GPU."""
+    """What the times on this device do not show about the cost of multisampling, in words; empty for a tile-based GPU."""
     if is_software(device):
-        return "a software driver has neither tiles nor external memory: loads, stores and resolves cost here what they cost the CPU"
+        return "a software driver has neither tiles nor external memory: loads, stores and resolves cost what they cost the CPU"
     if tiler is False:
-        return "an immediate-mode GPU has no tiles: what a tile-based one would save of memory traffic does not show in its times"
+        return "an immediate-mode GPU has no tiles: its times do not show the memory traffic that a tile-based GPU would save"
     if tiler is None:
-        return "whether this device renders by tiles is not known: its times may not show what a tile-based one saves of memory traffic"
+        return "it is unknown whether this device renders by tiles: its times may not show the memory traffic that a tile-based GPU saves"
     return ""
 
 

@@ -1,6 +1,8 @@
-"""What a Vulkan call can come to, by Vulkan's names, and the errors of everything that talks to a driver."""
+"""The results of Vulkan calls by name, and the errors of everything that calls a driver."""
 
 from __future__ import annotations
+
+NO_PACKAGE = "the Python package `vulkan` is not installed: run `pip install 'msaa-lint[confirm]'`"
 
 RESULTS = {
     0: "VK_SUCCESS",
@@ -54,13 +56,13 @@ RESULTS = {
     1000483000: "VK_PIPELINE_BINARY_MISSING_KHR",
     -1000483000: "VK_ERROR_NOT_ENOUGH_SPACE_KHR",
 }
-"""VkResult, of the Vulkan registry 1.4.366. The package `vulkan` lacks some and has the sign of others wrong."""
+"""VkResult from the Vulkan registry 1.4.366. The package `vulkan` lacks some results and has the wrong sign for others."""
 
 
 class VulkanError(Exception):
-    """A call that did not give VK_SUCCESS: `name` is the result's (`VK_ERROR_DEVICE_LOST`), `result` its number, `call` the function's.
+    """A call that did not return VK_SUCCESS: `result` is the VkResult, `name` its name (`VK_ERROR_DEVICE_LOST`), `call` the function.
 
-    A positive result (VK_TIMEOUT, VK_NOT_READY, VK_INCOMPLETE) is one too: whoever expects it catches it.
+    Positive results (VK_TIMEOUT, VK_NOT_READY, VK_INCOMPLETE) raise it too: callers that expect them must catch it.
     """
 
     def __init__(self, result: int, call: str) -> None:
@@ -71,8 +73,8 @@ class VulkanError(Exception):
 
 
 class Unusable(Exception):
-    """There is nothing to talk to (no package, loader, driver or layer): why, and what to install."""
+    """No device is available (no package, loader, driver or layer); the message says why, and what to install."""
 
 
 class NotWritten(Exception):
-    """A picture could not be written: which, and why."""
+    """A picture could not be written; the message says which and why."""

@@ -1,7 +1,7 @@
-"""The child process that talks to a driver: `python -m msaa_lint.experiments.confirm.worker`, started by `session` alone.
+"""The child process that calls a driver: `python -m msaa_lint.experiments.confirm.worker`, started by `session` only.
 
-Requests come as JSON lines on standard input, answers go to a duplicate of standard output that no library knows; what a driver or a layer
-prints goes to standard error, which the parent reads and bounds. Each pass is announced before it is touched, so that the parent knows
+Requests arrive as JSON lines on standard input; answers go to a duplicate of standard output that no library knows. The output of drivers
+and layers goes to standard error, which the parent reads and limits. Each pass is announced before it is touched, so that the parent knows
 what killed this process.
 """
 
@@ -22,7 +22,7 @@ EXECUTE = "msaa_lint.experiments.confirm.execute"
 
 
 def main(arguments: list[str]) -> int:
-    """Answers requests until there are no more. The one argument is the limits, as JSON: `memory` bytes, `execute` the module that runs
+    """Answers requests until there are no more. The only argument is JSON: `memory`, a limit in bytes, and `execute`, the module that runs
     plans."""
     limits = json.loads(arguments[0]) if arguments else {}
     with os.fdopen(_private(), "wb", buffering=0) as answers:
@@ -31,7 +31,7 @@ def main(arguments: list[str]) -> int:
 
 
 def _private() -> int:
-    """A descriptor of what was standard output; standard output itself becomes standard error."""
+    """A descriptor of the original standard output; standard output itself is redirected to standard error."""
     own = os.dup(1)
     os.dup2(2, 1)
     os.set_inheritable(own, False)
@@ -39,7 +39,7 @@ def _private() -> int:
 
 
 def _limit(memory: int) -> None:
-    """No core files, and at most so much address space, where the system can."""
+    """Disables core files and limits the address space, where the system supports it."""
     try:
         import resource
     except ImportError:
@@ -74,7 +74,7 @@ def _serve(requests: IO[bytes], answers: IO[bytes], execute: str) -> int:
 
 
 def _answer(module: Any, session: Any, request: dict[str, Any], emit: Callable[[Event], None]) -> Any:
-    """Does what a request asks; the session, opened where it asks for that."""
+    """Handles a request and returns the session, which an `open` request creates."""
     if request["do"] == "devices":
         emit({"event": "devices", "devices": module.devices()})
     elif request["do"] == "open":
@@ -86,7 +86,7 @@ def _answer(module: Any, session: Any, request: dict[str, Any], emit: Callable[[
 
 
 def _alarm(seconds: float) -> None:
-    """Has the system end this process after so long, should the parent no longer be there to do it; 0 calls it off."""
+    """Lets the system end this process after `seconds` in case the parent is gone; 0 cancels the alarm."""
     if hasattr(signal, "setitimer"):
         signal.signal(signal.SIGALRM, signal.SIG_DFL)
         signal.setitimer(signal.ITIMER_REAL, seconds)
@@ -99,10 +99,10 @@ def _where(error: BaseException) -> str:
 
 
 if __name__ == "__main__":
-    # A parent that is gone is no news to anyone.
+    # Nobody needs to know that the parent is gone.
     try:
         code = main(sys.argv[1:])
     except BrokenPipeError:
         code = 0
-    # Without Python's own farewell: a driver's threads may hold its locks.
+    # Skip the interpreter's shutdown: a driver's threads may hold its locks.
     os._exit(code)

@@ -90,7 +90,7 @@ def test_signal_is_named_and_the_passes_beside_it_run(scratch: Path, name: str) 
 
 
 def test_sigkill_is_explained(scratch: Path) -> None:
-    assert ran("SIGKILL").passes[0].reason == "SIGKILL, as the system does when memory runs out"
+    assert ran("SIGKILL").passes[0].reason == "SIGKILL, which may mean that memory ran out"
 
 
 def test_last_words_are_told(scratch: Path) -> None:
@@ -101,7 +101,7 @@ def test_death_in_company_alone(scratch: Path) -> None:
     run = ran("draws", "dies in company", "draws")
     died = run.passes[1]
     assert (died.end, died.signal, died.created) == ("died", "SIGSEGV", True)
-    assert died.reason == "SIGSEGV (in company: alone it lives)"
+    assert died.reason == "SIGSEGV (only together with other passes, not alone)"
     assert run.passes[2].end == ""
 
 
@@ -147,7 +147,7 @@ def test_what_a_driver_starts_is_ended_with_it(scratch: Path) -> None:
 def test_garbage_on_the_pipe_ends_the_child(scratch: Path) -> None:
     run = ran("draws", "garbage", "draws")
     assert [run.passes[n].end for n in range(3)] == ["", "died", ""]
-    assert "wrote a line that is no JSON" in run.passes[1].reason
+    assert "wrote a line that is not JSON" in run.passes[1].reason
 
 
 def test_printing_is_no_answer_and_is_bounded(scratch: Path) -> None:
@@ -196,7 +196,7 @@ def test_pixels_come_where_all_went_through(scratch: Path) -> None:
     assert dict(dead.images) == {} and not Path(path).exists()
 
 
-@pytest.mark.parametrize(("device", "words"), [("dies", "the driver cannot be opened: SIGSEGV"), ("sleeps", "it took longer than 1 s")])
+@pytest.mark.parametrize(("device", "words"), [("dies", "cannot open the driver: SIGSEGV"), ("sleeps", "it took longer than 1 s")])
 def test_driver_that_dies_at_once_is_no_device(scratch: Path, monkeypatch: pytest.MonkeyPatch, device: str, words: str) -> None:
     monkeypatch.setattr("msaa_lint.experiments.confirm.session.OPENING", 1.0)
     with session(1.0, device=device) as opened, pytest.raises(Unusable, match=words):

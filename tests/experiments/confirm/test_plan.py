@@ -388,27 +388,27 @@ def test_depth_is_not_written_where_its_layout_is_for_reading(layout: str, write
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("attachments: [{}], subpasses: []", "no subpass of it is described"),
-        ("attachments: [{}]", "no subpass of it is described"),
+        ("attachments: [{}], subpasses: []", "none of its subpasses is described"),
+        ("attachments: [{}]", "none of its subpasses is described"),
         (
             "attachments: [{}], subpasses: [{colorAttachments: [0], pipelineBindPoint: COMPUTE}]",
-            "a subpass of it is not for graphics",
+            "one of its subpasses is not a graphics subpass",
         ),
         (
             "attachments: [{}], subpasses: [{colorAttachments: [0]}], dependencies: [{srcSubpass: EXTERNAL, dstSubpass: EXTERNAL}]",
-            "a dependency of it is from outside to outside",
+            "one of its dependencies has no subpass on either end",
         ),
         (
             "attachments: [{}], subpasses: [{colorAttachments: [0]}], dependencies: [{}]",
-            "a dependency of it is from outside to outside",
+            "one of its dependencies has no subpass on either end",
         ),
         (
             "attachments: [{samples: 4}, {samples: 1}], subpasses: [{flags: [CUSTOM_RESOLVE_EXT], colorAttachments: [0]}]",
-            "it resolves by a shader of its own, which is not driven here",
+            "it resolves with a shader of its own, which confirm does not support",
         ),
         (
             "attachments: [{samples: 4}, {samples: 1}], subpasses: [{flags: [SHADER_RESOLVE_QCOM], colorAttachments: [0]}]",
-            "it resolves by a shader of its own, which is not driven here",
+            "it resolves with a shader of its own, which confirm does not support",
         ),
         (
             f"attachments: [{', '.join(['{}'] * 257)}], subpasses: [{{colorAttachments: [0]}}]",
@@ -473,7 +473,7 @@ def test_a_pipeline_alone_is_a_frame_of_its_own() -> None:
     (pipeline,) = one(made).pipelines
     assert (one(made).kind, one(made).images) == (parts.FRAME, ())
     assert (pipeline.name, pipeline.subpass, pipeline.samples, pipeline.formats) == ("p", parts.NONE, 8, (RGBA8,))
-    assert made.defaults == ("what p draws to is not stated: R8G8B8A8_UNORM is taken",)
+    assert made.defaults == ("the attachments of p are not stated: R8G8B8A8_UNORM is assumed",)
 
 
 @pytest.mark.parametrize(
@@ -517,17 +517,17 @@ renderPasses:
     operations = [(each.load, each.store, each.initial) for each in one(made).attachments]
     assert operations == [(2, 0, UNDEFINED)] * 4
     expected = [
-        f"the format of main.{name} is not stated: {'R8G8B8A8_UNORM' if name in 'co' else 'D32_SFLOAT'} is taken" for name in "cods"
+        f"the format of main.{name} is not stated: {'R8G8B8A8_UNORM' if name in 'co' else 'D32_SFLOAT'} is assumed" for name in "cods"
     ]
-    expected += [f"the sample count of main.{name} is not stated: {4 if name in 'cd' else 1} is taken" for name in "cods"]
-    expected += ["no size is stated: 256x256 is taken"]
+    expected += [f"the sample count of main.{name} is not stated: {4 if name in 'cd' else 1} is assumed" for name in "cods"]
+    expected += ["no size is stated: 256x256 is assumed"]
     for name in "cods":
         expected += [
-            f"loadOp of renderPasses.main.attachments.{name} is not stated: DONT_CARE is taken",
-            f"storeOp of renderPasses.main.attachments.{name} is not stated: STORE is taken",
+            f"loadOp of renderPasses.main.attachments.{name} is not stated: DONT_CARE is assumed",
+            f"storeOp of renderPasses.main.attachments.{name} is not stated: STORE is assumed",
         ]
     resolve = "renderPasses.main.subpasses[0].depthStencilResolve"
-    expected += [f"depthResolveMode of {resolve} is not stated: SAMPLE_ZERO is taken"]
+    expected += [f"depthResolveMode of {resolve} is not stated: SAMPLE_ZERO is assumed"]
     assert list(made.defaults) == expected
 
 
@@ -556,12 +556,12 @@ commands:
         ("ms", RGBA16F, 8), ("one", RGBA16F, 1), ("beside", D32, 8), ("source", RGBA8, 4), ("target", RGBA8, 1),
     ]  # fmt: skip
     assert list(made.defaults) == [
-        "the format of ms is not stated: R16G16B16A16_SFLOAT is taken",
-        "the format of target is not stated: R8G8B8A8_UNORM is taken",
-        "the sample count of one is not stated: 1 is taken",
-        "the sample count of beside is not stated: 8 is taken",
-        "the sample count of source is not stated: 4 is taken",
-        "the sample count of target is not stated: 1 is taken",
+        "the format of ms is not stated: R16G16B16A16_SFLOAT is assumed",
+        "the format of target is not stated: R8G8B8A8_UNORM is assumed",
+        "the sample count of one is not stated: 1 is assumed",
+        "the sample count of beside is not stated: 8 is assumed",
+        "the sample count of source is not stated: 4 is assumed",
+        "the sample count of target is not stated: 1 is assumed",
     ]
 
 
@@ -583,7 +583,7 @@ def test_operations_that_are_not_stated_are_said(image_of: str, operations: str,
         f"frame: {{width: 8, height: 8}}\nimages: {{i: {{{image_of}, samples: 4}}}}\n"
         f"renderPasses: {{p: {{attachments: {{a: {{image: i, {operations}}}}}, subpasses: [{{{slot}}}]}}}}\n"
     )
-    said = {word.split(" of ")[0]: word.removesuffix(" is taken").rpartition(": ")[2] for word in made.defaults}
+    said = {word.split(" of ")[0]: word.removesuffix(" is assumed").rpartition(": ")[2] for word in made.defaults}
     assert said == taken
     (attachment,) = one(made).attachments
     got = {
@@ -613,7 +613,7 @@ def test_the_size_is_the_frames_then_the_largest_stated() -> None:
         made = planned(text + passes)
         target = image(made, "p.c")
         assert (target.width, target.height) == size, text
-        assert ("no size is stated: 256x256 is taken" in made.defaults) == (size == (256, 256))
+        assert ("no size is stated: 256x256 is assumed" in made.defaults) == (size == (256, 256))
 
 
 def test_an_area_states_a_size() -> None:
@@ -630,7 +630,7 @@ commands:
     other = "images: {b: {format: R8G8B8A8_UNORM, samples: 1}, a: {format: R8G8B8A8_UNORM, samples: 1}}\n"
     both = planned(other + "commands: [{beginRendering: {renderArea: {width: 64, height: 48}, colorAttachments: [{image: a}]}}]\n")
     assert [(each.width, each.height) for each in both.images] == [(256, 256), (64, 48)]
-    assert "no size is stated: 256x256 is taken" in both.defaults
+    assert "no size is stated: 256x256 is assumed" in both.defaults
 
 
 def test_modes_and_counts_of_resolves_that_are_not_stated_are_said() -> None:
@@ -644,7 +644,7 @@ renderPasses:
     subpasses: [{depthStencilAttachment: 0, depthStencilResolve: {attachment: 1, stencilResolveMode: NONE}}]
 """
     )
-    assert len(words(depth, "depthResolveMode", "SAMPLE_ZERO is taken")) == 1
+    assert len(words(depth, "depthResolveMode", "SAMPLE_ZERO is assumed")) == 1
     assert words(depth, "stencilResolveMode") == []
     single = planned(
         """\
@@ -656,7 +656,7 @@ renderPasses:
     subpasses: [{colorAttachments: [c], multisampledRenderToSingleSampled: {multisampledRenderToSingleSampledEnable: true}}]
 """
     )
-    assert len(words(single, "rasterizationSamples", "4 is taken")) == 1
+    assert len(words(single, "rasterizationSamples", "4 is assumed")) == 1
 
 
 # Framebuffers and areas
@@ -685,8 +685,8 @@ commands:
     assert each.framebuffers == (Framebuffer((0, 1), 16, 48, 1), Framebuffer((1, 0), 32, 64, 1), Framebuffer((1, 0), 32, 64, 1))
     assert [(step.framebuffer, step.area) for step in begins(made)] == [(0, (8, 8, 8, 4)), (1, (0, 63, 4, 1)), (2, (0, 0, 32, 64))]
     assert made.defaults == (
-        "p alternates between framebuffers: the first is taken",
-        "the area of p goes beyond its images: it is cut there",
+        "p alternates between framebuffers: the first one is used",
+        "the render area of p exceeds its images and is clipped to them",
     )
 
 
@@ -745,12 +745,12 @@ def test_a_dynamic_rendering_is_planned_whole() -> None:
     assert made.steps == (Step("begin", 0, 0, (8, 4, 16, 16), (PassCommand("draw", 0, 0, backdrop=True, covers=True),)),)
     begin = "commands[0].beginRendering"
     assert list(made.defaults) == [
-        f"loadOp of {begin}.colorAttachments[0] is not stated: DONT_CARE is taken",
-        f"storeOp of {begin}.colorAttachments[0] is not stated: STORE is taken",
-        f"resolveMode of {begin}.colorAttachments[0] is not stated: AVERAGE is taken",
-        f"storeOp of {begin}.colorAttachments[2] is not stated: DONT_CARE is taken",
-        f"resolveMode of {begin}.colorAttachments[2] is not stated: SAMPLE_ZERO is taken",
-        f"resolveMode of {begin}.depthAttachment is not stated: SAMPLE_ZERO is taken",
+        f"loadOp of {begin}.colorAttachments[0] is not stated: DONT_CARE is assumed",
+        f"storeOp of {begin}.colorAttachments[0] is not stated: STORE is assumed",
+        f"resolveMode of {begin}.colorAttachments[0] is not stated: AVERAGE is assumed",
+        f"storeOp of {begin}.colorAttachments[2] is not stated: DONT_CARE is assumed",
+        f"resolveMode of {begin}.colorAttachments[2] is not stated: SAMPLE_ZERO is assumed",
+        f"resolveMode of {begin}.depthAttachment is not stated: SAMPLE_ZERO is assumed",
     ]
 
 
@@ -807,7 +807,7 @@ commands:
       stencilAttachment: {image: s, loadOp: CLEAR, storeOp: STORE}
   - endRendering
 """
-    assert one(planned(text)).refused == "its depth and its stencil attachment are two images"
+    assert one(planned(text)).refused == "its depth and stencil attachments are different images"
     assert one(planned(text.replace("{image: s,", "{image: d,").replace("D32_SFLOAT", "D24_UNORM_S8_UINT"))).refused == ""
 
 
@@ -922,16 +922,16 @@ def test_pipelines_are_as_described(tmp_path: Path) -> None:
     )  # fmt: skip
     assert made.reversed and made.hdr
     assert list(made.defaults) == [
-        "the vertex shader of one is not there: a built-in one is taken",
-        "the vertex input of one is left out: the built-in shader makes its own vertices",
-        "the dynamic state LINE_WIDTH of one is left out",
+        "the vertex shader of one does not exist: a built-in one is used",
+        "the vertex input of one is ignored: the built-in shader has its own vertices",
+        "the dynamic state LINE_WIDTH of one is ignored",
     ]
 
 
 def test_a_shader_is_looked_for_beside_the_description(tmp_path: Path) -> None:
     made = planned(PIPELINES, file=str(tmp_path / "frame.msaa.yaml"))
     assert one(made).pipelines[0].stages == ()
-    assert "the fragment shader of one is not there: a built-in one is taken" in made.defaults
+    assert "the fragment shader of one does not exist: a built-in one is used" in made.defaults
 
 
 def test_a_blend_that_is_left_open_is_the_usual_one() -> None:
@@ -1068,9 +1068,9 @@ def test_commands_are_recorded_in_their_order() -> None:
     )
     assert (p.images, q.images) == ((a, b, c), (a, b, c))
     assert list(made.defaults) == [
-        "writeImage outside of a pass is left out",
-        "readImage outside of a pass is left out",
-        "a barrier within a pass is left out",
+        "writeImage outside a pass is ignored",
+        "readImage outside a pass is ignored",
+        "a barrier within a pass is ignored",
     ]
 
 
@@ -1138,7 +1138,7 @@ def test_commands_beyond_a_limit_are_left_out() -> None:
     assert (len(few.steps), few.defaults) == (MAX_STEPS, ())
     many = planned(f"{images}commands: [{', '.join(['{present: {image: a}}'] * (MAX_STEPS + 100))}]\n")
     assert len(many.steps) <= MAX_STEPS + 1
-    assert many.defaults == ("commands after the first 4096 are left out",)
+    assert many.defaults == ("commands after the first 4096 are ignored",)
 
 
 @pytest.mark.parametrize(

@@ -304,8 +304,8 @@ def test_average_of_depth_is_found_to_be_sample_zero(session: Session) -> None:
     assert (Fraction(found.given), Fraction(found.expected)) == (samples[0], mean(samples)) == (Fraction(1, 16), Fraction(49, 64))
     assert found[:5] == (126, 4, RENDER_PASS, DEPTH, AVERAGE)
     assert found.text == (
-        "averaging the depth of D32_SFLOAT at 4 samples in a render pass gives 0.0625 at (9, 8), which is sample 0; 0.765625 is due: "
-        "the driver's doing"
+        "averaging the depth of D32_SFLOAT at 4 samples in a render pass gives 0.0625 at (9, 8), which is sample 0; expected 0.765625: "
+        "this is up to the driver"
     )
 
 
@@ -389,22 +389,22 @@ def test_zeros_in_place_of_what_was_resolved_are_seen(session: Session) -> None:
     assert [each.partition(" at 4 samples in ")[2].partition(" gives 0 in ")[0] for each in by_way] == [
         "a render pass", "vkCmdResolveImage", "dynamic rendering"
     ]  # fmt: skip
-    assert by_way[1].endswith("the driver's doing, as Vulkan leaves to it how this command resolves")
-    assert by_way[0].endswith("is due: the driver's doing")
+    assert by_way[1].endswith("this is up to the driver, because Vulkan does not specify how this command resolves")
+    assert by_way[0].endswith(": this is up to the driver")
     assert len(words(frame("R16G16B16A16_SFLOAT"), ["1"])) == 1
     integers = words(frame("R8G8B8A8_UINT", mode="SAMPLE_ZERO"), ["0", "1", "2"])
     assert [" at 4 samples in a render pass gives 0" in integers[0], len(integers)] == [True, 3]
     stencil = words(depth_frame("D24_UNORM_S8_UINT", "SAMPLE_ZERO", "SAMPLE_ZERO"), ["0:stencil"])
     (of_stencil,) = stencil
     assert of_stencil.startswith("taking sample 0 of the stencil of D24_UNORM_S8_UINT at 4 samples in a render pass gives 0 at ")
-    assert of_stencil.endswith("; 1 is due: the driver's doing")
+    assert of_stencil.endswith("; expected 1: this is up to the driver")
 
 
 def test_one_wrong_integer_is_seen(session: Session) -> None:
     spied: Any = Spied(session, {"0": lambda data: data[:-4] + b"\xfe\xfd\xfc\xfb"})
     (found,) = deviations(spied, planned(frame("R8G8B8A8_UINT", mode="SAMPLE_ZERO")), session.open(), {})
     assert (found.x, found.y, found.aspect, found.mode, found.given, found.expected) == (31, 31, COLOR, ZERO, 254, 3)
-    assert found.text.startswith("taking sample 0 of R8G8B8A8_UINT at 4 samples in a render pass gives 254 in R at (31, 31); 3 is due")
+    assert found.text.startswith("taking sample 0 of R8G8B8A8_UINT at 4 samples in a render pass gives 254 in R at (31, 31); expected 3")
 
 
 class Dying:
@@ -460,7 +460,10 @@ def test_a_wrong_average_is_told() -> None:
     assert told("R8_UNORM", AVERAGE, samples, [63, 128]) is None
     found = told("R8_UNORM", AVERAGE, samples, [63, 130])
     assert found is not None and (found.x, found.y, found.given, found.expected) == (1, 0, 130 / 255, 0.5)
-    assert found.text == "averaging R8_UNORM at 4 samples in a render pass gives 0.509804 in R at (1, 0); 0.5 is due: the driver's doing"
+    assert (
+        found.text
+        == "averaging R8_UNORM at 4 samples in a render pass gives 0.509804 in R at (1, 0); expected 0.5: this is up to the driver"
+    )
     # 63.75: 64 and 63 are beside it, 65 is further off than one, and so is 62.
     assert told("R8_UNORM", AVERAGE, samples, [65, 127]) is not None and told("R8_UNORM", AVERAGE, samples, [62, 127]) is not None
 
@@ -478,8 +481,8 @@ def test_an_average_of_encoded_srgb_is_told() -> None:
     assert told("R8_SRGB", AVERAGE, samples, [187, 11]) is None
     found = told("R8_SRGB", AVERAGE, samples, [128, 10])
     assert found is not None and found.text == (
-        "averaging R8_SRGB at 4 samples in a render pass gives 0.501961 as stored in R at (0, 0), which is the average of what is stored, "
-        "not of its light; 0.735357 is due: the driver's doing, as Vulkan does not insist on linear light"
+        "averaging R8_SRGB at 4 samples in a render pass gives 0.501961 as stored in R at (0, 0), which is the average of the "
+        "encoded values instead of the light; expected 0.735357: this is up to the driver, because Vulkan does not require linear light"
     )
 
 
@@ -488,7 +491,7 @@ def test_an_overflow_of_half_floats_is_told() -> None:
     assert told("R16_SFLOAT", AVERAGE, samples, [65504.0]) is None
     found = told("R16_SFLOAT", AVERAGE, samples, [math.inf])
     assert found is not None and found.text.startswith(
-        "averaging R16_SFLOAT at 4 samples in a render pass gives inf in R at (0, 0); 65504 is due"
+        "averaging R16_SFLOAT at 4 samples in a render pass gives inf in R at (0, 0); expected 65504"
     )
     assert told("R16_SFLOAT", AVERAGE, [[20000.0] * 4], [16376.0]) is not None
 
@@ -550,10 +553,10 @@ def test_least_and_greatest_swapped_are_told() -> None:
     one, other = told("D32_SFLOAT", LEAST, samples, greatest), told("D32_SFLOAT", GREATEST, samples, least)
     assert one is not None and other is not None
     assert one.text == (
-        "taking the least of the depth of D32_SFLOAT at 4 samples in a render pass gives 1 at (0, 0), which is the greatest of the "
-        "samples; 0.25 is due: the driver's doing"
+        "taking the minimum of the depth of D32_SFLOAT at 4 samples in a render pass gives 1 at (0, 0), which is the maximum of the "
+        "samples; expected 0.25: this is up to the driver"
     )
-    assert "taking the greatest of the depth" in other.text and "which is the least of the samples; 1 is due" in other.text
+    assert "taking the maximum of the depth" in other.text and "which is the minimum of the samples; expected 1" in other.text
 
 
 def test_sample_zero_is_that_very_sample() -> None:
@@ -572,7 +575,8 @@ def test_integers_by_a_pass_and_by_a_command() -> None:
     assert told("R8_UINT", ZERO, [[4.0, 8.0, 8.0, 8.0]], [4]) is None
     found = told("R8_UINT", ZERO, [[4.0, 8.0, 8.0, 9.0], [4.0, 4.0, 4.0, 5.0], [7.0] * 4], [9, 5, 7])
     assert found is not None and found.text == (
-        "taking sample 0 of R8_UINT at 4 samples in a render pass gives 9 in R at (0, 0), which is sample 3; 4 is due: the driver's doing"
+        "taking sample 0 of R8_UINT at 4 samples in a render pass gives 9 in R at (0, 0), which is sample 3; "
+        "expected 4: this is up to the driver"
     )
     assert told("R8_UINT", ZERO, [[4.0, 8.0, 8.0, 8.0]], [8], COMMAND) is None
     assert told("R8_UINT", ZERO, [[4.0, 8.0, 8.0, 8.0]], [7], COMMAND) is not None
@@ -582,8 +586,8 @@ def test_stencil() -> None:
     assert told("S8_UINT", GREATEST, [[0.0, 1.0], [1.0, 1.0]], [1, 1]) is None
     found = told("S8_UINT", GREATEST, [[0.0, 1.0], [1.0, 1.0]], [0, 1])
     assert found is not None and found.text == (
-        "taking the greatest of the stencil of S8_UINT at 2 samples in a render pass gives 0 at (0, 0), which is sample 0; 1 is due: the "
-        "driver's doing"
+        "taking the maximum of the stencil of S8_UINT at 2 samples in a render pass gives 0 at (0, 0), which is sample 0; expected 1: "
+        "this is up to the driver"
     )
 
 

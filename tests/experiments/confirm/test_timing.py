@@ -64,10 +64,10 @@ def of(middle: float, spread: float = 0.01, n: int = 15) -> Timing:
         (of(8.0), False, True, "20% less time"),
         (of(12.5), False, True, "25% more time"),
         (of(9.5), False, True, "5% less time"),
-        (of(9.5), True, False, "no difference: less than 10 % is nothing on a software driver"),
+        (of(9.5), True, False, "no difference: less than 10 % is not significant on a software driver"),
         (of(8.0), True, True, "20% less time"),
         (of(8.0, 0.5), False, False, "no difference: the intervals overlap"),
-        (of(8.0, n=5), False, False, "no difference can be told of fewer than 6 repeats"),
+        (of(8.0, n=5), False, False, "fewer than 6 repeats cannot show a difference"),
     ],
 )
 def test_difference(fixed: Timing, software: bool, real: bool, words: str) -> None:
@@ -95,7 +95,7 @@ def test_rounds_alternate_and_give_each_version_all_its_repeats(repeats: int) ->
 def test_what_a_device_cannot_show() -> None:
     assert cannot_show({"type": "CPU"}, None).startswith("a software driver has neither tiles")
     assert cannot_show({"type": "DISCRETE_GPU"}, False).startswith("an immediate-mode GPU has no tiles")
-    assert cannot_show({"type": "INTEGRATED_GPU"}, None).startswith("whether this device renders by tiles is not known")
+    assert cannot_show({"type": "INTEGRATED_GPU"}, None).startswith("it is unknown whether this device renders by tiles")
     assert cannot_show({"type": "INTEGRATED_GPU"}, True) == ""
     assert is_software({"type": "VK_PHYSICAL_DEVICE_TYPE_CPU"}) and not is_software({})
 

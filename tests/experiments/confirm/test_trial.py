@@ -171,7 +171,7 @@ def test_times_of_both_versions_with_the_model_beside_them(tmp_path: Path) -> No
     data, text = shown(run)
     time = data["passes"][0]["time_ms"]
     assert (time["as_written"]["n"], time["fixed"]["n"], time["as_written"]["source"]) == (12, 12, "timestamp")
-    assert time["difference"]["says"] == "no difference: less than 10 % is nothing on a software driver"
+    assert time["difference"]["says"] == "no difference: less than 10 % is not significant on a software driver"
     assert data["cannot_show"].startswith("a software driver has neither tiles nor external memory")
     assert data["passes"][0]["model"]["as_written"].keys() == {"read_mb_per_s", "write_mb_per_s", "memory_mib", "milliwatts"}
     assert "What this device cannot show" in text and "cost model, MB/s" in text
@@ -187,8 +187,8 @@ def test_pictures_are_written(tmp_path: Path) -> None:
 def test_device_that_dies_at_once_cannot_be_used(tmp_path: Path) -> None:
     run = tried(tmp_path, "draws", device="dies")
     data, text = shown(run)
-    assert data["device"] is None and data["unusable"] == "the driver cannot be opened: SIGSEGV"
-    assert text == "dies: cannot be used: the driver cannot be opened: SIGSEGV\n"
+    assert data["device"] is None and data["unusable"] == "cannot open the driver: SIGSEGV"
+    assert text == "dies: cannot be used: cannot open the driver: SIGSEGV\n"
     assert exit_code([run], False) == 2
 
 

@@ -1,4 +1,4 @@
-"""The built-in SPIR-V, and the one change that is made to it: fragment shaders keep the outputs that their attachments need."""
+"""The built-in SPIR-V, with fragment shaders reduced to the outputs that their attachments need."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from msaa_lint.frame.spirv.words import HEADER, OP_DECORATE, OP_ENTRY_POINT, OP_
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 OUTPUTS = {"float": 0, "sint": 8, "uint": 16}
-"""The kinds of outputs, and the location of the first of the eight that shaders have of each."""
+"""The kinds of outputs, and the location of the first of the eight outputs of each kind."""
 
 SLOTS = 8
 
@@ -21,15 +21,15 @@ OUTPUT, INPUT = 3, 1
 
 
 def read(shader: str, outputs: Sequence[str] | None = None) -> bytes:
-    """The SPIR-V of a built-in shader (`scene.frag`). `outputs` are the kinds of outputs by the number of their attachment, empty for none;
-    without it the shader is as it is."""
+    """The SPIR-V of a built-in shader (`scene.frag`). `outputs` are the kinds of outputs by attachment, empty for none; None leaves the
+    shader unchanged."""
     with open(os.path.join(FOLDER, f"{shader}.spv"), "rb") as file:
         code = file.read()
     return code if outputs is None else with_outputs(code, outputs)
 
 
 def with_outputs(code: bytes, outputs: Sequence[str]) -> bytes:
-    """SPIR-V with the outputs that are asked for, at the locations of their attachments, and without the others."""
+    """SPIR-V with the requested outputs at the locations of their attachments, and without the others."""
     words = words_of(code)
     written = {i[2] for op, i in instructions(words) if op == OP_VARIABLE and i[3] == OUTPUT}
     if len(outputs) > SLOTS:
@@ -50,14 +50,14 @@ def with_outputs(code: bytes, outputs: Sequence[str]) -> bytes:
 
 
 def _located(words: array.array[int]) -> Iterator[array.array[int]]:
-    """The decorations that give locations."""
+    """The location decorations."""
     return (i for op, i in instructions(words) if op == OP_DECORATE and i[2] == DECORATION_LOCATION and len(i) > 3)
 
 
 def _without(entry: array.array[int], dropped: set[int]) -> array.array[int]:
     """An entry point without some variables of its interface."""
     name = 3
-    # The name is a text that ends with a zero byte.
+    # The name is a string that ends with a zero byte.
     while name < len(entry) and all(entry[name].to_bytes(4, sys.byteorder)):
         name += 1
     if name == len(entry):
@@ -68,7 +68,7 @@ def _without(entry: array.array[int], dropped: set[int]) -> array.array[int]:
 
 
 def needs(code: bytes) -> frozenset[str]:
-    """What SPIR-V needs from outside: `descriptors`, `inputs` by location. ValueError where it is no SPIR-V."""
+    """The external inputs of SPIR-V: `descriptors`, and `inputs` by location. ValueError for data that is not SPIR-V."""
     words = words_of(code)
     read_by = {i[2] for op, i in instructions(words) if op == OP_VARIABLE and i[3] == INPUT}
     found = set()
