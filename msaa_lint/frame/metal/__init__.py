@@ -1,1 +1,1 @@
-"""Metal's words: its enumerants, pixel formats and GPU families, and what Vulkan has of the same meaning."""
+"""Metal: its enumerants, pixel formats and GPU families, and their Vulkan counterparts."""

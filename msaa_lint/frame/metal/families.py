@@ -1,4 +1,4 @@
-"""What the GPUs of Metal's families offer.
+"""What the GPUs of Metal's families support.
 
 From Apple's documentation of supportsTextureSampleCount (1 and 4 on every device, 2 on every iPhone, iPad and Apple TV and some Macs, 8 on
 some Macs alone) and of MTLStorageMode.memoryless, with the families of the feature set tables: those up to apple6 are in no Mac.
@@ -11,30 +11,30 @@ from functools import lru_cache
 from msaa_lint.frame.devices import DeviceProfile
 
 EVERYWHERE = (1, 4)
-"""The sample counts of every device."""
+"""The sample counts that every device supports."""
 
 SOMEWHERE = (1, 2, 4, 8)
-"""Those that some device offers."""
+"""The sample counts that some devices support."""
 
 _LAST_IN_NO_MAC = 6
 _TILES = {7: "apple-g13", 8: "apple-g13"}
 
 
 def _apple(family: str | None) -> int:
-    """The number of a family of Apple's own GPUs; 0 of any other, which Macs with other GPUs have too."""
+    """The number of a family of Apple GPUs; 0 for any other family, which also covers Macs with other GPUs."""
     number = (family or "").removeprefix("apple")
     return int(number) if number.isdecimal() else 0
 
 
 def counts(family: str | None, stated: tuple[int, ...] | None) -> tuple[int, ...]:
-    """The sample counts that are certain to be offered: those that supportsTextureSampleCount is stated to allow, else the family's."""
+    """The sample counts that are certainly supported: those stated for supportsTextureSampleCount, else those of the family."""
     if stated is not None:
         return tuple(sorted({*stated}))
     return (1, 2, 4) if _apple(family) else EVERYWHERE
 
 
 def offers_count(count: int, family: str | None, stated: tuple[int, ...] | None) -> bool | None:
-    """Whether a device of the family offers a sample count; None where some do."""
+    """Whether devices of the family support a sample count; None if only some do."""
     if count in counts(family, stated):
         return True
     if stated is not None or count not in SOMEWHERE or (count == 8 and 0 < _apple(family) <= _LAST_IN_NO_MAC):
@@ -43,14 +43,14 @@ def offers_count(count: int, family: str | None, stated: tuple[int, ...] | None)
 
 
 def offers_memoryless(family: str | None) -> bool | None:
-    """Whether a device of the family has memoryless textures: from apple2 on; None of families that Macs with other GPUs have too."""
+    """Whether devices of the family have memoryless textures (apple2 and later); None for families that cover Macs with other GPUs."""
     number = _apple(family)
     return number >= 2 if number else None
 
 
 @lru_cache(maxsize=64)
 def profile(family: str | None, stated: tuple[int, ...] | None) -> DeviceProfile | None:
-    """What all GPUs of a family of Apple's offer, as a class of devices; None of other families."""
+    """What all GPUs of an Apple family support, as a class of devices; None for other families."""
     from msaa_lint.frame.devices.tile_models import MODELS
 
     number = _apple(family)

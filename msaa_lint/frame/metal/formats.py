@@ -1,4 +1,4 @@
-"""MTLPixelFormat: each format, and the VkFormat of the same bits; empty where Vulkan has none.
+"""MTLPixelFormat: each format, and the VkFormat with the same bits; empty if Vulkan has none.
 
 Metal names components from the least significant bit of a packed format up, Vulkan's `PACK` names from the most significant one down.
 """
@@ -18,7 +18,7 @@ _KINDS: dict[int, tuple[str, ...]] = {
 
 
 def _plain() -> dict[str, str]:
-    """`rgba8Unorm` and its like: components of one width."""
+    """Formats such as `rgba8Unorm`, whose components have one width."""
     named = [(letters, bits, kind) for letters in ("r", "rg", "rgba") for bits, kinds in _KINDS.items() for kind in kinds]
     named += [("bgra", 8, "Unorm"), ("bgra", 8, "Unorm_srgb")]
     components = {letters: [letter.upper() for letter in letters] for letters, _, _ in named}

@@ -1,4 +1,4 @@
-"""The enumerants of Metal as Swift spells them; `.store`, `MTLStoreAction.store` and Objective-C's `MTLStoreActionStore` are the same.
+"""Metal's enumerants in Swift's spelling; `.store`, `MTLStoreAction.store` and Objective-C's `MTLStoreActionStore` are the same.
 
 From Apple's documentation of MTLPixelFormat, MTLTextureType, MTLTextureUsage, MTLStorageMode, MTLLoadAction, MTLStoreAction,
 MTLMultisampleDepthResolveFilter, MTLMultisampleStencilResolveFilter and MTLGPUFamily.
@@ -46,10 +46,10 @@ ENUMS: dict[str, tuple[str, ...]] = {
         "metal4",
     ),
 }
-"""By enum: its enumerants. Those of an option set that have no bits (`unknown`) come first."""
+"""The enumerants of each enum. In an option set, those without bits (`unknown`) come first."""
 
 MULTISAMPLE_TYPES = frozenset({"type2DMultisample", "type2DMultisampleArray"})
-"""The texture types that have more than one sample a texel; all others have one."""
+"""The texture types with more than one sample per texel; all others have one."""
 
 MULTISAMPLE_RESOLVES = frozenset({"multisampleResolve", "storeAndMultisampleResolve"})
 """The store actions that resolve. The first leaves the samples undefined."""
@@ -62,17 +62,17 @@ _UPPER = {"srgb": "sRGB", "xr": "XR", "stencil8": "Stencil8", "ldr": "LDR", "hdr
 
 
 def is_metal(enum: str) -> bool:
-    """Whether an enum of that name is Metal's."""
+    """Whether an enum is one of Metal's, by its name."""
     return enum.startswith("MTL")
 
 
 def parse(enum: str, text: str) -> str | None:
-    """The Swift name of an enumerant in any of its spellings; None where the text is none of `enum`. Names are told by case."""
+    """The Swift name of an enumerant in any of its spellings; None if `enum` does not have it. Names are case-sensitive."""
     return _spellings(enum).get(text)
 
 
 def parse_options(enum: str, text: str) -> list[str]:
-    """The Swift names in `A | B`, each once, in their order. ValueError, with the part that is unknown as its text, where one is."""
+    """The Swift names in `A | B`, each once, in their order. Raises ValueError with the unknown part as its text."""
     found: dict[str, None] = {}
     for part in text.split("|"):
         name = parse(enum, part.strip())
@@ -83,9 +83,9 @@ def parse_options(enum: str, text: str) -> list[str]:
 
 
 def nearest_to(enum: str, text: str) -> str | None:
-    """The Swift name that was most likely meant by a word that is none of `enum`'s; None where nothing is near."""
+    """The Swift name that was most likely meant by a word that `enum` does not have; None if none is near."""
     word = text.removeprefix(enum).lstrip(".")
-    # What Vulkan calls the same is more than a slip of letters away.
+    # Vulkan's names are too different to be found as typos.
     return _OTHERS.get((enum, word.lower())) or nearest(word, ENUMS[enum])
 
 
@@ -104,7 +104,7 @@ _OTHERS = {
 
 
 def spelled(enum: str, name: str, like: str) -> str:
-    """An enumerant in the form of another one's spelling: with a leading `.`, with the type's name, as Objective-C has it, or bare."""
+    """An enumerant spelled like another one: with a leading `.`, with the type's name, as in Objective-C, or bare."""
     if like.startswith("."):
         return f".{name}"
     match = re.match(r"MTL[A-Za-z]+\.", like)
@@ -114,7 +114,7 @@ def spelled(enum: str, name: str, like: str) -> str:
 
 
 def objective_c(enum: str, name: str) -> str:
-    """Objective-C's name of an enumerant: `MTLPixelFormatBGRA8Unorm_sRGB` of `bgra8Unorm_srgb`."""
+    """The Objective-C name of an enumerant: `MTLPixelFormatBGRA8Unorm_sRGB` for `bgra8Unorm_srgb`."""
     if enum == "MTLTextureType":
         return f"{enum}{name.removeprefix('type')}"
     if enum != "MTLPixelFormat":
@@ -131,7 +131,7 @@ def objective_c(enum: str, name: str) -> str:
 
 
 def _block_part(part: str) -> str:
-    """A part of a compressed format's name: `RGBAUnorm` of `rgbaUnorm`, `2BPP` of `2bpp`, `4x4` of itself."""
+    """A part of a compressed format's name: `RGBAUnorm` for `rgbaUnorm`, `2BPP` for `2bpp`, `4x4` unchanged."""
     match = re.match(r"rgba|rgb|rg|r(?=\d|[A-Z])", part)
     if match is not None:
         return part[: match.end()].upper() + part[match.end() :].replace("a1", "A1")

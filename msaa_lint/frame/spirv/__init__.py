@@ -1,4 +1,4 @@
-"""SPIR-V: what a shader says of multisampling by itself. Hand-written, bounded, and made for bytes of anyone.
+"""SPIR-V: what a shader does with multisampling. The analysis is bounded and safe for untrusted bytes.
 
 `reflect.reflect` is all that others need; `words` is the walk over instructions that `confirm` uses too.
 """

@@ -1,4 +1,4 @@
-"""Arithmetic on samples: sums, shares, the least and the greatest of them. Anything else is a use of theirs that is not followed."""
+"""Arithmetic on samples: sums, fractions, minima and maxima. Any other operation counts as a use that is not followed."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from .state import State, keyed, met
 from .values import Opaque, Pointer, Sum, Value, combined, computed, extreme, plain, scaled, telling
 
 _EXTREMES = {37: "MIN", 38: "MIN", 39: "MIN", 79: "MIN", 40: "MAX", 41: "MAX", 42: "MAX", 80: "MAX"}
-"""Of GLSL.std.450."""
+"""Instructions of GLSL.std.450."""
 
 _PURE = frozenset({*range(77, 85), *range(109, 125), *range(126, 153), *range(154, 192), *range(194, 206)})
-"""Instructions that make the same of the same."""
+"""Instructions with equal results for equal operands."""
 
 
 def _has_numbers(value: Value) -> bool:
@@ -20,10 +20,10 @@ def _has_numbers(value: Value) -> bool:
 
 
 class Arithmetic(State):
-    """The instructions that make numbers of numbers."""
+    """The instructions that compute numbers from numbers."""
 
     def _other(self, number: int, at: int, end: int) -> None:
-        """An instruction that is not followed: what it takes is used, what it makes is unknown."""
+        """An instruction that is not followed: its operands count as used, its result is unknown."""
         words = self.words
         result = end > at + 2 and words[at + 1] in self.module.types
         operands = [self._value(each) for each in words[at + (3 if result else 1) : end]]
@@ -45,7 +45,7 @@ class Arithmetic(State):
             self._assign(words[at + 2], Opaque())
 
     def _bits(self, identity: int) -> int:
-        """The width of an integer operand: 32 but for constants of another."""
+        """The width of an integer operand: 32 except for constants with another width."""
         return self.constants.width(identity)
 
     def _arithmetic(self, at: int, end: int) -> None:

@@ -1,4 +1,4 @@
-"""The functions that an entry point reaches: their blocks, what they refer to, where they write. Nothing is followed yet."""
+"""The functions that an entry point reaches: their blocks, the variables they refer to, and where they write."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from .module import Function, Module
 from .words import SpirvError
 
 ANYWHERE = 0
-"""For a variable: it is not known which is written."""
+"""In place of a variable: the one that is written is unknown."""
 
 GLOBALS = -1
-"""For a variable: all that are declared outside of functions, by a call."""
+"""In place of a variable: a call writes any of those declared outside of functions."""
 
 
 class Block(NamedTuple):
-    """A block: its first instruction, and what its merge instruction names (None where it has none)."""
+    """A block: its first instruction, and the labels that its merge instruction names (None if it has none)."""
 
     start: int
     merge: int | None
@@ -26,28 +26,28 @@ class Block(NamedTuple):
 
 
 class Body:
-    """A function that is reached. `writes` are pairs of places and the variables written there, in the order of places."""
+    """A reached function. `writes` has pairs of a place and the variables written there, in the order of places."""
 
     __slots__ = ("blocks", "calls", "discards", "fetches", "first", "function", "locals", "uses", "vectors", "writes")
 
     def __init__(self, function: Function) -> None:
         self.function = function
         self.first = 0
-        """The label of its first block."""
+        """The label of the first block."""
         self.blocks: dict[int, Block] = {}
         self.calls: list[tuple[int, int]] = []
         self.fetches: list[int] = []
-        """Where samples are fetched, or a function is called that does."""
+        """The places where samples are fetched, or a function that fetches them is called."""
         self.writes: list[tuple[int, int]] = []
         self.uses: dict[int, set[int | None]] = {}
-        """By pointer: the members that are referred to, by the ids of their indices; None for all."""
+        """By pointer: the members that are referred to, as the ids of their indices; None for all of them."""
         self.locals: set[int] = set()
         self.vectors: dict[int, int] = {}
-        """The lengths of vectors that its instructions make."""
+        """The lengths of the vectors that the instructions create."""
         self.discards = False
 
     def written(self, start: int, end: int) -> set[int]:
-        """The variables that are written from one place to another."""
+        """The variables that are written between two places."""
         first = bisect_left(self.writes, (start, -2))
         found = set()
         for at, root in self.writes[first:]:
@@ -57,7 +57,7 @@ class Body:
         return found
 
     def fetching(self, start: int, end: int) -> bool:
-        """Whether something is fetched, or called, from one place to another."""
+        """Whether samples are fetched, directly or by a call, between two places."""
         first = bisect_left(self.fetches, start)
         return first < len(self.fetches) and self.fetches[first] < end
 
@@ -70,20 +70,20 @@ _LEAST = {
     op.SELECTION_MERGE: 3, op.LABEL: 2, op.BRANCH: 2, op.BRANCH_CONDITIONAL: 4, op.SWITCH: 3, op.RETURN_VALUE: 2,
     115: 4, 127: 4, 129: 5, 131: 5, 133: 5, 136: 5, 142: 5, 169: 6,
 }  # fmt: skip
-"""The words that instructions of functions have at least."""
+"""The minimum number of words of instructions in functions."""
 
 _NOTED = frozenset({
     op.LABEL, op.LOAD, op.STORE, op.ACCESS_CHAIN, op.IN_BOUNDS_ACCESS_CHAIN, op.PTR_ACCESS_CHAIN, op.SELECTION_MERGE, op.LOOP_MERGE,
     op.FUNCTION_CALL, op.VARIABLE, op.EXT_INST, op.COPY_OBJECT, op.COPY_MEMORY, op.IMAGE_TEXEL_POINTER,
     *op.FETCHES, *op.DISCARDS,
 })  # fmt: skip
-"""The instructions of which something is kept."""
+"""The instructions that the analysis of bodies records."""
 
 _CHAINS = (op.ACCESS_CHAIN, op.IN_BOUNDS_ACCESS_CHAIN, op.PTR_ACCESS_CHAIN)
 
 
 def reached(module: Module, start: int) -> dict[int, Body]:
-    """The functions that a function calls, over others too, and itself. SpirvError where one is not there, or is cut short."""
+    """A function and those that it calls, directly or indirectly. Raises SpirvError if one is missing or truncated."""
     found: dict[int, Body] = {}
     waiting = [start]
     lengths = {each: kind[2] for each, kind in module.types.items() if kind[0] == op.TYPE_VECTOR and len(kind) > 2 and kind[2] <= 16}

@@ -1,4 +1,4 @@
-"""The values of a module's constants, with specialisation."""
+"""The values of a module's constants, with specialization."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from .module import Module
 from .values import MAX_PARTS, Opaque, Value, computed, given, literal, small
 
 MAX_DEPTH = 16
-"""Of types within types."""
+"""Levels of nested types."""
 
 
 class Constants:
-    """Values by id. What is not known is opaque."""
+    """Values by id; unknown values are opaque."""
 
     def __init__(self, module: Module, specialization: Mapping[int, float | bool]) -> None:
         self.module = module
@@ -45,7 +45,7 @@ class Constants:
         return None
 
     def _made(self, number: int, kind: tuple[int, ...], operands: tuple[int, ...]) -> Value:
-        """What OpSpecConstantOp makes."""
+        """The result of an OpSpecConstantOp."""
         if number == op.COMPOSITE_EXTRACT and len(operands) > 1:
             value = self.values.get(operands[0])
             for index in operands[1:]:
@@ -62,19 +62,19 @@ class Constants:
         return None if None in parts else parts
 
     def width(self, identity: int) -> int:
-        """The bits of a constant of integers; 32 where that is not known."""
+        """The width of an integer constant in bits; 32 if it is unknown."""
         made = self.module.constants.get(identity)
         return self.scalar_width(made[1]) if made is not None else 32
 
     def scalar_width(self, type_id: int) -> int:
-        """The bits of a scalar or of a vector's components; 32 where that is not known."""
+        """The width of a scalar or of a vector's components in bits; 32 if it is unknown."""
         kind = self.module.types.get(type_id, ())
         if kind and kind[0] == op.TYPE_VECTOR and len(kind) > 1:
             kind = self.module.types.get(kind[1], ())
         return kind[1] if len(kind) > 1 and kind[0] in (op.TYPE_INT, op.TYPE_FLOAT) and kind[1] in (8, 16, 32, 64) else 32
 
     def null(self, type_id: int, depth: int = 0) -> Value:
-        """A type's zero; None where it has none, or a large one."""
+        """The zero of a type; None if it has none or is too large."""
         kind = self.module.types.get(type_id, ())
         if not kind or depth > MAX_DEPTH:
             return None
@@ -96,7 +96,7 @@ class Constants:
         return made
 
     def parts(self, kind: tuple[int, ...]) -> list[int] | None:
-        """The types of what a composite type consists of; None where it is none, or a large one."""
+        """The member types of a composite type; None if it is not composite or is too large."""
         count: Value = None
         if len(kind) > 2 and kind[0] in (op.TYPE_VECTOR, op.TYPE_MATRIX):
             count = kind[2]

@@ -1,4 +1,4 @@
-"""Follows an entry point from block to block: which samples of multisampled images it fetches, what becomes of them, what it puts out.
+"""Follows an entry point from block to block: the samples of multisampled images that it fetches, their uses, and its outputs.
 
 Conditions and loops that constants decide are followed as a GPU would; of others every way is followed, and what they disagree on is
 unknown. It takes a bounded number of steps; a shader that takes more is given up.
@@ -18,16 +18,16 @@ from .state import UNWRITTEN, GivenUp, met
 from .values import Opaque, Pointer, Value, plain
 
 MAX_NESTED = 100
-"""Constructs and calls within others."""
+"""Levels of nested constructs and calls."""
 
 MAX_ROUNDS, MAX_IDLE_ROUNDS = 128, 16
-"""Of a loop that constants bound, one that fetches samples and one that does not, before what it changes is taken to be unknown."""
+"""Iterations of a loop with constant bounds that fetches samples; after them, what it changes is unknown."""
 
 MAX_ROUNDS, MAX_IDLE_ROUNDS = 128, 16
-"""Of a loop that constants bound, one that fetches samples and one that does not, before what it changes is taken to be unknown."""
+"""Iterations of a loop with constant bounds that fetches no samples; after them, what it changes is unknown."""
 
 MAX_DOUBTFUL = 16
-"""Rounds of a loop that fetches and may end at each: more samples no image has in practice."""
+"""Iterations of a loop that fetches and may end after any of them; in practice no image has more samples."""
 
 RETURNED = 0
 """In place of a label: the function returns."""
@@ -35,18 +35,18 @@ RETURNED = 0
 _ENDS = frozenset(
     {op.BRANCH, op.BRANCH_CONDITIONAL, op.SWITCH, op.RETURN, op.RETURN_VALUE, *op.DEAD_ENDS, op.FUNCTION_END, op.COPY_MEMORY_SIZED}
 )
-"""What ends a block, and what is not followed beyond."""
+"""Instructions that end a block, and those after which nothing is followed."""
 
 _SILENT = frozenset({0, 8, op.LABEL, op.PHI, op.SELECTION_MERGE, op.LOOP_MERGE, 317, op.DEMOTE})
-"""Instructions that do nothing here: no operation, lines, merges, phis, which have their values already."""
+"""Instructions without an effect here: no-ops, lines, merges, and phis, whose values are known already."""
 
 
 class _Ended(Exception):
-    """Nothing follows: a call does not return."""
+    """Nothing follows, as a call does not return."""
 
 
 class Exit(NamedTuple):
-    """How a construct is left: to which label, with which memory and values for the label's phis, and which value is returned."""
+    """An exit of a construct: its label, the memory, the values for the label's phis, and the returned value."""
 
     label: int
     memory: dict[int, Value]
@@ -55,7 +55,7 @@ class Exit(NamedTuple):
 
 
 class Follower(Instructions):
-    """One entry point, followed once."""
+    """Follows one entry point, once."""
 
     def __init__(self, module: Module, constants: Constants, bodies: dict[int, Body]) -> None:
         super().__init__(module, constants, bodies)
@@ -73,7 +73,7 @@ class Follower(Instructions):
         }  # fmt: skip
 
     def follow(self, function: int) -> dict[int, Value] | None:
-        """What variables hold where the entry point returns; None where it never does. GivenUp where that cannot be told."""
+        """The values of variables where the entry point returns; None if it never does. Raises GivenUp if they cannot be found."""
         for identity, variable in self.module.variables.items():
             if variable.storage in op.LOCAL:
                 self.holds[identity] = variable.holds
@@ -116,7 +116,7 @@ class Follower(Instructions):
         self._assign(words[at + 2], Opaque() if value is None else value)
 
     def _run(self, body: Body, label: int, stops: frozenset[int], header: int = 0) -> list[Exit]:
-        """Follows from a label (whose phis have their values) to those that stop it. `header` is the loop's that it is a round of."""
+        """Follows from a label, whose phis have values, to the labels that stop it. `header` is that of the loop being iterated."""
         self._nested += 1
         if self._nested > MAX_NESTED:
             raise GivenUp
@@ -161,12 +161,12 @@ class Follower(Instructions):
             exits += [exit for exit in left if exit.label != merge]
             if not self._arrive(arrived, stops, exits):
                 return exits
-            # Where one way goes elsewhere, the rest is not always reached.
+            # If one branch leaves the construct, the rest is reached conditionally.
             self.guarded += len(arrived) < len(left)
             label, header = merge, 0
 
     def _ways(self, body: Body, label: int, targets: Sequence[int], stops: frozenset[int]) -> list[Exit]:
-        """Every way from a branch that is not decided."""
+        """Follows every target of an undecided branch."""
         before = self.memory
         exits: list[Exit] = []
         self.guarded += 1
@@ -179,7 +179,7 @@ class Follower(Instructions):
         return exits
 
     def _loop(self, body: Body, label: int, block: Block, stops: frozenset[int]) -> list[Exit]:
-        """The rounds of a loop, to how it is left."""
+        """Follows the iterations of a loop to its exits."""
         merge, continues = block.merge, block.continues
         assert merge is not None and continues is not None
         begin, end = block.start, body.blocks[merge].start if merge in body.blocks else 0
@@ -212,13 +212,13 @@ class Follower(Instructions):
                 self._forget(body, label, begin, end, before, False)
         self.guarded -= doubtful
         if doubtful or len(left) > 1:
-            # What was made in a round is not that of the last one.
+            # Values from one iteration are not those of the last one.
             for identity in set(self.assigned[begun:]):
                 self.values[identity] = Opaque((self.values[identity],))
         return left
 
     def _forget(self, body: Body, label: int, begin: int, end: int, before: dict[int, Value], used: bool) -> None:
-        """What a loop may change is not known before a round; `used` says that what it has now was."""
+        """Forgets what a loop may change before an iteration; `used` marks the present values as used."""
         roots = {root for root, value in self.memory.items() if before.get(root) is not value}
         for root in body.written(begin, end) if end > begin else {ANYWHERE}:
             pointer = self.values.get(root)
@@ -238,7 +238,7 @@ class Follower(Instructions):
             self._assign(identity, Opaque((value,)))
 
     def _targets(self, at: int, exits: list[Exit]) -> list[int]:
-        """The labels that the end of a block leads to; none where the function ends there."""
+        """The labels that a block branches to; none if the function ends there."""
         words = self.words
         number, end = words[at] & 0xFFFF, at + (words[at] >> 16)
         if number == op.BRANCH:
@@ -269,7 +269,7 @@ class Follower(Instructions):
         return []
 
     def _go(self, body: Body, source: int, target: int, stops: frozenset[int], exits: list[Exit]) -> bool:
-        """Goes to a label; notes an exit instead where that stops."""
+        """Continues at a label, or records an exit if following stops there."""
         phis = tuple(self._phis(body, target, source))
         if target in stops:
             exits.append(Exit(target, self.memory, phis))
@@ -279,7 +279,7 @@ class Follower(Instructions):
         return True
 
     def _arrive(self, arrived: list[Exit], stops: frozenset[int], exits: list[Exit]) -> bool:
-        """Goes on where several ways meet; notes them as exits where that stops."""
+        """Continues where several paths meet, or records them as exits if following stops there."""
         if arrived and arrived[0].label in stops:
             exits += arrived
             return False
@@ -289,7 +289,7 @@ class Follower(Instructions):
         return True
 
     def _phis(self, body: Body, label: int, source: int) -> Iterable[tuple[int, Value]]:
-        """The phis of a label with their values on the way from another."""
+        """The values of a label's phis on the path from another label."""
         block = body.blocks.get(label)
         if block is None:
             raise GivenUp
@@ -305,7 +305,7 @@ class Follower(Instructions):
         return found
 
     def _resume(self, exits: Sequence[Exit]) -> None:
-        """Goes on from where several ways meet, with what they agree on."""
+        """Continues where several paths meet, with what they agree on."""
         memory = exits[0].memory
         if len(exits) > 1:
             self._take(sum(len(exit.memory) for exit in exits) >> 3)
@@ -322,7 +322,7 @@ class Follower(Instructions):
             self._assign(identity, value)
 
     def _execute(self, at: int, end: int) -> int:
-        """The instructions of a block from a place on, to the one that ends it."""
+        """The instructions of a block from a place up to the one that ends it."""
         words, known = self.words, self._instructions
         while at < end:
             first = words[at]

@@ -10,11 +10,11 @@ from .values import Opaque, Pointer, Sum, Value
 MAX_SAMPLE = 63
 
 QUERIED = 5
-"""The count that a query for an image's samples is taken to give: no image has it, so that what it bounds is told from a constant."""
+"""The assumed result of a query for an image's sample count. No image has it, so a bound by it differs from a constant."""
 
 
 class Instructions(Arithmetic):
-    """The instructions that make no numbers."""
+    """The instructions that compute no numbers."""
 
     def _same(self, at: int, end: int) -> None:
         self._assign(self.words[at + 2], self._value(self.words[at + 3]))
@@ -39,7 +39,7 @@ class Instructions(Arithmetic):
             self._assign(words[at + 2], Opaque())
 
     def _index(self, value: Value) -> Value:
-        """A value as an index: a number, or an unknown one."""
+        """A value as an index: a number, or unknown."""
         if type(value) is int or (type(value) is Opaque and not value.held):
             return value
         self._escape(value)
@@ -130,7 +130,7 @@ class Instructions(Arithmetic):
         seen.samples.add(sample)
         if not self.guarded:
             seen.always.add(sample)
-        # Offsets belong to the place; the sample does not.
+        # Offsets are part of the place; the sample is not.
         before = tuple(keyed(value) for value in given[: operand - at - 6])
         fetched = self._places.setdefault((key, keyed(place), before), len(self._fetched))
         if fetched == len(self._fetched):

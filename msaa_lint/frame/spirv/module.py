@@ -1,4 +1,4 @@
-"""A module's declarations: entry points, decorations, types, constants, variables, and where its functions stand."""
+"""A module's declarations: entry points, decorations, types, constants, variables, and the places of its functions."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from . import numbers as op
 from .words import HEADER, SpirvError, text_at, words_of
 
 MAX_BYTES = 16 << 20
-"""Of a module: the largest of games have some megabytes."""
+"""The size of a module; the largest ones in games have a few megabytes."""
 
 
 class Entry(NamedTuple):
@@ -30,7 +30,7 @@ class Function(NamedTuple):
 
 
 class Variable(NamedTuple):
-    """A variable: the type that it holds, its storage class, its initial value."""
+    """A variable: the type of its value, its storage class, its initial value."""
 
     holds: int
     storage: int
@@ -38,7 +38,7 @@ class Variable(NamedTuple):
 
 
 class Module:
-    """What a module declares. SpirvError where it is none, or is too large."""
+    """The declarations of a module. Raises SpirvError if it is invalid or too large."""
 
     def __init__(self, code: bytes) -> None:
         if len(code) > MAX_BYTES:
@@ -72,7 +72,7 @@ class Module:
             if not length or at + length > end:
                 raise SpirvError("not SPIR-V: an instruction goes beyond its end")
             if within is not None:
-                # Bodies are read when they are followed.
+                # Function bodies are parsed when they are followed.
                 if number == op.FUNCTION_END:
                     self.functions[within[0]] = Function(within[1], at, tuple(parameters))
                     within = None
@@ -124,12 +124,12 @@ class Module:
             self.imports[words[at + 1]] = text_at(words, at + 2, end)[0]
 
     def _decorate(self, decorations: dict[int, tuple[int, ...]], at: int, end: int) -> None:
-        # Those that nobody asks for could be multiplied by groups.
+        # Decoration groups could multiply the irrelevant ones.
         if self.words[at] in _ASKED:
             decorations[self.words[at]] = tuple(self.words[at + 1 : min(end, at + 2)])
 
     def entry(self, name: str | None) -> Entry:
-        """The entry point of a name; without one the only one, or the only fragment shader. SpirvError where there is none such.
+        """The entry point with a name; without a name the only one, or the only fragment shader. Raises SpirvError if there is none.
 
         Of several with one name (of different stages) the fragment shader.
         """
@@ -148,7 +148,7 @@ class Module:
         )
 
     def decoration(self, of: int, number: int) -> int | None:
-        """The first operand of a decoration; 0 where it has none, None where there is no such decoration."""
+        """The first operand of a decoration; 0 if it has no operand, None if there is no such decoration."""
         operands = self.decorations.get(of, {}).get(number)
         return None if operands is None else operands[0] if operands else 0
 
@@ -157,7 +157,7 @@ _ASKED = frozenset({
     op.SPEC_ID, op.BUFFER_BLOCK, op.BUILT_IN, op.SAMPLE, op.LOCATION, op.COMPONENT, op.INDEX, op.BINDING, op.DESCRIPTOR_SET,
     op.INPUT_ATTACHMENT_INDEX,
 })  # fmt: skip
-"""The decorations that are kept."""
+"""The decorations that are recorded."""
 
 _READ = {
     **dict.fromkeys(op.TYPES, 2),
@@ -173,4 +173,4 @@ _READ = {
     op.CAPABILITY: 2,
     op.EXT_INST_IMPORT: 3,
 }
-"""The instructions outside of functions that count, and the words that they have at least."""
+"""The recorded instructions outside of functions, and their minimum number of words."""

@@ -1,4 +1,4 @@
-"""The numbers of the SPIR-V registry that are needed here."""
+"""Numbers of the SPIR-V registry."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SAMPLED_IMAGE, IMAGE_FETCH, IMAGE_READ, IMAGE, IMAGE_QUERY_SAMPLES = 86, 95, 98,
 SPARSE_FETCH, SPARSE_READ = 313, 320
 FETCHES = frozenset({IMAGE_FETCH, IMAGE_READ, SPARSE_FETCH, SPARSE_READ})
 SAMPLE_OPERAND = 64
-"""Of the mask of image operands."""
+"""Bits of the image operands mask."""
 
 PHI, LOOP_MERGE, SELECTION_MERGE, LABEL, BRANCH, BRANCH_CONDITIONAL, SWITCH = 245, 246, 247, 248, 249, 250, 251
 KILL, RETURN, RETURN_VALUE, UNREACHABLE = 252, 253, 254, 255
@@ -59,4 +59,4 @@ MODELS = {
     0: "VERTEX", 1: "TESSELLATION_CONTROL", 2: "TESSELLATION_EVALUATION", 3: "GEOMETRY", 4: "FRAGMENT", 5: "COMPUTE", 5267: "TASK_NV",
     5268: "MESH_NV", 5364: "TASK", 5365: "MESH",
 }  # fmt: skip
-"""Execution models as Vulkan calls their stages."""
+"""The Vulkan stages of execution models."""

@@ -1,4 +1,4 @@
-"""What an entry point of a module says of multisampling."""
+"""What an entry point of a module does with multisampling."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .values import Value, plain
 from .words import SpirvError
 
 CONSTANT, LOOP, CURRENT, UNKNOWN = "CONSTANT", "LOOP", "CURRENT", "UNKNOWN"
-"""What a sample operand is: one constant; several, one after the other; the sample that is shaded; anything else."""
+"""The kind of a sample operand: one constant; several, one after another; the shaded sample; anything else."""
 
 AVERAGE, MIN, MAX, OTHER = "AVERAGE", "MIN", "MAX", "OTHER"
 
@@ -34,7 +34,7 @@ class Where(NamedTuple):
 
 
 class Fetch(NamedTuple):
-    """An instruction that fetches from a multisampled image: what its sample operand is, and the samples that are known of it."""
+    """An instruction that fetches from a multisampled image: the kind of its sample operand, and its known values."""
 
     image: Where
     operand: str
@@ -60,8 +60,8 @@ class Multisampled(NamedTuple):
 
 
 class Alpha(NamedTuple):
-    """The alpha of colour output 0 (location 0, index 0, component 3): whether there is one; whether something is stored to it; the
-    constant that it always has. None is unknown."""
+    """The alpha of color output 0 (location 0, index 0, component 3): whether it exists, whether it is stored to, and its constant value
+    if it always has the same one. None is unknown."""
 
     declared: bool | None
     written: bool | None
@@ -93,7 +93,7 @@ class Reflected(NamedTuple):
 
 
 def reflect(code: bytes, entry: str | None = None, specialization: Mapping[int, float | bool] | None = None) -> Reflected:
-    """What an entry point says of multisampling; without a name the only one, or the only fragment shader.
+    """What an entry point does with multisampling; without a name, the only entry point or the only fragment shader.
 
     `specialization` has values by constant id. Raises SpirvError, and nothing else, where the bytes are no SPIR-V or have no such entry
     point; a module of 1 MB takes under a second.
@@ -139,7 +139,7 @@ def reflected(module: Module, name: str | None, specialization: Mapping[int, flo
 
 
 def _inputs(module: Module, constants: Constants, bodies: Mapping[int, Body]) -> tuple[frozenset[str], tuple[int | None, ...]]:
-    """The built-ins for samples and the inputs decorated Sample that the functions refer to."""
+    """The built-ins for samples, and the inputs decorated with Sample, that the functions refer to."""
     built_ins: set[str] = set()
     sampled: dict[tuple[int, int], int | None] = {}
     for identity, variable in module.variables.items():

@@ -1,4 +1,4 @@
-"""What is known while an entry point is followed: values by id, memory, and what was seen of multisampled images."""
+"""The state while an entry point is followed: values by id, memory, and the uses of multisampled images."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from .module import Module
 from .values import Extreme, Opaque, Pointer, Sum, Value, plain, small
 
 MAX_STEPS = 300_000
-"""Instructions that are followed, of the largest modules; small ones get fewer."""
+"""Instructions followed in the largest modules; smaller modules get fewer."""
 
 UNWRITTEN = Opaque()
-"""What a variable holds before something is stored to it."""
+"""The value of a variable before anything is stored to it."""
 
 
 class GivenUp(Exception):
-    """The shader takes more steps than are followed, or does what is not understood."""
+    """The shader needs more steps than are followed, or uses an unsupported feature."""
 
 
 ImageKey = tuple[int, tuple[Value, ...]]
@@ -26,21 +26,21 @@ ImageKey = tuple[int, tuple[Value, ...]]
 
 
 class Seen:
-    """What was seen of a multisampled image: the samples fetched, whether others may have been, what became of the values."""
+    """The uses of a multisampled image: the fetched samples, whether others may be fetched, and the uses of the values."""
 
     __slots__ = ("always", "queried", "samples", "unknown", "uses")
 
     def __init__(self) -> None:
         self.samples: set[int] = set()
         self.always: set[int] = set()
-        """Those that no undecided condition keeps from being fetched."""
+        """The samples that are fetched under every condition."""
         self.unknown = False
         self.queried = False
         self.uses: set[tuple[str, frozenset[int]]] = set()
 
 
 class Site:
-    """What was seen of one instruction that fetches: the image (None where unknown) and the sample operands."""
+    """The uses of one instruction that fetches: the image (None if unknown) and the sample operands."""
 
     __slots__ = ("current", "images", "samples", "unknown")
 
@@ -53,7 +53,7 @@ class Site:
 
 
 class State:
-    """What is known at a place of an entry point."""
+    """The state at a place of an entry point."""
 
     def __init__(self, module: Module, constants: Constants, bodies: dict[int, Body]) -> None:
         self.module = module
@@ -63,18 +63,18 @@ class State:
         self.steps = min(50_000 + len(module.words) // 2, MAX_STEPS)
         self.values: dict[int, Value] = {}
         self.assigned: list[int] = []
-        """The ids that were given values, in that order."""
+        """The ids with values, in the order of assignment."""
         self.memory: dict[int, Value] = {}
-        """What variables hold that only this invocation can write."""
+        """The values of variables that only this invocation can write."""
         self.holds: dict[int, int] = {}
         """The types of variables."""
         self.guarded = 0
-        """Undecided conditions that what is followed hangs on."""
+        """The undecided conditions on the path to this place."""
         self.images: dict[ImageKey, Seen] = {}
         self.sites: dict[int, Site] = {}
         self._fetched: list[ImageKey] = []
         self._places: dict[tuple[object, ...], int] = {}
-        """What was fetched, by image and place: its number."""
+        """The numbers of fetched texels, by image and place."""
         self._known: dict[tuple[object, ...], Opaque] = {}
         self._lengths: dict[int, int] = {}
         for body in bodies.values():
@@ -98,7 +98,7 @@ class State:
         return value
 
     def _same_as(self, *made: object) -> Opaque:
-        """What is not known, and the same whenever it is made so."""
+        """An unknown value that is equal whenever it is created from the same origin."""
         found = self._known.get(made)
         if found is None:
             found = self._known[made] = Opaque()
@@ -109,18 +109,18 @@ class State:
         return self.module.types.get(type_id, ())
 
     def _width(self, type_id: int) -> int:
-        """Components of a vector; 1 of a scalar, 0 of anything else."""
+        """The number of components of a vector; 1 for a scalar, 0 for anything else."""
         kind = self._kind(type_id)
         if kind and kind[0] in (op.TYPE_BOOL, op.TYPE_INT, op.TYPE_FLOAT):
             return 1
         return kind[2] if len(kind) > 2 and kind[0] == op.TYPE_VECTOR and 0 < kind[2] <= 16 else 0
 
     def _length(self, identity: int, value: Value) -> int:
-        """How many components a vector has; 0 for a scalar."""
+        """The number of components of a vector; 0 for a scalar."""
         return len(value) if type(value) is tuple else self._lengths.get(identity, 0)
 
     def _components(self, value: Value, count: int) -> tuple[Value, ...] | None:
-        """The parts of a value that has so many; None where that makes no sense."""
+        """The parts of a value with a given number of them; None if it does not have that many."""
         if type(value) is tuple:
             return value if len(value) == count else None
         if value is UNWRITTEN:
@@ -132,7 +132,7 @@ class State:
         return tuple(self._same_as("part", value, n) for n in range(count))
 
     def _escape(self, value: Value) -> None:
-        """A value is used for something that is not followed."""
+        """Records that a value is used in a way that is not followed."""
         waiting = [value]
         roots: set[int] = set()
         while waiting:
@@ -152,7 +152,7 @@ class State:
             elif type(each) is Pointer:
                 waiting.extend(each.path)
                 if each.root in self.memory and each.root not in roots:
-                    # A variable may hold a pointer to itself.
+                    # A variable may contain a pointer to itself.
                     roots.add(each.root)
                     self._take(1)
                     waiting.append(self.memory[each.root])
@@ -167,7 +167,7 @@ class State:
         self.images[self._fetched[fetched]].uses.add((kind, frozenset(samples)))
 
     def _settled(self, value: Sum) -> Value:
-        """A sum that is an average of all samples is no longer of interest; what becomes of the average is not asked."""
+        """Records a sum that averages all samples; the uses of the average do not matter."""
         average = value.average()
         if average is None:
             return value
@@ -202,7 +202,7 @@ class State:
         return value
 
     def _read_only(self, storage: int, holds: int) -> bool:
-        """Whether what a variable holds is the same whenever it is read."""
+        """Whether a variable has the same value at every read."""
         if storage != op.UNIFORM:
             return storage in op.READ_ONLY
         kind = self._kind(holds)
@@ -220,7 +220,7 @@ class State:
         self.memory[pointer.root] = whole if small(whole) else Opaque((whole,))
 
     def _put(self, before: Value, path: tuple[Value, ...], value: Value, type_id: int) -> Value:
-        """A value with a part of it replaced."""
+        """A value with one part replaced."""
         if not path:
             return value
         kind, index = self._kind(type_id), path[0]
@@ -232,13 +232,13 @@ class State:
         return (*own[:index], self._put(own[index], path[1:], value, parts[index]), *own[index + 1 :])
 
     def _image(self, value: Value) -> ImageKey | None:
-        """The image that a value stands for; None where it is not known."""
+        """The image that a value refers to; None if it is unknown."""
         origin = value.origin if type(value) is Opaque else ()
         return (origin[1], origin[2]) if origin and origin[0] == "load" else None
 
 
 def met(one: Value, other: Value) -> Value:
-    """What two ways agree on. What one of them never wrote is the other's."""
+    """What two paths agree on. A variable that one of them never wrote has the other's value."""
     if one is other or other is UNWRITTEN:
         return one
     if one is UNWRITTEN:
@@ -258,7 +258,7 @@ def met(one: Value, other: Value) -> Value:
 
 
 def keyed(value: Value) -> object:
-    """A value as part of a key: 1, 1.0 and true are three."""
+    """A value as part of a key, in which 1, 1.0 and true differ."""
     if type(value) is tuple:
         return tuple(map(keyed, value))
     return (type(value), value) if plain(value) else value

@@ -1,4 +1,4 @@
-"""What a shader's values are known to be, and arithmetic on them.
+"""The known values of a shader, and arithmetic on them.
 
 A value is a number or a boolean; a tuple, of a vector, matrix, array or structure; a Sum of samples that were fetched, or the Extreme of
 some; a Pointer; or an Opaque, of which only is known whether it is the same as another.
@@ -16,15 +16,14 @@ from . import numbers as op
 Value = Any
 
 MAX_PARTS = 256
-"""Numbers and tuples in one value; larger ones are opaque."""
+"""Numbers and tuples in one value; a larger value is opaque."""
 
 MAX_TERMS = 256
-"""Samples in one sum: more than any image has, four components of several."""
+"""Samples in one sum: more than any image has, for four components and several images."""
 
 
 class Opaque:
-    """A value that is not known. `held` are those that it may be, for when it is used; `origin` says how it came about, where two that came
-    about alike are the same."""
+    """An unknown value. `held` has the values that it may be, for when it is used; unknown values with the same `origin` are equal."""
 
     __slots__ = ("held", "origin")
 
@@ -34,18 +33,18 @@ class Opaque:
 
 
 class Pointer(NamedTuple):
-    """Where a value stands: the variable, then the indices of members."""
+    """The place of a value: the variable, then the indices of members."""
 
     root: int
     path: tuple[Value, ...]
 
 
 Term = tuple[int, int, int]
-"""Of a fetched value: what was fetched (image and place), the component, the sample."""
+"""A fetched value: the texel (image and place), the component, the sample."""
 
 
 class Sum:
-    """A scalar: samples times factors, added up."""
+    """A scalar: a sum of samples times factors."""
 
     __slots__ = ("terms",)
 
@@ -53,7 +52,7 @@ class Sum:
         self.terms = terms
 
     def average(self) -> tuple[int, int] | None:
-        """What was fetched, and of how many samples this is the plain average: all from 0 on of one component."""
+        """The texel and the number of samples that this is the average of: samples 0 and up of one component."""
         count = len(self.terms)
         if count < 2:
             return None
@@ -65,7 +64,7 @@ class Sum:
 
 
 class Extreme:
-    """A scalar: the least or the greatest of some samples; a constant beside them bounds it."""
+    """A scalar: the minimum or maximum of samples, and possibly a constant bound."""
 
     __slots__ = ("kind", "terms")
 
@@ -80,19 +79,19 @@ def plain(value: Value) -> bool:
 
 
 def telling(value: Value) -> bool:
-    """Whether a value, or a component of it, has samples in it."""
+    """Whether a value, or a component of it, contains samples."""
     if type(value) is tuple:
         return any(type(part) is Sum or type(part) is Extreme for part in value)
     return type(value) is Sum or type(value) is Extreme
 
 
 def small(value: Value) -> bool:
-    """Whether a value has at most MAX_PARTS numbers and tuples in it, and so is nested no deeper."""
+    """Whether a value has at most MAX_PARTS numbers and tuples, which also bounds its nesting."""
     return type(value) is not tuple or _parts(value, MAX_PARTS) <= MAX_PARTS
 
 
 def _parts(value: tuple[Value, ...], most: int) -> int:
-    """How many numbers and tuples a value has; counting ends above `most`."""
+    """The number of numbers and tuples in a value; counting stops above `most`."""
     count = 1
     for part in value:
         count += _parts(part, most - count) if type(part) is tuple else 1
@@ -102,7 +101,7 @@ def _parts(value: tuple[Value, ...], most: int) -> int:
 
 
 def combined(one: Value, other: Value, sign: float) -> Sum | None:
-    """The sum of two scalars with samples in them; None where it is none."""
+    """The sum of two scalars with samples; None if it is not a Sum."""
     if plain(other) and other == 0 and type(one) is Sum:
         return one
     if plain(one) and one == 0 and type(other) is Sum:
@@ -116,14 +115,14 @@ def combined(one: Value, other: Value, sign: float) -> Sum | None:
 
 
 def scaled(one: Value, factor: float) -> Sum | None:
-    """A sum times a number; None where it is none."""
+    """A sum times a number; None if it is not a Sum."""
     if type(one) is not Sum or not math.isfinite(factor):
         return None
     return Sum({term: own * factor for term, own in one.terms.items()})
 
 
 def extreme(kind: str, one: Value, other: Value) -> Extreme | None:
-    """The least or the greatest of two scalars with samples in them; None where that is none."""
+    """The minimum or maximum of two scalars with samples; None if it cannot be represented."""
     terms: frozenset[Term] = frozenset()
     for each in (one, other):
         if type(each) is Extreme and each.kind == kind:
@@ -139,13 +138,13 @@ def extreme(kind: str, one: Value, other: Value) -> Extreme | None:
 
 
 def wrapped(value: int, width: int, signed: bool) -> int:
-    """An integer as a type of that width holds it."""
+    """An integer wrapped to a type of that width."""
     value &= (1 << width) - 1
     return value - (1 << width) if signed and value >> (width - 1) else value
 
 
 def as_float(value: float, width: int) -> float:
-    """A float as a type of that width holds it."""
+    """A float rounded to a type of that width."""
     if width == 64 or not math.isfinite(value):
         return value
     try:
@@ -157,7 +156,7 @@ def as_float(value: float, width: int) -> float:
 
 
 def literal(kind: tuple[int, ...], words: tuple[int, ...]) -> Value:
-    """The value of OpConstant's literal of a type; None where it has none."""
+    """The value of an OpConstant's literal by its type; None if it has none."""
     if len(kind) < 2 or not words or kind[1] not in (8, 16, 32, 64) or (kind[1] == 64 and len(words) < 2):
         return None
     bits = words[0] | words[1] << 32 if kind[1] == 64 else words[0]
@@ -171,7 +170,7 @@ def literal(kind: tuple[int, ...], words: tuple[int, ...]) -> Value:
 
 
 def given(kind: tuple[int, ...], value: float | bool) -> Value:
-    """A specialisation constant's value of a type; None where it cannot have that one."""
+    """The value of a specialization constant by its type; None if the type cannot have it."""
     if not kind or not math.isfinite(value):
         return None
     if kind[0] == op.TYPE_BOOL:
@@ -186,7 +185,7 @@ def _shift(one: int, other: int) -> int:
 
 
 def _quotient(one: int, other: int) -> int:
-    """Towards zero."""
+    """The quotient rounded toward zero."""
     whole = abs(one) // abs(other)
     return whole if (one < 0) == (other < 0) else -whole
 
@@ -241,7 +240,7 @@ _FLOATS: dict[int, Callable[[float, float], float]] = {
 
 
 def computed(number: int, kind: tuple[int, ...], operands: tuple[Value, ...], widths: int = 32) -> Value:
-    """The number that an instruction makes of numbers; None where it makes none that is known. `kind` is the type of its result."""
+    """The number that an instruction computes from numbers; None if it is unknown. `kind` is the type of the result."""
     if not all(map(plain, operands)) or not kind:
         return None
     try:

@@ -7,19 +7,19 @@ from collections.abc import Iterator
 
 MAGIC = 0x07230203
 HEADER = 5
-"""Words of the header."""
+"""The number of words in the header."""
 
 OP_NAME, OP_ENTRY_POINT, OP_VARIABLE, OP_STORE, OP_DECORATE = 5, 15, 59, 62, 71
 LEAST = {OP_NAME: 2, OP_ENTRY_POINT: 4, OP_VARIABLE: 4, OP_STORE: 3, OP_DECORATE: 3}
-"""Words that these have at least."""
+"""The minimum number of words of these instructions."""
 
 
 class SpirvError(ValueError):
-    """What is wrong with bytes that were to be SPIR-V, in words."""
+    """The bytes are not valid SPIR-V."""
 
 
 def words_of(code: bytes) -> array.array[int]:
-    """The words of SPIR-V in this machine's order. SpirvError where it is none."""
+    """The words of SPIR-V in this machine's byte order. Raises SpirvError if the bytes are not SPIR-V."""
     if len(code) < 4 * HEADER or len(code) % 4:
         raise SpirvError("not SPIR-V: its length is none of whole words")
     words = array.array("I", code)
@@ -31,7 +31,7 @@ def words_of(code: bytes) -> array.array[int]:
 
 
 def instructions(words: array.array[int]) -> Iterator[tuple[int, array.array[int]]]:
-    """Every instruction: its number, and its words. SpirvError where one goes beyond the end."""
+    """Every instruction: its opcode and its words. Raises SpirvError if one extends beyond the end."""
     at = HEADER
     while at < len(words):
         length = words[at] >> 16
@@ -44,7 +44,7 @@ def instructions(words: array.array[int]) -> Iterator[tuple[int, array.array[int
 
 
 def text_at(words: array.array[int], start: int, end: int) -> tuple[str, int]:
-    """A text that begins at a word, and the word after it. SpirvError where it does not end before `end`."""
+    """A string that begins at a word, and the index of the word after it. Raises SpirvError if it does not end before `end`."""
     made = bytearray()
     for at in range(start, end):
         part = words[at].to_bytes(4, "little")

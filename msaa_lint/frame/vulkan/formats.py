@@ -1,4 +1,4 @@
-"""The formats: their bytes, aspects, components and numeric types."""
+"""Vulkan's formats: their sizes, aspects, components and numeric types."""
 
 from typing import NamedTuple
 
@@ -29,37 +29,37 @@ class Format(NamedTuple):
 
     @property
     def is_srgb(self) -> bool:
-        """Whether the values are stored by the sRGB transfer function."""
+        """Whether values are stored with the sRGB transfer function."""
         return self.numeric == "SRGB"
 
     @property
     def is_integer(self) -> bool:
-        """Whether the colour is of integers, which cannot be averaged."""
+        """Whether the color has integers, which cannot be averaged."""
         return self.numeric in ("UINT", "SINT")
 
     @property
     def is_float16(self) -> bool:
-        """Whether every component of the colour is a 16-bit float."""
+        """Whether every color component is a 16-bit float."""
         return self.numeric == "SFLOAT" and all(bits == 16 for _, bits in self.components)
 
     @property
     def arm_float_blend(self) -> bool:
-        """Whether it is of the float formats that Mali GPUs do not blend at full rate when multisampled."""
+        """Whether it is a float format that Mali GPUs do not blend at full rate when multisampled."""
         return self.name in ARM_FLOAT_BLEND
 
     @property
     def depth_bytes(self) -> int:
-        """What the depth aspect alone takes of a texel: 2, 3 or 4 bytes, 0 without depth."""
+        """The bytes of the depth aspect per texel: 2, 3 or 4; 0 without depth."""
         return self.depth_bits // 8
 
     @property
     def stencil_bytes(self) -> int:
-        """What the stencil aspect alone takes of a texel: 1 byte, 0 without stencil."""
+        """The bytes of the stencil aspect per texel: 1, or 0 without stencil."""
         return self.stencil_bits // 8
 
 
 def format_of(name: str) -> Format | None:
-    """The format of a canonical short name (`R8G8B8A8_UNORM`); None for UNDEFINED and what is no format."""
+    """The format with a canonical short name (`R8G8B8A8_UNORM`); None for UNDEFINED and unknown names."""
     found = _known.get(name)
     if found is None:
         text = ROWS.get(name)

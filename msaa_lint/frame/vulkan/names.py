@@ -1,4 +1,4 @@
-"""The spellings of enumerants: full names, short names, numbers, and the nearest name to a wrong one."""
+"""The spellings of enumerants: full names, short names and numbers; and the name nearest to a misspelled one."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ _AFTER_BIT = ("", *(f"_{vendor}" for vendor in VENDORS))
 
 
 def parse_enum(enum: str, text: str) -> str | None:
-    """The canonical short name of an enumerant; None where the text is none of `enum` (a name of `enums.VALUES`).
+    """The canonical short name of an enumerant of `enum` (a name in `enums.VALUES`); None if the text is not one.
 
-    The type's prefix, or only its `VK_`, and for flag bits `_BIT` may be left out. Names are told by case, as in Vulkan.
+    The type's prefix, or only its `VK_`, and for flag bits `_BIT` may be left out. Names are case-sensitive, as in Vulkan.
     """
     values, aliases = VALUES[enum], ALIASES.get(enum)
     if text in values:
@@ -43,7 +43,7 @@ def parse_enum(enum: str, text: str) -> str | None:
 
 
 def from_value(enum: str, value: int) -> str | None:
-    """The canonical short name of a value; None where the enum has no such value."""
+    """The canonical short name of a value; None if the enum does not have it."""
     by_value = _by_value.get(enum)
     if by_value is None:
         by_value = _by_value[enum] = {known: name for name, known in VALUES[enum].items()}
@@ -54,7 +54,7 @@ _by_value: dict[str, dict[int, str]] = {}
 
 
 def flag_names(enum: str, mask: int) -> list[str] | None:
-    """The canonical short names of the bits of a mask, lowest first; None where a bit is unknown. No bits are no names."""
+    """The canonical short names of the bits of a mask, lowest first; None if a bit is unknown. A mask of 0 has no names."""
     if mask == 0:
         return []
     if not 0 < mask < 1 << 64:
@@ -73,8 +73,8 @@ def flag_names(enum: str, mask: int) -> list[str] | None:
 def parse_flags(enum: str, text: str) -> list[str]:
     """The canonical short names in `A | B`, `0`, `0x11`, `17` or `17 (A | B)`, each once, in their order.
 
-    A name of no bits (`NONE`) adds none. Of a number with names in parentheses the number counts. ValueError, with the part that is
-    unknown as its text, where one is.
+    A name without bits (`NONE`) adds nothing. In a number with names in parentheses, the number counts. Raises ValueError, with the
+    unknown part as its text.
     """
     text = text.strip()
     if text.endswith(")"):
@@ -101,7 +101,7 @@ def parse_flags(enum: str, text: str) -> list[str]:
 
 
 def _mask(word: str) -> int | None:
-    """A decimal or hexadecimal number below 2^64; a leading zero, which is octal in C, makes it none."""
+    """A decimal or hexadecimal number below 2^64; None for another word, also with a leading zero, which is octal in C."""
     if len(word) > 20 or not word.isascii() or not word.isalnum():
         return None
     if not word.isdigit() and word[:2] not in ("0x", "0X"):
@@ -119,7 +119,7 @@ def nearest_name(word: str, names: Iterable[str]) -> str | None:
 
 
 def _bare(word: str) -> str:
-    """The same of a name without the prefix of its type, `_BIT` and a vendor's suffix."""
+    """The letters and digits of a name without its type's prefix, `_BIT` and vendor's suffix."""
     name = "_".join(word.upper().replace("-", " ").split())
     prefix = max((p for p in PREFIXES.values() if name.startswith(p)), key=len, default="")
     name = name[len(prefix) :]
@@ -131,6 +131,6 @@ def _bare(word: str) -> str:
 
 
 def _without_bit(name: str) -> str:
-    """`CUSTOM_RESOLVE_EXT` of `CUSTOM_RESOLVE_BIT_EXT`."""
+    """The name without `_BIT`: `CUSTOM_RESOLVE_EXT` for `CUSTOM_RESOLVE_BIT_EXT`."""
     head, bit, tail = name.rpartition("_BIT")
     return head + tail if bit and tail in _AFTER_BIT else name

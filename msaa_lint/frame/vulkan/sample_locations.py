@@ -1,4 +1,4 @@
-"""Where the samples of a pixel lie by the Vulkan specification."""
+"""The standard sample locations of the Vulkan specification."""
 
 from __future__ import annotations
 
