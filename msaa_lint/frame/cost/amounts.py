@@ -1,6 +1,6 @@
-"""What the cost model gives. MB is 10^6 bytes, MiB 2^20 bytes, a frame is one round of the description's commands.
+"""The results of the cost model. MB is 10^6 bytes, MiB 2^20 bytes; a frame is one round of the description's commands.
 
-Every figure stands twice: by plain arithmetic, `width * height * bytes * samples * fps`, and corrected by the device's measured
+Every figure is given twice: by plain arithmetic, `width * height * bytes * samples * fps`, and corrected by the device's measured
 compression.
 """
 
@@ -12,7 +12,7 @@ from msaa_lint.frame.devices.tiles import TileUse
 
 
 class Amount(NamedTuple):
-    """Traffic with external memory, memory that is committed, and the power that the traffic takes."""
+    """Traffic with external memory, committed memory, and the power that the traffic takes."""
 
     read_mb_per_s: float
     write_mb_per_s: float
@@ -26,11 +26,11 @@ class Amount(NamedTuple):
 
 
 class Line(NamedTuple):
-    """One cause of traffic: an aspect of an attachment (or of a command's image) that is read or written, once a frame.
+    """One cause of traffic per frame: an aspect of an attachment, or of a command's image, that is read or written.
 
     `action` is `load`, `store`, `resolve`, `resolve command`, `copy`, `clear`, `read`, `write` or `input`; `direction` is `read` or
     `write`. `bytes` are those of a frame by plain arithmetic, exact; `corrected` by the device's compression, None where none is known.
-    `samples` is how many samples a pixel are moved. `place` is where the input states it.
+    `samples` is the number of samples moved per pixel. `place` is where the input states it.
     """
 
     attachment: str
@@ -65,8 +65,8 @@ class Shading(NamedTuple):
 class PassCost(NamedTuple):
     """One pass, or one command outside of passes (`kind` is `renderPass`, `rendering` or `command`), as often as a frame begins it.
 
-    `memory_mib` of its amounts is that of the images it uses, which other passes may use too. `unknown` says in words what could not be
-    counted, and for the lack of what.
+    `memory_mib` of its amounts is that of the images it uses, which other passes may use too. `unknown` describes what could not be
+    counted, and what information is missing.
     """
 
     name: str
@@ -84,10 +84,10 @@ class PassCost(NamedTuple):
 
 
 class ImageMemory(NamedTuple):
-    """What an image takes: `bytes` in full, `committed` after what a lazily allocated one saves; None where a size is unknown.
+    """The memory of an image: `bytes` in full, `committed` without what lazy allocation saves; None if a size is unknown.
 
-    What is committed is told from usage and memory alone, so that the prices of findings add up. `committed_by_use` says that a pass loads
-    or stores an image that is counted as not committed: the driver then has to commit it all the same.
+    Only usage and memory decide what is committed, so that the prices of findings add up. `committed_by_use`: a pass loads or stores an
+    image that is counted as not committed, so the driver has to commit it after all.
     """
 
     name: str
@@ -97,7 +97,7 @@ class ImageMemory(NamedTuple):
 
 
 class FrameCost(NamedTuple):
-    """A whole frame. `total` counts each image's memory once. `assumed` says in words what was taken for granted (60 fps, a size)."""
+    """A whole frame. `total` counts each image's memory once. `assumed` lists the assumptions (60 fps, a size)."""
 
     passes: tuple[PassCost, ...]
     images: tuple[ImageMemory, ...]
@@ -112,12 +112,12 @@ class FrameCost(NamedTuple):
 
     @property
     def budget_share(self) -> float:
-        """How much of the power budget the traffic takes by plain arithmetic: 1 is all of it."""
+        """The share of the power budget that the traffic takes by plain arithmetic; 1 is all of it."""
         return self.total.milliwatts / self.budget_milliwatts
 
 
 class Terms(NamedTuple):
-    """What a caller may say of how to reckon; None takes the description's, then the device's, then the default.
+    """The terms of an estimate that a caller may set; None takes the description's, then the device's, then the default.
 
     `milliwatts_per_gbps` is the power of 10^9 bytes a second (default 100, Arm's figure for LPDDR4-class memory), `budget_milliwatts` what
     it is set against (default 2500, a phone's sustained budget by the same source).

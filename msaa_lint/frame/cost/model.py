@@ -83,25 +83,28 @@ def _entries(frame: Frame, device: DeviceProfile | None, sizes: Sizes, frame_rat
     entries: dict[int, Entry] = {}
     for each in frame.passes if not frame.has_commands else ():
         entries[id(each)] = _pass_entry(each, device, sizes)
+    attached: dict[int, set[str]] = {}
     for step in Walk(frame).steps:
         command, render_pass = step.command, step.run.render_pass if step.run is not None else None
         if step.begins and render_pass is not None:
             if id(render_pass) not in entries:
                 entries[id(render_pass)] = _pass_entry(render_pass, device, sizes)
+            if id(render_pass) not in attached:
+                attached[id(render_pass)] = _attached_images(render_pass)
         elif command.kind not in MOVING:
             continue
         elif render_pass is None:
             lines = Lines(device)
             entries[id(command)] = (command.kind, command.path, "command", None, None, lines)
             command_lines(lines, command, frame, sizes)
-        elif getattr(command.body, "image", None) not in _attached(render_pass):
+        elif getattr(command.body, "image", None) not in attached[id(render_pass)]:
             # What a pass has attached it reads on the tile.
             command_lines(entries[id(render_pass)][5], command, frame, sizes)
     never = [f"`{each.name}`: no command begins it" for each in frame.passes if frame.has_commands and not each.begun]
     return list(entries.values()), never
 
 
-def _attached(render_pass: Pass) -> set[str]:
+def _attached_images(render_pass: Pass) -> set[str]:
     """The images of a pass's attachments."""
     return {target.name for attachment in render_pass.attachments for target in attachment.targets if target.image is not None}
 

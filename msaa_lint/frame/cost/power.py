@@ -1,4 +1,4 @@
-"""Bytes of a frame to MB/s, and to the power that they take."""
+"""Conversion of bytes per frame to MB/s, and to the power that the traffic takes."""
 
 from __future__ import annotations
 
@@ -10,23 +10,23 @@ from msaa_lint.frame.devices import DeviceProfile
 from .amounts import Amount, Terms
 
 MILLIWATTS_PER_GBPS = 100.0
-"""10^9 bytes a second of external memory, by Arm ("Understanding render passes"; the Khronos MSAA sample reckons with it)."""
+"""Milliwatts for 10^9 bytes per second of external memory: Arm, "Understanding render passes"; the Khronos MSAA sample uses it too."""
 
 ASSUMED_FPS = 60.0
 MAX_RATE = 1e9
-"""Frames a second, and milliwatts per GB/s, above which an input's figure is taken for this one: every sum stays finite."""
+"""The upper bound of frames per second and of milliwatts per GB/s, so that every sum stays finite."""
 
 MIB = 2**20
 
 
 class Rates(NamedTuple):
-    """Frames a second, and milliwatts for 10^9 bytes a second."""
+    """Frames per second, and milliwatts per 10^9 bytes per second."""
 
     fps: float
     milliwatts_per_gbps: float
 
     def amount(self, read: float, written: float, committed: int) -> Amount:
-        """Bytes that a frame reads and writes, and bytes of memory, as an amount."""
+        """The amount for the bytes that a frame reads and writes, and the bytes of memory that it commits."""
         reads, writes = read * self.fps / 1e6, written * self.fps / 1e6
         return Amount(reads, writes, committed / MIB, (reads + writes) / 1000 * self.milliwatts_per_gbps)
 
@@ -42,5 +42,5 @@ def rates(description: Description, device: DeviceProfile | None, terms: Terms) 
 
 
 def budget_share(amount: Amount, terms: Terms) -> float:
-    """How much of the power budget an amount takes: 1 is all of it. 4.5 GB/s at 100 mW are 0.18 of 2.5 W."""
+    """The share of the power budget that an amount takes; 1 is all of it. 4.5 GB/s at 100 mW per GB/s take 0.18 of 2.5 W."""
     return amount.milliwatts / terms.budget_milliwatts

@@ -1,7 +1,7 @@
 """What a pass or a command moves between the GPU and external memory, by plain arithmetic: exact bytes of one frame.
 
-A tile-based GPU is reckoned with: it reads an attachment where the pass loads it, writes it where the pass stores it, and resolves on the
-tile, so that a resolve writes one sample. Input attachments and vkCmdClearAttachments stay on the tile. An attachment that no subpass uses
+The model is a tile-based GPU: it reads an attachment where the pass loads it, writes it where the pass stores it, and resolves on the tile,
+so that a resolve writes one sample. Input attachments and vkCmdClearAttachments stay on the tile. An attachment that no subpass uses
 moves nothing, whatever its operations (VkAttachmentDescription).
 """
 

@@ -1,6 +1,6 @@
 """What a frame would cost with other sample counts, and with its resolves inside its passes or apart from them.
 
-Each variant is the same description made into another frame and put through the model: nothing here reckons bytes.
+Each variant is the same description edited into another frame and passed to the cost model; nothing here counts bytes.
 """
 
 from __future__ import annotations

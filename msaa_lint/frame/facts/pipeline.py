@@ -141,7 +141,7 @@ def discards(pipeline: Pipeline) -> bool:
 
 
 def _blends_by_alpha(blended: ColorBlendAttachment, state: MultisampleState | None, dynamic: Container[str]) -> bool | None:
-    """Whether blending is on and weighs colours by the shader's alpha, as far as the factors and alphaToOneEnable are stated."""
+    """Whether blending is on and uses the shader's alpha, as far as the factors and alphaToOneEnable are stated."""
     one = state is not None and state.alphaToOneEnable and "ALPHA_TO_ONE_ENABLE_EXT" not in dynamic
     factors = (blended.srcColorBlendFactor, blended.dstColorBlendFactor)
     known = None not in factors and "COLOR_BLEND_EQUATION_EXT" not in dynamic

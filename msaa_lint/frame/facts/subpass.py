@@ -69,7 +69,7 @@ def samples_of(subpass: PassSubpass) -> int | None:
 
 
 def tile_targets(subpass: PassSubpass) -> tuple[list[tuple[Format, int]], tuple[Format, int] | None] | None:
-    """Format and samples of what a subpass draws to, as it lies on the tile: colour, and depth-stencil; None where one is unknown.
+    """Format and samples of what a subpass draws to, as stored on the tile: color, and depth-stencil; None if one is unknown.
 
     Where it renders multisampled to single-sampled attachments, the tile has the samples.
     """
