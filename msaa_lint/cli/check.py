@@ -9,6 +9,7 @@ from functools import partial
 from typing import IO, Any
 
 from msaa_lint.core.finding import is_confident, rank
+from msaa_lint.core.text.node import Limits
 from msaa_lint.input.file_types import STDIN
 from msaa_lint.linter.run import Outcome, run
 from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
@@ -29,7 +30,6 @@ from .common import (
 from .options import Arguments
 
 EXAMPLE = "sarif=findings.sarif"
-LIMITS = {"max_depth": "depth", "max_nodes": "nodes", "max_bytes": "bytes"}
 
 STDERR = "<standard error>"
 """The `path` of a target that is the standard error stream."""
@@ -91,7 +91,7 @@ def _print_fixes(targets: Sequence[Target], outcome: Outcome, arguments: Argumen
 def request(arguments: Arguments, targets: Sequence[Target] = (), fallback: str = "concise") -> Request:
     """The request that arguments make. `fallback` is the output format if neither they nor a configuration names one."""
     settings = overrides(arguments)
-    limits = {limit: arguments[name] for name, limit in LIMITS.items() if name in arguments}
+    limits = {name: arguments[f"max_{name}"] for name in Limits._fields if f"max_{name}" in arguments}
     if limits:
         settings["limits"] = limits
     return Request(

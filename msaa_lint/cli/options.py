@@ -8,7 +8,10 @@ from collections.abc import Sequence
 from importlib import import_module
 from typing import Any, NamedTuple
 
+from msaa_lint.core.text.node import Limits
 from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
+
+_LIMITS = Limits()
 
 LEVELS = ("note", "warning", "error")
 CONFIDENCES = ("low", "medium", "high")
@@ -93,9 +96,9 @@ COMMANDS = {
             Option("baseline", "text", "Hide the findings that this baseline file counts.", "FILE"),
             Option("no_ignores", "flag", "Disregard suppression comments."),
             Option("show_suppressed", "flag", "Report suppressed findings as well, marked as suppressed."),
-            Option("max_depth", "integer", "Maximum nesting depth of an input.  [default: 100]", "N"),
-            Option("max_nodes", "integer", "Maximum number of nodes in an input, aliases expanded.  [default: 1000000]", "N"),
-            Option("max_bytes", "integer", "Maximum size of an input in bytes.  [default: 67108864]", "N"),
+            Option("max_depth", "integer", f"Maximum nesting depth of an input.  [default: {_LIMITS.depth}]", "N"),
+            Option("max_nodes", "integer", f"Maximum number of nodes in an input, aliases expanded.  [default: {_LIMITS.nodes}]", "N"),
+            Option("max_bytes", "integer", f"Maximum size of an input in bytes.  [default: {_LIMITS.bytes}]", "N"),
             *SHARED,
         ),
     ),

@@ -1,6 +1,7 @@
 """Text of an input as messages show it: never longer than a limit."""
 
 MAX_LENGTH = 80
+MAX_PATH_LENGTH = 120
 
 
 def shortened(text: str, limit: int = MAX_LENGTH) -> str:
@@ -11,3 +12,8 @@ def shortened(text: str, limit: int = MAX_LENGTH) -> str:
 def quoted(text: str, limit: int = MAX_LENGTH) -> str:
     """The text in backticks, shortened to `limit` characters."""
     return f"`{shortened(text, limit)}`"
+
+
+def quoted_path(path: str) -> str:
+    """A path in backticks, shortened only if it is unusually long."""
+    return quoted(path, MAX_PATH_LENGTH)

@@ -9,6 +9,7 @@ import os
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.project import inside, project_root
+from msaa_lint.core.quote import quoted_path
 from msaa_lint.core.suggestions import nearest
 from msaa_lint.core.text.files import read
 from msaa_lint.core.text.node import Limits
@@ -51,7 +52,7 @@ def profile_of(name: str) -> DeviceProfile | Problem:
         return _reported(name, os.curdir)
     close = nearest(name, known_profiles())
     help = f"did you mean `{close}`?" if close else f"there are {', '.join(known_profiles())}, and paths of device reports"
-    return Problem("MSAA904", f"no profile {_quoted(name)}", help)
+    return Problem("MSAA904", f"no profile {quoted_path(name)}", help)
 
 
 def known_profiles() -> tuple[str, ...]:
@@ -80,7 +81,7 @@ def device_for(description: "Description", file: str, default: DeviceProfile | N
     if is_path(stated):
         folder = os.path.dirname(file) or os.curdir
         return _reported(stated, folder, project_root(folder))
-    return Problem("MSAA904", f"no device {_quoted(stated)}", f"built-in devices: {', '.join(names())}")
+    return Problem("MSAA904", f"no device {quoted_path(stated)}", f"built-in devices: {', '.join(names())}")
 
 
 def _reported(name: str, folder: str, within: str | None = None) -> DeviceProfile | Problem:
@@ -88,7 +89,7 @@ def _reported(name: str, folder: str, within: str | None = None) -> DeviceProfil
     path, which = split(name)
     full = os.path.join(folder, path)
     if within is not None and not inside(full, within):
-        return Problem("MSAA903", f"{_quoted(path)} leaves the project", "--profile on the command line can name what lies outside")
+        return Problem("MSAA903", f"{quoted_path(path)} leaves the project", "--profile on the command line can name what lies outside")
     found = reports(full, path)
     if isinstance(found, Problem):
         return found
@@ -99,8 +100,8 @@ def _reported(name: str, folder: str, within: str | None = None) -> DeviceProfil
         return report.profile
     there = ", ".join(f"`{path}#{number}` is {each.profile.name}" for number, each in enumerate(found[:8], 1))
     if which:
-        return Problem("MSAA904", f"no device {_quoted(which)} in {_quoted(path)}", there)
-    return Problem("MSAA903", f"{_quoted(path)} has {len(found)} devices: say which", there)
+        return Problem("MSAA904", f"no device {quoted_path(which)} in {quoted_path(path)}", there)
+    return Problem("MSAA903", f"{quoted_path(path)} has {len(found)} devices: say which", there)
 
 
 def reports(path: str, called: str) -> "list[Report] | Problem":
@@ -114,14 +115,14 @@ def reports(path: str, called: str) -> "list[Report] | Problem":
             _read[key] = parsed(read(path, Limits(bytes=MAX_BYTES)), called)
         return _read[key]
     except FileNotFoundError:
-        return Problem("MSAA904", f"no file {_quoted(called)}", _near(path, called))
+        return Problem("MSAA904", f"no file {quoted_path(called)}", _near(path, called))
     except Unreadable:
         reason = f"it is larger than {MAX_BYTES >> 20} MiB"
     except NotAReport as error:
-        return Problem("MSAA903", f"{_quoted(called)}: {error}", f"expected {EXPECTED}")
+        return Problem("MSAA903", f"{quoted_path(called)}: {error}", f"expected {EXPECTED}")
     except (OSError, ValueError) as error:
         reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
-    return Problem("MSAA903", f"{_quoted(called)} cannot be read: {reason}")
+    return Problem("MSAA903", f"{quoted_path(called)} cannot be read: {reason}")
 
 
 _read: "dict[tuple[str, str, int, int], list[Report]]" = {}
@@ -144,12 +145,8 @@ def _near(path: str, called: str) -> str:
         with os.scandir(folder or os.curdir) as entries:
             there = [entry.name for entry, _ in zip(entries, range(MAX_LISTED), strict=False) if entry.name.endswith(ENDINGS)]
     except OSError:
-        return f"the folder {_quoted(os.path.dirname(called))} is not there"
+        return f"the folder {quoted_path(os.path.dirname(called))} is not there"
     close = nearest(name, sorted(there))
     if close is not None:
         return f"did you mean `{called[: len(called) - len(name)]}{close}`?"
     return f"built-in devices: {', '.join(names())}"
-
-
-def _quoted(word: str) -> str:
-    return f"`{word[:120]}…`" if len(word) > 120 else f"`{word}`"

@@ -11,6 +11,7 @@ import os
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.project import inside, project_root
+from msaa_lint.core.quote import quoted_path
 from msaa_lint.core.text.files import read
 from msaa_lint.core.text.node import Limits
 from msaa_lint.core.text.source import Unreadable
@@ -80,12 +81,12 @@ class Modules:
                 found = reflected(module, stage.name, constants, alpha)
                 self._left -= STEP * found.steps
             except SpirvError as error:
-                raise _Unusable("MSAA904" if "entry point" in str(error) else "MSAA903", f"{_quoted(name)}: {error}") from None
+                raise _Unusable("MSAA904" if "entry point" in str(error) else "MSAA903", f"{quoted_path(name)}: {error}") from None
         except _Unusable as error:
             self._warn(error, stage)
             return None
         if found.stage != stage.stage:
-            wrong = _Unusable("MSAA903", f"{_quoted(name)}: `{found.name[:40]}` is a shader of stage {found.stage}, not {stage.stage}")
+            wrong = _Unusable("MSAA903", f"{quoted_path(name)}: `{found.name[:40]}` is a shader of stage {found.stage}, not {stage.stage}")
             self._warn(wrong, stage)
             return None
         return found
@@ -127,7 +128,9 @@ class Modules:
         try:
             return Module(code)
         except SpirvError as error:
-            raise _Unusable("MSAA903", f"{_quoted(name)}: {error}", "a module must be SPIR-V, for example from glslang or DXC") from None
+            raise _Unusable(
+                "MSAA903", f"{quoted_path(name)}: {error}", "a module must be SPIR-V, for example from glslang or DXC"
+            ) from None
 
     def _of_text(self, name: str, code: bytes) -> bytes:
         """Compiles GLSL to SPIR-V."""
@@ -140,26 +143,22 @@ class Modules:
             # Snippets and included files may be partial shaders.
             return shader(code.decode("utf-8", "replace"), True).code
         except Missing as error:
-            raise _Unusable("MSAA903", f"{_quoted(name)} is GLSL", str(error)) from None
+            raise _Unusable("MSAA903", f"{quoted_path(name)} is GLSL", str(error)) from None
         except UnsupportedShader as error:
             raise _Unusable(
-                "MSAA903", f"{_quoted(name)} cannot be analyzed: {error}", "name its SPIR-V instead, which is fully supported"
+                "MSAA903", f"{quoted_path(name)} cannot be analyzed: {error}", "name its SPIR-V instead, which is fully supported"
             ) from None
 
     def _bytes(self, name: str) -> bytes:
         path = os.path.join(self._folder, name)
         if not inside(path, project_root(self._folder)):
-            raise _Unusable("MSAA903", f"{_quoted(name)} is outside the project")
+            raise _Unusable("MSAA903", f"{quoted_path(name)} is outside the project")
         try:
             return read(path, Limits(bytes=MAX_BYTES))
         except FileNotFoundError:
-            raise _Unusable("MSAA904", f"file not found: {_quoted(name)}", "rules that need the shader stay undecided") from None
+            raise _Unusable("MSAA904", f"file not found: {quoted_path(name)}", "rules that need the shader stay undecided") from None
         except Unreadable:
-            raise _Unusable("MSAA903", f"{_quoted(name)} cannot be read: it is larger than {MAX_BYTES >> 20} MiB") from None
+            raise _Unusable("MSAA903", f"{quoted_path(name)} cannot be read: it is larger than {MAX_BYTES >> 20} MiB") from None
         except (OSError, ValueError) as error:
             reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
-            raise _Unusable("MSAA903", f"{_quoted(name)} cannot be read: {reason}") from None
-
-
-def _quoted(word: str) -> str:
-    return f"`{word[:120]}…`" if len(word) > 120 else f"`{word}`"
+            raise _Unusable("MSAA903", f"{quoted_path(name)} cannot be read: {reason}") from None

@@ -214,10 +214,10 @@ class _Reading:
     def _anchored(self, event: Any) -> _Anchored:
         start, end, name = event.start_mark.index, event.end_mark.index, event.anchor
         if name not in self.anchors:
-            raise Stop("MSAA901", f"the anchor `&{name[:80]}` is not defined before this alias", start, end)
+            raise Stop("MSAA901", f"the anchor {quoted(f'&{name}')} is not defined before this alias", start, end)
         anchored = self.anchors[name]
         if anchored is None:
-            raise Stop("MSAA901", f"the anchor `&{name[:80]}` contains itself", start, end)
+            raise Stop("MSAA901", f"the anchor {quoted(f'&{name}')} contains itself", start, end)
         return anchored
 
     def _apply_tag(self, node: Node, tag: str) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
+from msaa_lint.core.quote import quoted
 from msaa_lint.core.suggestions import question
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.facts.table import FACTS, SUBJECTS
@@ -27,7 +28,7 @@ def problems(rule: Rule) -> list[Finding]:
 def _problems(spec: FixSpec, rule: Rule) -> Iterator[tuple[Span, str]]:
     actions = {**ACTIONS, **METAL_ACTIONS}
     if spec.do and spec.do not in actions:
-        yield spec.at, f"unknown action `do: {spec.do[:80]}`; use one of {', '.join(actions)}"
+        yield spec.at, f"unknown action {quoted(f'do: {spec.do}')}; use one of {', '.join(actions)}"
     facts = {fact.name for fact in SUBJECTS[rule.subject]}
     sources = {**FACT_SOURCES, **METAL_FACT_SOURCES}
     for setting in (*spec.set, *spec.add, *spec.remove):
@@ -52,4 +53,4 @@ def _value_problems(setting: Setting, facts: set[str]) -> Iterator[tuple[Span, s
 
         words = WORDS[fact.enum] if fact.enum in WORDS else tuple(VALUES.get(fact.enum, ()))
         if value not in words:
-            yield setting.at, f"`{fact.name}` is never `{value[:80]}`{question(nearest_name(value, words))}"
+            yield setting.at, f"`{fact.name}` is never {quoted(value)}{question(nearest_name(value, words))}"
