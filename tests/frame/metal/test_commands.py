@@ -68,7 +68,7 @@ def test_confirm(tmp_path: Path) -> None:
     passes = found["passes"]
     assert [(each["path"], each["status"]) for each in passes] == [("metal.renderPasses.forward", "confirmed")] * 2
     for each in passes:
-        assert each["notes"][0] == "the frame is in Metal's words: what is drawn is the Vulkan pass of the same meaning"
+        assert each["notes"][0] == "the frame is described in terms of Metal: the equivalent Vulkan pass is drawn"
     both = {each["rule"] for each in passes[0]["messages"] if each["verdict"] == "both"}
     assert {"multisampled-attachment-stored", "multisampled-depth-stored"} <= both
     assert not [each for each in passes[1]["messages"] if each["verdict"] in ("ours", "theirs")]
