@@ -1,4 +1,4 @@
-"""Writes the tables of docs/agreement.md from what `confirm` matches messages with; `--check` only says whether they are fresh."""
+"""Generates the tables of docs/agreement.md from the data of `confirm`; `--check` only tests whether they are up to date."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def linked(rules: Iterable[str]) -> str:
 
 
 def looks(at: CheckScope) -> str:
-    """Where the layer looks, in words."""
+    """What the layer checks, in words."""
     words = []
     if at.passes:
         words.append(", ".join(PASSES[each] for each in at.passes))
@@ -49,7 +49,7 @@ def families() -> str:
     rows = (
         (f"`{f.name}`", f.description, linked(f.rules) or "none", looks(f.scope), " ".join(f"`{id}`" for id in f.ids)) for f in FAMILIES
     )
-    return table(("family", "the layer says", "our rules", "it looks at", "VUIDs and best practices"), rows)
+    return table(("family", "the layer reports", "rules", "it checks", "VUIDs and best practices"), rows)
 
 
 def alone() -> str:
@@ -85,7 +85,7 @@ TABLES: dict[str, Callable[[], str]] = {
 
 
 def fresh(text: str) -> str:
-    """The page with its tables made anew."""
+    """The page with its tables regenerated."""
     for name, made in TABLES.items():
         begin, end = f"<!-- {name}: made by docs/agreement.py -->", f"<!-- end of {name} -->"
         if text.count(begin) != 1 or end not in text:

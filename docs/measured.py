@@ -1,7 +1,7 @@
-"""Accuracy and time on a device: samples read back from it, time by its own clock.
+"""Measures accuracy and time on a device: samples are read back from it, and its clock measures the time.
 
-`python docs/measured.py --device NVIDIA --size 3840x2160 edge-fan` prints a table in Markdown; `--json FILE` keeps the points, `--plot
-FILE.svg` draws error against time; `--from FILE` takes the points of such a file in place of a device's.
+`python docs/measured.py --device NVIDIA --size 3840x2160 edge-fan` prints a table in Markdown; `--json FILE` stores the points, `--plot
+FILE.svg` plots error against time, and `--from FILE` uses stored points instead of a device.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ from msaa_lint.experiments.study.times import DeviceClock
 
 @dataclasses.dataclass
 class Measured:
-    """A technique on a device. Errors are of coverage over the pixels that an edge crosses; `differ` is how many samples the simulation has
-    otherwise."""
+    """A technique on a device. Errors are of coverage over the pixels that an edge crosses; `differ` is the number of samples that differ
+    from the simulation."""
 
     scene: str
     technique: str
@@ -50,13 +50,13 @@ class Measured:
 
 
 def simulate(corners: np.ndarray, width: int, height: int, samples: int, fused: bool) -> np.ndarray:
-    """The samples that the simulation covers."""
+    """The samples that triangles cover in the simulation."""
     triangles = snap.snapped(snap.viewport(corners[..., :2], width, height, fused))
     return fragments.masks(coverage.rows(triangles, width, height, locations.standard(samples)), width, height, samples)
 
 
 def measured(made: Scene, technique: Technique, session: Session, clock: DeviceClock) -> Measured:
-    """A technique's errors and time."""
+    """The errors and the time of a technique."""
     side = technique.grid if technique.kind == SSAA else 1
     samples = 1 if technique.kind == SSAA else technique.samples
     width, height = made.width * side, made.height * side
@@ -95,7 +95,7 @@ def plotted(found: list[Measured], device: str) -> bytes:
 
 def table(found: list[Measured]) -> Iterator[str]:
     """The rows of a table in Markdown."""
-    yield "| technique | RMSE at edges | worst | bias | ms | ratio to 1x | samples that the simulation has otherwise |"
+    yield "| technique | RMSE at edges | worst | bias | ms | ratio to 1x | samples that differ from the simulation |"
     yield "|---|---:|---:|---:|---:|---:|---:|"
     first = next((each.time_ms for each in found if each.time_ms), None)
     for each in found:

@@ -1,6 +1,6 @@
-"""Writes the table of docs/study-numbers.md: hard cases, the exact answer, and what naive float32, float64 and the study give.
+"""Generates the table of docs/study-numbers.md: hard cases, the exact answer, and the results of naive float32, float64 and the study.
 
-`python docs/study_numbers.py` writes it, `--check` only says whether it is fresh. Exact answers are rational arithmetic (fractions).
+`python docs/study_numbers.py` writes it; `--check` only tests whether it is up to date. Exact answers use rational arithmetic (fractions).
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ from msaa_lint.experiments.study.resolve import DEPTH_MODES, average, resolve_de
 
 PAGE = Path(__file__).parent / "study-numbers.md"
 CENTER = np.array([[128, 128]])
-"""One sample, in the middle of the pixel, in 1/256 pixel."""
+"""One sample at the center of the pixel, in 1/256 pixel."""
 
 
 class Row(NamedTuple):
-    """A case: what naive arithmetic (float32 where the case does not say otherwise), float64 and ours give; `within` is how far from exact
-    is right, relative to it."""
+    """A case: the results of naive arithmetic (float32 unless the case says otherwise), float64 and the study; `within` is the relative
+    tolerance."""
 
     group: str
     case: str
@@ -39,7 +39,7 @@ class Row(NamedTuple):
     within: float = 0.0
 
     def right(self, value: float) -> bool:
-        """Whether a value is the exact one."""
+        """Whether a value is correct."""
         if not math.isfinite(self.exact):
             return value == self.exact or (math.isnan(self.exact) and math.isnan(value))
         return abs(value - self.exact) <= self.within * abs(self.exact)
@@ -49,8 +49,8 @@ Triangles = NDArray[np.int64]
 
 
 def near_ties(length: int, count: int, seed: int) -> tuple[Triangles, NDArray[np.bool_]]:
-    """Triangles with an edge of about `length` pixels whose edge function is 1 or -1 at the sample, the least that it can be but 0, and
-    whether they cover it. Bezout's identity finds them; random triangles hardly ever are."""
+    """Triangles with an edge of about `length` pixels whose edge function is 1 or -1 at the sample, the smallest nonzero values, and
+    whether they cover it. Bezout's identity finds them; random triangles hardly ever qualify."""
     made, inside = [], []
     draws = random.Random(seed)
     size = length * 256
@@ -71,7 +71,7 @@ def near_ties(length: int, count: int, seed: int) -> tuple[Triangles, NDArray[np
 
 
 def naive(triangles: Triangles, kind: type[np.floating[Any]], sample: NDArray[Any] = CENTER[0]) -> NDArray[np.bool_]:
-    """Whether triangles cover the sample, by edge functions of pixels in floating point, with the top-left rule where they give 0."""
+    """Whether triangles cover the sample, by edge functions in pixels in floating point, with the top-left rule where they are 0."""
     corners, point = (triangles / 256).astype(kind), (sample / 256).astype(kind)
     sides = []
     for first, second in ((0, 1), (1, 2), (2, 0)):
@@ -89,24 +89,24 @@ def ours(triangles: Triangles) -> NDArray[np.bool_]:
 
 
 def wrongly(triangles: Triangles, inside: NDArray[np.bool_]) -> list[float]:
-    """How many of the triangles float32, float64 and ours decide wrongly."""
+    """The number of triangles that float32, float64 and the study get wrong."""
     found = (naive(triangles, np.float32), naive(triangles, np.float64), ours(triangles))
     return [float(np.count_nonzero(each != inside)) for each in found]
 
 
 def coverages() -> Iterator[Row]:
-    """Samples decided wrongly; what is exact is none."""
+    """The number of wrong samples; the exact number is 0."""
     for length, words in ((64, "64"), (1024, "1,024"), (16384, "16,384"), (2**20, "2^20"), (2**23, "2^23")):
         count = 4000 if length < 2**22 else 400
         triangles, inside = near_ties(length, count, length)
-        case = f"edges of {words} pixels past a sample, as near as any can: wrong of {count:,}"
+        case = f"edges of {words} pixels, as close to a sample as possible: wrong of {count:,}"
         yield Row("coverage", case, 0, *wrongly(triangles, inside))
     yield Row("coverage", "slivers 1/256 pixel wide and 8,192 long: wrong of 4,000", 0, *wrongly(*needles(4000)))
     yield shared(4000)
 
 
 def needles(count: int) -> tuple[Triangles, NDArray[np.bool_]]:
-    """Triangles 1/256 pixel wide and 8,192 pixels long that pass the sample, and whether they cover it, by whole numbers."""
+    """Triangles 1/256 pixel wide and 8,192 pixels long close to the sample, and whether they cover it, in integer arithmetic."""
     draws = random.Random(1)
     made, inside = [], []
     while len(made) < count:
@@ -130,7 +130,7 @@ def needles(count: int) -> tuple[Triangles, NDArray[np.bool_]]:
 
 
 def shared(count: int) -> Row:
-    """Pairs of triangles on either side of an edge through the sample, or as near to it as any can be: both, or neither, have it."""
+    """Pairs of triangles on either side of an edge through the sample or as close to it as possible; wrong if both or neither cover it."""
     ties, _ = near_ties(4096, count // 2, 7)
     draws = random.Random(3)
     through = []
@@ -143,11 +143,11 @@ def shared(count: int) -> Row:
     other[:, 2] = one[:, 0] + one[:, 1] - one[:, 2]
     covers = (lambda each: naive(each, np.float32), lambda each: naive(each, np.float64), ours)
     found = [float(np.count_nonzero(cover(one) == cover(other))) for cover in covers]
-    return Row("coverage", f"shared edges through a sample, and as near as any can: cracks and double hits of {count:,}", 0, *found)
+    return Row("coverage", f"shared edges through a sample or as close as possible: gaps and double hits of {count:,}", 0, *found)
 
 
 def sequential(samples: list[float], kind: type[np.floating[Any]]) -> float:
-    """The sum in that precision, in order, divided by the count."""
+    """The sum in a precision, in order, divided by the count."""
     with np.errstate(over="ignore", invalid="ignore"):
         value = kind(samples[0])
         for each in samples[1:]:
@@ -156,7 +156,7 @@ def sequential(samples: list[float], kind: type[np.floating[Any]]) -> float:
 
 
 def scaled(samples: list[float], kind: type[np.floating[Any]]) -> float:
-    """Each sample divided by the count in that precision, then added."""
+    """The sum of samples that are divided by the count first, in a precision."""
     value = kind(0)
     for each in samples:
         value = value + kind(each) / kind(len(samples))
@@ -180,13 +180,13 @@ def averages() -> Iterator[Row]:
             "resolve", words, mean(samples), sequential(samples, np.float16), sequential(samples, np.float64), made(samples, np.float16)
         )
     tiny, least = [2.0**-24] * 4, [2.0**-149] * 4
-    yield Row("resolve", "4 of the least half-precision subnormal; naive: each quartered in half", mean(tiny), scaled(tiny, np.float16),
-              scaled(tiny, np.float64), made(tiny, np.float16))  # fmt: skip
-    yield Row("resolve", "4 of the least single-precision subnormal; naive: each quartered", mean(least), scaled(least, np.float32),
-              scaled(least, np.float64), made(least))  # fmt: skip
+    case = "4 times the smallest half-precision subnormal; naive: each quartered in half"
+    yield Row("resolve", case, mean(tiny), scaled(tiny, np.float16), scaled(tiny, np.float64), made(tiny, np.float16))
+    case = "4 times the smallest single-precision subnormal; naive: each quartered"
+    yield Row("resolve", case, mean(least), scaled(least, np.float32), scaled(least, np.float64), made(least))
     for samples, due, words in (
         ([math.inf, 1.0, 2.0, 3.0], math.inf, "an infinite sample; naive: clamped to 65504, as some drivers do"),
-        ([math.nan, 1.0, 2.0, 3.0], math.nan, "a sample that is NaN; naive: taken as 0, as fixed point does"),
+        ([math.nan, 1.0, 2.0, 3.0], math.nan, "a NaN sample; naive: treated as 0, as fixed point does"),
     ):
         shown = [65504.0 if math.isinf(each) else 0.0 if math.isnan(each) else each for each in samples]
         yield Row("resolve", words, due, sequential(shown, np.float32), sequential(samples, np.float64), made(samples))
@@ -196,7 +196,7 @@ def averages() -> Iterator[Row]:
     cut = float(int(np.float32(sequential(light, np.float32)) * 255))
     nearest = float(np.rint(to_unorm(average(np.array(light, np.float32)[:, None]))[0] * 255))
     in_double = float(round(sequential(light, np.float64) * 255))
-    yield Row("resolve", "UNORM8 codes 254, 255, 255, 255; naive: cut off", exact, cut, in_double, nearest)
+    yield Row("resolve", "UNORM8 codes 254, 255, 255, 255; naive: truncated", exact, cut, in_double, nearest)
 
 
 def lights() -> Iterator[Row]:
@@ -222,7 +222,7 @@ def lights() -> Iterator[Row]:
     yield Row("light", "infinite light, displayed; naive: x / (1 + x)", 1.0, ratio, math.nan, float(tone_map(bright)[0, 0]))
     with np.errstate(over="ignore"):
         large = float(np.float16(65519.99))
-    yield Row("light", "65519.99 kept in half precision; naive: anything above 65504 is infinite", 65504.0, math.inf, large,
+    yield Row("light", "65519.99 stored in half precision; naive: anything above 65504 is infinite", 65504.0, math.inf, large,
               float(store_half(np.array([65519.99], np.float32))[0]))  # fmt: skip
 
 
@@ -232,9 +232,9 @@ def depths() -> Iterator[Row]:
     found = {mode: float(resolve_depth(samples, mode)[0]) for mode in DEPTH_MODES}
     average_of = found["AVERAGE"]
     for mode, words, due in (("MIN", "nearest", near), ("MAX", "farthest", far), ("SAMPLE_ZERO", "first sample's", far)):
-        words = f"depth of a silhouette, 0.25 before 0.75: {mode}, the {words}; naive: AVERAGE"
+        words = f"depth of a silhouette, 0.25 in front of 0.75: {mode}, the {words}; naive: AVERAGE"
         yield Row("depth", words, due, average_of, mean([near, near, far, far]), found[mode])
-    # A millimetre apart at a kilometre, the near plane at 0.1 m: depth is 1 - 0.1 / z, reversed 0.1 / z.
+    # One millimeter apart at one kilometer, with the near plane at 0.1 m: depth is 1 - 0.1 / z, reversed 0.1 / z.
     first, second = Fraction(1, 10) / 1000, Fraction(1, 10) / (1000 + Fraction(1, 1000))
     standard = [np.float32(float(1 - each)) for each in (first, second)]
     reverse = [np.float32(float(each)) for each in (first, second)]
@@ -267,7 +267,7 @@ def rows() -> list[Row]:
 
 
 def written(value: float) -> str:
-    """A number in few digits, the same on every machine."""
+    """A number with few digits, the same on every machine."""
     if math.isnan(value):
         return "NaN"
     if math.isinf(value):
@@ -278,7 +278,7 @@ def written(value: float) -> str:
 
 
 def table() -> str:
-    """The table in Markdown; what is wrong is struck through."""
+    """The table in Markdown; wrong results are struck through."""
     lines = ["| case | exact | naive | float64 | ours |", "|---|---:|---:|---:|---:|"]
     for row in rows():
         cells = [written(each) if row.right(each) else f"~~{written(each)}~~" for each in (row.naive, row.double, row.ours)]
@@ -290,7 +290,7 @@ BEGIN, END = "<!-- numbers: made by docs/study_numbers.py -->", "<!-- end of num
 
 
 def fresh(text: str) -> str:
-    """The page with its table made anew."""
+    """The page with its table regenerated."""
     if text.count(BEGIN) != 1 or END not in text:
         raise SystemExit("docs/study-numbers.md has no single place for the table")
     before, after = text.split(BEGIN)
