@@ -1,6 +1,6 @@
-"""msaa-lint finds the multisampling mistakes in a Vulkan frame.
+"""msaa-lint finds multisampling mistakes in Vulkan frames.
 
-`lint` is the whole Python interface; everything else is internal and may change.
+`lint` is the Python interface; everything else is internal and may change.
 """
 
 from __future__ import annotations
@@ -29,11 +29,10 @@ def lint(
     config: str | None = None,
     isolated: bool = False,
 ) -> Result:
-    """What `msaa-lint check` finds in files and folders, or in a `text` that is called `filename`.
+    """Lints files and folders, or a `text` with the name `filename`, as `msaa-lint check` does; the other arguments are its options.
 
-    Findings have places as offsets into `result.sources[finding.file].text`; `Source.position` turns them into lines and columns. A
-    mistake in an input, a page or the configuration is a finding (MSAA9xx), never an exception. The other arguments are the command's
-    options.
+    The location of a finding is a span of offsets into `result.sources[finding.file].text`; `Source.position` converts an offset to a line
+    and a column. A problem of an input, a rule page or the configuration is a finding (MSAA9xx), never an exception.
     """
     from .linter.run import run
     from .linter.workspace import Request
@@ -42,5 +41,5 @@ def lint(
         "select": select, "extend_select": extend_select, "ignore": ignore, "rules": rules, "profile": profile, "edition": edition,
     }  # fmt: skip
     data = text.encode("utf-8", "surrogatepass") if isinstance(text, str) else text
-    given = [*paths, "-"] if text is not None else paths
-    return run(Request(given, overrides, config, isolated, stdin_filename=filename if text is not None else None, data=data)).result
+    inputs = [*paths, "-"] if text is not None else paths
+    return run(Request(inputs, overrides, config, isolated, stdin_filename=filename if text is not None else None, data=data)).result

@@ -172,8 +172,8 @@ class Engine:
             return modules[0].reflected(stage, alpha)
 
         verdicts = self._runner.run(subjects(document, device, study, shader), file, options.severity, document.api)
-        for each in modules:
-            verdicts.findings.extend(each.findings)
+        for loaded in modules:
+            verdicts.findings.extend(loaded.findings)
         return verdicts, device
 
     def _suppress(
@@ -192,10 +192,10 @@ class Engine:
         from .suppress.suppressions import apply
 
         enabled = {rule.name for rule in self.registry.rules if severity(rule, rule.severity, None) is not None}
-        kept, suppressed, about_comments = apply(
+        remaining, suppressed, about_comments = apply(
             findings, comments, source, self.registry.rules, enabled.difference(undecided), comment_lines
         )
-        return [*kept, *about_comments], suppressed
+        return [*remaining, *about_comments], suppressed
 
 
 def load_rules(paths: Sequence[str] = ()) -> Registry:

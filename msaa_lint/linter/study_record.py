@@ -97,9 +97,9 @@ def inputs(frame: "Frame") -> dict[str, str]:
     size = description.frame
     states = ([(member, _canonical(getattr(pipeline, member))) for member in _PIPELINE] for pipeline, _ in frame.pipelines)
     return {
-        "attachments": repr(sorted({repr(each) for each in _attachments(frame)})),
+        "attachments": repr(sorted(set(map(repr, _attachments(frame))))),
         "device": repr(_canonical(description.device)),
-        "pipelines": repr(sorted({repr(each) for each in states})),
+        "pipelines": repr(sorted(set(map(repr, states)))),
         "scene": repr(_canonical(description.scene)),
         "size": repr((size.width, size.height) if size is not None else None),
     }
@@ -114,8 +114,8 @@ def _attachments(frame: "Frame") -> Iterator[object]:
             yield target.format.name if target.format is not None else None, encoding
         elif usage is None or "COLOR_ATTACHMENT" in usage:
             yield target.format is not None and target.format.is_srgb, encoding == "GAMMA"
-    for each in frame.passes:
-        for subpass in each.subpasses:
+    for render_pass in frame.passes:
+        for subpass in render_pass.subpasses:
             yield from ((resolve.aspect, resolve.mode) for resolve in subpass.resolves)
 
 
@@ -202,16 +202,19 @@ def _counts(node: "Node", device: str, size: tuple[int, int]) -> dict[int, Measu
 
 def _says(count: int, found: dict[int, _Count], device: str, size: tuple[int, int]) -> str:
     """The result of a study for a sample count, compared with the largest count up to 4."""
-    own = found[count]
-    base = max((each for each in found if each <= 4), default=None)
-    where = f"at {size[0]}x{size[1]}" + (f" on {device}" if device else "") + (f"; {own.reason}" if own.reason else "")
+    measured = found[count]
+    base = max((samples for samples in found if samples <= 4), default=None)
+    where = f"at {size[0]}x{size[1]}" + (f" on {device}" if device else "") + (f"; {measured.reason}" if measured.reason else "")
     if base is None or base == count:
-        return f"its error is {own.rmse:.3g} {where}"
-    than = found[base]
-    error = f"it leaves {100 * own.rmse / than.rmse:.0f} % of {base}x's error" if than.rmse > 0 else f"{base}x has no error to lose"
-    if own.time_ms is None or not than.time_ms:
+        return f"its error is {measured.rmse:.3g} {where}"
+    reference = found[base]
+    if reference.rmse > 0:
+        error = f"it leaves {100 * measured.rmse / reference.rmse:.0f} % of {base}x's error"
+    else:
+        error = f"{base}x has no error to lose"
+    if measured.time_ms is None or not reference.time_ms:
         return f"{error}, at no known time, {where}"
-    return f"{error} for {own.time_ms / than.time_ms:.2g} times its time {where}"
+    return f"{error} for {measured.time_ms / reference.time_ms:.2g} times its time {where}"
 
 
 def _members(node: "Node", names: Iterable[str]) -> "list[Node]":

@@ -62,14 +62,14 @@ def load(paths: Sequence[str] = (), check_fixes: CheckFixes = lambda _: []) -> R
         problems.extend(page.problems)
         if page.rule is not None:
             rules.append(page.rule)
-    own: dict[str, None] = {}
+    user_pages: dict[str, None] = {}
     for path in paths:
         found = pages(path)
-        own.update(dict.fromkeys(map(os.path.normpath, found)))
+        user_pages.update(dict.fromkeys(map(os.path.normpath, found)))
         if not found:
             shown = os.path.relpath(path).replace(os.sep, "/")
             problems.append(diagnostic("MSAA921", "no rule pages in this folder", shown))
-    for path in own:
+    for path in user_pages:
         shown = os.path.relpath(path).replace(os.sep, "/")
         page = read_page(path, shown)
         problems.extend(page.problems)

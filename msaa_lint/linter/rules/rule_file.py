@@ -278,18 +278,18 @@ class _PageReader:
         for key in node.value:
             if key not in known:
                 self.unknown(node.keys[key], known)
-        given = {key: self.text(value) for key, value in node.value.items() if key != "fix"}
-        if "severity" in given:
+        texts_by_key = {key: self.text(value) for key, value in node.value.items() if key != "fix"}
+        if "severity" in texts_by_key:
             self.one_of(node.value["severity"], SEVERITIES)
-        if "confidence" in given:
+        if "confidence" in texts_by_key:
             self.one_of(node.value["confidence"], CONFIDENCES)
         when = node.value["when"]
         self.bounded(when)
-        own = node.value.get("fix")
-        if own is not None:
-            fix = None if own.kind == "scalar" and own.value is None else self.fix(own, fix)
-        texts = (given.get("severity"), given.get("confidence"), given.get("message"))
-        return Case(given["when"], *texts, when.span, fix, given.get("help"))
+        case_fix = node.value.get("fix")
+        if case_fix is not None:
+            fix = None if case_fix.kind == "scalar" and case_fix.value is None else self.fix(case_fix, fix)
+        texts = (texts_by_key.get("severity"), texts_by_key.get("confidence"), texts_by_key.get("message"))
+        return Case(texts_by_key["when"], *texts, when.span, fix, texts_by_key.get("help"))
 
     def fix(self, node: Node, of_rule: FixSpec | None) -> FixSpec | None:
         """A fix. In a case, one that only states its safety is the fix of the rule with that safety."""

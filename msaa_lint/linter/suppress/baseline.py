@@ -81,14 +81,14 @@ def apply(findings: Iterable[Finding], baseline: Baseline) -> tuple[list[Finding
     """The findings that the baseline does not count, and those that it suppresses. All findings of a file must be passed together."""
     findings = list(findings)
     counts = _counts(findings, baseline.root)
-    kept, suppressed = [], []
+    remaining, suppressed = [], []
     for found in findings:
         key = _key(found.file, baseline.root)
         if found.fatal or counts[key][found.rule] > baseline.entries.get(key, {}).get(found.rule, 0):
-            kept.append(found)
+            remaining.append(found)
         else:
             suppressed.append(Suppressed(found, "baseline"))
-    return kept, suppressed
+    return remaining, suppressed
 
 
 def stale(

@@ -102,18 +102,18 @@ class _Table:
         """The findings that remain, and the suppressed ones."""
         for lines in self._on_lines.values():
             lines.sort()
-        kept: list[Finding] = []
+        remaining: list[Finding] = []
         suppressed: list[Suppressed] = []
         covered: dict[str, list[tuple[int, int]]] = {}
         for found in findings:
             by = None if found.fatal or found.file != source.name else self._by(found, source, covered)
             if by is None:
-                kept.append(found)
+                remaining.append(found)
             else:
                 suppressed.append(Suppressed(found, "inline", self._entries[by][0].reason))
         for rule, ranges in covered.items():
             self._use(self._on_lines[rule], ranges)
-        return kept, suppressed
+        return remaining, suppressed
 
     def _by(self, found: Finding, source: Source, covered: dict[str, list[tuple[int, int]]]) -> int | None:
         """The entry that suppresses a finding: the first on its lines, or else for the file. All entries that match it become used."""
