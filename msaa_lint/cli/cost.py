@@ -6,6 +6,7 @@ import math
 import os
 import sys
 from functools import partial
+from importlib import import_module
 from typing import IO
 
 from msaa_lint.core.finding import Result
@@ -126,23 +127,13 @@ def _print_errors(errors: Result, arguments: Arguments) -> None:
 
 
 def _render(format: str, result: CostResult, comparison: CostComparison | None, arguments: Arguments, out: IO[str]) -> None:
-    from .report import cost_full, cost_json, cost_markdown
-
     options = report_options(arguments, out, color=format == "full", width=0)
-    if format == "json":
-        if comparison is not None:
-            cost_json.render_comparison(comparison, result.errors, out.write, options)
-        else:
-            cost_json.render(result.frames, result.errors, out.write, options)
-    elif format == "markdown":
-        if comparison is not None:
-            cost_markdown.render_comparison(comparison, out.write, options)
-        else:
-            cost_markdown.render(result.frames, result.errors, out.write, options)
-    elif comparison is not None:
-        cost_full.render_comparison(comparison, out.write, options)
+    # Each report is imported only if it is printed: tables take rich.
+    report = import_module(f".report.cost_{format}", __package__)
+    if comparison is not None:
+        report.render_comparison(comparison, result.errors, out.write, options)
     else:
-        cost_full.render(result.frames, out.write, options)
+        report.render(result.frames, result.errors, out.write, options)
 
 
 def _draw_chart(path: str, result: CostResult, comparison: CostComparison | None) -> None:

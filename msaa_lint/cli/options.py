@@ -8,13 +8,11 @@ from collections.abc import Sequence
 from importlib import import_module
 from typing import Any, NamedTuple
 
+from msaa_lint.core.finding import CONFIDENCES, SEVERITIES
 from msaa_lint.core.text.node import Limits
 from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
 
 _LIMITS = Limits()
-
-LEVELS = ("note", "warning", "error")
-CONFIDENCES = ("low", "medium", "high")
 
 INPUT_FORMATS = (
     "description", "vulkan-sc", "gfxreconstruct", "api-dump", "renderdoc", "fossilize", "c", "cpp", "swift", "glsl", "markdown",
@@ -82,14 +80,14 @@ COMMANDS = {
             *_RULES,
             Option("edition", "text", "Use the default rules of this edition.", "EDITION"),
             _PROFILE,
-            Option("fail_on", "choice", "Lowest severity that makes the exit code 1.  [default: warning]", choices=LEVELS),
+            Option("fail_on", "choice", "Lowest severity that makes the exit code 1.  [default: warning]", choices=SEVERITIES),
             Option("fail_on_cost", "text", "Exit with 1 if an input's findings cost this much: 50MB/s, 100mW, 16MiB.", "BUDGET"),
             Option("fail_confidence", "choice", "Lowest confidence that makes the exit code 1.  [default: medium]", choices=CONFIDENCES),
             Option("fix", "flag", "Apply safe fixes in place; for `-`, print the fixed text."),
             Option("unsafe_fixes", "flag", "With --fix or --diff: include fixes that may change the picture."),
             Option("diff", "flag", "Print what --fix would change without writing it; exit with 1 if there is a change."),
             Option("exit_zero", "flag", "Exit with 0 even if there are findings."),
-            Option("min_severity", "choice", "Lowest severity to report.  [default: note]", choices=LEVELS),
+            Option("min_severity", "choice", "Lowest severity to report.  [default: note]", choices=SEVERITIES),
             _output(", ".join(OUTPUT_FORMATS), "full; concise in a pipe"),
             Option("sort", "choice", "Sort findings by place, or the most expensive first.  [default: place]", choices=("place", "price")),
             Option("statistics", "flag", "Print counts and costs by rule instead of findings."),

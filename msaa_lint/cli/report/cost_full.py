@@ -10,10 +10,11 @@ from rich.measure import Measurement
 from rich.table import Table as RichTable
 from rich.text import Text
 
+from msaa_lint.core.finding import Result
 from msaa_lint.frame.cost.input_cost import CostComparison, CostedFrame
 
 from . import Options, Write, cost_rows
-from .cost_rows import Row, Table
+from .cost_rows import Row, Table, frame_name
 from .escape import clip, display, escape
 from .paths import display_path
 
@@ -28,8 +29,8 @@ _UNLIMITED = 10_000
 _STYLES = {cost_rows.PASS: "bold", cost_rows.LINE: "", cost_rows.TOTAL: "bold"}
 
 
-def render(frames: Sequence[CostedFrame], out: Write, options: Options) -> None:
-    """Prints the tables of each frame; for several frames, their totals as well."""
+def render(frames: Sequence[CostedFrame], errors: Result, out: Write, options: Options) -> None:
+    """Prints the tables of each frame; for several frames, their totals as well. `errors` go to the standard error stream instead."""
     names = [frame_name(frame, options) for frame in frames]
     for number, (name, frame) in enumerate(zip(names, frames, strict=True)):
         out(("\n" if number else "") + f"{name}: {display(cost_rows.head(frame.cost))}\n")
@@ -40,7 +41,7 @@ def render(frames: Sequence[CostedFrame], out: Write, options: Options) -> None:
         _print_table(cost_rows.totals(frames, names), out, options)
 
 
-def render_comparison(compared: CostComparison, out: Write, options: Options) -> None:
+def render_comparison(compared: CostComparison, errors: Result, out: Write, options: Options) -> None:
     """Prints what the new input costs more than the old one, for passes that differ, and in total."""
     for number, comparison in enumerate(compared.frames):
         document = f", document {number + 1}" if len(compared.frames) > 1 else ""
@@ -48,11 +49,6 @@ def render_comparison(compared: CostComparison, out: Write, options: Options) ->
         out(("\n" if number else "") + f"{names}\n{cost_rows.sentence(comparison, cost_rows.budget_of(compared))}\n")
         _print_table(cost_rows.changes(comparison), out, options)
         _print_remarks(cost_rows.comparison_remarks(compared, number), out)
-
-
-def frame_name(frame: CostedFrame, options: Options) -> str:
-    """A frame's input, and its document if there are several."""
-    return display_path(frame.file, options.root) + (f", document {frame.number + 1}" if frame.documents > 1 else "")
 
 
 def _print_remarks(remarks: Sequence[tuple[str, str]], out: Write) -> None:

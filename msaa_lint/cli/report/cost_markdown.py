@@ -9,8 +9,7 @@ from msaa_lint.frame.cost.input_cost import CostComparison, CostedFrame
 
 from . import Options, Write, cost_rows
 from .concise import line
-from .cost_full import frame_name
-from .cost_rows import Table
+from .cost_rows import Table, frame_name
 from .escape import display
 from .markdown import MAX_COMMENT, escape_markdown
 from .paths import display_path
@@ -75,10 +74,11 @@ def render(frames: Sequence[CostedFrame], errors: Result, out: Write, options: O
     comment.close()
 
 
-def render_comparison(compared: CostComparison, out: Write, options: Options) -> None:
+def render_comparison(compared: CostComparison, errors: Result, out: Write, options: Options) -> None:
     """Prints what the new input costs more than the old one: the sum in a sentence, then the passes that differ."""
     comment = _Comment(out)
     comment.add(f"{HEAD}### Cost of this change\n")
+    comment.remarks([("error", line(finding, errors, options)) for finding in errors.findings])
     names = " → ".join(escape_markdown(display_path(file, options.root)) for file in (compared.old_file, compared.new_file))
     for number, comparison in enumerate(compared.frames):
         document = f", document {number + 1}" if len(compared.frames) > 1 else ""

@@ -9,6 +9,9 @@ from msaa_lint.frame.cost.input_cost import CostComparison, CostedFrame
 from msaa_lint.frame.cost.power import Rates
 from msaa_lint.frame.cost.variants import AS_WRITTEN, NONE, Variant
 
+from . import Options
+from .paths import display_path
+
 PASS, LINE, TOTAL = "pass", "line", "total"
 
 AT_LEAST = "≥ "
@@ -33,6 +36,11 @@ class Table(NamedTuple):
     texts: tuple[str, ...]
     figures: tuple[str, ...]
     rows: list[Row]
+
+
+def frame_name(frame: CostedFrame, options: Options) -> str:
+    """A frame's input, and its document if there are several."""
+    return display_path(frame.file, options.root) + (f", document {frame.number + 1}" if frame.documents > 1 else "")
 
 
 def frame_tables(frame: CostedFrame) -> list[Table]:

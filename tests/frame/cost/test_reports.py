@@ -61,9 +61,9 @@ def pair() -> CostComparison:
     return compare_inputs(old.file, [old], new.file, [new])
 
 
-def printed(render: Callable[..., None], *given: Any, **options: Any) -> str:
+def printed(render: Callable[..., None], costs: Any, errors: Result | None = None, **options: Any) -> str:
     out = io.StringIO()
-    render(*given, out.write, Options(**{"width": 0, **options}))
+    render(costs, errors or NOTHING, out.write, Options(**{"width": 0, **options}))
     return out.getvalue()
 
 
