@@ -59,14 +59,14 @@ def expand(description: Description) -> Node:
     root = description.node
     key = description.spelled["renderTargets"][0].span
     targets = [Target(name, record, description.frame) for name, record in description.renderTargets.items()]
-    made: dict[str, object] = {**sections(root, PASSTHROUGH_SECTIONS)}
+    result: dict[str, object] = {**sections(root, PASSTHROUGH_SECTIONS)}
     if any(record.api == "metal" for record in description.renderTargets.values()):
-        stated = sections(root.value["metal"], METAL_MEMBERS) if "metal" in root.value else {}
-        own = metal.section(targets, *_apple(description))
-        made["metal"] = Value({**stated, **own}, key)
+        device_members = sections(root.value["metal"], METAL_MEMBERS) if "metal" in root.value else {}
+        expanded_members = metal.section(targets, *_apple(description))
+        result["metal"] = Value({**device_members, **expanded_members}, key)
     else:
-        made |= {name: Value(entries, key) for name, entries in vulkan.description(targets, lazily_allocated(description)).items()}
-    return tree(made, root.span)
+        result |= {name: Value(entries, key) for name, entries in vulkan.description(targets, lazily_allocated(description)).items()}
+    return tree(result, root.span)
 
 
 def lazily_allocated(description: Description) -> bool | None:

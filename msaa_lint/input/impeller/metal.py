@@ -21,15 +21,15 @@ def section(targets: list[Target], memoryless: bool | None, apple: bool | None) 
     `memoryless` says whether the device supports memoryless textures (family apple2 and later), `apple` whether it is an Apple GPU; None if
     unknown.
     """
-    made: Members = {"textures": {}, "renderPasses": {}, "renderPipelines": {}}
+    members: Members = {"textures": {}, "renderPasses": {}, "renderPipelines": {}}
     for target in targets:
-        made["textures"] |= _textures(target, memoryless, apple)
-        made["renderPasses"][target.name] = Value(_render_pass(target), target.at)
-        made["renderPipelines"][target.name] = Value(_pipeline(target), target.at)
+        members["textures"] |= _textures(target, memoryless, apple)
+        members["renderPasses"][target.name] = Value(_render_pass(target), target.at)
+        members["renderPipelines"][target.name] = Value(_pipeline(target), target.at)
     if targets and all(target.onscreen for target in targets):
         # It is unknown who samples an offscreen target. Without commands, its usage counts as a read.
-        made["commands"] = [Value(each, target.at) for target in targets for each in _commands(target)]
-    return {member: entries for member, entries in made.items() if entries}
+        members["commands"] = [Value(command, target.at) for target in targets for command in _commands(target)]
+    return {member: entries for member, entries in members.items() if entries}
 
 
 def _textures(target: Target, memoryless: bool | None, apple: bool | None) -> Members:
@@ -46,21 +46,22 @@ def _textures(target: Target, memoryless: bool | None, apple: bool | None) -> Me
         return Value(members, target.at)
 
     color, at = target.color, target.at
-    made: Members = {}
+    textures: Members = {}
     single = color.resolve_storage if target.multisampled else color.storage
     if target.multisampled:
-        made[f"{target.name}_color_ms"] = texture(target.color_format, ["renderTarget"], target.samples, color.storage)
+        textures[f"{target.name}_color_ms"] = texture(target.color_format, ["renderTarget"], target.samples, color.storage)
     if target.onscreen:
         members = {
             "pixelFormat": Value(words.METAL_FORMATS.get(target.color_format.value), target.color_format.at),
             "drawable": True,
         }
-        made[f"{target.name}_color"] = Value(members, at)
+        textures[f"{target.name}_color"] = Value(members, at)
     else:
-        made[f"{target.name}_color"] = texture(target.color_format, ["renderTarget", "shaderRead"], None, single)
+        textures[f"{target.name}_color"] = texture(target.color_format, ["renderTarget", "shaderRead"], None, single)
     if target.has_depth_stencil:
-        made[f"{target.name}_depth_stencil"] = texture(target.depth_format, ["renderTarget"], target.samples, target.depth_stencil.storage)
-    return made
+        storage = target.depth_stencil.storage
+        textures[f"{target.name}_depth_stencil"] = texture(target.depth_format, ["renderTarget"], target.samples, storage)
+    return textures
 
 
 def _storage(mode: Value, memoryless: bool | None, apple: bool | None) -> Value:
@@ -81,7 +82,7 @@ def _render_pass(target: Target) -> Members:
         "loadAction": Value(words.METAL_LOADS[color.load.value], color.load.at),
         "storeAction": Value(words.METAL_STORES[color.store.value], color.store.at),
     }
-    made: Members = {"colorAttachments": [attachment]}
+    descriptor: Members = {"colorAttachments": [attachment]}
     if target.has_depth_stencil:
         config = target.depth_stencil
         aspect = {
@@ -90,10 +91,10 @@ def _render_pass(target: Target) -> Members:
             "storeAction": Value(words.METAL_STORES[config.store.value], config.store.at),
         }
         if target.has_depth:
-            made["depthAttachment"] = aspect
+            descriptor["depthAttachment"] = aspect
         if target.has_stencil:
-            made["stencilAttachment"] = aspect
-    return made
+            descriptor["stencilAttachment"] = aspect
+    return descriptor
 
 
 def _pipeline(target: Target) -> Members:

@@ -23,36 +23,36 @@ TRANSFERS = ("TRANSFER_SRC", "TRANSFER_DST")
 
 def description(targets: list[Target], lazy: bool | None) -> Members:
     """The sections of a description. `lazy` says whether the device has lazily allocated memory; None if unknown."""
-    made: Members = {"images": {}, "renderPasses": {}, "framebuffers": {}, "pipelines": {}, "commands": []}
+    sections: Members = {"images": {}, "renderPasses": {}, "framebuffers": {}, "pipelines": {}, "commands": []}
     for target in targets:
-        made["images"] |= _images(target, lazy)
-        made["renderPasses"][target.name] = Value(_render_pass(target), target.at)
+        sections["images"] |= _images(target, lazy)
+        sections["renderPasses"][target.name] = Value(_render_pass(target), target.at)
         framebuffer = _framebuffer(target)
         if framebuffer is not None:
-            made["framebuffers"][target.name] = Value(framebuffer, target.at)
-        made["pipelines"][target.name] = Value(_pipeline(target), target.at)
-        made["commands"] += _commands(target, framebuffer is not None)
-    return {section: entries for section, entries in made.items() if entries}
+            sections["framebuffers"][target.name] = Value(framebuffer, target.at)
+        sections["pipelines"][target.name] = Value(_pipeline(target), target.at)
+        sections["commands"] += _commands(target, framebuffer is not None)
+    return {section: entries for section, entries in sections.items() if entries}
 
 
 def _images(target: Target, lazy: bool | None) -> Members:
     color, at = target.color, target.at
-    made: Members = {}
+    images: Members = {}
     single = color.resolve_storage if target.multisampled else color.storage
     if target.multisampled:
         usage = _usage(COLOR_USAGE, color.storage, lazy)
-        made[f"{target.name}_color_ms"] = _image(target, target.color_format, target.samples, usage, _memory(color.storage, lazy), None)
+        images[f"{target.name}_color_ms"] = _image(target, target.color_format, target.samples, usage, _memory(color.storage, lazy), None)
     if target.onscreen:
         swapchain = Value(COLOR_USAGE, at)
-        made[f"{target.name}_color"] = _image(target, target.color_format, Value(1, at), swapchain, None, True)
+        images[f"{target.name}_color"] = _image(target, target.color_format, Value(1, at), swapchain, None, True)
     else:
         usage = _usage((*COLOR_USAGE, "SAMPLED"), single, lazy)
-        made[f"{target.name}_color"] = _image(target, target.color_format, Value(1, at), usage, _memory(single, lazy), False)
+        images[f"{target.name}_color"] = _image(target, target.color_format, Value(1, at), usage, _memory(single, lazy), False)
     if target.has_depth_stencil:
         mode = target.depth_stencil.storage
         usage = _usage(("DEPTH_STENCIL_ATTACHMENT",), mode, lazy)
-        made[f"{target.name}_depth_stencil"] = _image(target, target.depth_format, target.samples, usage, _memory(mode, lazy), None)
-    return made
+        images[f"{target.name}_depth_stencil"] = _image(target, target.depth_format, target.samples, usage, _memory(mode, lazy), None)
+    return images
 
 
 def _image(target: Target, format: Value, samples: Value, usage: Value, memory: Value | None, presentable: bool | None) -> Value:
@@ -216,14 +216,14 @@ def _commands(target: Target, framebuffer: bool) -> list[Value]:
     begin: Members = {"renderPass": target.name, "framebuffer": target.name if framebuffer else None}
     if target.width and target.height:
         begin["renderArea"] = {"x": 0, "y": 0, "width": target.width, "height": target.height}
-    made: list[Any] = [{"beginRenderPass": begin}, {"draw": {"pipeline": target.name}}, "endRenderPass"]
+    commands: list[Any] = [{"beginRenderPass": begin}, {"draw": {"pipeline": target.name}}, "endRenderPass"]
     image = f"{target.name}_color"
     if target.onscreen:
-        made += _presented(image)
+        commands += _presented(image)
     else:
         # An offscreen texture is assumed to be sampled in this frame.
-        made.append({"readImage": {"image": image, "stage": "FRAGMENT"}})
-    return [Value(each, target.at) for each in made]
+        commands.append({"readImage": {"image": image, "stage": "FRAGMENT"}})
+    return [Value(command, target.at) for command in commands]
 
 
 def _presented(image: str) -> list[Members]:

@@ -78,11 +78,11 @@ def calls_of(tag: int, payload: bytes, at: Place, wanted: frozenset[str]) -> Ite
     elif tag == RENDER_PASS:
         for key, name in (("renderPasses", "vkCreateRenderPass"), ("renderPasses2", "vkCreateRenderPass2")):
             if name in wanted:
-                for handle, made in _objects(document, key):
-                    yield Call(name, {"pCreateInfo": _render_pass(made), "pRenderPass": handle}, at)
+                for handle, create_info in _objects(document, key):
+                    yield Call(name, {"pCreateInfo": _render_pass(create_info), "pRenderPass": handle}, at)
     elif tag == GRAPHICS_PIPELINE:
-        for handle, made in _objects(document, "graphicsPipelines"):
-            arguments = {"createInfoCount": 1, "pCreateInfos": [_pipeline(made)], "pPipelines": [handle]}
+        for handle, create_info in _objects(document, "graphicsPipelines"):
+            arguments = {"createInfoCount": 1, "pCreateInfos": [_pipeline(create_info)], "pPipelines": [handle]}
             yield Call("vkCreateGraphicsPipelines", arguments, at)
 
 
@@ -138,10 +138,10 @@ def _handle(value: object) -> int:
 
 def _instance(document: Json, at: Place) -> Call:
     """The application. Fossilize records only the features that affect pipeline hashes; stating these would deny all others."""
-    stated = document.get("applicationInfo")
-    stated = stated if isinstance(stated, dict) else {}
+    info = document.get("applicationInfo")
+    info = info if isinstance(info, dict) else {}
     names = {"applicationName": "pApplicationName", "engineName": "pEngineName"}
-    return Call("vkCreateInstance", {"pCreateInfo": {"pNext": None, "pApplicationInfo": _renamed(stated, names)}}, at)
+    return Call("vkCreateInstance", {"pCreateInfo": {"pNext": None, "pApplicationInfo": _renamed(info, names)}}, at)
 
 
 def _module(handle: int, module: dict[str, Any], payload: bytes, start: int, at: Place) -> Call:
@@ -159,38 +159,38 @@ def _module(handle: int, module: dict[str, Any], payload: bytes, start: int, at:
     return Call("vkCreateShaderModule", {"pCreateInfo": info, "pShaderModule": handle}, at)
 
 
-def _render_pass(given: dict[str, Any]) -> Json:
-    made = _renamed(given, PASS)
+def _render_pass(source: dict[str, Any]) -> Json:
+    create_info = _renamed(source, PASS)
     for key in ("pAttachments", "pDependencies"):
-        if isinstance(made.get(key), list):
-            made[key] = [_renamed(each, {}) for each in made[key]]
-    if isinstance(made.get("pSubpasses"), list):
-        made["pSubpasses"] = [_renamed(each, SUBPASS) for each in made["pSubpasses"]]
-    return made
+        if isinstance(create_info.get(key), list):
+            create_info[key] = [_renamed(item, {}) for item in create_info[key]]
+    if isinstance(create_info.get("pSubpasses"), list):
+        create_info["pSubpasses"] = [_renamed(item, SUBPASS) for item in create_info["pSubpasses"]]
+    return create_info
 
 
-def _pipeline(given: dict[str, Any]) -> Json:
-    made = _renamed(given, {})
+def _pipeline(source: dict[str, Any]) -> Json:
+    create_info = _renamed(source, {})
     for key, names in STATES.items():
-        if key in made:
-            made["p" + key[0].upper() + key[1:]] = _renamed(made.pop(key), names)
+        if key in create_info:
+            create_info["p" + key[0].upper() + key[1:]] = _renamed(create_info.pop(key), names)
     for key in ("layout", "renderPass", "basePipelineHandle"):
-        made[key] = _handle(made.get(key))
-    stages = made.pop("stages", None)
-    made["pStages"] = [_stage(each) for each in stages] if isinstance(stages, list) else None
-    return made
+        create_info[key] = _handle(create_info.get(key))
+    stages = create_info.pop("stages", None)
+    create_info["pStages"] = [_stage(item) for item in stages] if isinstance(stages, list) else None
+    return create_info
 
 
-def _stage(given: object) -> Json:
-    made = _renamed(given, {"name": "pName"})
-    if not isinstance(made, dict):
-        return made
-    made["module"] = _handle(made.get("module"))
-    constants = made.pop("specializationInfo", None)
+def _stage(source: object) -> Json:
+    stage = _renamed(source, {"name": "pName"})
+    if not isinstance(stage, dict):
+        return stage
+    stage["module"] = _handle(stage.get("module"))
+    constants = stage.pop("specializationInfo", None)
     if isinstance(constants, dict):
-        made["pSpecializationInfo"] = _renamed(constants, {"mapEntries": "pMapEntries", "data": "pData"})
-        made["pSpecializationInfo"]["pData"] = _bytes(constants.get("data"))
-    return made
+        stage["pSpecializationInfo"] = _renamed(constants, {"mapEntries": "pMapEntries", "data": "pData"})
+        stage["pSpecializationInfo"]["pData"] = _bytes(constants.get("data"))
+    return stage
 
 
 def _bytes(text: object) -> bytes | None:
@@ -202,22 +202,26 @@ def _bytes(text: object) -> bytes | None:
         return None
 
 
-def _renamed(given: object, names: dict[str, str]) -> Json:
+def _renamed(source: object, names: dict[str, str]) -> Json:
     """A structure with C's member names and pNext chain; anything else unchanged."""
-    if not isinstance(given, dict):
-        return given
-    made = {names.get(key, key): value for key, value in given.items()}
-    if "pNext" in made:
-        made["pNext"] = _chain(made["pNext"])
-    return made
+    if not isinstance(source, dict):
+        return source
+    structure = {names.get(key, key): value for key, value in source.items()}
+    if "pNext" in structure:
+        structure["pNext"] = _chain(structure["pNext"])
+    return structure
 
 
-def _chain(listed: object) -> dict[str, Any] | None:
+def _chain(structures: object) -> dict[str, Any] | None:
     """Fossilize's list of chained structures as a pNext chain of the supported ones."""
     chain: dict[str, Any] | None = None
-    for each in reversed(listed if isinstance(listed, list) else []):
-        kind = each.get("sType") if isinstance(each, dict) else None
+    for structure in reversed(structures if isinstance(structures, list) else []):
+        kind = structure.get("sType") if isinstance(structure, dict) else None
         if type(kind) is int and kind in CHAINED:
             name, names = CHAINED[kind]
-            chain = {**{names.get(key, key): value for key, value in each.items()}, "sType": "VK_STRUCTURE_TYPE_" + name, "pNext": chain}
+            chain = {
+                **{names.get(key, key): value for key, value in structure.items()},
+                "sType": "VK_STRUCTURE_TYPE_" + name,
+                "pNext": chain,
+            }
     return chain

@@ -19,10 +19,10 @@ def by_index(stated: Mapping[str, Kind | None] | Sequence[Kind | None]) -> list[
     """Color attachments in index order; None for an unused index."""
     if not isinstance(stated, Mapping):
         return list(stated)
-    found: list[Kind | None] = [None] * (max((int(index) for index in stated), default=-1) + 1)
-    for index, each in stated.items():
-        found[int(index)] = each
-    return found
+    attachments: list[Kind | None] = [None] * (max((int(index) for index in stated), default=-1) + 1)
+    for index, attachment in stated.items():
+        attachments[int(index)] = attachment
+    return attachments
 
 
 def first_stated(record: Record, members: Sequence[str]) -> str | None:

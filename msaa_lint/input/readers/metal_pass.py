@@ -62,8 +62,8 @@ class PassTree:
 
     def _name(self, texture: str | None, otherwise: str) -> str:
         """A unique name within the pass: the texture's if it is free."""
-        wanted = [texture, f"{texture} ({otherwise})"] if texture is not None else []
-        name = next((each for each in (*wanted, otherwise) if each not in self._names), otherwise)
+        candidates = [texture, f"{texture} ({otherwise})"] if texture is not None else []
+        name = next((candidate for candidate in (*candidates, otherwise) if candidate not in self._names), otherwise)
         while name in self._names:
             name += "'"
         self._names.add(name)
@@ -96,15 +96,15 @@ class PassTree:
             origin["stencil"] = stencil
         slot = "depthAttachment" if depth is not None else "stencilAttachment"
         reference = self._add(first, slot, items, first.path, origin)
-        found: Items = [("depthStencilAttachment", key_of(self.each, slot), reference)]
+        references: Items = [("depthStencilAttachment", key_of(self.each, slot), reference)]
         if stencil is not None and not together:
             name = self._add(
                 stencil, "stencilAttachment", _image(stencil) + _operations(stencil, "stencil"), stencil.path, {"stencil": stencil}
             )
             target = self._target(stencil, "stencilAttachment", ("stencil",)).text if resolves(stencil) else None
             self.apart = StencilApart(name.text, target, stencil)
-        resolved = self._resolved(depth, stencil if together else None)
-        return found + resolved
+        resolve_items = self._resolved(depth, stencil if together else None)
+        return references + resolve_items
 
     def _resolved(self, depth: MetalDepthAttachment | None, stencil: MetalStencilAttachment | None) -> Items:
         """The depth/stencil resolve: of one aspect, or of both to the same texture."""
@@ -142,15 +142,15 @@ class PassTree:
         return scalar(name, at)
 
 
-def attachments_of(each: MetalRenderPass) -> Iterable[tuple[str, MetalAttachment]]:
+def attachments_of(render_pass: MetalRenderPass) -> Iterable[tuple[str, MetalAttachment]]:
     """The attachments of a pass, each with its aspect."""
-    for color in by_index(each.colorAttachments):
+    for color in by_index(render_pass.colorAttachments):
         if color is not None:
             yield "color", color
-    if each.depthAttachment is not None:
-        yield "depth", each.depthAttachment
-    if each.stencilAttachment is not None:
-        yield "stencil", each.stencilAttachment
+    if render_pass.depthAttachment is not None:
+        yield "depth", render_pass.depthAttachment
+    if render_pass.stencilAttachment is not None:
+        yield "stencil", render_pass.stencilAttachment
 
 
 def resolves(attachment: MetalAttachment) -> bool:

@@ -31,11 +31,11 @@ class Blobs:
         """Resets the size limit of a chunk."""
         self.chunk_budget = MAX_BLOB
 
-    def read(self, number: object, stated: str) -> bytes | None:
+    def read(self, number: object, length_text: str) -> bytes | None:
         """The buffer with this number and stated length; None if the zip does not contain it."""
-        if self.path is None or type(number) is not int or not (stated.isdecimal() and len(stated) < 12):
+        if self.path is None or type(number) is not int or not (length_text.isdecimal() and len(length_text) < 12):
             return None
-        length = int(stated)
+        length = int(length_text)
         if length > min(self.chunk_budget, self.capture_budget) or not 0 <= number < 1 << 32:
             return None
         self.chunk_budget -= length

@@ -122,7 +122,7 @@ class CallConverter:
             arguments = _renamed(name, chunk)
         if name == "vkUpdateDescriptorSetWithTemplate" and isinstance(chunk.get("Decoded Writes"), list):
             # These writes do not name their set.
-            writes = [{**each, "dstSet": chunk.get("descriptorSet")} for each in chunk["Decoded Writes"] if isinstance(each, dict)]
+            writes = [{**item, "dstSet": chunk.get("descriptorSet")} for item in chunk["Decoded Writes"] if isinstance(item, dict)]
             name, arguments = "vkUpdateDescriptorSets", {"device": chunk.get("device"), "pDescriptorWrites": writes}
         self.sets.observe(name, arguments)
         yield Call(name, arguments, at)
@@ -137,17 +137,17 @@ class CallConverter:
     def swapchain_images(self, chunk: dict[str, Any]) -> dict[str, Any]:
         """The arguments of vkGetSwapchainImagesKHR: a chunk has one image, the call also the earlier ones."""
         swapchain, index, image = chunk.get("Swapchain"), chunk.get("SwapchainImageIndex"), chunk.get("SwapchainImage")
-        known: list[Any] = []
+        images: list[Any] = []
         if type(swapchain) is int and type(index) is int and 0 <= index < MAX_SWAPCHAIN_IMAGES:
             if len(self.swapchains) < MAX_SWAPCHAINS:
-                known = self.swapchains.setdefault(swapchain, known)
-            known.extend([0] * (index + 1 - len(known)))
-            known[index] = image
+                images = self.swapchains.setdefault(swapchain, images)
+            images.extend([0] * (index + 1 - len(images)))
+            images[index] = image
         return {
             "device": chunk.get("device"),
             "swapchain": swapchain,
-            "pSwapchainImageCount": len(known),
-            "pSwapchainImages": list(known),
+            "pSwapchainImageCount": len(images),
+            "pSwapchainImages": list(images),
         }
 
     def debug_name(self, name: str, chunk: dict[str, Any]) -> dict[str, Any]:

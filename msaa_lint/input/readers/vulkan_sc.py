@@ -49,8 +49,8 @@ def _graphics(binder: Binder, description: Description, state: Node) -> None:
     name = ""
     for name in passes:
         path = f"GraphicsPipelineState.{name}"
-        made: RenderPass = binder.record(RenderPass, state.value[name], path, name, state.keys[name].span)
-        description.renderPasses = {name: made}
+        render_pass: RenderPass = binder.record(RenderPass, state.value[name], path, name, state.keys[name].span)
+        description.renderPasses = {name: render_pass}
     pipeline = state.value.get("GraphicsPipeline")
     if pipeline is None or is_null(pipeline):
         return
@@ -58,14 +58,14 @@ def _graphics(binder: Binder, description: Description, state: Node) -> None:
     if pipeline.kind != "mapping":
         binder.wrong_structure(pipeline, path, "a mapping")
         return
-    made_pipeline: Pipeline = binder.record(Pipeline, _plain(pipeline), path, "GraphicsPipeline", state.keys["GraphicsPipeline"].span)
+    pipeline_record: Pipeline = binder.record(Pipeline, _plain(pipeline), path, "GraphicsPipeline", state.keys["GraphicsPipeline"].span)
     # `renderPass` is the tool's number for the render pass above.
-    made_pipeline.renderPass = name or None
-    for stage in made_pipeline.stages:
+    pipeline_record.renderPass = name or None
+    for stage in pipeline_record.stages:
         # `module` is also a number, not a path.
         stage.module = None
         stage.spelled.pop("module", None)
-    description.pipelines = {"GraphicsPipeline": made_pipeline}
+    description.pipelines = {"GraphicsPipeline": pipeline_record}
 
 
 def _plain(pipeline: Node) -> Node:
@@ -74,9 +74,9 @@ def _plain(pipeline: Node) -> Node:
     value = {key: pipeline.value[key] for key in keys}
     state = value.get("pDynamicState")
     if state is not None and state.kind == "mapping":
-        listed = state.value.get("pDynamicStates")
-        if listed is not None:
-            value["pDynamicState"] = listed
+        states = state.value.get("pDynamicStates")
+        if states is not None:
+            value["pDynamicState"] = states
         else:
             del value["pDynamicState"], keys["pDynamicState"]
     return Node("mapping", pipeline.start, pipeline.end, value, keys)
@@ -85,14 +85,14 @@ def _plain(pipeline: Node) -> Node:
 def _enabled(binder: Binder, description: Description, root: Node, state: Node) -> None:
     """Reads EnabledExtensions, and the features that the device is created with."""
     enabled: Enabled = binder.record(Enabled, _nothing(root), "EnabledExtensions", "EnabledExtensions", Span(root.start, root.start))
-    listed = root.value.get("EnabledExtensions")
-    if listed is not None and listed.kind == "sequence":
-        enabled.extensions = tuple(item.text for item in listed.value if item.kind == "scalar")
-        enabled.spelled["extensions"] = (root.keys["EnabledExtensions"], listed)
+    extensions = root.value.get("EnabledExtensions")
+    if extensions is not None and extensions.kind == "sequence":
+        enabled.extensions = tuple(item.text for item in extensions.value if item.kind == "scalar")
+        enabled.spelled["extensions"] = (root.keys["EnabledExtensions"], extensions)
     features = state.value.get("PhysicalDeviceFeatures")
-    found = _core_features(features) if features is not None else None
-    if found is not None:
-        key, node = found
+    core_features = _core_features(features) if features is not None else None
+    if core_features is not None:
+        key, node = core_features
         enabled.features = tuple(
             name for name, item in node.value.items() if item.kind == "scalar" and item.text in ("VK_TRUE", "1", "true")
         )
@@ -112,9 +112,9 @@ def _core_features(chain: Node) -> tuple[Node, Node] | None:
     while node is not None and node.kind == "mapping":
         features = node.value.get("features")
         if features is not None and features.kind == "mapping":
-            found = (node.keys["features"], features)
+            last = (node.keys["features"], features)
             if node is not chain:
-                return found
-            outer = found
+                return last
+            outer = last
         node = node.value.get("pNext")
     return outer
