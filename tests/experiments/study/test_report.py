@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from msaa_lint.cli.report import Options
 from msaa_lint.cli.report.study_json import render as as_json
-from msaa_lint.cli.report.study_plot import FORMATS, drawn, place, plot
+from msaa_lint.cli.report.study_plot import place, plot, plotted
 from msaa_lint.cli.report.study_text import render as as_text
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.experiments.confirm.png import Picture, png
@@ -81,7 +81,7 @@ def check(name: str, text: str) -> None:
 
 
 def test_json_byte_for_byte() -> None:
-    text = printed(as_json, study(), "1.0")
+    text = printed(as_json, study(), Options(version="1.0"))
     check("study.json", text)
     jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(text))
 
@@ -99,7 +99,7 @@ def test_text_in_color() -> None:
 
 def test_what_is_no_number_or_infinite_is_null() -> None:
     odd = point(Technique(MSAA, 4), rmse=math.nan, psnr_db=math.inf, bias=-0.0, max_error=math.inf)
-    text = printed(as_json, study(points=[odd], advice=[]))
+    text = printed(as_json, study(points=[odd], advice=[]), Options())
     (found,) = json.loads(text)["points"]
     assert (found["rmse"], found["psnr_db"], found["max_error"], found["time_ms"]) == (None, None, None, None)
     assert math.copysign(1, found["bias"]) == 1
@@ -112,8 +112,8 @@ def test_without_a_device_no_time_is_shown_as_one() -> None:
     of = study(device="", model="", points=points, advice=advice(points), untimed=[])
     text = printed(as_text, of, Options(width=160))
     assert "to 1x" not in text and "12345" not in text and "12346" not in text
-    assert "no time is known: --device NAME measures it" in text
-    data = printed(as_json, of)
+    assert "no times: --device NAME measures them" in text
+    data = printed(as_json, of, Options())
     assert "12345" not in data
     assert {each["time_ms"] for each in json.loads(data)["points"]} == {None}
 
@@ -146,14 +146,14 @@ def test_hostile_texts_are_safe_to_show() -> None:
     text = printed(as_text, hostile(), Options(width=200))
     assert "\x1b" not in text and "\u202e" not in text and "##[" not in text and "\udcff" not in text
     assert "\\x1b[31m" in text and "[bold]" in text, "shown as it is, not taken for markup"
-    data = printed(as_json, hostile())
+    data = printed(as_json, hostile(), Options())
     assert data.isascii()
     jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(data))
 
 
 def test_nothing_studied_is_still_a_report() -> None:
     empty = study(scenes=[], points=[], failed=[], untimed=[], advice=[])
-    jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(printed(as_json, empty)))
+    jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(printed(as_json, empty, Options())))
     assert printed(as_text, empty, Options()).endswith("0 points of 0 scenes\n")
     assert plot(empty, "png").startswith(b"\x89PNG")
 
@@ -163,22 +163,22 @@ def test_nothing_studied_is_still_a_report() -> None:
 def test_any_figures_can_be_printed(figures: list[float], technique: Technique) -> None:
     names = ("rmse", "rmse_all", "max_error", "bias", "psnr_db", "psnr_display_db", "time_ms", "bytes_per_frame")
     of = study(points=mark_best([timed(technique, **dict(zip(names, figures, strict=True)))]), scenes=[SceneSummary("edges", "", ())])
-    json.loads(printed(as_json, of))
+    json.loads(printed(as_json, of, Options()))
     assert technique.name in printed(as_text, of, Options(width=160))
 
 
-@pytest.mark.parametrize("format", FORMATS)
+@pytest.mark.parametrize("format", ("svg", "png"))
 def test_plots_are_the_same_for_the_same_study(format: str) -> None:
     assert plot(study(), format) == plot(study(), format)
 
 
 def test_a_plot_shows_what_has_a_place() -> None:
     text = plot(study(), "svg").decode()
-    for name in ("1x", "4x", "8x/8", "SSAA 2x2", "edges", "texture", "time, ms", "RMSE of coverage", "RMSE of linear colour", "a device"):
+    for name in ("1x", "4x", "8x/8", "SSAA 2x2", "edges", "texture", "time, ms", "RMSE of coverage", "RMSE of linear color", "a device"):
         assert f">{name}</text>" in text or name in text, name
     assert ">16x</text>" not in text, "it was not timed"
     bare = plot(study(device="", points=[point(technique) for technique in techniques()]), "svg").decode()
-    assert ">16x</text>" in bare and "no time is known" in bare and "time, ms" not in bare
+    assert ">16x</text>" in bare and "no times measured" in bare and "time, ms" not in bare
 
 
 def test_hostile_names_are_plotted_as_text() -> None:
@@ -191,7 +191,7 @@ def test_hostile_names_are_plotted_as_text() -> None:
 def test_an_error_of_zero_has_a_place_too() -> None:
     points = [timed(technique, rmse=0.0) for technique in techniques((MSAA,))]
     assert plot(study(points=points), "png").startswith(b"\x89PNG")
-    assert drawn([points[0]._replace(rmse=math.nan), points[1]._replace(time_ms=None)]) == []
+    assert plotted([points[0]._replace(rmse=math.nan), points[1]._replace(time_ms=None)]) == []
     assert place(point(Technique(SAMPLE_SHADING, 4, 0.5))) == (6.0, 0.0722)
 
 
