@@ -1,7 +1,5 @@
 """A description as it was read: what every reader gives."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import NamedTuple
 

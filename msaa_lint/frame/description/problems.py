@@ -1,7 +1,5 @@
 """Mistakes in a description: what they are, and how messages name a place and a value."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from msaa_lint.core.quote import quoted, shortened
