@@ -1,4 +1,4 @@
-"""A description as it was read: what every reader gives."""
+"""A description as it was read: the result of every reader."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -12,8 +12,10 @@ from .record import Record
 
 
 class StencilApart(NamedTuple):
-    """A stencil attachment with a texture of its own, which Vulkan's render passes have not: the names of its attachment and of the one
-    that it is resolved to, if it is, and the structure that states it."""
+    """A stencil attachment with its own texture, which Vulkan's render passes cannot have.
+
+    `attachment` is its name, `target` the name of the attachment that it is resolved to, `record` the structure that states it.
+    """
 
     attachment: str
     target: str | None
@@ -21,21 +23,21 @@ class StencilApart(NamedTuple):
 
 
 class Lowered(NamedTuple):
-    """What the Vulkan records of a frame in Metal's words were made of."""
+    """The origins of the Vulkan records of a frame in Metal's terms."""
 
     attachments: dict[int, Mapping[str, Record]]
-    """By the identity of an attachment's record: by aspect, the structure that states it; nothing for what is only resolved to."""
+    """By the identity of an attachment's record: the structure that states each aspect; empty for an attachment that is only resolved to."""
     stencils: dict[int, StencilApart]
     """By the identity of a subpass's record."""
     api: str = "METAL"
-    """The API whose rules are asked of the frame: VULKAN where the Vulkan frame itself is meant."""
+    """The API whose rules apply: VULKAN if the Vulkan frame itself is meant."""
 
 
 class Document(NamedTuple):
     """One frame, or part of one.
 
-    `whole` says that what the description does not hold the frame does not have: the passes and pipelines listed are all there are. It is
-    false for dumps of a single pipeline. `problems` are the mistakes in the description itself; a document with problems is not judged.
+    `whole` says that the description lists all passes and pipelines of the frame; it is false for a dump of a single pipeline. `problems`
+    are the mistakes in the description itself; rules do not check a document with problems.
     """
 
     source: Source
@@ -43,19 +45,19 @@ class Document(NamedTuple):
     problems: tuple[Problem, ...]
     whole: bool = True
     path: str = ""
-    """What stands before every structural path: `documents[1]` in a stream of several, else nothing."""
+    """The prefix of every structural path: `documents[1]` in a stream of several documents, else empty."""
     modules: Mapping[str, bytes] = {}
-    """The code of shaders that came with the input, by the names that `pipelines` have for them; those of a description lie beside it."""
+    """The code of shaders that came with the input, by their names in `pipelines`; the shaders of a description are files beside it."""
     tree: Node | None = None
-    """The description as a tree that was made of something else: of source code, of a shorthand. None where the text itself is one."""
+    """The description as a tree, if it was built from source code or a shorthand; None if the text itself is a description."""
     pieces: bool = False
-    """Whether it is of pieces of a program that a page shows, and not of a whole file."""
+    """Whether it was built from excerpts of a program on a page, and not from a whole file."""
     ordered: bool = True
-    """Whether the passes run in the order in which they are stated, and the commands are all that is recorded. Code says neither."""
+    """Whether the passes run in their order, and the commands are complete. Neither is known of source code."""
     metal: Lowered | None = None
-    """Of a frame in Metal's words: where its Vulkan records come from."""
+    """The origins of the Vulkan records, for a frame in Metal's terms."""
 
     @property
     def api(self) -> str:
-        """The API whose rules are asked of the frame: VULKAN or METAL."""
+        """The API whose rules apply: VULKAN or METAL."""
         return "VULKAN" if self.metal is None else self.metal.api

@@ -1,4 +1,4 @@
-"""Spellings that the format has beside Vulkan's enumerants."""
+"""Spellings of scalars in the description format, beside those of Vulkan's enumerants."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _COUNT = re.compile(r"(?:(?:VK_)?SAMPLE_COUNT_)?(1|2|4|8|16|32|64)(?:_BIT)?")
 
 
 def sample_count(value: object) -> int | None:
-    """The count that `4`, `"4"`, `SAMPLE_COUNT_4` or `VK_SAMPLE_COUNT_4_BIT` states; None where it is none of Vulkan's."""
+    """The sample count that `4`, `"4"`, `SAMPLE_COUNT_4` or `VK_SAMPLE_COUNT_4_BIT` states; None for other values."""
     if isinstance(value, str):
         match = _COUNT.fullmatch(value)
         value = int(match[1]) if match else None
@@ -31,8 +31,8 @@ def sample_count(value: object) -> int | None:
 
 
 def enumerant(enums: str, text: str) -> str | None:
-    """The canonical name in the first of the enums, joined by `|`, that has it; None where none has. `MTL...` are Metal's."""
-    found = _found.get((enums, text))
+    """The canonical name in the first of the enums, joined by `|`, that has it; None if none has. Metal's enums begin with `MTL`."""
+    found = _canonical.get((enums, text))
     if found is None:
         if enums.startswith("MTL"):
             from msaa_lint.frame.metal.names import parse
@@ -40,16 +40,16 @@ def enumerant(enums: str, text: str) -> str | None:
             return parse(enums, text)
         found = next((name for enum in enums.split("|") if (name := parse_enum(enum, text)) is not None), None)
         if found is not None:
-            _found[enums, text] = found
+            _canonical[enums, text] = found
     return found
 
 
-_found: dict[tuple[str, str], str] = {}
-"""Spellings met: the same few words state most of a frame. What is no name is not kept, so that no input makes this grow."""
+_canonical: dict[tuple[str, str], str] = {}
+"""Spellings seen so far, as a frame repeats a few words. Unknown words are not added, so that no input makes this grow."""
 
 
 def flags(enum: str, text: str) -> list[str]:
-    """The canonical names in a text that joins them by `|`, as `names.parse_flags`; ValueError with the part that is unknown."""
+    """The canonical names in a text that joins them by `|`, as `names.parse_flags`. Raises ValueError with the unknown part."""
     if enum.startswith("MTL"):
         from msaa_lint.frame.metal.names import parse_options
 
@@ -58,14 +58,14 @@ def flags(enum: str, text: str) -> list[str]:
 
 
 def nearest_enumerant(enums: str, text: str) -> str | None:
-    """The enumerant that was most likely meant by a word that is none."""
+    """The enumerant that was most likely meant by an unknown word; None if none is near."""
     if enums.startswith("MTL"):
         from msaa_lint.frame.metal.names import nearest_to
 
         return nearest_to(enums, text)
     from msaa_lint.frame.vulkan.enums import ENUMS
 
-    return nearest_name(text, [name for each in enums.split("|") for name in dict.fromkeys(ENUMS[each].values())])
+    return nearest_name(text, [name for enum in enums.split("|") for name in dict.fromkeys(ENUMS[enum].values())])
 
 
 def caseless(words: Collection[str], value: object) -> str | None:
@@ -75,7 +75,7 @@ def caseless(words: Collection[str], value: object) -> str | None:
 
 
 def finite(value: float) -> bool:
-    """Whether a number is one that a double can hold: whole numbers may be longer."""
+    """Whether a number is finite as a double; integers may exceed it."""
     try:
         return math.isfinite(value)
     except OverflowError:
