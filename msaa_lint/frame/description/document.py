@@ -26,7 +26,7 @@ class Lowered(NamedTuple):
     """The origins of the Vulkan records of a frame in Metal's terms."""
 
     attachments: dict[int, Mapping[str, Record]]
-    """By the identity of an attachment's record: the structure that states each aspect; empty for an attachment that is only resolved to."""
+    """By the identity of an attachment's record: the structure that states each aspect; empty for a mere resolve target."""
     stencils: dict[int, StencilApart]
     """By the identity of a subpass's record."""
     api: str = "METAL"
