@@ -28,8 +28,8 @@ class Contents:
 
     def whole(self, number: int, aspects: int | None = None) -> bool:
         """Whether the contents of an image, or of some aspects, are entirely defined."""
-        own = self.plan.images[number].aspects if aspects is None else aspects
-        return all((number, aspect) in self.known for aspect in (COLOR, DEPTH, STENCIL) if own & aspect)
+        aspect_mask = self.plan.images[number].aspects if aspects is None else aspects
+        return all((number, aspect) in self.known for aspect in (COLOR, DEPTH, STENCIL) if aspect_mask & aspect)
 
     def reads(self, step: Step) -> list[int]:
         """The images that a pass reads, except for those without defined contents."""
@@ -42,13 +42,13 @@ class Contents:
         aspect = image.aspects & (COLOR | DEPTH)
         return bool(usage and aspect and image.numeric not in ("UINT", "SINT") and image.type == 1) and self.whole(number, aspect)
 
-    def begin(self, each: Pass, step: Step) -> None:
+    def begin(self, frame_pass: Pass, step: Step) -> None:
         """Applies the effects of a pass."""
-        framebuffer = each.framebuffers[step.framebuffer]
-        if each.kind == parts.RENDERING:
-            self._rendering(each, step, framebuffer)
+        framebuffer = frame_pass.framebuffers[step.framebuffer]
+        if frame_pass.kind == parts.RENDERING:
+            self._rendering(frame_pass, step, framebuffer)
         else:
-            self._render_pass(each, step, framebuffer)
+            self._render_pass(frame_pass, step, framebuffer)
 
     def transfer(self, step: Step) -> None:
         """Applies the effects of a command outside passes."""
@@ -70,43 +70,43 @@ class Contents:
         keys = {(number, aspect) for aspect in (COLOR, DEPTH, STENCIL) if aspects & aspect}
         self.known = self.known | keys if defined else self.known - keys
 
-    def _load(self, number: int, aspect: int, operation: int, kept: bool, full: bool) -> None:
-        before = (number, aspect) in self.known and kept
-        self._set(number, aspect, full or before if operation == CLEAR else before if operation == LOAD else False)
+    def _load(self, number: int, aspect: int, operation: int, preserved: bool, covers_all: bool) -> None:
+        before = (number, aspect) in self.known and preserved
+        self._set(number, aspect, covers_all or before if operation == CLEAR else before if operation == LOAD else False)
 
     def _full(self, step: Step, number: int, layers: int) -> bool:
         image = self.plan.images[number]
         return step.area == (0, 0, image.width, image.height) and layers >= image.layers and image.levels == 1 and image.depth == 1
 
-    def _render_pass(self, each: Pass, step: Step, framebuffer: Framebuffer) -> None:
-        used = {r.attachment for s in each.subpasses for r in (*s.colors, *s.resolves, *s.depth_stencil, *s.depth_resolve, *s.inputs)}
-        layers = max(framebuffer.layers, *(subpass.view_mask.bit_count() for subpass in each.subpasses))
-        for index, (attachment, number) in enumerate(zip(each.attachments, framebuffer.images, strict=True)):
-            full = self._full(step, number, layers)
+    def _render_pass(self, frame_pass: Pass, step: Step, framebuffer: Framebuffer) -> None:
+        used = {r.attachment for s in frame_pass.subpasses for r in (*s.colors, *s.resolves, *s.depth_stencil, *s.depth_resolve, *s.inputs)}
+        layers = max(framebuffer.layers, *(subpass.view_mask.bit_count() for subpass in frame_pass.subpasses))
+        for index, (attachment, number) in enumerate(zip(frame_pass.attachments, framebuffer.images, strict=True)):
+            covers_all = self._full(step, number, layers)
             image = self.plan.images[number]
             if index not in used:
                 self._set(number, image.aspects, False)
                 continue
-            kept = attachment.initial != 0
-            self._load(number, image.aspects & (COLOR | DEPTH), attachment.load, kept, full)
+            preserved = attachment.initial != 0
+            self._load(number, image.aspects & (COLOR | DEPTH), attachment.load, preserved, covers_all)
             if image.aspects & STENCIL:
-                stencil_kept = attachment.stencil_initial != 0 if attachment.stencil_initial != NONE else kept
-                self._load(number, STENCIL, attachment.stencil_load, stencil_kept, full)
-        for number, subpass in enumerate(each.subpasses):
-            self._subpass(each, step, framebuffer, number, subpass, layers)
-        for attachment, number in zip(each.attachments, framebuffer.images, strict=True):
+                stencil_preserved = attachment.stencil_initial != 0 if attachment.stencil_initial != NONE else preserved
+                self._load(number, STENCIL, attachment.stencil_load, stencil_preserved, covers_all)
+        for number, subpass in enumerate(frame_pass.subpasses):
+            self._subpass(frame_pass, step, framebuffer, number, subpass, layers)
+        for attachment, number in zip(frame_pass.attachments, framebuffer.images, strict=True):
             image = self.plan.images[number]
             if attachment.store != STORE:
                 self._set(number, image.aspects & (COLOR | DEPTH), False)
             if attachment.stencil_store != STORE:
                 self._set(number, STENCIL, False)
 
-    def _subpass(self, each: Pass, step: Step, framebuffer: Framebuffer, at: int, subpass: Subpass, layers: int) -> None:
+    def _subpass(self, frame_pass: Pass, step: Step, framebuffer: Framebuffer, at: int, subpass: Subpass, layers: int) -> None:
         images = framebuffer.images
         covered = self._covers(step, at) and (framebuffer.layers == 1 or subpass.view_mask > 0)
         colors = [images[reference.attachment] for reference in subpass.colors if reference.attachment != NONE]
         depths = [images[reference.attachment] for reference in subpass.depth_stencil]
-        self._drawn(each, step, at, colors, depths[0] if depths else NONE, covered, layers)
+        self._drawn(frame_pass, step, at, colors, depths[0] if depths else NONE, covered, layers)
         for color, target in zip(subpass.colors, subpass.resolves, strict=False):
             if NONE not in (color.attachment, target.attachment):
                 self._resolve(step, images[color.attachment], images[target.attachment], COLOR, layers)
@@ -115,10 +115,10 @@ class Contents:
                 if mode and self.plan.images[images[target.attachment]].aspects & aspect:
                     self._resolve(step, images[depth.attachment], images[target.attachment], aspect, layers)
 
-    def _drawn(self, each: Pass, step: Step, at: int, colors: list[int], depth: int, covered: bool, layers: int) -> None:
+    def _drawn(self, frame_pass: Pass, step: Step, at: int, colors: list[int], depth: int, covered: bool, layers: int) -> None:
         """Applies the effects of draws on color: defined if they cover every pixel, undefined if they depend on undefined depth."""
-        drawn = [each.pipelines[i.pipeline] for i in step.inner if i.kind == "draw" and i.subpass == at]
-        tests = any(p.depth_test and p.depth_compare not in (NEVER, ALWAYS) for p in drawn)
+        pipelines = [frame_pass.pipelines[i.pipeline] for i in step.inner if i.kind == "draw" and i.subpass == at]
+        tests = any(p.depth_test and p.depth_compare not in (NEVER, ALWAYS) for p in pipelines)
         if depth != NONE and tests and self.plan.images[depth].aspects & DEPTH and (depth, DEPTH) not in self.known:
             for number in colors:
                 self._set(number, COLOR, False)
@@ -129,8 +129,8 @@ class Contents:
 
     def _covers(self, step: Step, subpass: int) -> bool:
         """Whether the draws of a subpass cover every pixel."""
-        own = [inner for inner in step.inner if inner.subpass == subpass]
-        return any(i.covers for i in own if i.kind == "draw") or any(i.kind == "read" and self.readable(i.image) for i in own)
+        commands = [inner for inner in step.inner if inner.subpass == subpass]
+        return any(i.covers for i in commands if i.kind == "draw") or any(i.kind == "read" and self.readable(i.image) for i in commands)
 
     def _resolve(self, step: Step, source: int, target: int, aspect: int, layers: int) -> None:
         # A resolve needs a multisampled source and a single-sampled target.
@@ -138,19 +138,19 @@ class Contents:
         whole = self._full(step, target, layers) or (target, aspect) in self.known
         self._set(target, aspect, fitting and whole and (source, aspect) in self.known)
 
-    def _rendering(self, each: Pass, step: Step, framebuffer: Framebuffer) -> None:
-        layers = max(framebuffer.layers, each.view_mask.bit_count())
-        rendered = [(r, _ROLES[r.role]) for r in each.rendered if r.image != NONE]
+    def _rendering(self, frame_pass: Pass, step: Step, framebuffer: Framebuffer) -> None:
+        layers = max(framebuffer.layers, frame_pass.view_mask.bit_count())
+        rendered = [(r, _ROLES[r.role]) for r in frame_pass.rendered if r.image != NONE]
         for r, aspect in rendered:
-            if each.flags & RESUMING:
+            if frame_pass.flags & RESUMING:
                 self.known |= self.suspended & {(r.image, aspect)}
                 self.suspended.discard((r.image, aspect))
                 continue
             self._load(r.image, aspect, r.load, True, self._full(step, r.image, layers))
-        covered = self._covers(step, 0) and (framebuffer.layers == 1 or each.view_mask > 0)
+        covered = self._covers(step, 0) and (framebuffer.layers == 1 or frame_pass.view_mask > 0)
         colors = [r.image for r, aspect in rendered if aspect == COLOR]
-        self._drawn(each, step, 0, colors, next((r.image for r, aspect in rendered if aspect == DEPTH), NONE), covered, layers)
-        if each.flags & SUSPENDING:
+        self._drawn(frame_pass, step, 0, colors, next((r.image for r, aspect in rendered if aspect == DEPTH), NONE), covered, layers)
+        if frame_pass.flags & SUSPENDING:
             # Nothing is stored until the rendering ends.
             keys = {(r.image, aspect) for r, aspect in rendered}
             self.suspended |= self.known & keys

@@ -46,8 +46,8 @@ def running(seconds: float = 30.0) -> list[Report]:
     from . import session
     from .child import Limits
 
-    with session.Session(execute=__name__, limits=Limits(seconds=seconds)) as asked:
-        return reports(asked.devices())
+    with session.Session(execute=__name__, limits=Limits(seconds=seconds)) as query:
+        return reports(query.devices())
 
 
 def reports(found: list[dict[str, Any]]) -> list[Report]:
@@ -77,21 +77,21 @@ def describe(physical: Any) -> dict[str, Any]:
     names = [binding.text(each.extensionName) for each in vk.vkEnumerateDeviceExtensionProperties(physical, None)]
     properties = vk.vkGetPhysicalDeviceProperties(physical)
     version = min(binding.version_of(properties.apiVersion)[:2], binding.instance_version()[:2])
-    made: dict[str, Any] = {
+    description: dict[str, Any] = {
         "properties": plain(properties.obj),
         "features": plain(vk.vkGetPhysicalDeviceFeatures(physical)),
         "memory": _memory(vk.vkGetPhysicalDeviceMemoryProperties(physical)),
         "extensions": [{"extensionName": name} for name in sorted(names)],
     }
     if version >= (1, 1) and binding.has("vkGetPhysicalDeviceProperties2"):
-        for asked, head, call in (
+        for queries, head, call in (
             (PROPERTIES, vk.VkPhysicalDeviceProperties2(), vk.vkGetPhysicalDeviceProperties2),
             (FEATURES, vk.VkPhysicalDeviceFeatures2(), vk.vkGetPhysicalDeviceFeatures2),
         ):
-            structures = {name: getattr(vk, name)() for name, due in asked.items() if _offered(due, version, names) and hasattr(vk, name)}
+            structures = {name: getattr(vk, name)() for name, due in queries.items() if _offered(due, version, names) and hasattr(vk, name)}
             call(physical, binding.chain(head, *structures.values()))
-            made.update((name, plain(structure)) for name, structure in structures.items())
-    return made
+            description.update((name, plain(structure)) for name, structure in structures.items())
+    return description
 
 
 def _offered(due: object, version: tuple[int, int], names: list[str]) -> bool:

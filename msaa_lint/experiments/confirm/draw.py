@@ -34,12 +34,12 @@ class Recorder:
     def step(self, buffer: Any, step: Step) -> None:
         """Records one step."""
         if step.kind == "begin":
-            each = self.plan.passes[step.number]
-            if each.kind == parts.RENDERING:
-                self._rendering(buffer, each, step)
+            frame_pass = self.plan.passes[step.number]
+            if frame_pass.kind == parts.RENDERING:
+                self._rendering(buffer, frame_pass, step)
             else:
-                self._render_pass(buffer, each, step)
-            self.contents.begin(each, step)
+                self._render_pass(buffer, frame_pass, step)
+            self.contents.begin(frame_pass, step)
         elif step.kind == "barrier":
             self._barrier(buffer, step)
         elif step.kind in _TRANSFERS:
@@ -53,53 +53,53 @@ class Recorder:
     def _reading(self, image: int) -> tuple[int, int, None]:
         return image, READ_LAYOUT if self.plan.images[image].aspects & COLOR else DEPTH_READ_LAYOUT, None
 
-    def _render_pass(self, buffer: Any, each: Pass, step: Step) -> None:
+    def _render_pass(self, buffer: Any, frame_pass: Pass, step: Step) -> None:
         vk = self.vk
-        framebuffer = each.framebuffers[step.framebuffer]
+        framebuffer = frame_pass.framebuffers[step.framebuffer]
         reads = self._read(step)
-        wanted: list[tuple[int, int, int | None]] = [
+        requests: list[tuple[int, int, int | None]] = [
             (image, a.initial, a.stencil_initial if a.stencil_initial != NONE else None)
-            for a, image in zip(each.attachments, framebuffer.images, strict=True)
+            for a, image in zip(frame_pass.attachments, framebuffer.images, strict=True)
         ]
-        self.layouts.into(buffer, [*wanted, *map(self._reading, reads)])
+        self.layouts.into(buffer, [*requests, *map(self._reading, reads)])
         begin = vk.VkRenderPassBeginInfo(
             renderPass=self.built.render_passes[step.number],
             framebuffer=self.built.framebuffers[step.number, step.framebuffer],
             renderArea=self._rect(step.area),
-            pClearValues=self._clears(each, framebuffer.images),
+            pClearValues=self._clears(frame_pass, framebuffer.images),
         )
-        second = each.api == 2
-        if second:
+        uses_version_2 = frame_pass.api == 2
+        if uses_version_2:
             self.call("vkCmdBeginRenderPass2")(buffer, begin, vk.VkSubpassBeginInfo(contents=0))
         else:
             vk.vkCmdBeginRenderPass(buffer, begin, 0)
-        for subpass in range(len(each.subpasses)):
-            if subpass and second:
+        for subpass in range(len(frame_pass.subpasses)):
+            if subpass and uses_version_2:
                 self.call("vkCmdNextSubpass2")(buffer, vk.VkSubpassBeginInfo(contents=0), vk.VkSubpassEndInfo())
             elif subpass:
                 vk.vkCmdNextSubpass(buffer, 0)
-            self._inner(buffer, each, step, subpass, reads)
-        if second:
+            self._inner(buffer, frame_pass, step, subpass, reads)
+        if uses_version_2:
             self.call("vkCmdEndRenderPass2")(buffer, vk.VkSubpassEndInfo())
         else:
             vk.vkCmdEndRenderPass(buffer)
-        for a, image in zip(each.attachments, framebuffer.images, strict=True):
+        for a, image in zip(frame_pass.attachments, framebuffer.images, strict=True):
             self.layouts.left(image, a.final, a.stencil_final if a.stencil_final != NONE else None)
 
-    def _rendering(self, buffer: Any, each: Pass, step: Step) -> None:
+    def _rendering(self, buffer: Any, frame_pass: Pass, step: Step) -> None:
         vk = self.vk
-        resumes = each.flags & parts.RESUMING
+        resumes = frame_pass.flags & parts.RESUMING
         reads = [] if resumes else self._read(step)
-        layers = self.built.layers(each, each.framebuffers[0])
-        wanted: list[tuple[int, int, int | None]] = []
+        layers = self.built.layers(frame_pass, frame_pass.framebuffers[0])
+        requests: list[tuple[int, int, int | None]] = []
         infos: dict[str, list[Any]] = {"color": [], "depth": [], "stencil": []}
-        for r in each.rendered:
+        for r in frame_pass.rendered:
             if r.image == NONE:
                 infos[r.role].append(vk.VkRenderingAttachmentInfo())
                 continue
-            wanted.append((r.image, r.layout, None))
+            requests.append((r.image, r.layout, None))
             if r.resolve_image != NONE:
-                wanted.append((r.resolve_image, r.resolve_layout, None))
+                requests.append((r.resolve_image, r.resolve_layout, None))
             infos[r.role].append(
                 vk.VkRenderingAttachmentInfo(
                     imageView=self.built.view(r.image, layers), imageLayout=r.layout, resolveMode=r.mode,
@@ -108,54 +108,54 @@ class Recorder:
                 )
             )  # fmt: skip
         if not resumes:
-            self.layouts.into(buffer, [*wanted, *map(self._reading, reads)])
-        following = None
-        if each.single_sampled:
-            following = vk.VkMultisampledRenderToSingleSampledInfoEXT(
-                multisampledRenderToSingleSampledEnable=1, rasterizationSamples=each.single_sampled
+            self.layouts.into(buffer, [*requests, *map(self._reading, reads)])
+        chained = None
+        if frame_pass.single_sampled:
+            chained = vk.VkMultisampledRenderToSingleSampledInfoEXT(
+                multisampledRenderToSingleSampledEnable=1, rasterizationSamples=frame_pass.single_sampled
             )
         begin = vk.VkRenderingInfo(
-            pNext=following,
-            flags=each.flags,
+            pNext=chained,
+            flags=frame_pass.flags,
             renderArea=self._rect(step.area),
-            layerCount=each.layers,
-            viewMask=each.view_mask,
+            layerCount=frame_pass.layers,
+            viewMask=frame_pass.view_mask,
             pColorAttachments=infos["color"],
             pDepthAttachment=infos["depth"][0] if infos["depth"] else None,
             pStencilAttachment=infos["stencil"][0] if infos["stencil"] else None,
         )
         self.call("vkCmdBeginRendering")(buffer, begin)
-        self._inner(buffer, each, step, 0, reads)
+        self._inner(buffer, frame_pass, step, 0, reads)
         self.call("vkCmdEndRendering")(buffer)
 
-    def _inner(self, buffer: Any, each: Pass, step: Step, subpass: int, reads: list[int]) -> None:
+    def _inner(self, buffer: Any, frame_pass: Pass, step: Step, subpass: int, reads: list[int]) -> None:
         """Records the commands of a subpass."""
-        vk, framebuffer = self.vk, each.framebuffers[step.framebuffer]
+        vk, framebuffer = self.vk, frame_pass.framebuffers[step.framebuffer]
         near, far = (1.0, 0.0) if self.plan.reversed else (0.0, 1.0)
-        own = [inner for inner in step.inner if inner.subpass == subpass]
+        commands = [inner for inner in step.inner if inner.subpass == subpass]
         viewport = vk.VkViewport(width=framebuffer.width, height=framebuffer.height, minDepth=near, maxDepth=far)
         vk.vkCmdSetViewport(buffer, 0, 1, [viewport])
         vk.vkCmdSetScissor(buffer, 0, 1, [self._rect(step.area)])
-        images = [i.image for i in own if i.kind == "read" and i.image in reads]
+        images = [i.image for i in commands if i.kind == "read" and i.image in reads]
         filled = bool(images) and self._fill(buffer, step, subpass, list(dict.fromkeys(images)))
-        count, turn = 0, 0
-        drawn, vertices = self.built.vertices()
-        vk.vkCmdBindVertexBuffers(buffer, 0, 1, [drawn], [0])
-        for inner in own:
+        count, rotation = 0, 0
+        vertex_buffer, vertices = self.built.vertices()
+        vk.vkCmdBindVertexBuffers(buffer, 0, 1, [vertex_buffer], [0])
+        for inner in commands:
             if inner.kind == "samples":
                 count = inner.value
             elif inner.kind == "clear":
-                self._clear_attachment(buffer, each, step, inner)
+                self._clear_attachment(buffer, frame_pass, step, inner)
             elif inner.kind == "draw":
-                pipeline = each.pipelines[inner.pipeline]
+                pipeline = frame_pass.pipelines[inner.pipeline]
                 vk.vkCmdBindPipeline(buffer, 0, self.built.pipelines[step.number, inner.pipeline])
                 self._dynamic(buffer, pipeline, count)
                 peak = HDR_PEAK if self.plan.hdr else PEAK
-                pushed = struct.pack("=fi", peak, turn)
+                pushed = struct.pack("=fi", peak, rotation)
                 vk.vkCmdPushConstants(buffer, self.built.opened.layout("scene")[0], 1, 0, len(pushed), push_bytes(pushed))
                 first = 0 if (inner.backdrop and not filled) or self.plan.vertices else BACKDROP
                 vk.vkCmdDraw(buffer, vertices - first, 1, first, 0)
-                turn += 1
+                rotation += 1
 
     def _dynamic(self, buffer: Any, pipeline: parts.Pipeline, count: int) -> None:
         if parts.SAMPLES_DYNAMIC in pipeline.dynamic:
@@ -172,7 +172,7 @@ class Recorder:
         x, y, width, height = step.area
         layout, set_layout = opened.layout("read")
         framebuffer = self.plan.passes[step.number].framebuffers[step.framebuffer]
-        done = False
+        filled = False
         for n, number in enumerate(images):
             image = self.plan.images[number]
             pipeline = self.built.reader(step.number, subpass, image.samples > 1)
@@ -186,9 +186,9 @@ class Recorder:
             scale = struct.pack("=ffi", image.width / framebuffer.width, image.height / framebuffer.height, image.samples)
             vk.vkCmdPushConstants(buffer, layout, 16, 0, len(scale), push_bytes(scale))
             vk.vkCmdDraw(buffer, 3, 1, 0, 0)
-            done = True
+            filled = True
         vk.vkCmdSetScissor(buffer, 0, 1, [self._rect(step.area)])
-        return done
+        return filled
 
     def descriptor(self, set_layout: Any, number: int, storage: Any = None) -> Any:
         """A descriptor set with a sampled image and an optional storage buffer."""
@@ -198,40 +198,44 @@ class Recorder:
             sizes.append(vk.VkDescriptorPoolSize(type=7, descriptorCount=1))
         pool = vk.vkCreateDescriptorPool(handle, vk.VkDescriptorPoolCreateInfo(maxSets=1, pPoolSizes=sizes), None)
         built.own(vk.vkDestroyDescriptorPool, pool)
-        found = vk.vkAllocateDescriptorSets(handle, vk.VkDescriptorSetAllocateInfo(descriptorPool=pool, pSetLayouts=[set_layout]))[0]
+        descriptor_set = vk.vkAllocateDescriptorSets(handle, vk.VkDescriptorSetAllocateInfo(descriptorPool=pool, pSetLayouts=[set_layout]))[
+            0
+        ]
         sampler = built.own(vk.vkDestroySampler, vk.vkCreateSampler(handle, vk.VkSamplerCreateInfo(maxLod=ALL_LEVELS), None))
         aspect = self.plan.images[number].aspects & (COLOR | DEPTH)
         image = vk.VkDescriptorImageInfo(sampler=sampler, imageView=built.view(number, 1, aspect), imageLayout=self._reading(number)[1])
-        writes = [vk.VkWriteDescriptorSet(dstSet=found, dstBinding=0, descriptorCount=1, descriptorType=1, pImageInfo=[image])]
+        writes = [vk.VkWriteDescriptorSet(dstSet=descriptor_set, dstBinding=0, descriptorCount=1, descriptorType=1, pImageInfo=[image])]
         if storage is not None:
             whole = vk.VkDescriptorBufferInfo(buffer=storage, offset=0, range=0xFFFFFFFFFFFFFFFF)
-            writes.append(vk.VkWriteDescriptorSet(dstSet=found, dstBinding=1, descriptorCount=1, descriptorType=7, pBufferInfo=[whole]))
+            writes.append(
+                vk.VkWriteDescriptorSet(dstSet=descriptor_set, dstBinding=1, descriptorCount=1, descriptorType=7, pBufferInfo=[whole])
+            )
         vk.vkUpdateDescriptorSets(handle, len(writes), writes, 0, None)
-        return found
+        return descriptor_set
 
-    def _clear_attachment(self, buffer: Any, each: Pass, step: Step, inner: PassCommand) -> None:
+    def _clear_attachment(self, buffer: Any, frame_pass: Pass, step: Step, inner: PassCommand) -> None:
         vk = self.vk
-        images = self._drawn(each, step, inner.subpass)
+        images = self._drawn(frame_pass, step, inner.subpass)
         number = images[inner.value] if inner.aspects & COLOR and inner.value < len(images) else NONE
         clear = self._clear(number) if number != NONE else vk.VkClearValue(depthStencil=self._clear_depth())
         attachment = vk.VkClearAttachment(aspectMask=inner.aspects, colorAttachment=inner.value, clearValue=clear)
         rect = vk.VkClearRect(rect=self._rect(step.area), baseArrayLayer=0, layerCount=1)
         vk.vkCmdClearAttachments(buffer, 1, [attachment], 1, [rect])
 
-    def _drawn(self, each: Pass, step: Step, subpass: int) -> list[int]:
-        if each.kind == parts.RENDERING:
-            return [r.image for r in each.rendered if r.role == "color"]
-        images = each.framebuffers[step.framebuffer].images
-        return [images[r.attachment] if r.attachment != NONE else NONE for r in each.subpasses[subpass].colors]
+    def _drawn(self, frame_pass: Pass, step: Step, subpass: int) -> list[int]:
+        if frame_pass.kind == parts.RENDERING:
+            return [r.image for r in frame_pass.rendered if r.role == "color"]
+        images = frame_pass.framebuffers[step.framebuffer].images
+        return [images[r.attachment] if r.attachment != NONE else NONE for r in frame_pass.subpasses[subpass].colors]
 
     def _clear_depth(self) -> Any:
         return self.vk.VkClearDepthStencilValue(0.0 if self.plan.reversed else 1.0, CLEARED_STENCIL)
 
-    def _clears(self, each: Pass, images: tuple[int, ...]) -> list[Any]:
+    def _clears(self, frame_pass: Pass, images: tuple[int, ...]) -> list[Any]:
         """The clear values of a pass's attachments, up to the last one that is cleared."""
         clearing = [
             index
-            for index, (a, image) in enumerate(zip(each.attachments, images, strict=True))
+            for index, (a, image) in enumerate(zip(frame_pass.attachments, images, strict=True))
             if a.load == CLEAR or (a.stencil_load == CLEAR and self.plan.images[image].aspects & STENCIL)
         ]
         return [self._clear(image) for image in images[: clearing[-1] + 1]] if clearing else []
@@ -261,9 +265,9 @@ class Recorder:
         for number, old, new in step.layouts:
             if number not in self.built.images:
                 continue
-            now = self.layouts.now(number, COLOR if self.plan.images[number].aspects & COLOR else DEPTH)
-            before = parts.UNDEFINED if old == parts.UNDEFINED else now
-            after = now if new in (NONE, parts.UNDEFINED) else new
+            current = self.layouts.now(number, COLOR if self.plan.images[number].aspects & COLOR else DEPTH)
+            before = parts.UNDEFINED if old == parts.UNDEFINED else current
+            after = current if new in (NONE, parts.UNDEFINED) else new
             whole = vk.VkImageSubresourceRange(aspectMask=self.plan.images[number].aspects, levelCount=0xFFFFFFFF, layerCount=0xFFFFFFFF)
             if after != parts.UNDEFINED:
                 barriers.append(

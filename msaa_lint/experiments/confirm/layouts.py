@@ -61,12 +61,14 @@ class Layouts:
         for aspect in self._aspects(image):
             self.known[image, aspect] = stencil if stencil is not None and aspect == STENCIL else layout
 
-    def into(self, buffer: Any, wanted: Sequence[LayoutRequest]) -> None:
+    def into(self, buffer: Any, requests: Sequence[LayoutRequest]) -> None:
         """Records the barriers that transition images to the requested layouts. UNDEFINED requests nothing."""
-        through: list[LayoutRequest] = [(image, GENERAL, None) for image, layout, _ in wanted if self._blank(image) and layout in READING]
-        if through:
-            self._barrier(buffer, through)
-        self._barrier(buffer, wanted)
+        through_general: list[LayoutRequest] = [
+            (image, GENERAL, None) for image, layout, _ in requests if self._blank(image) and layout in READING
+        ]
+        if through_general:
+            self._barrier(buffer, through_general)
+        self._barrier(buffer, requests)
 
     def fence(self, buffer: Any) -> None:
         """Records a full barrier between everything before and everything after."""
@@ -79,17 +81,17 @@ class Layouts:
     def _aspects(self, image: int) -> list[int]:
         return [aspect for aspect in (COLOR, DEPTH, STENCIL) if self.built.plan.images[image].aspects & aspect]
 
-    def _barrier(self, buffer: Any, wanted: Sequence[LayoutRequest]) -> None:
+    def _barrier(self, buffer: Any, requests: Sequence[LayoutRequest]) -> None:
         vk = self.vk
         barriers, before, after = [], 0, 0
-        for image, layout, stencil in wanted:
+        for image, layout, stencil in requests:
             moves: dict[tuple[int, int], int] = {}
             for aspect in self._aspects(image):
-                own = stencil if stencil is not None and aspect == STENCIL else layout
+                new_layout = stencil if stencil is not None and aspect == STENCIL else layout
                 old = self.now(image, aspect)
-                if own not in (UNDEFINED, old):
-                    moves[old, own] = moves.get((old, own), 0) | aspect
-                    self.known[image, aspect] = own
+                if new_layout not in (UNDEFINED, old):
+                    moves[old, new_layout] = moves.get((old, new_layout), 0) | aspect
+                    self.known[image, aspect] = new_layout
             for (old, new), aspects in moves.items():
                 old_stages, old_access = USES.get(old, (EVERYTHING, MEMORY))
                 new_stages, new_access = USES.get(new, (EVERYTHING, MEMORY))

@@ -69,8 +69,8 @@ class Images:
         self.base, self._sized = _base(frame)
         for name, target in frame.targets.items():
             self._add(target, name)
-        for each in frame.passes:
-            self._pass(each)
+        for frame_pass in frame.passes:
+            self._pass(frame_pass)
         self._commands()
         self._settle()
         self.images = tuple(self._image(used) for used in self._used.values())

@@ -58,7 +58,8 @@ class Planner:
         """The plan of a frame. It never raises for what the frame contains."""
         frame_plan = plan.plan(frame, file=file, size=size, samples=samples, api=self.api)
         passes = [
-            PlannedPass(each.name, each.path, each.refused, pass_kind(each.api, each.kind != "renderPass")) for each in frame_plan.passes
+            PlannedPass(frame_pass.name, frame_pass.path, frame_pass.refused, pass_kind(frame_pass.api, frame_pass.kind != "renderPass"))
+            for frame_pass in frame_plan.passes
         ]
         return PlannedFrame(to_json(frame_plan), frame_plan, passes, (*_metal_notes(frame), *frame_plan.defaults))
 

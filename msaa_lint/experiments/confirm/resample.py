@@ -13,8 +13,8 @@ MAX_IMAGE = 512
 
 def resized(plan: Plan, size: tuple[int, int]) -> Plan:
     """A plan whose largest pass has a size in pixels, with everything else in proportion."""
-    width = max([f.width for each in plan.passes for f in each.framebuffers] or [i.width for i in plan.images] or [1])
-    height = max([f.height for each in plan.passes for f in each.framebuffers] or [i.height for i in plan.images] or [1])
+    width = max([f.width for frame_pass in plan.passes for f in frame_pass.framebuffers] or [i.width for i in plan.images] or [1])
+    height = max([f.height for frame_pass in plan.passes for f in frame_pass.framebuffers] or [i.height for i in plan.images] or [1])
     return _scaled(plan, (size[0], width), (size[1], height))
 
 

@@ -128,7 +128,7 @@ def _float_average(own: Component, samples: Sequence[float]) -> Expected:
     exact = math.fsum(samples) / len(samples)
     slack = _order_slack(samples)
     tiny = math.ldexp(1.0, own.least)
-    slack += sum(abs(each) for each in samples if abs(each) < tiny) / len(samples)
+    slack += sum(abs(sample) for sample in samples if abs(sample) < tiny) / len(samples)
     low, high = beside(own, exact - slack)[0], beside(own, exact + slack)[1]
     if abs(exact) < tiny:
         low, high = min(low, 0.0), max(high, 0.0)

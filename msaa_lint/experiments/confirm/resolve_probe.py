@@ -80,26 +80,30 @@ class Probe(NamedTuple):
 
 def resolves(plan: Plan) -> dict[int, tuple[Resolve, ...]]:
     """The resolves of the passes of a plan, and of the commands after them, by the number of the pass."""
-    found: dict[int, list[Resolve]] = {}
-    for number, each in enumerate(plan.passes):
-        if not each.refused:
-            found.setdefault(number, []).extend(_of_subpasses(each) if each.kind == RENDER_PASS else _of_rendering(plan, each))
+    by_pass: dict[int, list[Resolve]] = {}
+    for number, frame_pass in enumerate(plan.passes):
+        if not frame_pass.refused:
+            by_pass.setdefault(number, []).extend(
+                _of_subpasses(frame_pass) if frame_pass.kind == RENDER_PASS else _of_rendering(plan, frame_pass)
+            )
     for step in plan.steps:
         if step.kind == "resolve" and NONE not in (step.source, step.target):
             source, target = plan.images[step.source], plan.images[step.target]
             if source.samples > 1 == target.samples and source.aspects == COLOR and source.format == target.format:
-                found.setdefault(step.number, []).append(Resolve(COMMAND, source.format, source.samples, COLOR, _color_mode(source.format)))
-    return {number: tuple(dict.fromkeys(own)) for number, own in found.items() if own}
+                by_pass.setdefault(step.number, []).append(
+                    Resolve(COMMAND, source.format, source.samples, COLOR, _color_mode(source.format))
+                )
+    return {number: tuple(dict.fromkeys(found)) for number, found in by_pass.items() if found}
 
 
-def _of_subpasses(each: Pass) -> Iterator[Resolve]:
-    for subpass in each.subpasses:
+def _of_subpasses(frame_pass: Pass) -> Iterator[Resolve]:
+    for subpass in frame_pass.subpasses:
         for color, target in zip(subpass.colors, subpass.resolves, strict=False):
-            pair = _pair(each, color, target)
+            pair = _pair(frame_pass, color, target)
             if pair is not None:
                 yield Resolve(RENDER_PASS, pair.format, pair.samples, COLOR, _color_mode(pair.format))
         for depth, target in zip(subpass.depth_stencil, subpass.depth_resolve, strict=False):
-            pair = _pair(each, depth, target)
+            pair = _pair(frame_pass, depth, target)
             if pair is not None and (subpass.depth_mode or subpass.stencil_mode):
                 aspects = _aspects(pair.format)
                 modes = subpass.depth_mode if aspects & DEPTH else 0, subpass.stencil_mode if aspects & STENCIL else 0
@@ -107,41 +111,45 @@ def _of_subpasses(each: Pass) -> Iterator[Resolve]:
                     yield Resolve(RENDER_PASS, pair.format, pair.samples, aspects, *modes)
 
 
-def _pair(each: Pass, source: Reference, target: Reference) -> Attachment | None:
+def _pair(frame_pass: Pass, source: Reference, target: Reference) -> Attachment | None:
     """The attachment that is resolved; None if this is not a valid resolve."""
     if NONE in (source.attachment, target.attachment):
         return None
-    own, other = each.attachments[source.attachment], each.attachments[target.attachment]
-    return own if own.samples > 1 == other.samples and own.format == other.format else None
+    source_attachment, target_attachment = frame_pass.attachments[source.attachment], frame_pass.attachments[target.attachment]
+    return (
+        source_attachment
+        if source_attachment.samples > 1 == target_attachment.samples and source_attachment.format == target_attachment.format
+        else None
+    )
 
 
-def _of_rendering(plan: Plan, each: Pass) -> Iterator[Resolve]:
-    found: dict[str, tuple[Image, int]] = {}
-    for r in each.rendered:
+def _of_rendering(plan: Plan, frame_pass: Pass) -> Iterator[Resolve]:
+    by_role: dict[str, tuple[Image, int]] = {}
+    for r in frame_pass.rendered:
         if NONE in (r.image, r.resolve_image) or not r.mode:
             continue
         source, target = plan.images[r.image], plan.images[r.resolve_image]
         if not source.samples > 1 == target.samples or source.format != target.format:
             continue
         if r.role != "color":
-            found[r.role] = source, r.mode
+            by_role[r.role] = source, r.mode
         elif r.mode == _color_mode(source.format):
             yield Resolve(RENDERING, source.format, source.samples, COLOR, r.mode)
-    if found:
-        (source, _), *_ = found.values()
-        aspects = (DEPTH if "depth" in found else 0) | (STENCIL if "stencil" in found else 0)
-        modes = {role: mode for role, (_, mode) in found.items()}
+    if by_role:
+        (source, _), *_ = by_role.values()
+        aspects = (DEPTH if "depth" in by_role else 0) | (STENCIL if "stencil" in by_role else 0)
+        modes = {role: mode for role, (_, mode) in by_role.items()}
         yield Resolve(RENDERING, source.format, source.samples, aspects, modes.get("depth", 0), modes.get("stencil", 0))
 
 
-def probe(wanted: Sequence[Resolve], like: Plan) -> Probe | None:
+def probe(requested: Sequence[Resolve], like: Plan) -> Probe | None:
     """The frame that probes resolves of one format and sample count, on a device opened for another plan; None if they cannot be probed."""
-    form = format_of(format_name(wanted[0].format))
-    if form is None:
+    format = format_of(format_name(requested[0].format))
+    if format is None:
         return None
-    witnessed = form.is_integer or any(each.aspects & STENCIL and each.stencil_mode for each in wanted)
-    read = not form.is_integer and any(each.mode and each.aspects & (COLOR | DEPTH) for each in wanted)
-    frame = _Frame(form, wanted, WITNESS_SIDE if witnessed else SIDE, witnessed, read)
+    witnessed = format.is_integer or any(resolve.aspects & STENCIL and resolve.stencil_mode for resolve in requested)
+    read = not format.is_integer and any(resolve.mode and resolve.aspects & (COLOR | DEPTH) for resolve in requested)
+    frame = _Frame(format, requested, WITNESS_SIDE if witnessed else SIDE, witnessed, read)
     plan = Plan("", frame.images(), frame.passes(), frame.steps(), (), like.extensions, like.without)
     return Probe(plan, frame.resolves, (*((SAMPLES,) if read else ()), *((WITNESS,) if witnessed else ())))
 

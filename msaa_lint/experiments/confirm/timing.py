@@ -85,10 +85,10 @@ def difference(as_written: Timing, fixed: Timing, software: bool) -> Difference:
     if as_written.median <= 0:
         return Difference(0.0, False, "no time was measured")
     share = fixed.median / as_written.median - 1
-    apart = fixed.high < as_written.low or as_written.high < fixed.low
+    disjoint = fixed.high < as_written.low or as_written.high < fixed.low
     if software and abs(share) < NOTHING:
         return Difference(share, False, "no difference: less than 10 % is not significant on a software driver")
-    if not apart:
+    if not disjoint:
         return Difference(share, False, "no difference: the intervals overlap")
     if as_written.n < 6 or fixed.n < 6:
         return Difference(share, False, "fewer than 6 repeats cannot show a difference")
@@ -102,12 +102,12 @@ def rounds(repeats: int) -> Iterator[tuple[int, tuple[str, str], int]]:
     """
     processes = min(PROCESSES, repeats)
     for number in range(processes):
-        own = repeats // processes + (number < repeats % processes)
+        process_repeats = repeats // processes + (number < repeats % processes)
         first, second = ("as written", "fixed") if number % 2 == 0 else ("fixed", "as written")
-        half = own - own // 2
+        half = process_repeats - process_repeats // 2
         yield number, (first, second), half
-        if own - half:
-            yield number, (second, first), own - half
+        if process_repeats - half:
+            yield number, (second, first), process_repeats - half
 
 
 def cannot_show(device: Mapping[str, Any], tiler: bool | None) -> str:

@@ -202,7 +202,7 @@ class _Trial:
 
 def _findings(source: Input, planned: PlannedPass) -> list[Finding]:
     """All findings about a pass, suppressed ones included."""
-    described = next((each for each in source.frame.passes if each.name == planned.name), None)
+    described = next((frame_pass for frame_pass in source.frame.passes if frame_pass.name == planned.name), None)
     findings = [*source.findings, *source.silenced]
     return of_pass(source.frame, described, findings) if described is not None else findings
 
