@@ -111,7 +111,7 @@ def test_standard_input(folder: Path) -> None:
     assert (done.returncode, [each["key"] for each in devices(done.stdout)]) == (0, [None])
     done = run(folder, "device", "-", stdin=b"hello")
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith("msaa-lint: standard input: it is no report of a device; expected vulkaninfo")
+    assert done.stderr.startswith("msaa-lint: standard input: it is not a device report; expected vulkaninfo")
 
 
 def test_what_cannot_be_had(folder: Path) -> None:

@@ -50,7 +50,7 @@ class Offer(NamedTuple):
 
 
 def builtin_offer(name: str) -> Offer | None:
-    """The offer of a built-in profile; None where there is none of that name."""
+    """The offer of a built-in profile; None if there is none with that name."""
     found = builtin(name)
     return Offer(Report(found), name, RECORDED_FEATURES, RECORDED) if found is not None else None
 

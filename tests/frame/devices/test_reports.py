@@ -186,11 +186,11 @@ def test_new_bits_count_for_nothing() -> None:
 
 
 NO_REPORTS = {
-    "": "no report of a device",
-    "images: {}": "no report of a device",
-    "{}": "no report of a device",
-    "[]": "no report of a device",
-    '{"properties": 3, "environment": 1, "extended": 2}': "no report of a device",
+    "": "not a device report",
+    "images: {}": "not a device report",
+    "{}": "not a device report",
+    "[]": "not a device report",
+    '{"properties": 3, "environment": 1, "extended": 2}': "not a device report",
     '{"a": 1,}': "broken at line 1, column 9",
     "[" * 100_000: "nested too deeply",
     '{"a": ' + "9" * 5000 + "}": "a number that is too long",

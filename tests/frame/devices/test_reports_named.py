@@ -120,7 +120,7 @@ def test_what_is_no_file_is_not_read(project: Path) -> None:
     assert named(project, "pipe.json") == Problem("MSAA903", "`pipe.json` cannot be read: it is a pipe, not a regular file")
     assert named(project, "a.json") == Problem("MSAA903", "`a.json` cannot be read: it is a folder, not a regular file")
     assert named(project, "large.json") == Problem("MSAA903", "`large.json` cannot be read: it is larger than 8 MiB")
-    for name, reason in (("bytes.json", "not UTF-8: byte 7"), ("words.txt", "no report of a device")):
+    for name, reason in (("bytes.json", "not UTF-8: byte 7"), ("words.txt", "not a device report")):
         found = named(project, name)
         assert isinstance(found, Problem)
         assert found.code == "MSAA903"

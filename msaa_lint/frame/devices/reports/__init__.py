@@ -24,7 +24,7 @@ EXPECTED = "vulkaninfo (text or --json), a Vulkan profile, a report of gpuinfo.o
 
 
 class NotAReport(ValueError):
-    """A text that is no report of a device, or one that lacks the device's limits: why."""
+    """The text is not a device report, or lacks the limits of the device; the message says which."""
 
 
 def read(text: str, file: str = "") -> list[Report]:
@@ -39,7 +39,7 @@ def _found(text: str) -> list[Found]:
     start = text.lstrip()[:1]
     if start not in ("{", "["):
         if not vulkaninfo_text.claims(text):
-            raise NotAReport("it is no report of a device")
+            raise NotAReport("it is not a device report")
         made = vulkaninfo_text.read(text)
         if not made:
             raise NotAReport("it has no GPU in it")
@@ -58,7 +58,7 @@ def _found(text: str) -> list[Found]:
         raise NotAReport("its JSON has a number that is too long") from None
     module = next((module for module in JSON if isinstance(root, dict) and module.claims(root)), None)
     if module is None:
-        raise NotAReport("it is no report of a device")
+        raise NotAReport("it is not a device report")
     found: list[Found] = module.read(root)
     if not found:
         raise NotAReport("it has no device in it")
@@ -68,7 +68,7 @@ def _found(text: str) -> list[Found]:
 
 
 def pick(reports: Sequence[Report], which: str) -> Report | None:
-    """The device that a number from 1 on or a name says; without either the only one, or the only one that is no CPU. Else None."""
+    """The device with a number (from 1) or a name; without either, the only one or the only one that is not a CPU. None otherwise."""
     if which.isascii() and which.isdigit() and len(which) < 4:
         return reports[int(which) - 1] if 0 < int(which) <= len(reports) else None
     if which:

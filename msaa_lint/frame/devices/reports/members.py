@@ -75,7 +75,7 @@ class Report(NamedTuple):
 
 
 def gathered(*structures: object) -> dict[str, list[object]]:
-    """The wanted members of some structures, and of the structures in them; what is no mapping gives nothing."""
+    """The wanted members of structures and of the structures in them; anything but a mapping is skipped."""
     found: dict[str, list[object]] = {}
     waiting = [(structure, 0) for structure in reversed(structures)]
     while waiting:
