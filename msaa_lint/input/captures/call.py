@@ -1,7 +1,9 @@
 """What capture readers produce: calls in file order, each with its place."""
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
+import re
 from typing import Any, NamedTuple
+
+_SUFFIX = re.compile(r"(?:KHR|EXT|NV|AMD|QCOM|ARM|LUNARG)\Z")
 
 
 class Place(NamedTuple):
@@ -43,3 +45,13 @@ class CaptureError(Exception):
         super().__init__(message)
         self.message = message
         self.place = place
+
+
+def without_vendor(name: str) -> str:
+    """A call's name without its vendor suffix."""
+    return _SUFFIX.sub("", name)
+
+
+def is_wanted(wanted: frozenset[str], name: str) -> bool:
+    """Whether `wanted` contains a call, with or without its vendor suffix."""
+    return name in wanted or without_vendor(name) in wanted

@@ -11,9 +11,8 @@ from typing import Any, NamedTuple
 from msaa_lint.core.text.source import Origin
 
 from .command_buffers import RenderPassBegin
-from .command_writer import CommandWriter, commands_of
+from .command_writer import CommandWriter, Names, commands_of
 from .frames import FrameKind
-from .names import Names
 from .objects import CapturedObject, Framebuffer, Image, Pipeline, RenderPass, freeze
 from .tracker import Tracker
 from .yaml_text import Lines

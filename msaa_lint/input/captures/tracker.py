@@ -12,15 +12,13 @@ from typing import Any, NamedTuple
 from msaa_lint.frame.description.models import Framebuffer as FramebufferRecord
 
 from . import values
-from .call import Call, Mark
-from .call_names import without_vendor
+from .call import Call, Mark, without_vendor
 from .command_buffers import CommandBuffer, CommandCache, RecordedCommand
+from .create_infos import pipeline_of, render_pass_of
 from .descriptors import Descriptors
 from .frames import Frames
 from .images import MAX_DISTINCT, Images
 from .objects import CapturedObject, Framebuffer, Pipeline, RenderPass, freeze
-from .pipelines import pipeline_of
-from .render_passes import render_pass_of
 from .structures import to_tree
 from .transfers import Transfers
 

@@ -8,8 +8,7 @@ from msaa_lint.frame.description.models import Description, Device
 from msaa_lint.frame.devices import builtin
 
 from . import metal, vulkan
-from .target import Target, sections
-from .value_tree import Value, tree
+from .target import Target, Value, sections, tree
 
 PASSTHROUGH_SECTIONS = ("frame", "device", "enabled", "scene", "sampleCountChoices")
 """Sections that are allowed beside `renderTargets` and are kept unchanged."""

@@ -9,8 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from . import words
-from .target import Target
-from .value_tree import Value
+from .target import Target, Value
 
 Members = dict[str, Any]
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any, NamedTuple
+
 from msaa_lint.core.text.node import Node
+from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.models import FrameSize, RenderTarget
 from msaa_lint.frame.description.record import Record
 
 from . import words
-from .value_tree import Value
 
 COLOR = {"storageMode": "kDevicePrivate", "resolveStorageMode": "kDevicePrivate", "loadAction": "kClear", "storeAction": "kStore"}
 """`RenderTarget::kDefaultColorAttachmentConfig`."""
@@ -18,6 +20,13 @@ COLOR_MSAA = {**COLOR, "storageMode": "kDeviceTransient", "storeAction": "kMulti
 
 STENCIL = {"storageMode": "kDeviceTransient", "loadAction": "kClear", "storeAction": "kDontCare"}
 """`RenderTarget::kDefaultStencilAttachmentConfig`, for both depth and stencil, which share one texture."""
+
+
+class Value(NamedTuple):
+    """A value, and the place that determines it."""
+
+    value: Any
+    at: Span
 
 
 class Config:
@@ -75,3 +84,28 @@ def _size(record: RenderTarget, side: str, frame: FrameSize | None) -> Value | N
 def sections(node: Node, names: tuple[str, ...]) -> dict[str, Value]:
     """The given sections of a description, unchanged."""
     return {name: Value(node.value[name], node.keys[name].span) for name in names if name in node.value}
+
+
+def tree(value: Any, at: Span) -> Node:
+    """The node for a dict, list or scalar at a place; a `Value` has its own place, and a node is kept.
+
+    Members whose value is None are unknown and omitted.
+    """
+    if isinstance(value, Node):
+        return value
+    if isinstance(value, Value):
+        return tree(value.value, value.at)
+    if isinstance(value, dict):
+        members = ((key, _place(each, at), tree(each, at)) for key, each in value.items() if not _unknown(each))
+        return mapping(members, at)
+    if isinstance(value, (list, tuple)):
+        return sequence([tree(each, at) for each in value], at)
+    return scalar(value, at)
+
+
+def _unknown(value: Any) -> bool:
+    return value is None or (isinstance(value, Value) and value.value is None)
+
+
+def _place(value: Any, at: Span) -> Span:
+    return value.at if isinstance(value, Value) else at

@@ -10,8 +10,7 @@ import re
 from collections.abc import Iterator
 from typing import Any, BinaryIO
 
-from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place
-from msaa_lint.input.captures.call_names import is_wanted
+from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place, is_wanted
 from msaa_lint.input.captures.json_stream import BYTE_ORDER_MARK, TRUNCATED, Cursor, loads
 
 NAME = "api-dump"

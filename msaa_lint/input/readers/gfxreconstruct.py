@@ -6,14 +6,14 @@ describe the device, and markers for the state of a trimmed capture. Lines of un
 
 from __future__ import annotations
 
+import os
 import re
+import stat
 from collections.abc import Iterator
 from typing import Any, BinaryIO, NamedTuple
 
-from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place
-from msaa_lint.input.captures.call_names import is_wanted
+from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place, is_wanted
 from msaa_lint.input.captures.json_stream import BYTE_ORDER_MARK, TRUNCATED, Blocks, Cursor, PeekedStream, loads, parse_call
-from msaa_lint.input.captures.sibling_files import Folder
 
 NAME = "gfxreconstruct"
 
@@ -36,6 +36,11 @@ MAX_CACHED_CALL = 1 << 16  # bytes
 MAX_HISTORY = 1 << 19
 """How many lines back a repetition is found."""
 MIN_HIT_RATIO = 1.25
+MAX_FILE = 16 << 20
+"""Maximum size of a shader file in bytes; larger ones are skipped."""
+
+MAX_PATH = 4096
+
 PAUSE = 16
 """If fewer than a fifth of the lines repeat earlier ones, nothing is cached for 16 times as many lines."""
 
@@ -55,6 +60,31 @@ def calls(stream: BinaryIO, wanted: frozenset[str], name: str | None) -> Iterato
     reader = Reader(wanted, name)
     is_array = peeked.head.removeprefix(BYTE_ORDER_MARK).lstrip()[:1] == b"["
     return _elements(Cursor(peeked), reader) if is_array else _lines(Blocks(peeked), reader)
+
+
+class Folder:
+    """The folder of a capture, the only one whose files are read; a stream without a name has none."""
+
+    def __init__(self, name: str | None) -> None:
+        self.path = os.path.realpath(os.path.dirname(os.path.abspath(name))) if name else None
+
+    def read(self, path: str) -> bytes | None:
+        """The contents of a regular file at a relative path; None if it is outside the folder, unreadable, or larger than 16 MiB."""
+        if self.path is None or not 0 < len(path) <= MAX_PATH:
+            return None
+        try:
+            # A converter on Windows writes backslashes.
+            target = os.path.realpath(os.path.join(self.path, path.replace("\\", "/")), strict=True)
+            if os.path.commonpath((self.path, target)) != self.path:
+                return None
+            status = os.stat(target)
+            if not stat.S_ISREG(status.st_mode) or status.st_size > MAX_FILE:
+                return None
+            with open(target, "rb") as file:
+                content = file.read(MAX_FILE + 1)
+        except (OSError, ValueError):
+            return None
+        return content if len(content) <= MAX_FILE else None
 
 
 CachedLine = tuple[bytes, int, str, Any, str | None]

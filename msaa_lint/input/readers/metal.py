@@ -36,8 +36,7 @@ from msaa_lint.frame.metal.formats import PIXEL_FORMATS
 from msaa_lint.frame.metal.names import MULTISAMPLE_TYPES
 from msaa_lint.frame.vulkan.formats import format_of
 
-from .metal_nodes import Items, by_index, first_stated, key_of, placed
-from .metal_pass import PassTree, attachments_of, resolves
+from .metal_pass import Items, PassTree, attachments_of, by_index, first_stated, key_of, placed, resolves
 
 BESIDE = ("images", "renderPasses", "framebuffers", "pipelines", "commands")
 """The sections of a Vulkan frame."""

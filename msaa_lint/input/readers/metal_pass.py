@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import TypeVar
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
+from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import StencilApart
 from msaa_lint.frame.description.models import MetalColorAttachment, MetalDepthAttachment, MetalRenderPass, MetalStencilAttachment
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.description.scalars import UNUSED
 from msaa_lint.frame.metal.names import MULTISAMPLE_RESOLVES
-
-from .metal_nodes import Items, by_index, key_of, placed
 
 _LOAD = {"load": "LOAD", "clear": "CLEAR", "dontCare": "DONT_CARE"}
 _STORE = {
@@ -23,6 +23,10 @@ _STORE = {
     "multisampleResolve": "DONT_CARE",
 }
 _DEPTH_FILTERS = {None: "SAMPLE_ZERO", "sample0": "SAMPLE_ZERO", "min": "MIN", "max": "MAX"}
+
+Kind = TypeVar("Kind")
+Items = list[tuple[str, Span, Node]]
+"""The items of a mapping: key, place of the key, and value."""
 
 MetalAttachment = MetalColorAttachment | MetalDepthAttachment | MetalStencilAttachment
 
@@ -140,6 +144,31 @@ class PassTree:
         self.attachments.append((name, key, mapping(items, at)))
         self.origins.append((f"{of.path}.resolveTexture", {}))
         return scalar(name, at)
+
+
+def by_index(stated: Mapping[str, Kind | None] | Sequence[Kind | None]) -> list[Kind | None]:
+    """Color attachments in index order; None for an unused index."""
+    if not isinstance(stated, Mapping):
+        return list(stated)
+    attachments: list[Kind | None] = [None] * (max((int(index) for index in stated), default=-1) + 1)
+    for index, attachment in stated.items():
+        attachments[int(index)] = attachment
+    return attachments
+
+
+def first_stated(record: Record, members: Sequence[str]) -> str | None:
+    """The first stated member among several names of the same property."""
+    return next((member for member in members if getattr(record, member) is not None), None)
+
+
+def key_of(record: Record, member: str) -> Span:
+    """The place of a member's key; the record's head if it is not stated."""
+    return record.spelled[member][0].span if member in record.spelled else record.head
+
+
+def placed(record: Record, member: str, value: str | int | bool) -> tuple[Span, Node]:
+    """Another value, at a member's place."""
+    return key_of(record, member), scalar(value, record.place(member))
 
 
 def attachments_of(render_pass: MetalRenderPass) -> Iterable[tuple[str, MetalAttachment]]:

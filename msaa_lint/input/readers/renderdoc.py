@@ -5,16 +5,16 @@ A chunk is a call. `renderdoc_calls` converts RenderDoc's names to C's; `renderd
 
 from __future__ import annotations
 
+import codecs
+import re
 from collections.abc import Callable, Iterator
 from typing import Any, BinaryIO
 
-from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place
-from msaa_lint.input.captures.call_names import is_wanted
+from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place, is_wanted
 
 from .renderdoc_blobs import Blobs
 from .renderdoc_calls import INITIAL_CONTENTS, NEEDED_FOR, CallConverter
 from .renderdoc_sets import unknown_set
-from .renderdoc_text import XmlRepair
 
 NAME = "renderdoc"
 
@@ -33,6 +33,10 @@ MAX_NAMES = 20_000
 
 MAX_DEPTH = 100
 
+# References to control characters, which XML 1.0 forbids; two digits each.
+_CONTROL = re.compile(rb"&#(?:0[0-8]|1[124-9]|2\d|3[01]);")
+_PARTIAL_REFERENCE = re.compile(rb"&(?:#(?:\d\d?)?)?\Z")
+
 
 def claims(head: bytes) -> bool:
     """Whether a file that starts with `head` is RenderDoc's XML."""
@@ -47,7 +51,7 @@ def calls(stream: BinaryIO, wanted: frozenset[str], name: str | None) -> Iterato
     """
     blobs = Blobs(name)
     parser = _ChunkParser(wanted, blobs)
-    repair = XmlRepair()
+    repair = _XmlRepair()
     failure: CaptureError | None = None
     last = False
     try:
@@ -64,6 +68,33 @@ def calls(stream: BinaryIO, wanted: frozenset[str], name: str | None) -> Iterato
         parser.release()
     if failure is not None:
         raise failure
+
+
+class _XmlRepair:
+    """Repairs RenderDoc's XML, which has names verbatim, in any encoding, block by block.
+
+    Control characters become question marks, invalid UTF-8 becomes U+FFFD. Positions do not change."""
+
+    def __init__(self) -> None:
+        self.decoder = codecs.getincrementaldecoder("utf-8")("replace")
+        self.ascii = True
+        self.rest = b""
+
+    def repair(self, block: bytes, last: bool) -> bytes:
+        """Repairs the next block. A reference or character that continues in the following block is held back."""
+        if not (self.ascii and block.isascii()):
+            self.ascii = False
+            block = self.decoder.decode(block, last).encode()
+        if self.rest:
+            block = self.rest + block
+            self.rest = b""
+        if b"&" not in block:
+            return block
+        partial = None if last else _PARTIAL_REFERENCE.search(block, max(0, len(block) - 4))
+        if partial is not None:
+            self.rest = block[partial.start() :]
+            block = block[: partial.start()]
+        return _CONTROL.sub(b"&#63;", block)
 
 
 class _ChunkParser:
