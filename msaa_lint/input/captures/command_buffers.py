@@ -6,7 +6,7 @@ from collections.abc import Hashable, Mapping
 from typing import Any, NamedTuple
 
 from . import values
-from .call import Call, Place
+from .call import Call, Place, without_vendor
 from .objects import DescriptorSet, Framebuffer, Image, Pipeline, RenderPass
 
 MAX_FULLSCREEN_VERTICES = 6
@@ -109,6 +109,12 @@ class CommandBuffer:
         self.subpass_commands.clear()
         self.many.clear()
         self.fresh = True
+
+
+def kind_of(call: Call) -> str:
+    """The name in a description of the command that a call records: `copyImage` for vkCmdCopyImage2KHR."""
+    name = without_vendor(call.name).removeprefix("vkCmd").removesuffix("2")
+    return name[:1].lower() + name[1:]
 
 
 def draw_counts(counted: str, args: Mapping[str, Any]) -> tuple[int | None, int | None]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
-from typing import Any
 
 from msaa_lint.frame.description.models import BeginRendering, RenderingAttachment
 
@@ -12,14 +11,14 @@ from .call import Call
 from .command_buffers import (
     MAX_FULLSCREEN_VERTICES,
     CommandBuffer,
-    CommandCache,
     DescriptorReads,
     RecordedCommand,
     RenderPassBegin,
     draw_counts,
     draw_key,
+    kind_of,
 )
-from .frames import Frames
+from .descriptors import Descriptors
 from .objects import DescriptorSet, Framebuffer, Image, Pipeline, RenderPass, freeze
 from .structures import Tree, to_tree
 
@@ -28,28 +27,20 @@ GRAPHICS = ("VK_PIPELINE_BIND_POINT_GRAPHICS", 0, "0")
 BOUNDARIES = ("beginRenderPass", "beginRendering", "nextSubpass", "endRenderPass", "endRendering")
 """Commands that begin or end a pass or subpass."""
 
+COUNTED = {"vkCmdDraw": "vertexCount", "vkCmdDrawIndexed": "indexCount"}
+"""The parameter with the number of vertices or indices of a draw; other draws have it in a buffer."""
 
-class CommandTracker:
-    """Tracks the commands of a capture. `Tracker` provides the objects that they refer to."""
 
-    commands: CommandCache
+class CommandTracker(Descriptors):
+    """Tracks the commands of a capture."""
 
-    images: dict[int, Image]
-    render_passes: dict[int, RenderPass]
-    framebuffers: dict[int, Framebuffer]
-    pipelines: dict[int, Pipeline]
-    sets: dict[int, DescriptorSet]
-    buffers: dict[int, CommandBuffer]
-    pools: dict[int, set[int]]
-    frames: Frames
-
-    def view(self, value: object) -> Image | None:
-        """The image of a view."""
-        raise NotImplementedError
-
-    def write(self, target: DescriptorSet, write: dict[str, Any]) -> None:
-        """Applies a VkWriteDescriptorSet to a set."""
-        raise NotImplementedError
+    def __init__(self) -> None:
+        super().__init__()
+        self.render_passes: dict[int, RenderPass] = {}
+        self.framebuffers: dict[int, Framebuffer] = {}
+        self.pipelines: dict[int, Pipeline] = {}
+        self.buffers: dict[int, CommandBuffer] = {}
+        self.pools: dict[int, set[int]] = {}
 
     def buffer(self, call: Call) -> CommandBuffer:
         """The command buffer of a command. It may be new, because a trimmed capture may lack its allocation."""
@@ -68,10 +59,6 @@ class CommandTracker:
             handle = values.handle(item)
             self.buffers[handle] = CommandBuffer()
             pool.add(handle)
-
-    def on_FreeCommandBuffers(self, call: Call) -> None:
-        for item in values.items(call.args.get("pCommandBuffers")):
-            self.buffers.pop(values.handle(item), None)
 
     def on_DestroyCommandPool(self, call: Call) -> None:
         for handle in self.pools.pop(values.handle(call.args.get("commandPool")), ()):
@@ -102,14 +89,9 @@ class CommandTracker:
     on_CmdBeginRenderPass2 = on_CmdBeginRenderPass
 
     def on_CmdNextSubpass(self, call: Call) -> None:
-        self._record_boundary(call, "nextSubpass", None)
+        self._record_boundary(call, kind_of(call), None)
 
-    on_CmdNextSubpass2 = on_CmdNextSubpass
-
-    def on_CmdEndRenderPass(self, call: Call) -> None:
-        self._record_boundary(call, "endRenderPass", None)
-
-    on_CmdEndRenderPass2 = on_CmdEndRenderPass
+    on_CmdNextSubpass2 = on_CmdEndRenderPass = on_CmdEndRenderPass2 = on_CmdEndRendering = on_CmdEndRendering2 = on_CmdNextSubpass
 
     def _record_boundary(self, call: Call, kind: str, key: Hashable) -> None:
         """Records a command that begins or ends a pass or subpass."""
@@ -147,11 +129,6 @@ class CommandTracker:
             for member in ("resolveMode", "resolveImageLayout"):
                 attachment.pop(member, None)
         return attachment
-
-    def on_CmdEndRendering(self, call: Call) -> None:
-        self._record_boundary(call, "endRendering", None)
-
-    on_CmdEndRendering2 = on_CmdEndRendering
 
     def on_CmdExecuteCommands(self, call: Call) -> None:
         buffer = self.buffer(call)
@@ -229,20 +206,7 @@ class CommandTracker:
         buffer.fresh = True
 
     def on_CmdDraw(self, call: Call) -> None:
-        self._draw(call, "vertexCount")
-
-    def on_CmdDrawIndexed(self, call: Call) -> None:
-        self._draw(call, "indexCount")
-
-    def _many(self, call: Call) -> None:
-        self._draw(call, "")
-
-    on_CmdDrawIndirect = on_CmdDrawIndexedIndirect = on_CmdDrawIndirectCount = on_CmdDrawIndexedIndirectCount = _many
-    on_CmdDrawMeshTasks = on_CmdDrawMeshTasksIndirect = on_CmdDrawMeshTasksIndirectCount = on_CmdDrawMulti = on_CmdDrawMultiIndexed = _many
-    on_CmdDrawIndirectByteCount = _many
-
-    def _draw(self, call: Call, counted: str) -> None:
-        """A draw. `counted` is the parameter with the number of vertices or indices; empty if a buffer holds it."""
+        counted = COUNTED.get(call.name, "")
         args = call.args
         handle = args.get("commandBuffer")
         buffer = (self.buffers.get(handle) if type(handle) is int else None) or self.buffer(call)
@@ -259,6 +223,10 @@ class CommandTracker:
         buffer.record_once(self.commands.command("draw", (*key, buffer.dynamic_samples), call, detail))
         if counted and key[2] is None:
             buffer.many.add(buffer.pipeline)
+
+    on_CmdDrawIndexed = on_CmdDrawIndirect = on_CmdDrawIndexedIndirect = on_CmdDrawIndirectByteCount = on_CmdDraw
+    on_CmdDrawIndirectCount = on_CmdDrawIndexedIndirectCount = on_CmdDrawMulti = on_CmdDrawMultiIndexed = on_CmdDraw
+    on_CmdDrawMeshTasks = on_CmdDrawMeshTasksIndirect = on_CmdDrawMeshTasksIndirectCount = on_CmdDraw
 
     def on_CmdDispatch(self, call: Call) -> None:
         buffer = self.buffer(call)

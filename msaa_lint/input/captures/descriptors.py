@@ -6,7 +6,8 @@ from typing import Any
 
 from . import values
 from .call import Call
-from .objects import DescriptorSet, Image
+from .images import Images
+from .objects import DescriptorSet
 
 _STORAGE_IMAGE = 3
 _IMAGES = (1, 2, _STORAGE_IMAGE)
@@ -18,12 +19,11 @@ _NAMES = {
 }
 
 
-class Descriptors:
+class Descriptors(Images):
     """Tracks the descriptor sets of a capture."""
 
-    views: dict[int, Image]
-
     def __init__(self) -> None:
+        super().__init__()
         self.sets: dict[int, DescriptorSet] = {}
         self.set_pools: dict[int, set[int]] = {}
 
@@ -34,10 +34,6 @@ class Descriptors:
             handle = values.handle(item)
             self.sets[handle] = DescriptorSet()
             pool.add(handle)
-
-    def on_FreeDescriptorSets(self, call: Call) -> None:
-        for item in values.items(call.args.get("pDescriptorSets")):
-            self.sets.pop(values.handle(item), None)
 
     def on_ResetDescriptorPool(self, call: Call) -> None:
         for handle in self.set_pools.pop(values.handle(call.args.get("descriptorPool")), ()):

@@ -35,9 +35,6 @@ class Devices:
             self.api = f"{version >> 22 & 0x7F}.{version >> 12 & 0x3FF}"
 
     def on_GetPhysicalDeviceProperties(self, call: Call) -> None:
-        self._queried(call.args.get("physicalDevice"))["properties"].append(values.record(call.args.get("pProperties")))
-
-    def on_GetPhysicalDeviceProperties2(self, call: Call) -> None:
         structure: Any = call.args.get("pProperties")
         structures = self._queried(call.args.get("physicalDevice"))["properties"]
         for _ in range(64):
@@ -46,6 +43,8 @@ class Devices:
             structures.append({key: item for key, item in structure.items() if key != "pNext"})
             structure = structure.get("pNext")
 
+    on_GetPhysicalDeviceProperties2 = on_GetPhysicalDeviceProperties
+
     def on_GetPhysicalDeviceFeatures(self, call: Call) -> None:
         self._queried(call.args.get("physicalDevice"))["features"].append(values.record(call.args.get("pFeatures")))
 
@@ -53,18 +52,16 @@ class Devices:
         self._queried(call.args.get("physicalDevice"))["features"].extend(_features_in(call.args.get("pFeatures")))
 
     def on_GetPhysicalDeviceMemoryProperties(self, call: Call) -> None:
-        self._memory(call, values.record(call.args.get("pMemoryProperties")))
-
-    def on_GetPhysicalDeviceMemoryProperties2(self, call: Call) -> None:
-        self._memory(call, values.record(values.record(call.args.get("pMemoryProperties")).get("memoryProperties")))
-
-    def _memory(self, call: Call, properties: dict[str, Any]) -> None:
+        properties = values.record(call.args.get("pMemoryProperties"))
+        properties = values.record(properties.get("memoryProperties")) or properties
         count = values.integer(properties.get("memoryTypeCount"))
         types = values.items(properties.get("memoryTypes"))
         if types:
             self._queried(call.args.get("physicalDevice"))["memory"] = [
                 values.record(each).get("propertyFlags") for each in types[: count if count is not None else 64]
             ]
+
+    on_GetPhysicalDeviceMemoryProperties2 = on_GetPhysicalDeviceMemoryProperties
 
     def on_EnumerateDeviceExtensionProperties(self, call: Call) -> None:
         properties = values.items(call.args.get("pProperties"))

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Hashable
+from itertools import count
 from typing import Any
 
 from msaa_lint.frame.description.models import Image as ImageRecord
@@ -27,9 +29,6 @@ EXTERNAL_MEMORY = ("EXTERNAL_MEMORY_IMAGE_CREATE_INFO", "EXTERNAL_MEMORY_IMAGE_C
 class Images(Devices):
     """The images of a capture by image handle and by view handle."""
 
-    commands: CommandCache
-    frames: Frames
-
     def __init__(self) -> None:
         super().__init__()
         self.images: dict[int, Image] = {}
@@ -39,13 +38,10 @@ class Images(Devices):
         """The memory type index of each allocation."""
         self.multisampled: dict[Hashable, Image] = {}
         """Multisampled images; those created with the same parameters share one entry."""
-        self.counts: dict[str, int] = {}
-
-    def number(self, kind: str) -> int:
-        """The number for a new object of a kind."""
-        count = self.counts.get(kind, 0)
-        self.counts[kind] = count + 1
-        return count
+        self.numbers: defaultdict[str, count[int]] = defaultdict(count)
+        """The numbers of the next objects, by kind."""
+        self.frames = Frames()
+        self.commands = CommandCache()
 
     def on_CreateImage(self, call: Call) -> None:
         info = values.record(call.args.get("pCreateInfo"))
@@ -55,22 +51,16 @@ class Images(Devices):
 
     def _image(self, call: Call, tree: dict[str, Any]) -> Image:
         format = format_of(tree["format"]) if "format" in tree else None
-        image = Image(call, self.number("image"), tree, format.aspects if format is not None else ())
+        image = Image(call, next(self.numbers["image"]), tree, format.aspects if format is not None else ())
         if image.samples > 1 and len(self.multisampled) < MAX_DISTINCT:
             self.multisampled.setdefault(freeze(tree), image)
         return image
-
-    def on_DestroyImage(self, call: Call) -> None:
-        self.images.pop(values.handle(call.args.get("image")), None)
 
     def on_CreateImageView(self, call: Call) -> None:
         info = values.record(call.args.get("pCreateInfo"))
         image = self.images.get(values.handle(info.get("image")))
         if image is not None:
             self.views[values.handle(call.args.get("pView"))] = image
-
-    def on_DestroyImageView(self, call: Call) -> None:
-        self.views.pop(values.handle(call.args.get("imageView")), None)
 
     def view(self, value: object) -> Image | None:
         """The image of a view."""
@@ -83,9 +73,6 @@ class Images(Devices):
         index = values.integer(info.get("memoryTypeIndex"))
         if index is not None:
             self.memory[values.handle(call.args.get("pMemory"))] = index
-
-    def on_FreeMemory(self, call: Call) -> None:
-        self.memory.pop(values.handle(call.args.get("memory")), None)
 
     def on_BindImageMemory(self, call: Call) -> None:
         self._bind(call.args)
@@ -119,8 +106,7 @@ class Images(Devices):
         }
         tree = to_tree(ImageRecord, structure)
         handle = values.handle(call.args.get("pSwapchain"))
-        swapchain = Swapchain(call, self.number("swapchain"), {**tree, "presentable": True})
-        self.swapchains[handle] = swapchain
+        self.swapchains[handle] = Swapchain(call, next(self.numbers["swapchain"]), {**tree, "presentable": True})
         self.frames.presents = True
 
     def on_DestroySwapchain(self, call: Call) -> None:

@@ -186,6 +186,18 @@ class Cursor:
         self.at += 1
         return found
 
+    def elements(self, allow_empty: bool = True) -> Iterator[None]:
+        """Takes an array, whose elements the caller takes: the position is at the beginning of each."""
+        self.take(b"[")
+        if self.next() == b"]" and allow_empty:
+            self.at += 1
+            return
+        while True:
+            self.next()
+            yield
+            if self.take(b",]") == b"]":
+                return
+
     def expect_end(self) -> None:
         """Raises CaptureError if anything follows."""
         if self.next():

@@ -7,17 +7,16 @@ a value unknown and never stops the tracker.
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
+from functools import partial
 from typing import Any, NamedTuple
 
 from msaa_lint.frame.description.models import Framebuffer as FramebufferRecord
 
 from . import values
 from .call import Call, Mark, without_vendor
-from .command_buffers import CommandBuffer, CommandCache, RecordedCommand
+from .command_buffers import RecordedCommand
 from .create_infos import pipeline_of, render_pass_of
-from .descriptors import Descriptors
-from .frames import Frames
-from .images import MAX_DISTINCT, Images
+from .images import MAX_DISTINCT
 from .objects import CapturedObject, Framebuffer, Pipeline, RenderPass, freeze
 from .structures import to_tree
 from .transfers import Transfers
@@ -31,6 +30,19 @@ BOUNDARY = frozenset(
 )  # fmt: skip
 RECURRING = BOUNDARY | {name.replace("on_", "vk", 1) for name in vars(Transfers) if name.startswith("on_")}
 """Commands whose effect depends only on their arguments."""
+
+DESTROYERS = {
+    "DestroyImage": ("image", "images"),
+    "DestroyImageView": ("imageView", "views"),
+    "FreeMemory": ("memory", "memory"),
+    "DestroyRenderPass": ("renderPass", "render_passes"),
+    "DestroyFramebuffer": ("framebuffer", "framebuffers"),
+    "DestroyShaderModule": ("shaderModule", "modules"),
+    "DestroyPipeline": ("pipeline", "pipelines"),
+    "FreeCommandBuffers": ("pCommandBuffers", "buffers"),
+    "FreeDescriptorSets": ("pDescriptorSets", "sets"),
+}
+"""The calls that only destroy objects: the parameter with their handles, and the tracker's mapping that holds them."""
 
 MAX_CACHED_COMMANDS = 4096
 """Maximum number of commands cached by their arguments."""
@@ -48,20 +60,12 @@ class CachedCommand(NamedTuple):
     commands: list[RecordedCommand]
 
 
-class Tracker(Images, Descriptors, Transfers):
+class Tracker(Transfers):
     """The state of one capture. Call `feed` for each call in order, then `finish`."""
 
     def __init__(self) -> None:
-        Images.__init__(self)
-        Descriptors.__init__(self)
-        self.render_passes: dict[int, RenderPass] = {}
-        self.framebuffers: dict[int, Framebuffer] = {}
-        self.pipelines: dict[int, Pipeline] = {}
+        super().__init__()
         self.modules: dict[int, bytes] = {}
-        self.buffers: dict[int, CommandBuffer] = {}
-        self.pools: dict[int, set[int]] = {}
-        self.frames = Frames()
-        self.commands = CommandCache()
         self.generation = 0
         """The number of destroyed objects. After a destruction, a handle may refer to another object."""
         self._cache: dict[int, CachedCommand] = {}
@@ -70,6 +74,8 @@ class Tracker(Images, Descriptors, Transfers):
         self.handlers: dict[str, Callable[[Call], None]] = {
             "vk" + name[len("on_") :]: getattr(self, name) for name in dir(self) if name.startswith("on_")
         }
+        for name, (parameter, objects) in DESTROYERS.items():
+            self.handlers[f"vk{name}"] = partial(_remove, getattr(self, objects), parameter)
         self.handlers["SetDevicePropertiesCommand"] = self.device_properties_command
         self.handlers["SetDeviceMemoryPropertiesCommand"] = self.memory_properties_command
 
@@ -131,7 +137,7 @@ class Tracker(Images, Descriptors, Transfers):
         tree = render_pass_of(values.record(call.args.get("pCreateInfo")))
         handle = values.handle(call.args.get("pRenderPass"))
         self.render_passes[handle] = self._deduplicate(
-            ("renderPass", freeze(tree)), lambda: RenderPass(call, self.number("render pass"), tree)
+            ("renderPass", freeze(tree)), lambda: RenderPass(call, next(self.numbers["render pass"]), tree)
         )
 
     on_CreateRenderPass2 = on_CreateRenderPass
@@ -145,9 +151,6 @@ class Tracker(Images, Descriptors, Transfers):
                 self.distinct[key] = existing
         return existing
 
-    def on_DestroyRenderPass(self, call: Call) -> None:
-        self.render_passes.pop(values.handle(call.args.get("renderPass")), None)
-
     def on_CreateFramebuffer(self, call: Call) -> None:
         info = values.record(call.args.get("pCreateInfo"))
         tree = to_tree(FramebufferRecord, {key: item for key, item in info.items() if key not in ("pAttachments", "attachments")})
@@ -156,12 +159,9 @@ class Tracker(Images, Descriptors, Transfers):
         images = None if imageless else tuple(self.view(view) for view in views[:64])
         render_pass = self.render_passes.get(values.handle(info.get("renderPass")))
         handle = values.handle(call.args.get("pFramebuffer"))
-        framebuffer = Framebuffer(call, self.number("framebuffer"), render_pass, images)
+        framebuffer = Framebuffer(call, next(self.numbers["framebuffer"]), render_pass, images)
         framebuffer.width, framebuffer.height, framebuffer.layers = tree.get("width"), tree.get("height"), tree.get("layers")
         self.framebuffers[handle] = framebuffer
-
-    def on_DestroyFramebuffer(self, call: Call) -> None:
-        self.framebuffers.pop(values.handle(call.args.get("framebuffer")), None)
 
     # Shaders and pipelines.
 
@@ -169,9 +169,6 @@ class Tracker(Images, Descriptors, Transfers):
         code = values.record(call.args.get("pCreateInfo")).get("pCode")
         if isinstance(code, bytes):
             self.modules[values.handle(call.args.get("pShaderModule"))] = code
-
-    def on_DestroyShaderModule(self, call: Call) -> None:
-        self.modules.pop(values.handle(call.args.get("shaderModule")), None)
 
     def on_CreateGraphicsPipelines(self, call: Call) -> None:
         infos = values.items(call.args.get("pCreateInfos"))
@@ -183,14 +180,11 @@ class Tracker(Images, Descriptors, Transfers):
                 del tree["subpass"]
 
             def create(tree: dict[str, Any] = tree, render_pass: RenderPass | None = render_pass) -> Pipeline:
-                return Pipeline(call, self.number("pipeline"), tree, render_pass)
+                return Pipeline(call, next(self.numbers["pipeline"]), tree, render_pass)
 
             pipeline: Pipeline = self._deduplicate(("pipeline", render_pass, freeze(tree)), create)
             pipeline.modules.update(modules)
             self.pipelines[number] = pipeline
-
-    def on_DestroyPipeline(self, call: Call) -> None:
-        self.pipelines.pop(values.handle(call.args.get("pipeline")), None)
 
     # Names.
 
@@ -217,6 +211,13 @@ class Tracker(Images, Descriptors, Transfers):
             target: CapturedObject | None = kinds[word].get(number)
             if target is not None and not target.label:
                 target.label = name[:MAX_NAME]
+
+
+def _remove(objects: dict[int, Any], parameter: str, call: Call) -> None:
+    """Removes the objects that a call destroys."""
+    handles = call.args.get(parameter)
+    for handle in handles if isinstance(handles, list) else (handles,):
+        objects.pop(values.handle(handle), None)
 
 
 MAX_NAME = 80

@@ -8,13 +8,14 @@ from msaa_lint.frame.description.models import PipelineBarrier, Rect, SubpassDep
 
 from . import values
 from .call import Call
+from .command_buffers import kind_of
 from .command_tracker import CommandTracker, area_of
 from .objects import Image, freeze
 from .structures import to_tree
 
 
 class Transfers(CommandTracker):
-    """Tracks the transfers and barriers of a capture. `Tracker` provides the objects that they refer to."""
+    """Tracks the transfers and barriers of a capture."""
 
     def on_CmdClearAttachments(self, call: Call) -> None:
         attachments: list[dict[str, Any]] = []
@@ -35,19 +36,14 @@ class Transfers(CommandTracker):
         self.buffer(call).record_once(self.commands.command("clearAttachments", key, call))
 
     def on_CmdClearColorImage(self, call: Call) -> None:
-        self._image_command(call, "clearColorImage", "image")
-
-    def on_CmdClearDepthStencilImage(self, call: Call) -> None:
-        self._image_command(call, "clearDepthStencilImage", "image")
-
-    def _image_command(self, call: Call, kind: str, name: str) -> None:
-        image = self.images.get(values.handle(call.args.get(name)))
+        image = self.images.get(values.handle(call.args.get("image")))
         if image is not None and image.attachable:
-            self.buffer(call).record(self.commands.command(kind, (image,), call))
+            self.buffer(call).record(self.commands.command(kind_of(call), (image,), call))
+
+    on_CmdClearDepthStencilImage = on_CmdClearColorImage
 
     def on_CmdResolveImage(self, call: Call) -> None:
-        info = values.record(call.args.get("pResolveImageInfo")) or call.args
-        source, target = self._source_and_target(info)
+        info, source, target = self._transfer(call)
         if source is None or target is None:
             return
         buffer = self.buffer(call)
@@ -61,38 +57,20 @@ class Transfers(CommandTracker):
     on_CmdResolveImage2 = on_CmdResolveImage
 
     def on_CmdCopyImage(self, call: Call) -> None:
-        self._copy(call, "copyImage", values.record(call.args.get("pCopyImageInfo")) or call.args)
+        _, source, target = self._transfer(call)
+        kind = kind_of(call)
+        images = (source,) if kind == "copyImageToBuffer" else (target,) if kind == "copyBufferToImage" else (source, target)
+        if None not in images and any(image is not None and image.attachable for image in images):
+            self.buffer(call).record(self.commands.command(kind, images, call))
 
-    on_CmdCopyImage2 = on_CmdCopyImage
+    on_CmdCopyImage2 = on_CmdBlitImage = on_CmdBlitImage2 = on_CmdCopyImage
+    on_CmdCopyImageToBuffer = on_CmdCopyImageToBuffer2 = on_CmdCopyBufferToImage = on_CmdCopyBufferToImage2 = on_CmdCopyImage
 
-    def on_CmdBlitImage(self, call: Call) -> None:
-        self._copy(call, "blitImage", values.record(call.args.get("pBlitImageInfo")) or call.args)
-
-    on_CmdBlitImage2 = on_CmdBlitImage
-
-    def on_CmdCopyImageToBuffer(self, call: Call) -> None:
-        info = values.record(call.args.get("pCopyImageToBufferInfo")) or call.args
-        source, _ = self._source_and_target(info)
-        if source is not None and source.attachable:
-            self.buffer(call).record(self.commands.command("copyImageToBuffer", (source,), call))
-
-    on_CmdCopyImageToBuffer2 = on_CmdCopyImageToBuffer
-
-    def on_CmdCopyBufferToImage(self, call: Call) -> None:
-        info = values.record(call.args.get("pCopyBufferToImageInfo")) or call.args
-        _, target = self._source_and_target(info)
-        if target is not None and target.attachable:
-            self.buffer(call).record(self.commands.command("copyBufferToImage", (target,), call))
-
-    on_CmdCopyBufferToImage2 = on_CmdCopyBufferToImage
-
-    def _source_and_target(self, info: dict[str, Any]) -> tuple[Image | None, Image | None]:
-        return self.images.get(values.handle(info.get("srcImage"))), self.images.get(values.handle(info.get("dstImage")))
-
-    def _copy(self, call: Call, kind: str, info: dict[str, Any]) -> None:
-        source, target = self._source_and_target(info)
-        if source is not None and target is not None and (source.attachable or target.attachable):
-            self.buffer(call).record(self.commands.command(kind, (source, target), call))
+    def _transfer(self, call: Call) -> tuple[dict[str, Any], Image | None, Image | None]:
+        """The parameters of a transfer, which some calls have in a structure, and its source and target images."""
+        kind = kind_of(call)
+        info = values.record(call.args.get(f"p{kind[:1].upper()}{kind[1:]}Info")) or call.args
+        return info, self.images.get(values.handle(info.get("srcImage"))), self.images.get(values.handle(info.get("dstImage")))
 
     # Barriers.
 

@@ -48,12 +48,8 @@ def calls(stream: BinaryIO, wanted: frozenset[str], name: str | None) -> Iterato
 
 def _frames(cursor: Cursor, reader: Reader) -> Iterator[Call | Mark]:
     """The calls of all frames."""
-    cursor.take(b"[")
     first = True
-    while True:
-        if cursor.next() == b"]" and first:
-            cursor.take(b"]")
-            break
+    for _ in cursor.elements():
         at = cursor.place()
         for key in _keys(cursor):
             if key == "apiCalls":
@@ -63,8 +59,6 @@ def _frames(cursor: Cursor, reader: Reader) -> Iterator[Call | Mark]:
                 if key == "frameNumber" and first and number not in ("0", 0):
                     yield Mark("trimmed", at)
         first = False
-        if cursor.take(b",]") == b"]":
-            break
     cursor.expect_end()
 
 
@@ -102,12 +96,7 @@ class Reader:
 
     def frame(self, cursor: Cursor) -> Iterator[Call]:
         """The calls of the frame at the cursor."""
-        cursor.take(b"[")
-        if cursor.next() == b"]":
-            cursor.take(b"]")
-            return
-        while True:
-            cursor.next()
+        for _ in cursor.elements():
             place = cursor.place(self.number)
             text = cursor.value()
             self.number += 1
@@ -117,8 +106,6 @@ class Reader:
                 call = cached._replace(at=place) if cached is not None else self.read(text, place)
                 if call is not None:
                     yield call
-            if cursor.take(b",]") == b"]":
-                return
 
     def read(self, text: bytes, place: Place) -> Call | None:
         """Parses one call; None if it is not wanted."""

@@ -322,9 +322,7 @@ def _elements(cursor: Cursor, reader: Reader) -> Iterator[Call | Mark]:
     """The calls of a JSON array."""
     cache: dict[bytes, Call] = {}
     size = 0
-    cursor.take(b"[")
-    while True:
-        cursor.next()
+    for _ in cursor.elements(allow_empty=False):
         place = cursor.place()
         text = cursor.value()
         start = START.match(text)
@@ -344,7 +342,5 @@ def _elements(cursor: Cursor, reader: Reader) -> Iterator[Call | Mark]:
                     size += len(body)
                 if call_or_mark is not None:
                     yield call_or_mark
-        if cursor.take(b",]") == b"]":
-            break
     cursor.expect_end()
     reader.finish()
