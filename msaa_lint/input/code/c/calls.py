@@ -67,7 +67,7 @@ class Calls(ObjectCreation):
             if name in ("make_array", "makeArray") and arguments:
                 return self.list_value("", [(None, item) for item in arguments], place, scope)
             if function[0] == NAME and len(arguments) == 1 and _CAST.match(function[1]):
-                return self.run.value(arguments[0], scope)
+                return self.value(arguments[0], scope)
             inner = element_type(function[1]) if function[0] == NAME else None
             if inner is not None:
                 return self.sized_list(inner, arguments, place, scope)
@@ -80,8 +80,8 @@ class Calls(ObjectCreation):
         if name in ("min", "max", "MIN", "MAX") and len(arguments) == 2:
             return self.extreme(name.lower(), arguments, place, scope)
         if name in ("size", "ARRAY_SIZE", "countof", "array_size", "ARRAYSIZE", "arraysize") and len(arguments) == 1:
-            return self.count_value(sole_value(self.run.value(arguments[0], scope)), place)
-        values = [self.run.value(argument, scope) for argument in arguments]
+            return self.count_value(sole_value(self.value(arguments[0], scope)), place)
+        values = [self.value(argument, scope) for argument in arguments]
         return self.external_call(term, name, owner, values, scope)
 
     def closure(self, name: str, scope: Scope) -> Closure | None:
@@ -93,11 +93,11 @@ class Calls(ObjectCreation):
 
     def find_function(self, name: str, count: int, function: Term, scope: Scope) -> Function | None:
         """Returns the only function of the file that a call can refer to; among several, the one in the same class."""
-        every = self.run.functions.get(name)
+        every = self.functions.get(name)
         if not every:
             return None
         overloads = [f for f in every if sum(p.default is None for p in f.parameters) <= count <= len(f.parameters)]
-        if len(overloads) > 1 and not self.run.fragments:
+        if len(overloads) > 1 and not self.fragments:
             qualifier = str(function[1]).rpartition("::")[0] if function[0] == NAME else ""
             class_name = scope.class_name
             if function[0] == FIELD and function[1][:2] != (NAME, "this"):
@@ -109,18 +109,18 @@ class Calls(ObjectCreation):
                     f for f in overloads if not f.class_name and f.namespace == scope.namespace
                 ]
         overloads = [f for f in overloads if not f.open]
-        return overloads[-1] if len(overloads) == 1 or (overloads and self.run.fragments) else None
+        return overloads[-1] if len(overloads) == 1 or (overloads and self.fragments) else None
 
     def receiver(self, function: Function, owner: Term | None, scope: Scope) -> Cell | None:
         """Returns the object that a method is called on; None if it is unknown, OTHERS if it is of another class."""
         if owner is None or owner[:2] == (NAME, "this"):
             return scope.this_object if function.class_name == scope.class_name else None
-        cell = self.run.cell_of(owner, scope) if owner[0] != CALL else None
+        cell = self.cell_of(owner, scope) if owner[0] != CALL else None
         if cell is None:
             return None
-        kind = self.run.type_of(cell)
+        kind = self.type_of(cell)
         short = function.class_name.rpartition("::")[2]
-        if kind and kind != "auto" and short not in kind and self.run.class_of(kind, scope.namespace) != function.class_name:
+        if kind and kind != "auto" and short not in kind and self.class_of(kind, scope.namespace) != function.class_name:
             return OTHERS
         known = cell.kind == MEMBER or isinstance(pointee(sole_value(cell.read(scope.guards))), Struct)
         return cell if known else None
@@ -128,13 +128,13 @@ class Calls(ObjectCreation):
     def construct_class(self, kind: str, term: Term, scope: Scope) -> Value | None:
         """Returns an object of a class in the file, built by its constructor; None for other types and if several constructors match."""
         inner = _OWNED.match(kind)
-        class_name = self.run.class_of(inner[1] if inner is not None else kind, scope.namespace)
+        class_name = self.class_of(inner[1] if inner is not None else kind, scope.namespace)
         if class_name is None:
             return None
         count = len(term[2])
         constructors = [
             item
-            for item in self.run.functions.get(class_name.rpartition("::")[2], ())
+            for item in self.functions.get(class_name.rpartition("::")[2], ())
             if item.class_name == class_name and sum(p.default is None for p in item.parameters) <= count <= len(item.parameters)
         ]
         if len(constructors) != 1 or not self.may_follow(constructors[0], term[3], scope):
@@ -167,12 +167,12 @@ class Calls(ObjectCreation):
         counts = {a.value for a in value if type(a.value) is int}
         if (len(value) >= 3 and counts and counts <= {1, 2, 4, 8, 16, 32, 64}) or (COUNTS.search(function.name) and not counts):
             return (Alternative(Symbol(f"{function.name}()", function.name, True), term[-1]),)
-        if self.run.fragments and len(self.current_objects) == before:
+        if self.fragments and len(self.current_objects) == before:
             image = self.image_by_types(function, term, scope)
             if image is not None:
                 return image
         if not value and VIEW.search(function.name):
-            return self.view_of_argument([self.run.value(a, scope) for a in term[2]], term, scope) or UNKNOWN_VALUE
+            return self.view_of_argument([self.value(a, scope) for a in term[2]], term, scope) or UNKNOWN_VALUE
         return value
 
     def execute(
@@ -193,7 +193,7 @@ class Calls(ObjectCreation):
             if n < len(term[2]):
                 cells[parameter.name] = self.bind_parameter(parameter, term[2][n], scope)
             elif parameter.default is not None:
-                value = self.run.value(parameter.default, scope, parameter.type)
+                value = self.value(parameter.default, scope, parameter.type)
                 cells[parameter.name] = Cell(parameter.type, parameter.name, value, f"default({parameter.name})")
         inner = Scope(class_name, (*scopes, cells), scope.guards, (*scope.calls, term[3]))
         inner.namespace = scope.namespace if function is None else function.namespace
@@ -202,7 +202,7 @@ class Calls(ObjectCreation):
         inner.return_type = return_type
         inner.iterations = scope.iterations
         inner.this_object = this_object if function is not None else scope.this_object
-        self.run.block(body, inner)
+        self.block(body, inner)
         base = scope.guards
         return_values = [Alternative(a.value, a.at, a.guards - base) for a in inner.return_values]
         if len(return_values) > MAX_ALTERNATIVES or not return_values or all(a.value is UNKNOWN for a in return_values):
@@ -212,10 +212,10 @@ class Calls(ObjectCreation):
     def bind_parameter(self, parameter: Parameter, term: Term, scope: Scope) -> Cell:
         """Returns the cell of a parameter; for an argument passed by reference, the argument's own cell."""
         if parameter.by_reference and term[0] in (NAME, FIELD, INDEX):
-            cell = self.run.cell_of(term, scope)
+            cell = self.cell_of(term, scope)
             if cell is not None and not isinstance(sole_value(cell.writes), Ref):
                 return cell
-        value = self.run.value(term, scope, parameter.type)
+        value = self.value(term, scope, parameter.type)
         parameter_cell = Cell(parameter.type, parameter.name, key=f"argument({parameter.name})")
         if parameter.by_reference:
             parameter_cell.writes = value
@@ -226,7 +226,7 @@ class Calls(ObjectCreation):
         return parameter_cell
 
     def extreme(self, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value:
-        left, right = (sole_value(self.run.value(a, scope)) for a in arguments)
+        left, right = (sole_value(self.value(a, scope)) for a in arguments)
         if isinstance(left, (int, float)) and isinstance(right, (int, float)):
             return (Alternative(min(left, right) if name == "min" else max(left, right), place),)
         return UNKNOWN_VALUE

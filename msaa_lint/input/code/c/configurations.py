@@ -76,7 +76,7 @@ class Configuration:
 
     def every_subpass(self) -> Iterator[Struct]:
         for obj in self.current_objects:
-            if obj.kind == "renderPass" and obj.info is not None:
+            if obj.kind == "renderPass":
                 yield from (struct for struct in self.structs(obj.info, "subpasses") or () if struct is not None)
 
     def assume_multisampled(self, symbol: Symbol, guards: Iterable[tuple[str, bool]]) -> None:
@@ -101,8 +101,6 @@ class Configuration:
 
     def sample_slots(self) -> Iterator[Value]:
         for obj in self.current_objects:
-            if obj.info is None:
-                continue
             for name in ("samples", "rasterizationSamples"):
                 if name in obj.info.fields:
                     yield obj.info.fields[name].writes
@@ -117,7 +115,7 @@ class Configuration:
     def resolved_slots(self) -> Iterator[Value]:
         """Yields the sample counts of attachments that are resolved, which are multisampled in the configuration that is described."""
         for obj in self.current_objects:
-            if obj.kind == "renderPass" and obj.info is not None:
+            if obj.kind == "renderPass":
                 attachments = self.structs(obj.info, "attachments") or []
                 for subpass in self.structs(obj.info, "subpasses") or ():
                     colors = self.structs(subpass, "colorAttachments") if subpass is not None else None
@@ -128,12 +126,12 @@ class Configuration:
                             source = attachments[index]
                             if source is not None and "samples" in source.fields:
                                 yield source.fields["samples"].writes
-            if obj.kind == "rendering" and obj.info is not None:
+            if obj.kind == "rendering":
                 for attachment in self.structs(obj.info, "colorAttachments") or ():
                     if attachment is None or self.known_value(attachment, "resolveMode") in (None, 0, "VK_RESOLVE_MODE_NONE", "NONE"):
                         continue
                     image = self.image_of(attachment, "imageView")
-                    if image is not None and image.info is not None and "samples" in image.info.fields:
+                    if image is not None and "samples" in image.info.fields:
                         yield image.info.fields["samples"].writes
 
     def is_excluded(self, obj: VulkanObject) -> bool:
@@ -227,7 +225,7 @@ class Configuration:
 
     def image_in(self, view: Any) -> VulkanObject | None:
         view = self.dereference(view)
-        if isinstance(view, VulkanObject) and view.kind == "view" and view.info is not None:
+        if isinstance(view, VulkanObject) and view.kind == "view":
             image = self.dereference(self.get(view.info, "image")[0])
             return (
                 self.first_duplicate(image)

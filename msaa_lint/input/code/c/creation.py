@@ -17,7 +17,7 @@ from .conditions import canonical_text
 from .escapes import forget, forget_captures, mark_escaped, mark_used, settled_under
 from .lists import ListMethods
 from .names import first_version, vulkan_struct
-from .scope import Scope
+from .scope import Scope, name_objects
 from .terms import ADDRESS, CALL, FIELD, INDEX, NAME, Function, Term
 from .values import (
     ALWAYS,
@@ -115,7 +115,7 @@ class ObjectCreation(ListMethods):
                 return view
         for argument in term[2]:
             if argument[0] == ADDRESS:
-                cell = self.run.cell_of(argument[1], scope)
+                cell = self.cell_of(argument[1], scope)
                 content = pointee(sole_value(cell.read(scope.guards))) if cell is not None else None
                 if isinstance(content, Struct):
                     # Functions that only query Vulkan fill the structure.
@@ -141,24 +141,24 @@ class ObjectCreation(ListMethods):
 
     def takes_const(self, name: str, argument: Term, term: Term) -> bool:
         """Returns whether a function is declared to take a pointer to const."""
-        parameters = self.run.unit.prototypes.get(name, ())
+        parameters = self.unit.prototypes.get(name, ())
         position = term[2].index(argument)
         return bool(position < len(parameters) and parameters[position].fixed)
 
     def escape_argument(self, name: str, argument: Term, term: Term, scope: Scope) -> None:
         """Handles a list or a structure that is passed to an external function, which may change it through a reference."""
-        for alternative_value in [item.value for item in self.run.value(argument, scope)]:
+        for alternative_value in [item.value for item in self.value(argument, scope)]:
             if isinstance(alternative_value, Closure):
                 forget_captures(alternative_value)
                 continue
             value = pointee(alternative_value)
             if not isinstance(value, (Array, Struct)) or self.takes_const(name, argument, term):
                 continue
-            parameters = self.run.unit.prototypes.get(name, ())
+            parameters = self.unit.prototypes.get(name, ())
             position = term[2].index(argument)
             if isinstance(alternative_value, Struct) and name not in _MOVES:
                 # In C++, any argument may be passed by reference; a macro may do anything.
-                by_reference = parameters[position].by_reference if position < len(parameters) else self.run.is_cpp or name.isupper()
+                by_reference = parameters[position].by_reference if position < len(parameters) else self.is_cpp or name.isupper()
                 if not by_reference:
                     continue
             forget(value)
@@ -193,12 +193,12 @@ class ObjectCreation(ListMethods):
                 if kind == "image":
                     obj.memory = obj.memory or self.vma_memory(value)
                 continue
-            cell = self.run.cell_of(target, scope)
+            cell = self.cell_of(target, scope)
             pointee_value = sole_value(cell.writes) if cell is not None else None
             if cell is not None and argument[0] != ADDRESS and isinstance(pointee_value, Ref):
                 cell = pointee_value.cell
             if cell is not None:
-                self.run.store(cell, result, term[3], scope)
+                self.store(cell, result, term[3], scope)
         # The function itself returns a VkResult.
         return (Alternative(0, term[3]),) if plain else result
 
@@ -207,7 +207,7 @@ class ObjectCreation(ListMethods):
         key = (kind, term[3], scope.calls, scope.iterations)
         obj = self.objects.get(key)
         if obj is None:
-            obj = self.objects[key] = VulkanObject(kind, key, term[3])
+            obj = self.objects[key] = VulkanObject(kind, key, term[3], info)
         mark_used(info)
         obj.info = settled_under(copy_value(info, follow_pointers=True), dict(scope.guards))
         obj.guards = scope.guards
@@ -227,11 +227,11 @@ class ObjectCreation(ListMethods):
         return ()
 
     def bind_memory(self, values: Sequence[Value], owner: Term | None, scope: Scope) -> None:
-        every = [*values, self.run.value(owner, scope)] if owner is not None else list(values)
+        every = [*values, self.value(owner, scope)] if owner is not None else list(values)
         objects = [pointee(sole_value(value)) for value in every]
         image = next((v for v in objects if isinstance(v, VulkanObject) and v.kind == "image"), None)
         memory = next((v for v in objects if isinstance(v, VulkanObject) and v.kind == "memory"), None)
-        if image is not None and memory is not None and memory.info is not None and "memoryTypeIndex" in memory.info.fields:
+        if image is not None and memory is not None and "memoryTypeIndex" in memory.info.fields:
             index = memory.info.fields["memoryTypeIndex"].writes
             image.memory = index if index and all(_of_memory(a.value) for a in index) else ()
 
@@ -254,19 +254,11 @@ class ObjectCreation(ListMethods):
         if len(ends) >= 3:
             self.resolves[place] = (ends[0], ends[2])
 
-    @staticmethod
-    def name_objects(value: Value, name: str, scope: Scope) -> None:
-        """Names objects after the variable that they are assigned to; the outermost function takes precedence."""
-        for alternative in value:
-            obj = alternative.value
-            if isinstance(obj, VulkanObject) and name and len(scope.calls) < obj.name_depth:
-                obj.name, obj.name_depth = name, len(scope.calls)
-
     def create_unused(self, scope: Scope) -> None:
         """Creates objects for the structures of an entry point that no call takes."""
         for info, guards in self.declared_structs:
             kind = first_version(info.kind)
-            if info.used or not info.fields or not (kind in STANDALONE_INFOS or (self.run.fragments and kind in CREATE_INFOS)):
+            if info.used or not info.fields or not (kind in STANDALONE_INFOS or (self.fragments and kind in CREATE_INFOS)):
                 continue
             term = (CALL, (NAME, "", info.at), (), info.at)
             scope.guards = guards
@@ -276,15 +268,15 @@ class ObjectCreation(ListMethods):
 
     def create_from_fragments(self, overlay: dict[str, Cell]) -> None:
         """On a page of code fragments, creates objects for undeclared structures, identified by a member that only they have."""
-        keys = {key for key in (*self.run.summary, *overlay) if key.count(".") == 1}
+        keys = {key for key in (*self.summary, *overlay) if key.count(".") == 1}
         for key in sorted(keys):
             owner, _, name = key.partition(".")
             kind = {"rasterizationSamples": "PipelineMultisampleStateCreateInfo", "attachments": "FramebufferCreateInfo"}.get(name)
-            cell = self.run.member_cell(key)
+            cell = self.member_cell(key)
             if kind is None or not cell.writes:
                 continue
             at = cell.writes[0].at
-            struct = self.run.gathered_struct(owner, at)
+            struct = self.gathered_struct(owner, at)
             if struct and (kind in STANDALONE_INFOS or self.lists_views(cell)):
                 info = struct[0].value
                 info.kind = kind
@@ -304,19 +296,19 @@ class ObjectCreation(ListMethods):
             kind = parameter.type.removeprefix("Vk").removeprefix("vk::")
             member = _TYPED.get(kind)
             if member == "memory":
-                memory = self.run.value(argument, scope)
+                memory = self.value(argument, scope)
             elif member is not None:
-                info.cell(member).writes = self.run.value(argument, scope)
+                info.cell(member).writes = self.value(argument, scope)
             elif parameter.by_reference and _IMAGE.search(parameter.type):
                 out = argument[1] if argument[0] == ADDRESS else argument
         if out is None or "usage" not in info.fields:
             return None
         obj = self.create("image", info, term, scope)
         obj.memory = memory
-        cell = self.run.cell_of(out, scope)
+        cell = self.cell_of(out, scope)
         if cell is not None:
             cell.write((Alternative(obj, term[3]),), term[3], scope.guards)
-            self.name_objects((Alternative(obj, term[3]),), cell.name, scope)
+            name_objects((Alternative(obj, term[3]),), cell.name, scope)
         return UNKNOWN_VALUE
 
 

@@ -30,9 +30,7 @@ def trees(code: Code) -> list[Read]:
         root = tree(code).root_node
     interpreter = Interpreter(unit(code, root, sections), code.fragments, code.language == "cpp")
     interpreter.run()
-    read = DescriptionWriter(
-        interpreter.program, code.fragments, _WAITS.search(code.text) is not None or _FRAMES.search(code.text) is None
-    ).read()
+    read = DescriptionWriter(interpreter, code.fragments, _WAITS.search(code.text) is not None or _FRAMES.search(code.text) is None).read()
     # Sample count masks have this in their name, whatever their source.
     chosen = choices(root, code) if "ampleCounts" in code.text else []
     if not chosen:

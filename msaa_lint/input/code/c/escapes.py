@@ -18,7 +18,7 @@ def mark_escaped(value: Any, depth: int = 0) -> None:
     """Marks the Vulkan objects in a value, and the images of image views, as used by external code."""
     if isinstance(value, VulkanObject):
         value.escaped = True
-        if value.kind == "view" and value.info is not None and "image" in value.info.fields:
+        if value.kind == "view" and "image" in value.info.fields:
             for write in value.info.fields["image"].writes:
                 mark_escaped(write.value, depth + 1)
     elif depth < 4 and not (isinstance(value, Struct) and value.kind):

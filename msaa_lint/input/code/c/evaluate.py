@@ -10,7 +10,7 @@ from msaa_lint.core.text.span import Span
 
 from .conditions import ConditionEvaluator, contradicts, negated
 from .names import constant
-from .scope import MEMBER, Scope
+from .scope import MEMBER, Scope, name_objects
 from .terms import ADDRESS, ASSIGN, BINARY, BRACES, CALL, CHOICE, FIELD, INDEX, LAMBDA, LITERAL, NAME, TARGET, UNARY, Term, at
 from .values import (
     MAX_ALTERNATIVES,
@@ -64,16 +64,28 @@ class Evaluator(ConditionEvaluator):
         if tag == CHOICE:
             return self.choice(term, scope, kind)
         if tag == CALL:
-            result = self.calls.call(term, scope)
+            result = self.call(term, scope)
             if is_element_access(term):
                 # A reference stands for its target.
                 result = tuple(b for a in result for b in (a.value.cell.read(scope.guards) if isinstance(a.value, Ref) else (a,)))
             return result
         if tag == BRACES:
-            return self.calls.braced_value(term, scope, kind)
+            return self.braced_value(term, scope, kind)
         if tag == LAMBDA:
             return (Alternative(Closure(term[1], term[2], scope.scopes), place),)
         return UNKNOWN_VALUE
+
+    @abstractmethod
+    def braced_value(self, term: Term, scope: Scope, kind: str) -> Value:
+        """Returns the value of a braced list for a target type."""
+
+    @abstractmethod
+    def construct_class(self, kind: str, term: Term, scope: Scope) -> Value | None:
+        """Returns an object of a class in the file, built by its constructor; None for other types and if several constructors match."""
+
+    @abstractmethod
+    def forget_target(self, target: Term, scope: Scope) -> None:
+        """Handles a write to an unknown target."""
 
     @abstractmethod
     def block(self, statements: Sequence[Term], scope: Scope) -> None:
@@ -198,14 +210,14 @@ class Evaluator(ConditionEvaluator):
         kind = cell.kind if cell is not None else ""
         if source[0] == CALL and source[1][:2] == (NAME, "") and cell is not None:
             # A member initialized by a constructor before its body.
-            instance = self.calls.construct_class(self.type_of(cell), source, scope)
+            instance = self.construct_class(self.type_of(cell), source, scope)
             if instance is not None:
                 self.store(cell, instance, place, scope)
                 return instance
         value = self.value(source, scope, kind)
         value = self.as_pointer(_name_of(target), value, source, scope)
         if cell is None:
-            self.calls.forget_target(target, scope)
+            self.forget_target(target, scope)
             return value
         content = sole_value(cell.writes)
         if isinstance(content, Ref) and not any(isinstance(a.value, Ref) or a.value is None for a in value) and not cell.kind.endswith("*"):
@@ -240,7 +252,7 @@ class Evaluator(ConditionEvaluator):
                 self.store(self.member_cell(f"{cell.name}.{name}"), inner.read(scope.guards), place, scope)
             return
         cell.write(value, place, scope.guards)
-        self.calls.name_objects(value, cell.name, scope)
+        name_objects(value, cell.name, scope)
 
 
 def _name_of(term: Term) -> str:

@@ -15,9 +15,8 @@ from msaa_lint.core.text.span import Span
 from .calls import Calls
 from .conditions import contradicts, negated
 from .escapes import mark_escaped
-from .evaluate import Evaluator
-from .scope import MAX_PASSES, MAX_TURNS, Scope, StepLimitExceeded
-from .terms import BINARY, BLOCK, DECLARE, DO, FIELD, IF, INDEX, LEAVE, LOOP, NAME, RETURN, SOME, UNARY, Function, Term, Unit, at
+from .scope import MAX_PASSES, MAX_TURNS, Scope, StepLimitExceeded, name_objects
+from .terms import BINARY, BLOCK, DECLARE, DO, FIELD, IF, INDEX, LEAVE, LOOP, NAME, RETURN, SOME, UNARY, Function, Term, at
 from .values import (
     ALWAYS,
     MAX_ALTERNATIVES,
@@ -38,20 +37,15 @@ from .values import (
 from .variables import is_element_access
 
 
-class Interpreter(Evaluator):
+class Interpreter(Calls):
     """Executes one file."""
-
-    def __init__(self, unit: Unit, fragments: bool, is_cpp: bool = True) -> None:
-        super().__init__(unit, fragments, is_cpp)
-        self.program = Calls(self)
-        self.calls = self.program
 
     def run(self) -> None:
         """Executes the file until the values of members no longer change."""
         entry_points = self.entry_points()
         try:
             for _ in range(MAX_PASSES):
-                self.program.begin()
+                self.begin()
                 writes_by_key: dict[str, dict[tuple[Any, ...], Alternative]] = {}
                 for function in entry_points:
                     self.overlay, self.initial = {}, {}
@@ -65,7 +59,7 @@ class Interpreter(Evaluator):
                                 write = Alternative(Symbol(key, key.rpartition("::")[2]), write.at, write.guards)
                             writes_by_key.setdefault(key, {}).setdefault(_mark(write), write)
                 if self.fragments:
-                    self.program.create_from_fragments(self.overlay)
+                    self.create_from_fragments(self.overlay)
                 last, self.summary = self.summary, {key: _joined(key, list(writes.values())) for key, writes in writes_by_key.items()}
                 if _marks(last) == _marks(self.summary):
                     break
@@ -91,7 +85,7 @@ class Interpreter(Evaluator):
         self.block(function.body, scope)
         for alternative in scope.return_values:
             mark_escaped(alternative.value)
-        self.program.create_unused(scope)
+        self.create_unused(scope)
 
     def block(self, statements: Sequence[Term], scope: Scope) -> None:
         for statement in statements:
@@ -233,8 +227,8 @@ class Interpreter(Evaluator):
             value = self.value(initializer, scope, kind)
             value = tuple(Alternative(self.stored_value(a.value, kind, name), a.at, a.guards) for a in value)
         cell.write(value, place, scope.guards)
-        self.calls.name_objects(value, name, scope)
-        self.program.declared_structs += [(a.value, scope.guards) for a in value if isinstance(a.value, Struct) and a.value.kind]
+        name_objects(value, name, scope)
+        self.declared_structs += [(a.value, scope.guards) for a in value if isinstance(a.value, Struct) and a.value.kind]
 
     @staticmethod
     def other_branch_variable(name: str, kind: str, scope: Scope) -> Cell | None:

@@ -38,8 +38,8 @@ class ListMethods(Structures):
 
     def method(self, owner: Term, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value | None:
         """Returns the result of a method of a structure or list, or None for other objects."""
-        cell = self.run.cell_of(owner, scope) if owner[0] != CALL else None
-        content = cell.read(scope.guards) if cell is not None else self.run.value(owner, scope)
+        cell = self.cell_of(owner, scope) if owner[0] != CALL else None
+        content = cell.read(scope.guards) if cell is not None else self.value(owner, scope)
         value = pointee(sole_value(content))
         if len(content) > 1 and any(isinstance(pointee(item.value), Array) for item in content):
             return self.on_alternatives(content, name, place)
@@ -48,15 +48,15 @@ class ListMethods(Structures):
             if len(arguments) != 1 or (setter not in map(member, MEMBERS[value.kind]) and setter != "next"):
                 return content
             kind = member_type(value.kind, setter)
-            argument = self.run.value(arguments[0], scope, kind)
+            argument = self.value(arguments[0], scope, kind)
             # A setter of a list takes its address.
-            argument = self.run.as_pointer("p" + name[3:], argument, arguments[0], scope)
+            argument = self.as_pointer("p" + name[3:], argument, arguments[0], scope)
             value.cell(setter).write(copy_alternatives(argument), place, scope.guards)
             return content
-        if setter is not None and len(arguments) == 1 and self.run.fragments and owner[0] == NAME and not isinstance(value, Array):
-            target = self.run.field(owner, setter, scope)
+        if setter is not None and len(arguments) == 1 and self.fragments and owner[0] == NAME and not isinstance(value, Array):
+            target = self.field(owner, setter, scope)
             if target is not None:
-                target.write(self.run.value(arguments[0], scope), place, scope.guards)
+                target.write(self.value(arguments[0], scope), place, scope.guards)
                 return content
         if isinstance(value, Array):
             return self.on_list(value, cell, name, arguments, place, scope)
@@ -64,7 +64,7 @@ class ListMethods(Structures):
             return content
         if cell is not None and cell.writes == () and name in APPEND and len(arguments) == 1:
             # The list was declared elsewhere, or its type is unknown.
-            self.run.value(arguments[0], scope)
+            self.value(arguments[0], scope)
             return UNKNOWN_VALUE
         return None
 
@@ -92,7 +92,7 @@ class ListMethods(Structures):
             if name == "emplace_back" and struct_name and (len(arguments) != 1 or arguments[0][0] == LITERAL):
                 value = self.construct(struct_name, arguments, place, scope, kind.startswith("vk::"))
             else:
-                value = self.run.value(arguments[0], scope, kind) if arguments else UNKNOWN_VALUE
+                value = self.value(arguments[0], scope, kind) if arguments else UNKNOWN_VALUE
             if scope.unknown_loops or len(array.items) >= 64:
                 array.complete = False
                 return UNKNOWN_VALUE
@@ -107,7 +107,7 @@ class ListMethods(Structures):
         if name in ("back", "front") and array.items:
             return (Alternative(Ref(array.items[-1 if name == "back" else 0]), place),)
         if name == "at" and len(arguments) == 1:
-            index = sole_value(self.run.value(arguments[0], scope))
+            index = sole_value(self.value(arguments[0], scope))
             if type(index) is int and 0 <= index < len(array.items):
                 return (Alternative(Ref(array.items[index]), place),)
         if name in ("at", "rbegin", "rend"):
@@ -122,7 +122,7 @@ class ListMethods(Structures):
             if name != "reserve":
                 array.complete = array.complete and name == "resize" and not array.items
             if name == "resize" and arguments and array.complete:
-                count = sole_value(self.run.value(arguments[0], scope))
+                count = sole_value(self.value(arguments[0], scope))
                 array.complete = False
                 if type(count) is int and 0 <= count <= 64:
                     array.complete = True
@@ -145,7 +145,7 @@ class ListMethods(Structures):
     def forget_target(self, target: Term, scope: Scope) -> None:
         """Handles a write to an unknown target: if it is an element, its list becomes unknown."""
         if target[0] in (FIELD, INDEX):
-            for alternative in self.run.value(target[1], scope):
+            for alternative in self.value(target[1], scope):
                 value = pointee(alternative.value)
                 if isinstance(value, Array):
                     value.complete = False

@@ -20,7 +20,7 @@ class Passes(Members):
     def bind(self, passes: Sequence[VulkanObject]) -> None:
         """Assigns the images of framebuffers to the attachments of render passes."""
         for obj in self.current_objects:
-            if obj.kind != "framebuffer" or obj.info is None:
+            if obj.kind != "framebuffer":
                 continue
             views = self.dereference(self.get(obj.info, "attachments")[0])
             if isinstance(views, VulkanObject):
@@ -31,7 +31,7 @@ class Passes(Members):
                 continue
             target = self.dereference(self.get(obj.info, "renderPass")[0])
             if not isinstance(target, VulkanObject):
-                render_passes = [p for p in passes if p.info is not None and len(self.structs(p.info, "attachments") or ()) == len(images)]
+                render_passes = [p for p in passes if len(self.structs(p.info, "attachments") or ()) == len(images)]
                 target = render_passes[0] if len(render_passes) == 1 and len(passes) == 1 else None
             if target is None:
                 continue
@@ -48,7 +48,7 @@ class Passes(Members):
             return mapping((), head)
         items: list[Item] = []
         count, at = self.samples(struct)
-        of_image = self.samples(image.info)[0] if image is not None and image.info is not None else None
+        of_image = self.samples(image.info)[0] if image is not None else None
         if image is not None and (count is None or of_image is None or count == of_image):
             attached[id(image)] = image
             items.append(("image", head, scalar(self.object_name(image, "image"), head)))
@@ -61,7 +61,6 @@ class Passes(Members):
 
     def render_pass(self, obj: VulkanObject, attached: dict[int, VulkanObject]) -> Item | None:
         info = obj.info
-        assert info is not None
         structs = self.structs(info, "attachments")
         if structs is None or not structs:
             return None

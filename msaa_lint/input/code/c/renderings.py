@@ -18,7 +18,6 @@ class Commands(Members):
     def rendering(self, obj: VulkanObject, attached: dict[int, VulkanObject]) -> Node | None:
         """Returns a dynamic rendering, or None if its attachments are unknown."""
         info = obj.info
-        assert info is not None
         colors = self.structs(info, "colorAttachments")
         if colors is None or any(color is None for color in colors) or not (info.zeroed or "colorAttachments" in info.fields):
             return None

@@ -4,30 +4,24 @@ from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
 
-from .values import Alternative, Cell, Guards
+from .values import Alternative, Cell, Guards, Value, VulkanObject
 
 MAX_STEPS = 80_000
 """The maximum number of terms evaluated in a file; execution stops at the limit."""
 
-
 MAX_TURNS = 16
 """The maximum number of loop iterations that are executed individually."""
-
 
 MAX_PASSES = 3
 """The maximum number of times that a file is executed. A member's value may depend on another member, which depends on a third."""
 
-
 MEMBER = "member"
 """The kind of a cell for a class member or a global variable."""
 
-
 Scopes = tuple[dict[str, Cell], ...]
-
 
 MAX_CALLS = 5
 """The maximum depth of calls that are executed."""
-
 
 MAX_WAYS = 4
 """The maximum number of times that a call is executed."""
@@ -39,21 +33,6 @@ class StepLimitExceeded(Exception):
 
 class Scope:
     """The scope of a function call: its variables, its class, and the calls that lead to it."""
-
-    __slots__ = (
-        "active_functions",
-        "calls",
-        "class_name",
-        "guards",
-        "iterations",
-        "namespace",
-        "return_type",
-        "return_values",
-        "scopes",
-        "this_object",
-        "unknown_loops",
-        "unreachable",
-    )
 
     def __init__(self, class_name: str, scopes: Scopes, guards: Guards, calls: tuple[Span, ...]) -> None:
         self.class_name = class_name
@@ -73,3 +52,11 @@ class Scope:
         """The object that the method is called on, if known."""
         self.active_functions: tuple[Span, ...] = ()
         """The functions that are being executed."""
+
+
+def name_objects(value: Value, name: str, scope: Scope) -> None:
+    """Names objects after the variable that they are assigned to; the outermost function takes precedence."""
+    for alternative in value:
+        obj = alternative.value
+        if isinstance(obj, VulkanObject) and name and len(scope.calls) < obj.name_depth:
+            obj.name, obj.name_depth = name, len(scope.calls)

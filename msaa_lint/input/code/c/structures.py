@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,7 +10,7 @@ from msaa_lint.core.text.span import Span
 from .evaluate import Evaluator
 from .names import MEMBERS, WITHOUT_TYPE, element_type, first_version, is_scalar, member, vulkan_struct
 from .scope import Scope
-from .terms import ADDRESS, BRACES, CALL, FIELD, INDEX, LITERAL, NAME, SOME, UNPARSED, Term
+from .terms import ADDRESS, BRACES, CALL, FIELD, INDEX, LITERAL, NAME, SOME, UNPARSED, Term, Unit
 from .values import (
     ALWAYS,
     UNKNOWN,
@@ -53,11 +52,11 @@ def _hpp_defaults(struct: Struct) -> None:
         struct.cell("rasterizationSamples").writes = (Alternative(1, struct.at),)
 
 
-class Structures(ABC):
+class Structures(Evaluator):
     """Constructs the structures and lists of one file."""
 
-    def __init__(self, run: Evaluator) -> None:
-        self.run = run
+    def __init__(self, unit: Unit, fragments: bool, is_cpp: bool) -> None:
+        super().__init__(unit, fragments, is_cpp)
         self.objects: dict[tuple[Any, ...], VulkanObject] = {}
         self.current_objects: dict[tuple[Any, ...], VulkanObject] = {}
         self.declared_structs: list[tuple[Struct, Guards]] = []
@@ -71,17 +70,13 @@ class Structures(ABC):
         self.resolves.clear()
         self.follow_counts.clear()
 
-    @abstractmethod
-    def construct_class(self, kind: str, term: Term, scope: Scope) -> Value | None:
-        """Returns an object of a class in the file, built by its constructor."""
-
     def construct(self, kind: str, arguments: Sequence[Term], place: Span, scope: Scope, hpp: bool) -> Value:
         """Returns a structure constructed with members in order. vulkan.hpp takes a list in place of a count and a pointer."""
         struct = Struct(kind, place, True)
         if hpp:
             _hpp_defaults(struct)
         if len(arguments) == 1 and arguments[0][0] in (NAME, FIELD):
-            value = pointee(sole_value(self.run.value(arguments[0], scope)))
+            value = pointee(sole_value(self.value(arguments[0], scope)))
             if isinstance(value, Struct) and first_version(value.kind) == first_version(kind):
                 return (Alternative(copy_value(value), place),)
         self.initialize_positional(struct, [(None, a) for a in arguments], scope, hpp)
@@ -108,7 +103,7 @@ class Structures(ABC):
                     struct.cell(member(name)).write(UNKNOWN_VALUE, term[-1], ALWAYS)
                 return
             name = names[n]
-            value = self.run.as_pointer(name, self.run.value(term, scope, member_type(struct.kind, name)), term, scope)
+            value = self.as_pointer(name, self.value(term, scope, member_type(struct.kind, name)), term, scope)
             target = pointee(sole_value(value))
             if name.endswith("Count") and hpp and (isinstance(target, (Array, Struct)) or term[0] == BRACES):
                 n += 1
@@ -130,7 +125,7 @@ class Structures(ABC):
                 cell.writes = (Alternative(value, term[-1]),)
             target = value
         name = str(path[-1])
-        value = self.run.as_pointer(name, self.run.value(term, scope, member_type(target.kind, name)), term, scope)
+        value = self.as_pointer(name, self.value(term, scope, member_type(target.kind, name)), term, scope)
         target.cell(member(name)).write(copy_alternatives(value), term[-1], guards)
 
     def unwrap_conditions(self, term: Term) -> tuple[Guards, Term]:
@@ -152,7 +147,7 @@ class Structures(ABC):
             if hpp:
                 _hpp_defaults(struct)
             if len(items) == 1 and items[0][0] is None and items[0][1][0] in (NAME, FIELD):
-                value = pointee(sole_value(self.run.value(items[0][1], scope)))
+                value = pointee(sole_value(self.value(items[0][1], scope)))
                 if isinstance(value, Struct):
                     return (Alternative(copy_value(value), place),)
             self.initialize_positional(
@@ -169,15 +164,15 @@ class Structures(ABC):
             # `{}` stands for no flags.
             return (Alternative(Array("", place), place),)
         if inner is None and kind and kind != "auto":
-            if len(items) == 1 and items[0][0] is None and is_scalar(kind) and self.run.class_of(kind, scope.namespace) is None:
-                return self.run.value(items[0][1], scope, kind)
+            if len(items) == 1 and items[0][0] is None and is_scalar(kind) and self.class_of(kind, scope.namespace) is None:
+                return self.value(items[0][1], scope, kind)
             if not items and kind.startswith(("Vk", "vk::", "bool", "int", "uint", "float", "PFN")):
                 return UNKNOWN_VALUE
-            if not items or not is_scalar(kind) or self.run.class_of(kind, scope.namespace) is not None:
+            if not items or not is_scalar(kind) or self.class_of(kind, scope.namespace) is not None:
                 return self.class_value(kind, items, place, scope)
         made_list = self.list_value(inner or "", items, place, scope)
         if inner is not None:
-            self.run.fill_array(made_list[0].value, kind, scope)
+            self.fill_array(made_list[0].value, kind, scope)
         return made_list
 
     def list_value(self, kind: str, items: Sequence[tuple[Any, Term]], place: Span, scope: Scope) -> Value:
@@ -196,14 +191,14 @@ class Structures(ABC):
             if term[:2] == (LITERAL, 0) and len(items) == 1 and vulkan_struct(kind):
                 continue
             guards, term = self.unwrap_conditions(term)
-            value = self.run.value(term, scope, kind)
+            value = self.value(term, scope, kind)
             cell = Cell(kind)
             cell.writes = tuple(Alternative(copy_value(a.value), a.at, a.guards | guards) for a in value) or (
                 Alternative(UNKNOWN, term[-1], guards),
             )
             index = path[0] if path else len(array.items)
             if isinstance(index, str):
-                index = sole_value(self.run.value((NAME, index.removeprefix("["), term[-1]), scope))
+                index = sole_value(self.value((NAME, index.removeprefix("["), term[-1]), scope))
             if not isinstance(index, int) or index > 64:
                 array.complete = False
                 continue
@@ -221,17 +216,17 @@ class Structures(ABC):
     def sized_list(self, kind: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value:
         """Returns `std::vector<T> list(3)` or `list(3, value)`."""
         array = Array(kind, place)
-        count = sole_value(self.run.value(arguments[0], scope)) if arguments else 0
+        count = sole_value(self.value(arguments[0], scope)) if arguments else 0
         if type(count) is not int or not 0 <= count <= 64 or len(arguments) > 2:
             value = pointee(count)
-            if isinstance(value, Array) and all(value is pointee(sole_value(self.run.value(a, scope))) for a in arguments[1:]):
+            if isinstance(value, Array) and all(value is pointee(sole_value(self.value(a, scope))) for a in arguments[1:]):
                 return (Alternative(copy_value(value), place),)
             array.complete = False
             return (Alternative(array, place),)
         for _ in range(count):
             item = Cell(kind)
             if len(arguments) == 2:
-                item.writes = copy_alternatives(self.run.value(arguments[1], scope, kind))
+                item.writes = copy_alternatives(self.value(arguments[1], scope, kind))
             elif vulkan_struct(kind):
                 item.writes = (Alternative(Struct(vulkan_struct(kind), place, True), place),)
             array.items.append(item)
@@ -244,17 +239,17 @@ class Structures(ABC):
         if built is not None:
             return built
         struct = Struct("", place, False)
-        names = list(self.run.members.get(self.run.class_of(kind, scope.namespace) or "", ()))
+        names = list(self.members.get(self.class_of(kind, scope.namespace) or "", ()))
         for name, (path, term) in zip(names, items, strict=False):
             if not path:
-                value = self.run.value(term, scope)
+                value = self.value(term, scope)
                 struct.cell(member(name)).writes = copy_alternatives(value)
         return (Alternative(struct, place),)
 
     def has_kind(self, term: Term, kind: str, scope: Scope) -> bool:
         if term[0] == BRACES:
             return True
-        value = pointee(sole_value(self.run.value(term, scope)))
+        value = pointee(sole_value(self.value(term, scope)))
         return isinstance(value, Struct) and first_version(value.kind) == first_version(vulkan_struct(kind))
 
     def count_value(self, value: Any, place: Span) -> Value:
@@ -263,8 +258,8 @@ class Structures(ABC):
 
     def zero_memory(self, arguments: Sequence[Term], scope: Scope) -> Value:
         """Executes `memset(&x, 0, sizeof x)`."""
-        if sole_value(self.run.value(arguments[1], scope)) == 0:
-            value = pointee(sole_value(self.run.value(arguments[0], scope)))
+        if sole_value(self.value(arguments[1], scope)) == 0:
+            value = pointee(sole_value(self.value(arguments[0], scope)))
             target = arguments[0]
             if isinstance(value, Array) and target[0] == ADDRESS and target[1][0] == INDEX:
                 size = arguments[2][1] if arguments[2][0] == UNPARSED else ""

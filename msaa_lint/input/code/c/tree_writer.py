@@ -28,7 +28,7 @@ class DescriptionWriter(Passes, Commands):
         """Returns the description, or None if the file creates nothing that can be described."""
         self.choose_configuration()
         self.current_objects = [obj for obj in self.current_objects if not self.is_excluded(obj)]
-        passes = [obj for obj in self.current_objects if obj.kind == "renderPass" and obj.info is not None]
+        passes = [obj for obj in self.current_objects if obj.kind == "renderPass"]
         self.bind(passes)
         rendered: list[Item] = []
         attached: dict[int, VulkanObject] = {}
@@ -38,7 +38,7 @@ class DescriptionWriter(Passes, Commands):
             if item is not None:
                 pass_names[id(render_pass)] = item[0]
                 rendered.append(item)
-        recorded = [self.rendering(obj, attached) for obj in self.current_objects if obj.kind == "rendering" and obj.info is not None]
+        recorded = [self.rendering(obj, attached) for obj in self.current_objects if obj.kind == "rendering"]
         recorded += [self.resolve(at, ends, attached) for at, ends in self.resolves.items()]
         commands = _distinct_nodes([node for node in recorded if node is not None])
         images = list(
@@ -62,11 +62,10 @@ class DescriptionWriter(Passes, Commands):
         return Read(mapping(sections, Span(0, 0)), tuple(self.assumed.values()))
 
     def is_multisampled(self, obj: VulkanObject) -> bool:
-        return obj.info is not None and (self.samples(obj.info)[0] or 1) > 1
+        return (self.samples(obj.info)[0] or 1) > 1
 
     def image(self, obj: VulkanObject) -> Item:
         info = obj.info
-        assert info is not None
         items: list[Item] = []
         for name in ("format", "imageType", "tiling", "sharingMode", "usage"):
             if name == "usage" and obj.escaped and not self.is_transient(info):
@@ -95,7 +94,6 @@ class DescriptionWriter(Passes, Commands):
 
     def pipeline(self, obj: VulkanObject, passes: dict[int, str]) -> Iterator[Item]:
         info = obj.info
-        assert info is not None
         state = info if obj.kind == "state" else self.struct(info, "multisampleState")
         if state is None or first_version(state.kind) not in ("PipelineMultisampleStateCreateInfo", ""):
             return
@@ -144,8 +142,8 @@ class DescriptionWriter(Passes, Commands):
 
     def enabled(self) -> Iterator[Item]:
         """Yields the features that the only device of the file enables; only sampleRateShading is read."""
-        devices = [obj for obj in self.current_objects if obj.kind == "device" and obj.info is not None]
-        if len(devices) != 1 or devices[0].info is None:
+        devices = [obj for obj in self.current_objects if obj.kind == "device"]
+        if len(devices) != 1:
             return
         info = devices[0].info
         features = self.struct(info, "enabledFeatures")

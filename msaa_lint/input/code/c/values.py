@@ -146,23 +146,22 @@ class VulkanObject:
 
     __slots__ = ("at", "escaped", "guards", "info", "key", "kind", "memory", "name", "name_depth")
 
-    def __init__(self, kind: str, key: tuple[Any, ...], at: Span) -> None:
+    def __init__(self, kind: str, key: tuple[Any, ...], at: Span, info: Struct) -> None:
         self.kind = kind
         self.key = key
+        self.info = info
         self.at = at
         self.name = ""
         self.name_depth = 99
         """The call depth at which it was named."""
         self.escaped = False
         """Whether it is passed to external code."""
-        self.info: Struct | None = None
         self.memory: Value = ()
         self.guards: Guards = ALWAYS
 
     def signature(self) -> tuple[Any, ...]:
         """Returns what identical objects created by the same call have in common."""
-        fields = self.info.fields if self.info is not None else {}
-        members = [(name, tuple(_said(write.value) for write in cell.writes)) for name, cell in fields.items()]
+        members = [(name, tuple(_said(write.value) for write in cell.writes)) for name, cell in self.info.fields.items()]
         return (self.kind, self.at, tuple(sorted(members)))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import Any, Protocol
+from typing import Any
 
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.names import parse_enum
@@ -26,29 +26,8 @@ def is_element_access(term: Term) -> bool:
     return bool(term[0] == CALL and term[1][0] == FIELD and term[1][2] in ("front", "back", "at"))
 
 
-class CallHandler(Protocol):
-    """What the evaluation of expressions needs of the calls in them."""
-
-    def call(self, term: Term, scope: Scope) -> Value:
-        """The value of a call."""
-
-    def braced_value(self, term: Term, scope: Scope, kind: str) -> Value:
-        """The value of a list in braces, for a type."""
-
-    def construct_class(self, kind: str, term: Term, scope: Scope) -> Value | None:
-        """The object of a class that a constructor makes; None for other types."""
-
-    def name_objects(self, value: Value, name: str, scope: Scope) -> None:
-        """Names Vulkan objects after the variable that they are assigned to."""
-
-    def forget_target(self, target: Term, scope: Scope) -> None:
-        """Forgets what a write to an unknown place may have changed."""
-
-
 class Variables(ABC):
     """The variables and members of one file."""
-
-    calls: CallHandler
 
     def __init__(self, unit: Unit, fragments: bool, is_cpp: bool) -> None:
         self.unit = unit
@@ -81,6 +60,10 @@ class Variables(ABC):
     @abstractmethod
     def value(self, term: Term, scope: Scope, kind: str = "") -> Value:
         """Returns the possible values of an expression. `kind` is the target type, which braces need."""
+
+    @abstractmethod
+    def call(self, term: Term, scope: Scope) -> Value:
+        """Returns the value of a call."""
 
     def step(self) -> None:
         self.steps += 1
@@ -118,7 +101,7 @@ class Variables(ABC):
         if kind == ADDRESS:
             return None
         if kind == CALL:
-            value = sole_value(self.calls.call(term, scope))
+            value = sole_value(self.call(term, scope))
             return value.cell if isinstance(value, Ref) else None
         return None
 
