@@ -9,7 +9,7 @@ from msaa_lint.core.text.span import Span
 
 from .creation import COUNTS, VIEW, ObjectCreation
 from .names import element_type, vulkan_struct
-from .scope import MAX_CALLS, MAX_WAYS, MEMBER, Scope
+from .scope import MAX_CALLS, MAX_WAYS, MEMBER, Scope, Scopes
 from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, Function, Parameter, Term
 from .values import (
     MAX_ALTERNATIVES,
@@ -47,11 +47,12 @@ class Calls(ObjectCreation):
         function, arguments, place = term[1], term[2], term[3]
         name, owner = _callee(function)
         if function[0] == LAMBDA:
-            return self.execute(function[1], function[2], scope.class_name, scope.scopes, term, scope)
-        if owner is None and function[0] == NAME:
-            closure = self.closure(name, scope)
-            if closure is not None:
-                return self.execute(closure.parameters, closure.body, scope.class_name, closure.scopes, term, scope)
+            closure: Closure | None = Closure(function[1], function[2], scope.scopes)
+        else:
+            closure = self.closure(name, scope) if function[0] == NAME else None
+        if closure is not None:
+            body = Function("", "", "", closure.parameters, closure.body, place, scope.namespace)
+            return self.execute(body, term, scope, scope.this_object, closure.scopes)
         callee = self.find_function(name, len(arguments), function, scope)
         this_object = self.receiver(callee, owner, scope) if callee is not None and callee.class_name else None
         if callee is not None and this_object is not OTHERS and self.may_follow(callee, place, scope):
@@ -153,17 +154,7 @@ class Calls(ObjectCreation):
 
     def call_function(self, function: Function, term: Term, scope: Scope, this_object: Cell | None = None) -> Value:
         before = len(self.current_objects)
-        value = self.execute(
-            function.parameters,
-            function.body,
-            function.class_name or scope.class_name,
-            (),
-            term,
-            scope,
-            function.return_type,
-            function,
-            this_object,
-        )
+        value = self.execute(function, term, scope, this_object)
         counts = {a.value for a in value if type(a.value) is int}
         if (len(value) >= 3 and counts and counts <= {1, 2, 4, 8, 16, 32, 64}) or (COUNTS.search(function.name) and not counts):
             return (Alternative(Symbol(f"{function.name}()", function.name, True), term[-1]),)
@@ -175,34 +166,22 @@ class Calls(ObjectCreation):
             return self.view_of_argument([self.value(a, scope) for a in term[2]], term, scope) or UNKNOWN_VALUE
         return value
 
-    def execute(
-        self,
-        parameters: Sequence[Parameter],
-        body: Sequence[Term],
-        class_name: str,
-        scopes: Sequence[dict[str, Cell]],
-        term: Term,
-        scope: Scope,
-        return_type: str = "",
-        function: Function | None = None,
-        this_object: Cell | None = None,
-    ) -> Value:
-        """Executes a function with the arguments of a call."""
+    def execute(self, function: Function, term: Term, scope: Scope, this_object: Cell | None, scopes: Scopes = ()) -> Value:
+        """Executes a function with the arguments of a call. `scopes` are the enclosing variables of a lambda."""
         cells: dict[str, Cell] = {}
-        for n, parameter in enumerate(parameters):
+        for n, parameter in enumerate(function.parameters):
             if n < len(term[2]):
                 cells[parameter.name] = self.bind_parameter(parameter, term[2][n], scope)
             elif parameter.default is not None:
                 value = self.value(parameter.default, scope, parameter.type)
                 cells[parameter.name] = Cell(parameter.type, parameter.name, value, f"default({parameter.name})")
-        inner = Scope(class_name, (*scopes, cells), scope.guards, (*scope.calls, term[3]))
-        inner.namespace = scope.namespace if function is None else function.namespace
-        inner.active_functions = scope.active_functions if function is None else (*scope.active_functions, function.at)
+        inner = Scope(function.class_name or scope.class_name, function.namespace, (*scopes, cells), scope.guards, (*scope.calls, term[3]))
+        inner.active_functions = (*scope.active_functions, function.at)
         inner.unknown_loops = scope.unknown_loops
-        inner.return_type = return_type
+        inner.return_type = function.return_type
         inner.iterations = scope.iterations
-        inner.this_object = this_object if function is not None else scope.this_object
-        self.block(body, inner)
+        inner.this_object = this_object
+        self.block(function.body, inner)
         base = scope.guards
         return_values = [Alternative(a.value, a.at, a.guards - base) for a in inner.return_values]
         if len(return_values) > MAX_ALTERNATIVES or not return_values or all(a.value is UNKNOWN for a in return_values):

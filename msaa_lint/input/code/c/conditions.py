@@ -27,6 +27,15 @@ def contradicts(left: Guards, right: Guards) -> bool:
     return any((text, not way) in right for text, way in left)
 
 
+def decided(condition: bool | Guards, guards: Guards) -> bool | None:
+    """Returns whether a condition holds where guards hold, or None if that is unknown."""
+    if isinstance(condition, bool):
+        return condition
+    if contradicts(condition, guards):
+        return False
+    return True if condition <= guards else None
+
+
 NO_NAMES: dict[str, str] = {}
 
 

@@ -20,7 +20,6 @@ from .names import first_version, vulkan_struct
 from .scope import Scope, name_objects
 from .terms import ADDRESS, CALL, FIELD, INDEX, NAME, Function, Term
 from .values import (
-    ALWAYS,
     UNKNOWN,
     UNKNOWN_VALUE,
     Alternative,
@@ -280,7 +279,7 @@ class ObjectCreation(ListMethods):
             if struct and (kind in STANDALONE_INFOS or self.lists_views(cell)):
                 info = struct[0].value
                 info.kind = kind
-                obj = self.create(CREATE_INFOS.get(kind, "state"), info, (CALL, (NAME, "", at), (), at), Scope("", ({},), ALWAYS, ()))
+                obj = self.create(CREATE_INFOS.get(kind, "state"), info, (CALL, (NAME, "", at), (), at), Scope())
                 obj.name = owner.rpartition("::")[2]
 
     def lists_views(self, cell: Cell) -> bool:

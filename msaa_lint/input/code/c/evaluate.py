@@ -195,10 +195,9 @@ class Evaluator(ConditionEvaluator):
         condition = self.condition(term[1], scope)
         if isinstance(condition, bool):
             return self.value(term[2] if condition else term[3], scope, kind)
-        known = dict(scope.guards)
         alternatives: list[Alternative] = []
         for guards, branch in ((condition, term[2]), (negated(condition), term[3])):
-            if any(known.get(text) is (not way) for text, way in guards):
+            if contradicts(guards, scope.guards):
                 continue
             value = self.value(branch, scope, kind) or (Alternative(UNKNOWN, at(branch)),)
             alternatives += [Alternative(a.value, a.at, a.guards | guards) for a in value if not contradicts(a.guards, guards)]

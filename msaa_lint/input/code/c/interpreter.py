@@ -13,7 +13,7 @@ from typing import Any
 from msaa_lint.core.text.span import Span
 
 from .calls import Calls
-from .conditions import contradicts, negated
+from .conditions import contradicts, decided, negated
 from .escapes import mark_escaped
 from .scope import MAX_PASSES, MAX_TURNS, Scope, StepLimitExceeded, name_objects
 from .terms import BINARY, BLOCK, DECLARE, DO, FIELD, IF, INDEX, LEAVE, LOOP, NAME, RETURN, SOME, UNARY, Function, Term, at
@@ -21,6 +21,7 @@ from .values import (
     ALWAYS,
     MAX_ALTERNATIVES,
     UNKNOWN,
+    UNKNOWN_VALUE,
     Alternative,
     Array,
     Cell,
@@ -76,8 +77,7 @@ class Interpreter(Calls):
         return [*entry_points, Function("", "", "", (), self.unit.outside, Span(0, 0))] if self.fragments else entry_points
 
     def run_entry_point(self, function: Function) -> None:
-        scope = Scope(function.class_name, ({},), ALWAYS, ())
-        scope.namespace = function.namespace
+        scope = Scope(function.class_name, function.namespace)
         for parameter in function.parameters:
             cell = Cell(parameter.type, parameter.name, (), f"{function.name}({parameter.name})")
             if parameter.name:
@@ -133,15 +133,9 @@ class Interpreter(Calls):
         then, otherwise = term[2], term[3]
         # Preprocessor conditions do not open a scope.
         scoped = term[0] == IF
-        if isinstance(condition, bool):
-            scope.unreachable = self.run_block(then if condition else otherwise, scope, ALWAYS, scoped)
-            return
-        known = dict(scope.guards)
-        if any(known.get(text) is (not way) for text, way in condition):
-            scope.unreachable = self.run_block(otherwise, scope, ALWAYS, scoped)
-            return
-        if all(known.get(text) is way for text, way in condition):
-            scope.unreachable = self.run_block(then, scope, ALWAYS, scoped)
+        known = decided(condition, scope.guards)
+        if isinstance(condition, bool) or known is not None:
+            scope.unreachable = self.run_block(then if known else otherwise, scope, ALWAYS, scoped)
             return
         against = negated(condition)
         left = self.run_block(then, scope, condition, scoped)
@@ -155,57 +149,47 @@ class Interpreter(Calls):
 
     def loop(self, term: Term, scope: Scope) -> None:
         declared, over, body = term[1], term[2], term[3]
-        scopes = scope.scopes
+        scopes, iterations = scope.scopes, scope.iterations
         scope.scopes = (*scopes, {})
-        if over is not None:
-            items = self.list_elements(over, scope)
-            if items is not None and declared and len(items) <= MAX_TURNS:
-                before = scope.iterations
-                for turn, item in enumerate(items):
-                    scope.scopes[-1][declared[0][2]] = item
-                    scope.iterations = (*before, turn)
-                    self.run_block(body, scope, ALWAYS)
-                scope.scopes, scope.iterations = scopes, before
-                return
-        iterations = self.iteration_range(declared, body, scope) if over is None else None
-        for statement in declared:
-            self.declare(statement, scope)
-        if iterations is not None:
-            cell = scope.scopes[-1][declared[0][2]]
-            before = scope.iterations
-            for turn in range(*iterations):
-                cell.writes = (Alternative(turn, at(declared[0])),)
-                scope.iterations = (*before, turn)
+        turns = self.range_elements(declared, over, scope) if over is not None else self.counter_values(declared, body, scope)
+        if turns is not None:
+            for turn, cell in enumerate(turns):
+                scope.scopes[-1][declared[0][2]] = cell
+                scope.iterations = (*iterations, turn)
                 self.run_block(body, scope, ALWAYS)
-            scope.iterations = before
         else:
+            for statement in declared:
+                self.declare(statement, scope)
             for statement in declared:
                 scope.scopes[-1][statement[2]] = Cell(statement[1], statement[2])
             scope.unknown_loops += 1
             self.run_block(body, scope, ALWAYS)
             scope.unknown_loops -= 1
-        scope.scopes = scopes
+        scope.scopes, scope.iterations = scopes, iterations
 
-    def iteration_range(self, declared: Sequence[Term], body: Sequence[Term], scope: Scope) -> tuple[int, int] | None:
-        """Returns the range of a loop counter if it is known and short, or None."""
+    def counter_values(self, declared: Sequence[Term], body: Sequence[Term], scope: Scope) -> list[Cell] | None:
+        """Returns the variable of a loop that counts, one for each iteration, if they are known and few; otherwise None."""
         if len(declared) != 1 or declared[0][3] is None or not body or body[0][0] != DO:
             return None
-        test, name = body[0][1], declared[0][2]
+        test, (_, kind, name, start, *_) = body[0][1], declared[0]
         update: Term = body[-1][1] if body[-1][0] == DO else body[-1]
         if update[0] != UNARY or update[1] not in ("++", "post++") or update[2][:2] != (NAME, name):
             return None
         if test[0] != BINARY or test[1] not in ("<", "!=", "<=") or test[2][:2] != (NAME, name):
             return None
-        first, last = sole_value(self.value(declared[0][3], scope)), sole_value(self.value(test[3], scope))
+        first, last = sole_value(self.value(start, scope)), sole_value(self.value(test[3], scope))
         if type(first) is not int or type(last) is not int:
             return None
         last += test[1] == "<="
-        return (first, last) if 0 <= last - first <= MAX_TURNS else None
+        if not 0 <= last - first <= MAX_TURNS:
+            return None
+        return [Cell(kind, name, (Alternative(turn, at(declared[0])),)) for turn in range(first, last)]
 
-    def list_elements(self, over: Term, scope: Scope) -> list[Cell] | None:
-        """Returns the elements of a list if all are known, or None."""
+    def range_elements(self, declared: Sequence[Term], over: Term, scope: Scope) -> list[Cell] | None:
+        """Returns the elements of a list if they are known and few, otherwise None."""
         value = pointee(sole_value(self.value(over, scope)))
-        return value.items if isinstance(value, Array) and value.complete else None
+        known = isinstance(value, Array) and value.complete and declared and len(value.items) <= MAX_TURNS
+        return value.items if known else None
 
     def declare(self, term: Term, scope: Scope) -> None:
         _, kind, name, initializer, indirect, _, place = term
@@ -222,7 +206,7 @@ class Interpreter(Calls):
         cell = self.other_branch_variable(name, kind, scope) or Cell(kind, name)
         scope.scopes[-1][name] = cell
         if initializer is None:
-            value = self.default_value(kind, name, place, indirect, scope)
+            value = UNKNOWN_VALUE if indirect else self.default_value(kind, name, place, scope)
         else:
             value = self.value(initializer, scope, kind)
             value = tuple(Alternative(self.stored_value(a.value, kind, name), a.at, a.guards) for a in value)

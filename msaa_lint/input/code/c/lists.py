@@ -25,6 +25,7 @@ from .values import (
     pointee,
     sole_value,
 )
+from .variables import unset_element
 
 APPEND = frozenset({"push_back", "emplace_back", "append", "add", "pushBack", "Add", "PushBack", "push"})
 
@@ -114,25 +115,16 @@ class ListMethods(Structures):
             # The element is unknown, so writes to it make the list unknown.
             array.complete = False
             return UNKNOWN_VALUE
-        if name in ("clear",):
+        if name == "clear":
             array.items.clear()
             array.complete = not scope.guards
             return UNKNOWN_VALUE
-        if name in ("resize", "reserve", "fill", "assign", "insert", "pop_back", "erase", "swap", "emplace"):
-            if name != "reserve":
-                array.complete = array.complete and name == "resize" and not array.items
-            if name == "resize" and arguments and array.complete:
+        if name in ("resize", "fill", "assign", "insert", "pop_back", "erase", "swap", "emplace"):
+            array.complete = array.complete and name == "resize" and not array.items
+            if array.complete and arguments:
                 count = sole_value(self.value(arguments[0], scope))
-                array.complete = False
-                if type(count) is int and 0 <= count <= 64:
-                    array.complete = True
-                    for _ in range(count):
-                        struct_name = vulkan_struct(array.kind)
-                        item = Cell(array.kind)
-                        if struct_name:
-                            item.writes = (Alternative(Struct(struct_name, place, True), place),)
-                        array.items.append(item)
-            return UNKNOWN_VALUE
+                array.complete = type(count) is int and 0 <= count <= 64
+                array.items += [unset_element(array.kind, place, True) for _ in range(count if array.complete else 0)]
         return UNKNOWN_VALUE
 
     @staticmethod

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
 
-from .values import Alternative, Cell, Guards, Value, VulkanObject
+from .values import ALWAYS, Alternative, Cell, Guards, Value, VulkanObject
 
 MAX_STEPS = 80_000
 """The maximum number of terms evaluated in a file; execution stops at the limit."""
@@ -34,15 +34,17 @@ class StepLimitExceeded(Exception):
 class Scope:
     """The scope of a function call: its variables, its class, and the calls that lead to it."""
 
-    def __init__(self, class_name: str, scopes: Scopes, guards: Guards, calls: tuple[Span, ...]) -> None:
+    def __init__(
+        self, class_name: str = "", namespace: str = "", scopes: Scopes = (), guards: Guards = ALWAYS, calls: tuple[Span, ...] = ()
+    ) -> None:
         self.class_name = class_name
-        self.scopes = scopes
+        self.namespace = namespace
+        """The namespace, with a trailing `::`."""
+        self.scopes = scopes or ({},)
         self.guards = guards
         self.calls = calls
         self.return_values: list[Alternative] = []
         self.return_type = ""
-        self.namespace = ""
-        """The namespace, with a trailing `::`."""
         self.unreachable = False
         """Whether the following statements are unreachable."""
         self.unknown_loops = 0

@@ -27,6 +27,7 @@ from .values import (
     pointee,
     sole_value,
 )
+from .variables import unset_element
 
 
 def member_type(kind: str, name: str) -> str:
@@ -224,11 +225,9 @@ class Structures(Evaluator):
             array.complete = False
             return (Alternative(array, place),)
         for _ in range(count):
-            item = Cell(kind)
+            item = unset_element(kind, place, True)
             if len(arguments) == 2:
                 item.writes = copy_alternatives(self.value(arguments[1], scope, kind))
-            elif vulkan_struct(kind):
-                item.writes = (Alternative(Struct(vulkan_struct(kind), place, True), place),)
             array.items.append(item)
         return (Alternative(array, place),)
 

@@ -11,7 +11,7 @@ from msaa_lint.frame.vulkan.names import parse_enum
 from .names import array_size, constant, element_type, member, vulkan_struct
 from .scope import MAX_STEPS, MEMBER, Scope, StepLimitExceeded
 from .terms import ADDRESS, CALL, DECLARE, FIELD, INDEX, NAME, TARGET, Function, Term, Unit, at
-from .values import ALWAYS, UNKNOWN_VALUE, Alternative, Array, Cell, Flags, Ref, Struct, Value, copy_value, pointee, sole_value
+from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Flags, Ref, Struct, Value, copy_value, pointee, sole_value
 
 
 def _lasts(value: object) -> bool:
@@ -24,6 +24,12 @@ def _lasts(value: object) -> bool:
 def is_element_access(term: Term) -> bool:
     """Returns whether an expression calls a method that returns a reference to an element of a list."""
     return bool(term[0] == CALL and term[1][0] == FIELD and term[1][2] in ("front", "back", "at"))
+
+
+def unset_element(kind: str, place: Span, zeroed: bool) -> Cell:
+    """Returns an element of a list that is not initialized."""
+    struct_name = vulkan_struct(kind)
+    return Cell(kind, writes=(Alternative(Struct(struct_name, place, zeroed), place),) if struct_name else ())
 
 
 class Variables(ABC):
@@ -180,39 +186,21 @@ class Variables(ABC):
         else:
             class_name, _, name = key.rpartition("::")
             term = self.members.get(class_name, {}).get(name)
-        if (
-            term is not None
-            and term[3] is None
-            and not term[4]
-            and class_name == ""
-            and (vulkan_struct(term[1]) or vulkan_struct(element_type(term[1]) or ""))
-        ):
-            # Global variables are zero-initialized.
-            initial = self.default_value(term[1], term[2].rpartition("::")[2], term[-1], False, Scope("", ({},), ALWAYS, ()))
-            for alternative in initial:
-                for value in (
-                    [alternative.value]
-                    if isinstance(alternative.value, Struct)
-                    else [sole_value(cell.writes) for cell in alternative.value.items]
-                ):
-                    if isinstance(value, Struct):
-                        value.zeroed = True
-                if isinstance(alternative.value, Array):
-                    alternative.value.zeroed = True
-            self.declared_values[key] = tuple(
-                Alternative(self.stored_value(a.value, term[1], term[2].rpartition("::")[2]), a.at) for a in initial
-            )
-        elif term is not None and term[3] is not None:
-            name = term[2].rpartition("::")[2]
-            scope = Scope(class_name, ({},), ALWAYS, ())
-            scope.namespace = key[2:].rpartition("::")[0] if not class_name else class_name.rpartition("::")[0]
-            scope.namespace += "::" if scope.namespace else ""
-            value = self.value(term[3], scope, term[1])
+        if term is None:
+            return UNKNOWN_VALUE
+        _, kind, name, initializer, indirect, fixed, place = term
+        name = name.rpartition("::")[2]
+        if initializer is not None:
+            namespace = (class_name or key[2:]).rpartition("::")[0]
+            value = self.value(initializer, Scope(class_name, f"{namespace}::" if namespace else ""), kind)
             lasting = [a for a in value if not (isinstance(a.value, Struct) and not a.value.kind and not a.value.fields)]
-            if not term[5]:
+            if not fixed:
                 # Other code may change the value; discard values that are typical placeholders: one sample, null, false, an operation.
                 lasting = [a for a in lasting if _lasts(a.value)]
-            self.declared_values[key] = tuple(Alternative(self.stored_value(a.value, term[1], name), a.at, a.guards) for a in lasting)
+            self.declared_values[key] = tuple(Alternative(self.stored_value(a.value, kind, name), a.at, a.guards) for a in lasting)
+        elif not indirect and not class_name and (vulkan_struct(kind) or vulkan_struct(element_type(kind) or "")):
+            # Global variables are zero-initialized.
+            self.declared_values[key] = self.default_value(kind, name, place, Scope(), zeroed=True)
         return self.declared_values[key]
 
     def field(self, operand: Term, name: str, scope: Scope) -> Cell | None:
@@ -276,11 +264,7 @@ class Variables(ABC):
                 value.complete = False
                 return Cell()
             while len(value.items) <= index:
-                kind = vulkan_struct(value.kind)
-                fresh = Cell(value.kind)
-                if kind:
-                    fresh.writes = (Alternative(Struct(kind, term[-1], value.zeroed), term[-1]),)
-                value.items.append(fresh)
+                value.items.append(unset_element(value.kind, term[-1], value.zeroed))
             return value.items[index]
         if cell.kind == MEMBER:
             return self.member_cell(f"{cell.name}[{index}]" if type(index) is int else f"{cell.name}[]")
@@ -291,31 +275,24 @@ class Variables(ABC):
     def fill_array(self, array: Array, kind: str, scope: Scope) -> None:
         """Adds elements to an array up to the size of its type."""
         size = array_size(kind)
-        count = (int(size) if size.isdecimal() else sole_value(self.value((NAME, size, array.at), scope))) if size else 0
         if not size:
             return
+        count = int(size) if size.isdecimal() else sole_value(self.value((NAME, size, array.at), scope))
         if type(count) is not int or not 0 <= count <= 64:
             array.complete = False
             return
-        struct_name = vulkan_struct(array.kind)
         while len(array.items) < count:
-            item = Cell(array.kind)
-            if struct_name:
-                item.writes = (Alternative(Struct(struct_name, array.at, array.zeroed), array.at),)
-            array.items.append(item)
+            array.items.append(unset_element(array.kind, array.at, array.zeroed))
 
-    def default_value(self, kind: str, name: str, place: Span, indirect: bool, scope: Scope) -> Value:
+    def default_value(self, kind: str, name: str, place: Span, scope: Scope, zeroed: bool = False) -> Value:
         """Returns the value of a variable without an initializer. vulkan.hpp structures have default constructors."""
-        if indirect:
-            return UNKNOWN_VALUE
         struct_name = vulkan_struct(kind)
         if struct_name:
-            struct = Struct(struct_name, place, kind.startswith("vk::"), name)
-            return (Alternative(struct, place),)
+            return (Alternative(Struct(struct_name, place, zeroed or kind.startswith("vk::"), name), place),)
         inner = element_type(kind)
         if inner is not None:
             array = Array(inner, place)
-            array.name = name
+            array.name, array.zeroed = name, zeroed
             self.fill_array(array, kind, scope)
             return (Alternative(array, place),)
         if kind[:1].isupper() and not kind.startswith(("Vk", "VK", "PFN")):
