@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Iterable, Iterator
+from typing import Any, TypeVar
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import scalar, sequence
@@ -14,6 +14,7 @@ from .configurations import Configuration
 from .values import Array, Flags, Struct, VulkanObject
 
 Item = tuple[str, Span, Node]
+_T = TypeVar("_T")
 
 ENUMS = {
     "format": "VkFormat", "loadOp": "VkAttachmentLoadOp", "storeOp": "VkAttachmentStoreOp", "stencilLoadOp": "VkAttachmentLoadOp",
@@ -34,6 +35,16 @@ ZERO = {
     "srcAccessMask": (), "dstAccessMask": (), "blendEnable": False,
 }  # fmt: skip
 """What zero means for members where it is a valid value."""
+
+
+def complete(nodes: Iterable[_T | None]) -> list[_T] | None:
+    """Returns the nodes, or None if any of them is unknown."""
+    known: list[_T] = []
+    for node in nodes:
+        if node is None:
+            return None
+        known.append(node)
+    return known
 
 
 class Members(Configuration):

@@ -8,10 +8,8 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
 
-from .members import Item, Members, head_of
+from .members import Item, Members, complete, head_of
 from .values import UNKNOWN, Array, Struct, VulkanObject, sole_value
-
-EMPTY = mapping((), Span(0, 0))
 
 
 class Passes(Members):
@@ -44,9 +42,9 @@ class Passes(Members):
     def attachment(
         self, struct: Struct | None, image: VulkanObject | None, attached: dict[int, VulkanObject], head: Span, resolved: bool
     ) -> Node:
-        if struct is None:
-            return mapping((), head)
         items: list[Item] = []
+        if struct is None:
+            return mapping(items, head)
         count, at = self.samples(struct)
         of_image = self.samples(image.info)[0] if image is not None else None
         if image is not None and (count is None or of_image is None or count == of_image):
@@ -62,41 +60,37 @@ class Passes(Members):
     def render_pass(self, obj: VulkanObject, attached: dict[int, VulkanObject]) -> Item | None:
         info = obj.info
         structs = self.structs(info, "attachments")
-        if structs is None or not structs:
+        if not structs:
             return None
-        images = self.framebuffer_images.get(id(obj), [])
+        images = [*self.framebuffer_images.get(id(obj), ()), *[None] * len(structs)][: len(structs)]
         names: list[str] = []
-        nodes: list[Item] = []
         array = self.dereference(self.get(info, "attachments")[0])
-        list_node = array.name if isinstance(array, Array) else ""
+        list_name = array.name if isinstance(array, Array) else ""
         for n, struct in enumerate(structs):
-            name = struct.name if struct is not None and struct.name else f"{list_node}[{n}]" if list_node else f"attachment {n}"
-            name = name if name not in names else f"{name} ({n})"
-            names.append(name)
-            at = self.place_of(struct, obj.at)
-            nodes.append((name, head_of(at), EMPTY))
-        head = head_of(obj.at)
-        subpasses = self.structs(info, "subpasses")
-        written = [self.subpass(s, names) for s in subpasses] if subpasses is not None else []
-        sources = _resolved([node for node in written if node is not None])
-        for n, struct in enumerate(structs):
-            image = images[n] if n < len(images) else None
-            nodes[n] = (*nodes[n][:2], self.attachment(struct, image, attached, nodes[n][1], names[n] in sources))
+            name = struct.name if struct is not None and struct.name else f"{list_name}[{n}]" if list_name else f"attachment {n}"
+            names.append(name if name not in names else f"{name} ({n})")
+        subpasses = [self.subpass(struct, names) for struct in self.structs(info, "subpasses") or ()]
+        sources = _resolved([node for node in subpasses if node is not None])
+        nodes: list[Item] = []
+        for name, struct, image in zip(names, structs, images, strict=True):
+            at = head_of(self.place_of(struct, obj.at))
+            nodes.append((name, at, self.attachment(struct, image, attached, at, name in sources)))
         if type(self.known_value(info, "attachmentCount")) is not int:
             # The count is unknown: trailing attachments that nothing references may not exist.
-            referred = {reference.text for node in written if node is not None for reference in _leaves(node)}
+            referred = {reference.text for node in subpasses if node is not None for reference in _leaves(node)}
             while nodes and nodes[-1][0] not in referred:
                 nodes.pop()
             if not nodes:
                 return None
+        head = head_of(obj.at)
         items: list[Item] = [("attachments", head, mapping(nodes, head))]
-        if written and all(node is not None for node in written):
-            items.append(("subpasses", head, sequence([node for node in written if node is not None], head)))
+        if known := complete(subpasses):
+            items.append(("subpasses", head, sequence(known, head)))
         dependencies = self.structs(info, "dependencies")
         if dependencies and not self.barriers and self.has_single_images(structs, images):
-            made_nodes = [self.dependency(d) for d in dependencies]
-            if all(node is not None for node in made_nodes):
-                items.append(("dependencies", head, sequence([node for node in made_nodes if node is not None], head)))
+            nodes_of_dependencies = complete(map(self.dependency, dependencies))
+            if nodes_of_dependencies is not None:
+                items.append(("dependencies", head, sequence(nodes_of_dependencies, head)))
         return self.object_name(obj, "renderPass"), head, mapping(items, head)
 
     def has_single_images(self, structs: Sequence[Struct | None], images: Sequence[VulkanObject | None]) -> bool:
@@ -104,11 +98,10 @@ class Passes(Members):
 
         With one image per frame in flight, no frame waits for another.
         """
-        for n, struct in enumerate(structs):
-            image = images[n] if n < len(images) else None
-            if struct is None or ((self.samples(struct)[0] or 2) > 1 and (image is None or "[" in image.name)):
-                return False
-        return True
+        return not any(
+            struct is None or ((self.samples(struct)[0] or 2) > 1 and (image is None or "[" in image.name))
+            for struct, image in zip(structs, images, strict=True)
+        )
 
     def place_of(self, struct: Struct | None, otherwise: Span) -> Span:
         """Returns where a structure starts: its declaration, or the first write to it."""
@@ -146,8 +139,7 @@ class Passes(Members):
         if struct.zeroed or "depthStencilAttachment" in struct.fields or self.fragments:
             value, at = self.get(struct, "depthStencilAttachment")
             if value is not None and not (value is UNKNOWN and "depthStencilAttachment" not in struct.fields):
-                reference = self.struct(struct, "depthStencilAttachment")
-                node = self.reference(reference, names) if reference is not None else None
+                node = self.reference(self.struct(struct, "depthStencilAttachment"), names)
                 if node is None:
                     return None
                 items.append(("depthStencilAttachment", at, node))
@@ -189,12 +181,11 @@ class Passes(Members):
         if name not in struct.fields:
             return []
         structs = self.structs(struct, name)
-        if structs is None:
-            return None
-        nodes = [self.reference(item, names) if item is not None else None for item in structs]
-        return [node for node in nodes if node is not None] if all(node is not None for node in nodes) else None
+        return complete(self.reference(item, names) for item in structs) if structs is not None else None
 
-    def reference(self, struct: Struct, names: Sequence[str]) -> Node | None:
+    def reference(self, struct: Struct | None, names: Sequence[str]) -> Node | None:
+        if struct is None:
+            return None
         index, at = self.get(struct, "attachment")
         if index is UNKNOWN and self.fragments:
             # Pages that modify a program do not repeat that `colorAttachmentRef` refers to `colorAttachment`.
@@ -212,19 +203,15 @@ class Passes(Members):
         items: list[Item] = []
         for name in ("srcSubpass", "dstSubpass"):
             value, at = self.get(struct, name)
-            if value is None:
-                value = 0
             if value in ("VK_SUBPASS_EXTERNAL", 2**32 - 1):
                 items.append((name, at, scalar("EXTERNAL", at)))
-            elif type(value) is int:
-                items.append((name, at, scalar(value, at)))
+            elif value is None or type(value) is int:
+                items.append((name, at, scalar(value or 0, at)))
             else:
                 return None
         for name in ("srcStageMask", "dstStageMask", "srcAccessMask", "dstAccessMask"):
             items += self.item(struct, name)
-        if len(items) < 6:
-            return None
-        return mapping(items, head_of(struct.at))
+        return mapping(items, head_of(struct.at)) if len(items) == 6 else None
 
 
 def _leaves(node: Node) -> Iterator[Node]:

@@ -8,7 +8,7 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
 
-from .members import Item, Members, head_of
+from .members import Item, Members, complete, head_of
 from .values import UNKNOWN, Struct, Symbol, Value, VulkanObject, sole_value
 
 
@@ -19,27 +19,31 @@ class Commands(Members):
         """Returns a dynamic rendering, or None if its attachments are unknown."""
         info = obj.info
         colors = self.structs(info, "colorAttachments")
-        if colors is None or any(color is None for color in colors) or not (info.zeroed or "colorAttachments" in info.fields):
+        if colors is None or not (info.zeroed or "colorAttachments" in info.fields):
             return None
-        nodes = [self.rendered(color, attached) for color in colors if color is not None]
+        nodes = complete(self.rendered(color, attached) for color in colors)
+        if nodes is None:
+            return None
         head = head_of(obj.at)
         items: list[Item] = []
         if nodes:
-            items.append(("colorAttachments", head, sequence([node for node in nodes if node is not None], head)))
+            items.append(("colorAttachments", head, sequence(nodes, head)))
         for name in ("depthAttachment", "stencilAttachment"):
             if self.get(info, name)[0] in (None, 0):
                 continue
             struct = self.struct(info, name)
-            node = self.rendered(struct, attached) if struct is not None else None
+            node = self.rendered(struct, attached)
             if struct is None or node is None:
                 return None
             items.append((name, head_of(struct.at), node))
-        if not items or None in nodes:
+        if not items:
             return None
         return mapping([("beginRendering", head, mapping(items, head))], head)
 
-    def rendered(self, struct: Struct, attached: dict[int, VulkanObject]) -> Node | None:
+    def rendered(self, struct: Struct | None, attached: dict[int, VulkanObject]) -> Node | None:
         """Returns an attachment of a rendering, or None if it is unknown whether it is resolved."""
+        if struct is None:
+            return None
         head = head_of(struct.at)
         view, at = self.get(struct, "imageView")
         if view in (None, 0):
@@ -51,8 +55,7 @@ class Commands(Members):
         target, target_at = self.get(struct, "resolveImageView")
         if target is not None and target != 0:
             items.append(("resolveImage", target_at, self.image_name(target, target_at, attached)))
-        mode = mode if mode is not None else 0
-        node = self.node("resolveMode", mode, place)
+        node = self.node("resolveMode", mode or 0, place)
         if node is None:
             return None
         items.append(("resolveMode", place, node))
@@ -71,13 +74,9 @@ class Commands(Members):
     def external_image(self, value: Any, at: Span) -> str:
         """Returns the name of an image that the file does not create."""
         value = self.dereference(value)
-        key = (
-            value.key
-            if isinstance(value, Symbol)
-            else f"image of {id(value)}"
-            if isinstance(value, VulkanObject)
-            else f"image at {at.start}"
-        )
+        key = value.key if isinstance(value, Symbol) else f"image at {at.start}"
+        if isinstance(value, VulkanObject):
+            key = f"image of {id(value)}"
         if key not in self.external_images:
             label = value.name if isinstance(value, (Symbol, VulkanObject)) else ""
             name = self.unique(label.rpartition("::")[2].strip("*&") or "image")

@@ -6,7 +6,7 @@ depend on other conditions are unknown unless they are the same either way.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
@@ -14,7 +14,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.names import parse_enum
 from msaa_lint.input.code.parsing import Read
 
-from .members import FLAGS, Item, flags_of, head_of
+from .members import FLAGS, Item, complete, flags_of, head_of
 from .names import first_version
 from .passes import Passes
 from .renderings import Commands
@@ -30,25 +30,18 @@ class DescriptionWriter(Passes, Commands):
         self.current_objects = [obj for obj in self.current_objects if not self.is_excluded(obj)]
         passes = [obj for obj in self.current_objects if obj.kind == "renderPass"]
         self.bind(passes)
-        rendered: list[Item] = []
         attached: dict[int, VulkanObject] = {}
-        pass_names: dict[int, str] = {}
-        for render_pass in passes:
-            item = self.render_pass(render_pass, attached)
-            if item is not None:
-                pass_names[id(render_pass)] = item[0]
-                rendered.append(item)
+        rendered = {id(obj): item for obj in passes if (item := self.render_pass(obj, attached)) is not None}
+        pass_names = {key: item[0] for key, item in rendered.items()}
         recorded = [self.rendering(obj, attached) for obj in self.current_objects if obj.kind == "rendering"]
         recorded += [self.resolve(at, ends, attached) for at, ends in self.resolves.items()]
         commands = _distinct_nodes([node for node in recorded if node is not None])
-        images = list(
-            {id(entry): entry for obj in self.current_objects if obj.kind == "image" for entry in (self.first_duplicate(obj),)}.values()
-        )
+        images = dict.fromkeys(self.first_duplicate(obj) for obj in self.current_objects if obj.kind == "image")
         image_items = [self.image(image) for image in images if id(image) in attached or self.is_multisampled(image)]
         image_items += self.external_images.values()
         pipelines = [item for obj in self.current_objects if obj.kind in ("pipeline", "state") for item in self.pipeline(obj, pass_names)]
         sections = []
-        for name, every in (("images", image_items), ("renderPasses", rendered), ("pipelines", pipelines)):
+        for name, every in (("images", image_items), ("renderPasses", rendered.values()), ("pipelines", pipelines)):
             items = _distinct(every)
             if items:
                 at = items[0][1]
@@ -57,9 +50,7 @@ class DescriptionWriter(Passes, Commands):
         if commands:
             at = Span(commands[0].start, commands[0].start)
             sections.append(("commands", at, sequence(commands, at)))
-        if not sections:
-            return None
-        return Read(mapping(sections, Span(0, 0)), tuple(self.assumed.values()))
+        return Read(mapping(sections, Span(0, 0)), tuple(self.assumed.values())) if sections else None
 
     def is_multisampled(self, obj: VulkanObject) -> bool:
         return (self.samples(obj.info)[0] or 1) > 1
@@ -89,8 +80,8 @@ class DescriptionWriter(Passes, Commands):
 
     def is_transient(self, info: Struct) -> bool:
         value = self.get(info, "usage")[0]
-        bits = [bit for bit, _ in value.bits] if isinstance(value, Flags) else [value]
-        return any(isinstance(bit, str) and "TRANSIENT" in bit for bit in bits)
+        bits = value.bits if isinstance(value, Flags) else ((value, info.at),)
+        return any(isinstance(bit, str) and "TRANSIENT" in bit for bit, _ in bits)
 
     def pipeline(self, obj: VulkanObject, passes: dict[int, str]) -> Iterator[Item]:
         info = obj.info
@@ -176,18 +167,15 @@ class DescriptionWriter(Passes, Commands):
     def blending(self, info: Struct) -> Iterator[Item]:
         state = self.struct(info, "colorBlendState")
         attachments = self.structs(state, "attachments") if state is not None else None
-        if not attachments or any(attachment is None for attachment in attachments):
+        known = complete(attachments) if state is not None and attachments else None
+        if state is None or known is None:
             return
-        nodes = []
-        for blend_state in attachments:
-            assert blend_state is not None
-            nodes.append(mapping(self.item(blend_state, "blendEnable"), head_of(blend_state.at)))
-        assert state is not None
+        nodes = [mapping(self.item(attachment, "blendEnable"), head_of(attachment.at)) for attachment in known]
         head = head_of(state.at)
         yield "colorBlendState", head, mapping([("attachments", head, sequence(nodes, head))], head)
 
 
-def _distinct(items: Sequence[Item]) -> list[Item]:
+def _distinct(items: Iterable[Item]) -> list[Item]:
     """Removes items with equal content and location: calling a function twice creates them twice."""
     distinct: dict[str, Item] = {}
     for item in items:
