@@ -14,7 +14,6 @@ from msaa_lint.frame.spirv import numbers as op
 from .types import BOOL, DOUBLE, FLOAT, INT, UINT, VOID, Type
 
 _MAGIC, _VERSION = 0x07230203, 0x00010000
-_DECORATE_MEMBER = op.MEMBER_DECORATE
 
 
 class Assembly:
@@ -57,7 +56,7 @@ class Assembly:
         self.decorations += (len(operands) + 3 << 16 | op.DECORATE, target, number, *operands)
 
     def decorate_member(self, target: int, member: int, number: int, *operands: int) -> None:
-        self.decorations += (len(operands) + 4 << 16 | _DECORATE_MEMBER, target, member, number, *operands)
+        self.decorations += (len(operands) + 4 << 16 | op.MEMBER_DECORATE, target, member, number, *operands)
 
     def type(self, kind: Type) -> int:
         """Returns the id of a type."""
@@ -66,17 +65,15 @@ class Assembly:
             return type_id
         operands: Sequence[int]
         if kind[0] == "vec":
-            number, operands = op.TYPE_VECTOR, (self.type(_inner(kind[1])), _count(kind[2]))
+            number, operands = op.TYPE_VECTOR, (self.type(kind[1]), kind[2])
         elif kind[0] == "mat":
-            number, operands = op.TYPE_MATRIX, (self.type(("vec", FLOAT, kind[2])), _count(kind[1]))
+            number, operands = op.TYPE_MATRIX, (self.type(("vec", FLOAT, kind[2])), kind[1])
         elif kind[0] == "array":
-            number, operands = op.TYPE_ARRAY, (self.type(_inner(kind[1])), self.number(UINT, _count(kind[2])))
+            number, operands = op.TYPE_ARRAY, (self.type(kind[1]), self.number(UINT, kind[2]))
             if not kind[2]:
                 number, operands = 29, operands[:1]
         elif kind[0] == "struct":
-            members = kind[2]
-            assert isinstance(members, tuple)
-            number, operands = op.TYPE_STRUCT, [self.type(item) for _, item in members]
+            number, operands = op.TYPE_STRUCT, [self.type(item) for _, item in kind[2]]
         elif kind[0] == "opaque":
             number, operands = op.TYPE_IMAGE, (self.type(FLOAT), 1, 0, 0, int("MS" in str(kind[1])), 1, 0)
         else:
@@ -164,13 +161,3 @@ _SCALARS: dict[Type, tuple[int, tuple[int, ...]]] = {
     FLOAT: (op.TYPE_FLOAT, (32,)),
     DOUBLE: (op.TYPE_FLOAT, (64,)),
 }
-
-
-def _inner(kind: object) -> Type:
-    assert isinstance(kind, tuple)
-    return kind
-
-
-def _count(count: object) -> int:
-    assert isinstance(count, int)
-    return count

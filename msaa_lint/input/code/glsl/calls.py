@@ -30,9 +30,9 @@ def evaluate_call(expressions: Expressions, node: SyntaxNode, depth: int) -> Val
         return _constructor(expressions, kind, arguments, depth)
     if name in expressions.functions:
         return _call_function(expressions, node, name, arguments, depth)
-    if name in FETCHES or name in _QUERIES:
-        image = _image(expressions, arguments, depth)
-        if image is not None and multisampled(image.type):
+    if arguments and (name in FETCHES or name in _QUERIES):
+        image = _operand(expressions, arguments[0], depth)
+        if multisampled(image.type):
             return _sample_access(expressions, node, name, arguments, image, depth)
     return _built_in(expressions, node, name, arguments, depth)
 
@@ -45,11 +45,9 @@ def _constructor(expressions: Expressions, kind: Type, arguments: list[SyntaxNod
     if size_of(kind):
         return expressions.construct(kind, values)
     if kind[0] == "struct":
-        members = kind[2]
-        assert isinstance(members, tuple)
-        if len(members) != len(values):
+        if len(kind[2]) != len(values):
             raise UnsupportedShader("a structure constructor has too few arguments")
-        components = [expressions.as_type(v, t) if size_of(t) else v for v, (_, t) in zip(values, members, strict=True)]
+        components = [expressions.as_type(v, t) if size_of(t) else v for v, (_, t) in zip(values, kind[2], strict=True)]
         return expressions.result(op.COMPOSITE_CONSTRUCT, kind, *(item.id for item in components))
     return expressions.opaque("construct", kind, values)
 
@@ -71,20 +69,16 @@ def _length(expressions: Expressions, function: SyntaxNode, depth: int) -> Value
     argument, field = fields(function, "argument", "field")
     if argument is None or field is None or expressions.text_of(field) != "length":
         raise expressions.unsupported(function, "is not supported")
-    place = expressions.place(argument, depth)
-    kind = place.type if place is not None else expressions.value(argument, depth).type
+    kind = _operand(expressions, argument, depth).type
     size = size_of(kind) or (kind[2] if kind[0] == "array" else 0)
     if not isinstance(size, int) or not size:
         return expressions.opaque("length", INT, ())
     return expressions.constant_value(INT, size)
 
 
-def _image(expressions: Expressions, arguments: list[SyntaxNode], depth: int) -> Place | Value | None:
-    """Returns the image that a function takes as its first argument."""
-    if not arguments:
-        return None
-    place = expressions.place(arguments[0], depth)
-    return place if place is not None else expressions.value(arguments[0], depth)
+def _operand(expressions: Expressions, node: SyntaxNode, depth: int) -> Place | Value:
+    """Returns the lvalue of an argument, or the value of an rvalue."""
+    return expressions.place(node, depth) or expressions.value(node, depth)
 
 
 def _sample_access(
@@ -139,48 +133,39 @@ def _built_in(expressions: Expressions, node: SyntaxNode, name: str, arguments: 
 
 def _call_function(expressions: Expressions, node: SyntaxNode, name: str, arguments: list[SyntaxNode], depth: int) -> Value:
     """Lowers a call of a function of the shader."""
-    kinds: list[tuple[Place | None, Value | None]] = []
-    for argument in arguments:
-        place = expressions.place(argument, depth)
-        kinds.append((place, None if place is not None else expressions.value(argument, depth)))
-    types = [_type(place, value) for place, value in kinds]
-    function = _matching_overload(expressions.functions[name], types)
+    operands = [_operand(expressions, argument, depth) for argument in arguments]
+    function = _matching_overload(expressions.functions[name], [_type(operand) for operand in operands])
     if function is None:
         raise expressions.unsupported(node, "matches no function of the shader")
     if function not in expressions.called_functions:
         expressions.called_functions.append(function)
     passed: list[int] = []
     back: list[tuple[Place, Place]] = []
-    for (place, value), (kind, written, _) in zip(kinds, function.parameters, strict=True):
-        if is_image(kind):
-            if place is None:
-                raise expressions.unsupported(node, "is not supported")
-            passed.append(place.pointer)
-            continue
-        if value is None:
-            assert place is not None
-            value = expressions.load(place)
-        if not written:
-            passed.append((expressions.as_type(value, kind) if size_of(kind) else value).id)
-            continue
-        if place is None:
+    for operand, (kind, written, _) in zip(operands, function.parameters, strict=True):
+        if isinstance(operand, Value) and (written or is_image(kind)):
             raise expressions.unsupported(node, "is not supported")
-        copy = expressions.temporary(kind)
-        expressions.store(copy, expressions.as_type(value, kind) if size_of(kind) else value)
-        passed.append(copy.pointer)
-        back.append((place, copy))
+        if isinstance(operand, Place) and is_image(kind):
+            passed.append(operand.pointer)
+            continue
+        value = expressions.load(operand) if isinstance(operand, Place) else operand
+        value = expressions.as_type(value, kind) if size_of(kind) else value
+        if isinstance(operand, Place) and written:
+            copy = expressions.temporary(kind)
+            expressions.store(copy, value)
+            passed.append(copy.pointer)
+            back.append((operand, copy))
+        else:
+            passed.append(value.id)
     call_result = expressions.out.instruction(op.FUNCTION_CALL, function.returns, function.id, *passed)
     for place, copy in back:
-        whole = expressions.load(copy)
-        expressions.store(place, whole)
+        expressions.store(place, expressions.load(copy))
     return Value(call_result, function.returns)
 
 
-def _type(place: Place | None, value: Value | None) -> Type:
-    if place is not None:
-        return vector(scalar_of(place.type), len(place.parts)) if place.parts else place.type
-    assert value is not None
-    return value.type
+def _type(operand: Place | Value) -> Type:
+    if isinstance(operand, Place) and operand.parts:
+        return vector(scalar_of(operand.type), len(operand.parts))
+    return operand.type
 
 
 def _matching_overload(functions: list[Function], types: list[Type]) -> Function | None:

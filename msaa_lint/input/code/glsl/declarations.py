@@ -6,7 +6,7 @@ import re
 from functools import partial
 
 from msaa_lint.frame.spirv import numbers as op
-from msaa_lint.input.code.parsing import Code, SyntaxNode, fields, tree
+from msaa_lint.input.code.parsing import Code, SyntaxNode, fields, tree, without_comments
 from msaa_lint.input.code.sample_counts.arithmetic import whole
 
 from .calls import evaluate_call
@@ -73,7 +73,7 @@ class Declarations(Expressions):
 
     def weight(self, kind: Type) -> int:
         """Returns the number of types in a type."""
-        while kind[0] == "array" and isinstance(kind[1], tuple):
+        while kind[0] == "array":
             kind = kind[1]
         return self.weights.get(str(kind[1]), 1) if kind[0] == "struct" else 1
 
@@ -106,12 +106,15 @@ class Declarations(Expressions):
             kind = ("array", kind, size)
         return self.text_of(node), kind
 
+    def integer(self, text: str) -> int | None:
+        """Returns the value of an integer literal or constant, or None."""
+        number = whole(text)
+        constant = self.lookup(text) if number is None else None
+        return self.integer_constants.get(constant.id) if isinstance(constant, Value) else number
+
     def size(self, node: SyntaxNode) -> int:
         """Returns the size of an array if it is a literal or an integer constant."""
-        number = whole(self.text_of(node))
-        if number is None:
-            constant = self.lookup(self.text_of(node)) if node.type == "identifier" else None
-            number = self.integer_constants.get(constant.id) if isinstance(constant, Value) else None
+        number = self.integer(self.text_of(node))
         if number is None or not 0 < number <= 65536:
             raise self.unsupported(node, "is not a supported array size")
         return number
@@ -125,10 +128,7 @@ class Declarations(Expressions):
         entries: dict[str, int | None] = {}
         for layout in layouts:
             for name, value in _ENTRY.findall(self.text_of(layout).partition("(")[2]):
-                entries[name] = whole(value) if value else None
-                if value and entries[name] is None:
-                    constant = self.lookup(value)
-                    entries[name] = self.integer_constants.get(constant.id) if isinstance(constant, Value) else None
+                entries[name] = self.integer(value) if value else None
         return set(_WORD.findall(text)), entries
 
     def declaration(self, node: SyntaxNode) -> None:
@@ -152,25 +152,16 @@ class Declarations(Expressions):
 
     def declared(self, node: SyntaxNode, kind: Type, words: set[str], layout: dict[str, int | None]) -> None:
         """Declares a global variable."""
-        initializer = node.child_by_field_name("value") if node.type == "init_declarator" else None
-        target = node.child_by_field_name("declarator") if node.type == "init_declarator" else node
-        if target is None:
-            raise self.unsupported(node, "is not supported")
-        if initializer is not None and is_unsized(target):
-            kind = self.sized_by_values(initializer, kind)
-            target = target.child_by_field_name("declarator") or target
-        name, kind = self.declarator(target, kind)
+        name, kind, initializer = self.initialized(node, kind)
         if "const" in words or initializer is not None:
             self.constant(name, kind, initializer, layout, node, "const" in words)
             return
         storage = next((_STORAGE[word] for word in ("in", "varying", "out", "uniform", "buffer", "shared") if word in words), op.PRIVATE)
         variable = self.variable(storage, kind)
         self.scopes[0][name] = variable
-        inner = kind[1] if kind[0] == "array" else kind
-        samples = isinstance(inner, tuple) and multisampled(inner)
-        if samples:
+        if multisampled(kind[1] if kind[0] == "array" else kind):
             layout = self.with_binding(name, layout)
-            self.images[name] = (target.start_byte, target.end_byte)
+            self.images[name] = (node.start_byte, node.end_byte)
         self.decorate_layout(variable.pointer, layout, storage)
         if "sample" in words and storage == op.INPUT:
             self.out.decorate(variable.pointer, op.SAMPLE)
@@ -183,10 +174,16 @@ class Declarations(Expressions):
         self.bindings[name] = (layout.get("set") or 0, layout.get("binding"))
         return layout
 
-    def sized_by_values(self, node: SyntaxNode, kind: Type) -> Type:
-        """Returns an array type whose size is the number of its initial values."""
-        list_node = node.child_by_field_name("arguments") or node
-        return ("array", kind, sum(child.type != "comment" for child in list_node.named_children))
+    def initialized(self, node: SyntaxNode, kind: Type) -> tuple[str, Type, SyntaxNode | None]:
+        """Returns the name and type that a declarator declares, and the initial value."""
+        if node.type != "init_declarator":
+            return *self.declarator(node, kind), None
+        target, initializer = self.parts(node, "declarator", "value")
+        if target.type == "array_declarator" and target.child_by_field_name("size") is None:
+            # The number of initial values is the size of the array.
+            kind = ("array", kind, len(without_comments(initializer.child_by_field_name("arguments") or initializer)))
+            target = target.child_by_field_name("declarator") or target
+        return *self.declarator(target, kind), initializer
 
     def decorate_layout(self, target: int, layout: dict[str, int | None], storage: int) -> None:
         for name, number in _DECORATED.items():
@@ -297,8 +294,3 @@ class Declarations(Expressions):
             parameters.append((kind, bool(words & {"out", "inout"}), name_text))
         function = Function(node, returns, tuple(parameters), self.out.id())
         self.functions.setdefault(self.text_of(name), []).append(function)
-
-
-def is_unsized(node: SyntaxNode) -> bool:
-    """Returns whether a declarator is of an array sized by its initializer."""
-    return node.type == "array_declarator" and node.child_by_field_name("size") is None

@@ -76,10 +76,8 @@ class Expressions(Values):
         name = self.text_of(field)
         if base.type[0] != "struct":
             return self.swizzle(base, self.swizzle_parts(name, base.type, node))
-        members = base.type[2]
-        assert isinstance(members, tuple)
         n = self.index(base.type, name, node)
-        return self.result(op.COMPOSITE_EXTRACT, members[n][1], base.id, n)
+        return self.result(op.COMPOSITE_EXTRACT, base.type[2][n][1], base.id, n)
 
     def binary(self, node: SyntaxNode, depth: int) -> Value:
         left, right, sign = self.parts(node, "left", "right", "operator")

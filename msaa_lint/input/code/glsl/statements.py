@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from msaa_lint.frame.spirv import numbers as op
 from msaa_lint.input.code.parsing import SyntaxNode, fields, without_comments
-from msaa_lint.input.code.sample_counts.arithmetic import whole
 
-from .declarations import Declarations, is_unsized
+from .declarations import Declarations
 from .text import PreprocessedText, UnsupportedShader
 from .types import BOOL, VOID, Type, is_image, size_of
-from .values import Function, Place, Value
+from .values import Function, Place
 
 MAX_DEPTH = 60
 """The maximum nesting of blocks."""
@@ -48,10 +47,7 @@ class Statements(Declarations):
         self.statements(body, 0)
         self.scopes.pop()
         if not self.ended:
-            if function.returns == VOID:
-                self.out.emit(op.RETURN)
-            else:
-                self.out.emit(op.UNREACHABLE)
+            self.out.emit(op.RETURN if function.returns == VOID else op.UNREACHABLE)
         self.out.end(function.id, function.returns, passed)
 
     def ensure_block(self) -> None:
@@ -97,8 +93,6 @@ class Statements(Declarations):
         elif kind == "switch_statement":
             self.switch(node, depth)
         elif kind in ("break_statement", "continue_statement"):
-            if not self.jump_targets:
-                raise self.unsupported(node, "is not supported")
             ways = [way[kind == "continue_statement"] for way in self.jump_targets if way[kind == "continue_statement"]]
             if not ways:
                 raise self.unsupported(node, "is not supported")
@@ -124,14 +118,7 @@ class Statements(Declarations):
         if kind is None or kind[0] == "opaque":
             raise self.unsupported(node, "has an unknown type")
         for declarator in node.children_by_field_name("declarator"):
-            initializer = declarator.child_by_field_name("value") if declarator.type == "init_declarator" else None
-            target = declarator.child_by_field_name("declarator") if declarator.type == "init_declarator" else declarator
-            declared_kind = kind
-            if initializer is not None and target is not None and is_unsized(target):
-                declared_kind, target = self.sized_by_values(initializer, kind), target.child_by_field_name("declarator")
-            if target is None:
-                raise self.unsupported(node, "is not supported")
-            name, declared_kind = self.declarator(target, declared_kind)
+            name, declared_kind, initializer = self.initialized(declarator, kind)
             value = self.value(initializer) if initializer is not None and initializer.type != "initializer_list" else None
             place = self.temporary(declared_kind)
             self.scopes[-1][name] = place
@@ -201,9 +188,7 @@ class Statements(Declarations):
 
     def switch(self, node: SyntaxNode, depth: int) -> None:
         out = self.out
-        condition, body = fields(node, "condition", "body")
-        if condition is None or body is None:
-            raise self.unsupported(node, "is not supported")
+        condition, body = self.parts(node, "condition", "body")
         selector = self.value(condition)
         cases = [child for child in body.named_children if child.type == "case_statement"]
         merge = out.id()
@@ -215,9 +200,7 @@ class Statements(Declarations):
             if value_node is None:
                 default = label
                 continue
-            number = whole(self.text_of(value_node))
-            constant = self.lookup(self.text_of(value_node)) if number is None and value_node.type == "identifier" else None
-            number = self.integer_constants.get(constant.id) if isinstance(constant, Value) else number
+            number = self.integer(self.text_of(value_node))
             if number is None:
                 raise self.unsupported(case, "is not supported")
             pairs += (number, label)

@@ -5,6 +5,7 @@ As with glslang without options, nothing is defined except what the file defines
 
 import re
 from bisect import bisect_right
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 MAX_TEXT = 1 << 20
@@ -71,21 +72,18 @@ def preprocess(text: str) -> PreprocessedText:
     macros: dict[str, Macro] = {"GL_core_profile": Macro(None, "1"), "VULKAN": Macro(None, "100"), "__VERSION__": Macro(None, "450")}
     branches: list[tuple[bool, bool]] = []
     """For each enclosing condition, whether the current branch is active and whether any branch was."""
-    lines = re.findall(r"(?:[^\n\\]|\\\n|\\)*(?:\n|\Z)", text)
-    for line in lines:
+    for line in re.findall(r"(?:[^\n\\]|\\\n|\\)*(?:\n|\Z)", text):
         directive = _DIRECTIVE.match(line) if "#" in line else None
-        part = line
+        parts: Iterable[tuple[str, int]] = [(blank(line), at)]
         if directive is not None:
             _apply_directive(directive[1], directive[2].replace("\\\n", "").strip(), macros, branches)
-            part = blank(line)
-        elif branches and not all(item for item, _ in branches):
-            part = blank(line)
-        else:
-            length, part = _expanded(line, at, length, macros, pieces, out)
-        if part:
-            pieces.append((length, at))
-            out.append(part)
-            length += len(part)
+        elif all(item for item, _ in branches):
+            parts = _expanded(line, at, macros)
+        for part, original in parts:
+            if part:
+                pieces.append((length, original))
+                out.append(part)
+                length += len(part)
         at += len(line)
         if length > MAX_TEXT:
             raise UnsupportedShader("macro expansion exceeds the limit")
@@ -141,12 +139,20 @@ def _condition_holds(condition: str, macros: dict[str, Macro]) -> bool:
     return answer
 
 
-def _expanded(line: str, at: int, length: int, macros: dict[str, Macro], pieces: list[tuple[int, int]], out: list[str]) -> tuple[int, str]:
-    """Outputs a line up to its last macro; returns the length of the output and the rest of the line, empty if it was output."""
-    if not any(name in line for name in macros):
-        return length, line
+def _expanded(line: str, at: int, macros: dict[str, Macro]) -> Iterator[tuple[str, int]]:
+    """Yields the parts of a line with its macros expanded, and the offset of each in the original text."""
     position = 0
-    tokens = [(match[0], match.start(), match.end()) for match in _TOKEN.finditer(line)]
+    if any(name in line for name in macros):
+        for start, end, body in _replacements(line, macros, 0):
+            yield line[position:start], at + position
+            yield body, at + start
+            position = end
+    yield line[position:], at + position
+
+
+def _replacements(text: str, macros: dict[str, Macro], depth: int) -> Iterator[tuple[int, int, str]]:
+    """Yields the range of each macro in a text, and its expansion."""
+    tokens = [(match[0], match.start(), match.end()) for match in _TOKEN.finditer(text)]
     index = 0
     while index < len(tokens):
         word, start, end = tokens[index]
@@ -154,27 +160,16 @@ def _expanded(line: str, at: int, length: int, macros: dict[str, Macro], pieces:
         index += 1
         if macro is None:
             continue
-        values: list[str] | None = None
+        body = macro.body
         if macro.parameters is not None:
             arguments = _arguments(tokens, index)
             if arguments is None:
                 continue
             values, index = arguments
             end = tokens[index - 1][2]
-        body = _expand(_filled(macro, values), {name: item for name, item in macros.items() if name != word}, 0)
-        for text, original in ((line[position:start], at + position), (body, at + start)):
-            if text:
-                pieces.append((length, original))
-                out.append(text)
-                length += len(text)
-        position = end
-    if position:
-        rest = line[position:]
-        if rest:
-            pieces.append((length, at + position))
-            out.append(rest)
-        return length + len(rest), ""
-    return length, line
+            named = dict(zip(macro.parameters, values, strict=False))
+            body = "".join(named.get(match[0], match[0]) for match in _TOKEN.finditer(body))
+        yield start, end, _expand(body, {name: item for name, item in macros.items() if name != word}, depth)
 
 
 def _arguments(tokens: list[tuple[str, int, int]], index: int) -> tuple[list[str], int] | None:
@@ -196,35 +191,20 @@ def _arguments(tokens: list[tuple[str, int, int]], index: int) -> tuple[list[str
     return None
 
 
-def _filled(macro: Macro, arguments: list[str] | None) -> str:
-    if not macro.parameters or arguments is None:
-        return macro.body
-    values = dict(zip(macro.parameters, arguments, strict=False))
-    return "".join(values.get(match[0], match[0]) for match in _TOKEN.finditer(macro.body))
-
-
 def _expand(text: str, macros: dict[str, Macro], depth: int) -> str:
     """Returns a text with its macros expanded."""
     if len(text) > MAX_EXPANDED:
         raise UnsupportedShader("macro expansion exceeds the limit")
-    tokens = [(match[0], match.start(), match.end()) for match in _TOKEN.finditer(text)]
-    if depth > MAX_NESTED or not any(word in macros for word, _, _ in tokens):
+    if depth > MAX_NESTED:
         return text
     out: list[str] = []
-    index = size = 0
-    while index < len(tokens):
-        word = tokens[index][0]
-        macro = macros.get(word)
-        index += 1
-        if macro is not None and macro.parameters is None:
-            word = _expand(macro.body, {name: item for name, item in macros.items() if name != word}, depth + 1)
-        elif macro is not None:
-            arguments = _arguments(tokens, index)
-            if arguments is not None:
-                body = _filled(macro, arguments[0])
-                word, index = _expand(body, {name: item for name, item in macros.items() if name != word}, depth + 1), arguments[1]
-        out.append(word)
-        size += len(word)
+    position = size = 0
+    for start, end, body in _replacements(text, macros, depth + 1):
+        out += (text[position:start], body)
+        size += start - position + len(body)
+        position = end
         if size > MAX_EXPANDED:
-            raise UnsupportedShader("macro expansion exceeds the limit")
-    return "".join(out)
+            break
+    if size + len(text) - position > MAX_EXPANDED:
+        raise UnsupportedShader("macro expansion exceeds the limit")
+    return "".join(out) + text[position:]

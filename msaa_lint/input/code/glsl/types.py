@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
-Type = tuple[object, ...]
+Type = tuple[Any, ...]
 """(name,) for a scalar; ("vec", scalar, n); ("mat", columns, rows); ("array", element, n or 0); ("struct", name, ((member, type), ...));
 ("opaque", name) for samplers and images."""
 
@@ -57,22 +58,20 @@ def multisampled(kind: Type) -> bool:
 
 def is_image(kind: Type) -> bool:
     """Returns whether a type is a sampler or image, or an array of them."""
-    inner = kind[1] if kind[0] == "array" else kind
-    return isinstance(inner, tuple) and inner[0] == "opaque"
+    inner: Type = kind[1] if kind[0] == "array" else kind
+    return bool(inner[0] == "opaque")
 
 
 def scalar_of(kind: Type) -> Type:
     """Returns the component type of a scalar, vector, or matrix."""
-    inner = kind[1] if kind[0] == "vec" else FLOAT if kind[0] == "mat" else kind
-    assert isinstance(inner, tuple)
+    inner: Type = kind[1] if kind[0] == "vec" else FLOAT if kind[0] == "mat" else kind
     return inner
 
 
 def size_of(kind: Type) -> int:
     """Returns the number of components of a scalar or vector; 0 for other types."""
     if kind[0] == "vec":
-        assert isinstance(kind[2], int)
-        return kind[2]
+        return int(kind[2])
     return 1 if len(kind) == 1 and kind != VOID else 0
 
 
@@ -100,8 +99,13 @@ _SAME = _words(
     subgroupShuffle"""
 )
 _FLOATS = _words("length distance dot determinant")
-_COMPARED = _words("lessThan lessThanEqual greaterThan greaterThanEqual equal notEqual isnan isinf")
-_COUNTED = _words("bitCount findLSB findMSB floatBitsToInt")
+_COMPONENTS: dict[str, Type] = {
+    **dict.fromkeys(_words("lessThan lessThanEqual greaterThan greaterThanEqual equal notEqual isnan isinf"), BOOL),
+    **dict.fromkeys(_words("bitCount findLSB findMSB floatBitsToInt"), INT),
+    **{"floatBitsToUint": UINT, "intBitsToFloat": FLOAT, "uintBitsToFloat": FLOAT},
+}
+"""The component types of results that have as many components as the first argument."""
+
 _TEXELS = _words(
     """texture textureLod textureOffset textureProj textureProjLod textureGrad textureLodOffset textureGather textureGatherOffset
     textureProjOffset textureProjGrad texelFetchOffset texture2D textureCube"""
@@ -136,14 +140,8 @@ def result(name: str, kinds: list[Type]) -> Type | None:
         return kinds[-1] if scalar_of(kinds[-1]) == FLOAT else vector(FLOAT, size_of(kinds[-1]))
     if name in _FLOATS:
         return FLOAT
-    if name in _COMPARED:
-        return vector(BOOL, size_of(first))
-    if name in _COUNTED:
-        return vector(INT, size_of(first))
-    if name == "intBitsToFloat" or name == "uintBitsToFloat":
-        return vector(FLOAT, size_of(first))
-    if name == "floatBitsToUint":
-        return vector(UINT, size_of(first))
+    if name in _COMPONENTS:
+        return vector(_COMPONENTS[name], size_of(first))
     if name in ("textureSize", "imageSize"):
         return ("vec", INT, 3 if "3D" in str(first[-1]) or "Array" in str(first[-1]) else 1 if "Buffer" in str(first[-1]) else 2)
     if name in _TEXELS or name in ("texelFetch", "imageLoad", "subpassLoad"):

@@ -147,9 +147,7 @@ class Values(SyntaxReader):
         return base._replace(parts=tuple(base.parts[part] for part in parts) if base.parts else parts)
 
     def member(self, base: Place, index: int) -> Place:
-        members = base.type[2]
-        assert isinstance(members, tuple)
-        return self.access_chain(base, members[index][1], self.out.number(INT, index))
+        return self.access_chain(base, base.type[2][index][1], self.out.number(INT, index))
 
     def access_chain(self, base: Place, kind: Type, index: int) -> Place:
         pointer = self.out.id()
@@ -158,22 +156,17 @@ class Values(SyntaxReader):
 
     def element(self, kind: Type, node: SyntaxNode) -> Type:
         """Returns the element type of an indexed type."""
-        if kind[0] in ("array", "vec"):
-            inner = kind[1]
-            assert isinstance(inner, tuple)
-            return inner
-        if kind[0] == "mat":
-            return ("vec", FLOAT, kind[2])
-        raise self.unsupported(node, "is not supported")
+        if kind[0] not in ("array", "vec", "mat"):
+            raise self.unsupported(node, "is not supported")
+        element: Type = ("vec", FLOAT, kind[2]) if kind[0] == "mat" else kind[1]
+        return element
 
     def index(self, kind: Type, name: str, node: SyntaxNode) -> int:
         """Returns the index of a structure member."""
-        members = kind[2]
-        assert isinstance(members, tuple)
-        for n, (member, _) in enumerate(members):
-            if member == name:
-                return n
-        raise self.unsupported(node, "is not a member")
+        names = [member for member, _ in kind[2]]
+        if name not in names:
+            raise self.unsupported(node, "is not a member")
+        return names.index(name)
 
     def swizzle_parts(self, name: str, kind: Type, node: SyntaxNode) -> tuple[int, ...]:
         """Returns the components of a swizzle."""
