@@ -9,7 +9,16 @@ from msaa_lint.core.text.span import Span
 from .frame_state import CallFrame, Pass, Pipeline
 from .interpreter import OBJECTS, SHARED, Interpreter
 from .members import as_texture, drawable
-from .metal import change_options, copy_descriptor, create_texture_descriptor, encode_pass, make_pipeline, make_texture, record
+from .metal import (
+    DESCRIPTOR_METHODS,
+    change_options,
+    copy_descriptor,
+    create_texture_descriptor,
+    encode_pass,
+    make_pipeline,
+    make_texture,
+    record,
+)
 from .terms import MEMBER, NAME, Function, Term
 from .values import MAX_ITEMS, NIL, UNKNOWN, Aggregate, Code, Constant, Instance, MetalObject, Symbol, Texture, Value
 
@@ -18,7 +27,6 @@ MAX_OVERLOADS = 20
 
 _NUMBERS = frozenset({"Int", "UInt", "NSUInteger", "Int32", "UInt32", "Int64", "NSInteger"})
 _READS = {"setFragmentTexture": "fragment", "setVertexTexture": "vertex", "setTileTexture": "tile"}
-_DESCRIPTORS = frozenset({"texture2DDescriptor", "textureCubeDescriptor", "textureBufferDescriptor"})
 _OPTIONS = frozenset({"insert", "formUnion", "remove"})
 _HARMLESS = frozenset({"print", "assert", "precondition", "NSLog", "debugPrint", "withExtendedLifetime"})
 _ENCODERS = frozenset({"makeRenderCommandEncoder", "makeParallelRenderCommandEncoder"})
@@ -119,7 +127,7 @@ def _by_name(interpreter: Interpreter, name: str, call: Call, frame: CallFrame) 
         return _construct(interpreter, name, call, frame)
     if name in _HARMLESS:
         return UNKNOWN
-    if name and interpreter.type_of(name) is not None:
+    if name and name in interpreter.unit.types:
         return _instance(interpreter, name, call)
     for type_name in dict.fromkeys((frame.type_name, "")):
         method = _function(interpreter, type_name, name, call)
@@ -162,8 +170,7 @@ def _instance(interpreter: Interpreter, name: str, call: Call) -> Value:
 
 def _function(interpreter: Interpreter, type_name: str, name: str, call: Call) -> Function | None:
     """The one function of a type that a call matches; None where there is none, or several."""
-    declaring = interpreter.type_of(type_name)
-    overloads = declaring.named(name)[:MAX_OVERLOADS] if declaring is not None else ()
+    overloads = interpreter.type_of(type_name).functions.get(name, ())[:MAX_OVERLOADS]
     matches = [function for function in overloads if call.matches(function)]
     return matches[0] if len(matches) == 1 else None
 
@@ -172,7 +179,7 @@ def _by_member(interpreter: Interpreter, function: Term, call: Call, frame: Call
     """The value of `target.name(...)`; None where nothing is known of the method."""
     target, name = function[1], function[2]
     descriptor = dict(call.arguments).get("descriptor")
-    if name in _DESCRIPTORS:
+    if name in DESCRIPTOR_METHODS:
         return create_texture_descriptor(interpreter, call.arguments, call.terms, call.at, frame, name)
     if name == "makeTexture" and isinstance(descriptor, MetalObject):
         return make_texture(interpreter, descriptor, call.at, frame)
@@ -188,7 +195,7 @@ def _by_member(interpreter: Interpreter, function: Term, call: Call, frame: Call
     if name == "init" and target is not None and target[0] == NAME and target[1] in OBJECTS:
         return _construct(interpreter, target[1], call, frame)
     if name in _OPTIONS and target is not None and target[0] == MEMBER and target[1] is not None:
-        change_options(interpreter, interpreter.evaluate(interpreter, target[1], frame), target, name, call.arguments, call.at, frame)
+        change_options(interpreter, interpreter.evaluate(interpreter, target[1], frame), target, name, call.arguments, call.at)
         return NIL
     if target is None:
         return _implicit(interpreter, name, call, frame)
@@ -213,7 +220,7 @@ def _file_method(interpreter: Interpreter, owner: Value, target: Term, name: str
         owner.type if isinstance(owner, Instance) else target[1] if target[0] == NAME and target[1] in interpreter.unit.types else ""
     )
     if isinstance(owner, MetalObject):
-        type_name = next((name for name, kind in OBJECTS.items() if kind == owner.kind and interpreter.type_of(name) is not None), "")
+        type_name = next((name for name, kind in OBJECTS.items() if kind == owner.kind and name in interpreter.unit.types), "")
     function = _function(interpreter, type_name, name, call) if type_name else None
     if function is not None:
         self_value = owner if isinstance(owner, MetalObject) else frame.self_value

@@ -10,9 +10,9 @@ from .conditions import decide
 from .configurations import about_samples, last_name
 from .frame_state import CallFrame
 from .interpreter import Interpreter
-from .members import adopt_descriptor, index_of, member_of
+from .members import adopt_descriptor, drawable, index_of, member_of
 from .terms import BINARY, CALL, CHOICE, CLOSURE, INDEX, LIST, LITERAL, MEMBER, NAME, NOT, TUPLE, Term
-from .values import MAX_ITEMS, NIL, UNKNOWN, Aggregate, Code, Constant, Instance, Symbol, Texture, Value, join
+from .values import MAX_ITEMS, NIL, UNKNOWN, Aggregate, Code, Constant, Instance, Symbol, Texture, Value, join, options
 
 _LARGEST = 1 << 40
 
@@ -75,14 +75,13 @@ def _name(interpreter: Interpreter, name: str, at: Span, frame: CallFrame) -> Va
 def _declared(interpreter: Interpreter, type_name: str, name: str, at: Span, frame: CallFrame) -> Value | None:
     """Returns the value of a property or a global constant, or None."""
     declaring_type = interpreter.type_of(type_name)
-    if declaring_type is not None and name in declaring_type.computed:
+    if name in declaring_type.computed:
         return interpreter.call(interpreter, declaring_type.computed[name], {}, frame, at, None)
     value = interpreter.property(type_name, name)
-    if (value is None or value == NIL or value is UNKNOWN) and declaring_type is not None and name in declaring_type.members:
-        kind = declaring_type.members[name].type
-        type_node = interpreter.typed_object(kind, name, Span(0, 0), (type_name, name))
-        return type_node if type_node is not None else value if value == NIL and not kind else Symbol(name, type_name)
-    member = declaring_type.members.get(name) if declaring_type is not None else None
+    member = declaring_type.members.get(name)
+    if (value is None or value == NIL or value is UNKNOWN) and member is not None:
+        type_node = interpreter.typed_object(member.type, name, Span(0, 0), (type_name, name))
+        return type_node if type_node is not None else value if value == NIL and not member.type else Symbol(name, type_name)
     if value is UNKNOWN or (member is not None and member.variable and _may_change(interpreter, type_name, name, value, member.open)):
         return Symbol(name, type_name)
     return value
@@ -110,8 +109,7 @@ def _member(interpreter: Interpreter, term: Term, frame: CallFrame) -> Value:
         return Constant(name)
     owner = owner_of(interpreter, target, name, frame)
     if isinstance(owner, Instance):
-        declaring_type = interpreter.type_of(owner.type)
-        if declaring_type is not None and name in declaring_type.cases:
+        if name in interpreter.type_of(owner.type).cases:
             return Constant(f"{owner.type}.{name}")
         value = _declared(interpreter, owner.type, name, at, frame)
         return value if value is not None else Symbol(name, owner.type)
@@ -123,7 +121,7 @@ def _member(interpreter: Interpreter, term: Term, frame: CallFrame) -> Value:
     if member is not None:
         return member
     if name == "texture" and "drawable" in last_name(target).lower():
-        return _drawable_texture(interpreter, at, frame)
+        return drawable(interpreter, at)
     return Symbol(f"{_words(target, interpreter)}.{name}", frame.function_name if isinstance(owner, Symbol) else frame.type_name)
 
 
@@ -131,22 +129,17 @@ def owner_of(interpreter: Interpreter, target: Term, name: str, frame: CallFrame
     """Returns the owner of a member; for `self`, the type if it declares the member."""
     if target[:2] == (NAME, "self"):
         declaring_type = interpreter.type_of(frame.type_name)
-        if declaring_type is not None and (name in declaring_type.members or name in declaring_type.computed):
+        if name in declaring_type.members or name in declaring_type.computed:
             return Instance(frame.type_name)
     return evaluate(interpreter, target, frame)
-
-
-def _drawable_texture(interpreter: Interpreter, at: Span, frame: CallFrame) -> Value:
-    return member_of(interpreter, interpreter.object_at("drawable", "drawable", at, 0, False), "texture", at, frame) or UNKNOWN
 
 
 def _raw(interpreter: Interpreter, name: str, frame: CallFrame) -> Value:
     """Returns the raw value of an enumeration case. For option sets, the names are enough."""
     of, _, case = name.rpartition(".")
-    declaring_type = interpreter.type_of(of) if of else None
-    if declaring_type is None:
+    if not of or of not in interpreter.unit.types:
         return Constant(name)
-    raw = declaring_type.cases.get(case)
+    raw = interpreter.unit.types[of].cases.get(case)
     return evaluate(interpreter, raw, frame) if raw is not None else UNKNOWN
 
 
@@ -178,7 +171,7 @@ def _binary(interpreter: Interpreter, term: Term, frame: CallFrame) -> Value:
         return UNKNOWN
     one, other = left.value, right.value
     if sign == "|" and isinstance(one, (str, tuple)) and isinstance(other, (str, tuple)):
-        return Constant(_options(one) + _options(other))
+        return Constant(options(one) + options(other))
     if isinstance(one, bool) and isinstance(other, bool) and sign in ("&&", "||"):
         return Constant((one and other) if sign == "&&" else (one or other))
     if sign in ("==", "!="):
@@ -193,10 +186,6 @@ def _binary(interpreter: Interpreter, term: Term, frame: CallFrame) -> Value:
     elif sign == "/" and other:
         result = one // other if isinstance(one, int) and isinstance(other, int) else one / other
     return Constant(result) if result is not None and abs(result) < _LARGEST else UNKNOWN
-
-
-def _options(value: str | tuple[str, ...]) -> tuple[str, ...]:
-    return value if isinstance(value, tuple) else (value,)
 
 
 def _list(interpreter: Interpreter, term: Term, frame: CallFrame) -> Value:
@@ -234,9 +223,3 @@ def cell(term: Term, frame: CallFrame) -> tuple[str, str] | None:
     if term[0] == MEMBER and term[1] is not None and term[1][:2] == (NAME, "self"):
         return frame.type_name, f"{term[2]}[]"
     return None
-
-
-def declares(interpreter: Interpreter, type_name: str, name: str) -> bool:
-    """Returns whether a type declares a stored property."""
-    declaring_type = interpreter.type_of(type_name)
-    return declaring_type is not None and name in declaring_type.members

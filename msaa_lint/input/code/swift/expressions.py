@@ -45,8 +45,8 @@ class Expressions(SyntaxReader):
         if kind == "call_expression":
             return self.call(node, depth)
         if kind in _WRAPPERS:
-            inner = node.child_by_field_name(_WRAPPERS[kind]) or last_named(node)
-            return self.expression(inner, depth + 1)
+            inner = node.child_by_field_name(_WRAPPERS[kind])
+            return self.expression(inner or next(reversed(node.named_children), None), depth + 1)
         if kind in _BINARY:
             return self.binary(node, depth)
         if kind == "nil_coalescing_expression":
@@ -180,8 +180,3 @@ class Expressions(SyntaxReader):
 def block(node: SyntaxNode) -> list[SyntaxNode]:
     """Returns the statements in the braces of a node."""
     return [item for child in node.named_children if child.type == "statements" for item in child.named_children]
-
-
-def last_named(node: SyntaxNode) -> SyntaxNode | None:
-    """Returns the last named child."""
-    return node.named_children[-1] if node.named_children else None

@@ -73,11 +73,13 @@ class Pipeline:
 
     __slots__ = ("at", "colors", "descriptor", "fields", "name", "passes", "type_name")
 
-    def __init__(self, descriptor: MetalObject, at: Span, fields: dict[str, Field], colors: dict[str, dict[str, Field]]) -> None:
+    def __init__(
+        self, descriptor: MetalObject, at: Span, fields: dict[str, Field], colors: dict[str, dict[str, Field]], type_name: str
+    ) -> None:
         self.descriptor = descriptor
         self.at = at
         self.fields = fields
         self.colors = colors
         self.name = descriptor.name
-        self.type_name = ""
+        self.type_name = type_name
         self.passes: list[Pass] = []

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from functools import partial, reduce
 from typing import Any
 
 from msaa_lint.core.text.span import Span
 
+from .expressions import block
 from .frame_state import CallFrame, Encoded, Pass, Pipeline
 from .syntax import Syntax
 from .terms import Function, Term, Type, Unit
@@ -37,6 +39,7 @@ OBJECTS = {
 SHARED = frozenset({"view", "layer", "drawable"})
 """Kinds of which a file has a single object, with several names."""
 
+_UNDECLARED = Type("", {}, {}, {}, {}, set())
 _PLAIN = re.compile(r"^(?:any |some |inout )*([A-Za-z_][\w.]*)")
 
 
@@ -103,15 +106,14 @@ class Interpreter:
 
     def end(self) -> None:
         """Keeps the values of properties and members for the next execution."""
-        self.property_values, self.member_values, self.call_arguments = (
-            self.new_property_values,
-            self.new_member_values,
-            self.new_call_arguments,
-        )
+        self.property_values = self.new_property_values
+        self.member_values = self.new_member_values
+        self.call_arguments = self.new_call_arguments
         self.new_call_arguments = {}
 
-    def type_of(self, name: str) -> Type | None:
-        return self.unit.types.get(name)
+    def type_of(self, name: str) -> Type:
+        """Returns the type with a name; one without members if the file declares none."""
+        return self.unit.types.get(name, _UNDECLARED)
 
     def call_path(self, frame: CallFrame, site: int) -> int:
         """Returns a number that identifies the call path to a location."""
@@ -124,15 +126,11 @@ class Interpreter:
 
     def object_of(self, key: tuple[object, ...], kind: str, name: str, at: Span, complete: bool) -> MetalObject:
         """Returns the object with a key, which is created on first use."""
-        if key not in self.objects:
-            self.objects[key] = MetalObject(kind, name, at, complete)
-        return self.objects[key]
+        return self.objects.setdefault(key, MetalObject(kind, name, at, complete))
 
     def texture_of(self, key: tuple[object, ...], name: str, type_name: str, at: Span) -> Texture:
         """Returns the texture with a key, which is created on first use."""
-        if key not in self.textures:
-            self.textures[key] = Texture(name, type_name, at)
-        return self.textures[key]
+        return self.textures.setdefault(key, Texture(name, type_name, at))
 
     def reset(self, item: MetalObject) -> None:
         """Resets an object whose creation is executed again."""
@@ -148,22 +146,19 @@ class Interpreter:
         object_kind = OBJECTS.get(written)
         if object_kind is None and self.is_view(written):
             object_kind = "view"
-        type_ = self.unit.types.get(written)
-        if object_kind is None and type_ is not None and type_.members and not type_.cases:
+        type_ = self.type_of(written)
+        if object_kind is None and type_.members and not type_.cases:
             return Instance(written)
         return self.object_at(object_kind, name, at, (path, name), False) if object_kind is not None else None
 
     def is_view(self, name: str) -> bool:
         """Returns whether a type in the file is an MTKView."""
-        type_ = self.unit.types.get(name)
-        return type_ is not None and any(supertype == "MTKView" for supertype in type_.inherits)
+        return "MTKView" in self.type_of(name).inherits
 
     def self_value(self, type_name: str) -> Value | None:
         """Returns `self` in the functions of a Metal type."""
-        if type_name in OBJECTS or self.is_view(type_name):
-            kind = OBJECTS.get(type_name, "view")
-            return self.object_at(kind, kind, Span(0, 0), type_name, False) if kind in SHARED else None
-        return None
+        kind = OBJECTS.get(type_name) or ("view" if self.is_view(type_name) else "")
+        return self.object_at(kind, kind, Span(0, 0), type_name, False) if kind in SHARED else None
 
     def set_field(self, item: MetalObject, name: str, value: Value, key: Span, at: Span) -> None:
         """Sets a member of an object."""
@@ -194,8 +189,7 @@ class Interpreter:
     def set_property(self, type_name: str, name: str, value: Value, at: Span) -> None:
         self.name_value(value, "" if name.endswith("[]") else name, type_name, -1)
         if isinstance(value, Texture):
-            type_ = self.unit.types.get(type_name)
-            member = type_.members.get(name.removesuffix("[]")) if type_ is not None else None
+            member = self.type_of(type_name).members.get(name.removesuffix("[]"))
             value.open = value.open or member is None or member.open
         self.hold_property(type_name, name, value, at)
 
@@ -214,10 +208,7 @@ class Interpreter:
         field = self.current_properties.get(type_name, {}).get(name)
         if field is not None and field.by == self.root:
             return field.value
-        value = self.property_values.get((type_name, name))
-        if value is None:
-            return field.value if field is not None else None
-        return value
+        return self.property_values.get((type_name, name), field.value if field is not None else None)
 
     def variable(self, frame: CallFrame, name: str, value: Value) -> None:
         """Declares a variable."""
@@ -238,12 +229,9 @@ class Interpreter:
                 if isinstance(item, Texture) and not item.name and not label.isdigit():
                     self.name_value(item, label, type_name, 1 << 29)
         elif isinstance(value, MetalObject) and name:
-            if value.kind == "state":
-                pipeline = value.of
-                if isinstance(pipeline, Pipeline):
-                    pipeline.name, pipeline.type_name = name, type_name
-            elif not value.name:
-                value.name, value.type_name = name, type_name
+            holder = value.of if value.kind == "state" else value
+            if isinstance(holder, Pipeline) or (holder is value and not value.name):
+                holder.name, holder.type_name = name, type_name
 
     def named_texture(self, text: str, function_name: str, at: Span) -> Texture:
         """Returns a texture of which only the name is known."""
@@ -251,8 +239,6 @@ class Interpreter:
 
     def body(self, function: Function) -> tuple[Term, ...]:
         """Returns the statements of a function, which are parsed on demand."""
-        from .expressions import block
-
         key = function.at.start
         statements = self.bodies.get(key)
         if statements is None:
@@ -268,7 +254,4 @@ def _made_for(first: Texture, second: Texture, type_name: str, name: str) -> boo
 
 def join_all(values: list[Value]) -> Value:
     """Returns the result of a function from all its possible return values."""
-    agreed_value: Value | None = None
-    for value in values:
-        agreed_value = value if agreed_value is None else join(agreed_value, value, optional=True)
-    return NIL if agreed_value is None else agreed_value
+    return reduce(partial(join, optional=True), values) if values else NIL

@@ -8,7 +8,7 @@ from .configurations import last_name
 from .frame_state import CallFrame
 from .interpreter import Interpreter
 from .terms import MEMBER, NAME, Term
-from .values import NIL, UNKNOWN, Aggregate, Constant, Field, MetalObject, Symbol, Texture, Value
+from .values import NIL, UNKNOWN, Aggregate, Constant, Field, MetalObject, Symbol, Texture, Value, options
 
 ANY = "color?"
 """The color attachment with an unknown index."""
@@ -34,21 +34,20 @@ _STORAGE = {f"storageMode{mode.capitalize()}": mode for mode in ("shared", "mana
 
 def member_of(interpreter: Interpreter, value: Value, name: str, at: Span, frame: CallFrame) -> Value | None:
     """Returns a member of a value, or None if the value is not tracked."""
-    if isinstance(value, MetalObject):
-        return _of_object(interpreter, value, name, at, frame)
     if isinstance(value, Texture):
         fields = value.made[-1] if value.made else {}
         return fields[name].value if name in fields else None
     if isinstance(value, Aggregate):
         return value.items.get(name, UNKNOWN)
-    if name in _PASSES:
-        return view_pass(interpreter, at, frame)
-    if name == "currentDrawable":
-        return interpreter.object_at("drawable", "drawable", at, 0, False)
-    return None
+    if not isinstance(value, MetalObject) or value.kind == "view":
+        if name in _PASSES:
+            return view_pass(interpreter, at, frame)
+        if name == "currentDrawable":
+            return interpreter.object_at("drawable", "drawable", at, 0, False)
+    return _of_object(interpreter, value, name, at) if isinstance(value, MetalObject) else None
 
 
-def _of_object(interpreter: Interpreter, metal_object: MetalObject, name: str, at: Span, frame: CallFrame) -> Value | None:
+def _of_object(interpreter: Interpreter, metal_object: MetalObject, name: str, at: Span) -> Value | None:
     kind = metal_object.kind
     if kind in ("pass", "pipeline"):
         if name == "colorAttachments":
@@ -56,13 +55,7 @@ def _of_object(interpreter: Interpreter, metal_object: MetalObject, name: str, a
         if name in _ATTACHMENTS:
             return attachment_slot(interpreter, metal_object, name, at)
     elif kind == "view":
-        if name in _PASSES:
-            return view_pass(interpreter, at, frame)
-        if name == "currentDrawable":
-            return interpreter.object_at("drawable", "drawable", at, 0, False)
-        if name == "multisampleColorTexture":
-            return view_texture(interpreter, metal_object, name, at)
-        if name == "depthStencilTexture":
+        if name in ("multisampleColorTexture", "depthStencilTexture"):
             return view_texture(interpreter, metal_object, name, at)
         if name == "layer":
             return interpreter.object_at("layer", "layer", at, 0, False)
@@ -131,8 +124,8 @@ def set_member(interpreter: Interpreter, owner: Value, name: str, value: Value, 
         elif name in _OF_PIPELINES and isinstance(owner.of, MetalObject) and not owner.of.complete:
             owner.of.kind = "pipeline"
     elif name == "resourceOptions":
-        words = value.value if isinstance(value, Constant) else ()
-        modes = [_STORAGE[word] for word in (words if isinstance(words, tuple) else (str(words),)) if word in _STORAGE]
+        words = value.value if isinstance(value, Constant) else None
+        modes = [_STORAGE[word] for word in (options(words) if isinstance(words, (str, tuple)) else ()) if word in _STORAGE]
         name, value = "storageMode", Constant(modes[0]) if modes else UNKNOWN
     elif name in _ATTACHMENTS and owner.kind == "pass" and not isinstance(value, MetalObject):
         value = UNKNOWN
@@ -204,25 +197,30 @@ def view_pass(interpreter: Interpreter, at: Span, frame: CallFrame) -> MetalObje
     descriptor = interpreter.object_at("pass", "", at, frame.path, True)
     view = interpreter.object_at("view", "view", at, 0, False)
     descriptor.of = view
-    count = interpreter.new_member_values.get((id(view), "sampleCount"), interpreter.member_values.get((id(view), "sampleCount")))
+    count = _view_setting(interpreter, view, "sampleCount")
     several = isinstance(count, Constant) and type(count.value) is int and count.value > 1
     if not several or len(interpreter.views) > 1:
         descriptor.complete = False
         return descriptor
-    color = attachment_slot(interpreter, descriptor, "color0", at)
-    if isinstance(color, MetalObject):
-        interpreter.set_field(color, "texture", view_texture(interpreter, view, "multisampleColorTexture", at), at, at)
-        interpreter.set_field(color, "resolveTexture", drawable(interpreter, at), at, at)
-        interpreter.set_field(color, "loadAction", Constant("clear"), at, at)
-        interpreter.set_field(color, "storeAction", Constant("multisampleResolve"), at, at)
-    kind = interpreter.new_member_values.get(
-        (id(view), "depthStencilPixelFormat"), interpreter.member_values.get((id(view), "depthStencilPixelFormat"))
-    )
-    written = kind.value if isinstance(kind, Constant) and isinstance(kind.value, str) else ""
-    for name, words in (("depthAttachment", ("depth",)), ("stencilAttachment", ("stencil",))):
-        attachment = attachment_slot(interpreter, descriptor, name, at) if any(word in written for word in words) else None
-        if isinstance(attachment, MetalObject):
-            interpreter.set_field(attachment, "texture", view_texture(interpreter, view, "depthStencilTexture", at), at, at)
-            interpreter.set_field(attachment, "loadAction", Constant("clear"), at, at)
-            interpreter.set_field(attachment, "storeAction", Constant("dontCare"), at, at)
+    _clear(interpreter, descriptor, "color0", view_texture(interpreter, view, "multisampleColorTexture", at), "multisampleResolve", at)
+    pixels = _view_setting(interpreter, view, "depthStencilPixelFormat")
+    for word in ("depth", "stencil"):
+        if isinstance(pixels, Constant) and isinstance(pixels.value, str) and word in pixels.value:
+            _clear(interpreter, descriptor, f"{word}Attachment", view_texture(interpreter, view, "depthStencilTexture", at), "dontCare", at)
     return descriptor
+
+
+def _view_setting(interpreter: Interpreter, view: MetalObject, name: str) -> Value | None:
+    place = (id(view), name)
+    return interpreter.new_member_values.get(place, interpreter.member_values.get(place))
+
+
+def _clear(interpreter: Interpreter, descriptor: MetalObject, slot: str, texture: Texture, store: str, at: Span) -> None:
+    """Sets an attachment that is cleared."""
+    attachment = attachment_slot(interpreter, descriptor, slot, at)
+    if isinstance(attachment, MetalObject):
+        interpreter.set_field(attachment, "texture", texture, at, at)
+        if store == "multisampleResolve":
+            interpreter.set_field(attachment, "resolveTexture", drawable(interpreter, at), at, at)
+        interpreter.set_field(attachment, "loadAction", Constant("clear"), at, at)
+        interpreter.set_field(attachment, "storeAction", Constant(store), at, at)

@@ -8,7 +8,13 @@ from .frame_state import CallFrame, Encoded, Pass, Pipeline
 from .interpreter import Interpreter
 from .members import ANY
 from .terms import Term, name_at
-from .values import UNKNOWN, Constant, Field, MetalObject, Texture, Value
+from .values import UNKNOWN, Constant, Field, MetalObject, Value, constant_of, options
+
+DESCRIPTOR_METHODS = {"texture2DDescriptor": "", "textureCubeDescriptor": "typeCube", "textureBufferDescriptor": "typeTextureBuffer"}
+"""Class methods that create a texture descriptor, and the texture type that each sets."""
+
+_MEMBERS = {"size": "width", "mipmapped": "mipmapLevelCount"}
+"""The members that arguments of these methods set, unless they have the same name."""
 
 
 def record(interpreter: Interpreter, kind: str, what: tuple[object, ...], at: Span) -> None:
@@ -25,34 +31,23 @@ def create_texture_descriptor(
         place = Span(max(term[-1].start - len(label) - 2, at.start), term[-1].start) if label else term[-1]
         start = interpreter.text.rfind(label, at.start, term[-1].start) if label else -1
         key = Span(start, start + len(label)) if start >= 0 else place
-        if label == "size":
-            interpreter.set_field(descriptor, "width", value, key, term[-1])
-        elif label != "mipmapped":
-            interpreter.set_field(descriptor, label, value, key, term[-1])
-        elif value == Constant(False):
-            interpreter.set_field(descriptor, "mipmapLevelCount", Constant(1), key, term[-1])
-        else:
-            interpreter.set_field(descriptor, "mipmapLevelCount", UNKNOWN, key, term[-1])
-    if name != "texture2DDescriptor":
-        interpreter.set_field(
-            descriptor, "textureType", Constant("typeCube" if name == "textureCubeDescriptor" else "typeTextureBuffer"), at, at
-        )
+        if label == "mipmapped":
+            value = Constant(1) if value == Constant(False) else UNKNOWN
+        interpreter.set_field(descriptor, _MEMBERS.get(label, label), value, key, term[-1])
+    if DESCRIPTOR_METHODS[name]:
+        interpreter.set_field(descriptor, "textureType", Constant(DESCRIPTOR_METHODS[name]), at, at)
     return descriptor
 
 
-def change_options(
-    interpreter: Interpreter, owner: Value, target: Term, name: str, arguments: list[tuple[str, Value]], at: Span, frame: CallFrame
-) -> None:
+def change_options(interpreter: Interpreter, owner: Value, target: Term, name: str, arguments: list[tuple[str, Value]], at: Span) -> None:
     """Executes `insert` and similar methods of option sets."""
     if not isinstance(owner, MetalObject) or not arguments:
         return
-    field = interpreter.field(owner, target[2])
-    before = field.value.value if field is not None and isinstance(field.value, Constant) else None
+    before = constant_of(interpreter.field(owner, target[2]))
     change = arguments[0][1].value if isinstance(arguments[0][1], Constant) else None
     value: Value = UNKNOWN
     if isinstance(before, (str, tuple)) and isinstance(change, (str, tuple)):
-        one = before if isinstance(before, tuple) else (before,)
-        other = change if isinstance(change, tuple) else (change,)
+        one, other = options(before), options(change)
         value = Constant(tuple(word for word in one if word not in other) if name == "remove" else one + other)
     interpreter.set_field(owner, target[2], value, name_at(target), at)
 
@@ -82,10 +77,8 @@ def make_texture(interpreter: Interpreter, descriptor: Value, at: Span, frame: C
         return UNKNOWN
     key: tuple[object, ...] = ("made", at.start, frame.path)
     key = interpreter.same.get(key, key)
-    texture = interpreter.textures.get(key)
-    if texture is None:
-        texture = interpreter.textures[key] = Texture("", frame.function_name, at)
-        texture.key = key
+    texture = interpreter.texture_of(key, "", frame.function_name, at)
+    texture.key = key
     fields = interpreter.snapshot(descriptor)
     if descriptor.complete and not descriptor.loose:
         fields.setdefault("textureType", Field(Constant("type2D"), descriptor.at, descriptor.at, 0, True))
@@ -105,11 +98,8 @@ def encode_pass(interpreter: Interpreter, buffer: Value, descriptor: Value, at: 
     if not isinstance(descriptor, MetalObject) or descriptor.kind != "pass":
         interpreter.incomplete.add(interpreter.root)
         return encoder
-    render_pass = pass_of(interpreter, descriptor, at)
     key = (id(descriptor), at.start, frame.path)
-    interpreter.passes.setdefault(key, render_pass)
-    render_pass = interpreter.passes[key]
-    encoder.of = render_pass
+    encoder.of = render_pass = interpreter.passes.setdefault(key, pass_of(interpreter, descriptor, at))
     record(interpreter, "pass", (render_pass,), at)
     return encoder
 
@@ -126,10 +116,8 @@ def pass_of(interpreter: Interpreter, descriptor: MetalObject, at: Span) -> Pass
             elif fields:
                 attachments[name] = fields
     for name, fields in attachments.items():
-        if name.startswith("color"):
-            for member in unknown:
-                if member in fields:
-                    fields[member] = fields[member]._replace(value=UNKNOWN)
+        for member in unknown & fields.keys() if name.startswith("color") else ():
+            fields[member] = fields[member]._replace(value=UNKNOWN)
     return Pass(descriptor, at, attachments, descriptor.complete and not descriptor.loose and not unknown)
 
 
@@ -147,14 +135,7 @@ def make_pipeline(interpreter: Interpreter, descriptor: Value, at: Span, frame: 
 
 def pipeline_of(interpreter: Interpreter, descriptor: MetalObject, at: Span, type_name: str) -> Pipeline:
     """Returns a pipeline with the current state of a descriptor."""
-    colors: dict[str, dict[str, Field]] = {}
-    fields: dict[str, Field] = {}
-    for name, field in interpreter.snapshot(descriptor).items():
-        if isinstance(field.value, MetalObject):
-            if field.value.kind == "attachment" and name != ANY:
-                colors[name] = interpreter.snapshot(field.value)
-        else:
-            fields[name] = field
-    pipeline = Pipeline(descriptor, at, fields, colors)
-    pipeline.type_name = type_name
-    return pipeline
+    fields = interpreter.snapshot(descriptor)
+    objects = {name: value for name, field in fields.items() if isinstance(value := field.value, MetalObject)}
+    colors = {name: interpreter.snapshot(item) for name, item in objects.items() if item.kind == "attachment" and name != ANY}
+    return Pipeline(descriptor, at, {name: field for name, field in fields.items() if name not in objects}, colors, type_name)

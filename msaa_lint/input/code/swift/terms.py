@@ -84,21 +84,12 @@ class Type(NamedTuple):
     cases: dict[str, Term | None]
     inherits: set[str]
 
-    def named(self, name: str) -> list[Function]:
-        return self.functions.get(name, [])
-
 
 class Unit(NamedTuple):
     """The contents of a file: its types by name, with global declarations under the empty name, and its global statements."""
 
     types: dict[str, Type]
     outside: tuple[Term, ...]
-
-
-def at(term: Term) -> Span:
-    """Returns the location of a term."""
-    place: Span = term[-1]
-    return place
 
 
 def name_at(member: Term) -> Span:

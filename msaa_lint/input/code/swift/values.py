@@ -124,8 +124,14 @@ class Field(NamedTuple):
 MULTISAMPLED_TYPES = frozenset({"type2DMultisample", "type2DMultisampleArray"})
 
 
-def _is_known(field: Field | None) -> bool:
-    return field is not None and isinstance(field.value, Constant)
+def constant_of(field: Field | None) -> Scalar:
+    """Returns the value of a member if it is known, or None."""
+    return field.value.value if field is not None and isinstance(field.value, Constant) else None
+
+
+def options(value: str | tuple[str, ...]) -> tuple[str, ...]:
+    """Returns the names in an option set, which may be a single name."""
+    return value if isinstance(value, tuple) else (value,)
 
 
 def join(first: Value, second: Value, name: str = "", optional: bool = False) -> Value:
@@ -137,23 +143,17 @@ def join(first: Value, second: Value, name: str = "", optional: bool = False) ->
         return first
     if optional and NIL in (first, second):
         return second if first == NIL else first
-    if isinstance(first, Constant) and isinstance(second, Constant):
-        low = name.lower()
-        if "sample" in low or "msaa" in low:
-            if first.value == 1 and type(second.value) is int:
-                return second
-            if second.value == 1 and type(first.value) is int:
-                return first
-        if first.value in MULTISAMPLED_TYPES and second.value in ("type2D", "type2DArray"):
-            return first
-        if second.value in MULTISAMPLED_TYPES and first.value in ("type2D", "type2DArray"):
-            return second
-    if isinstance(first, Texture) and isinstance(second, Texture) and first.multisampled != second.multisampled:
-        return first if first.multisampled else second
-    if isinstance(first, Symbol) and second == Constant(1):
-        return first
-    if isinstance(second, Symbol) and first == Constant(1):
-        return second
+    counts = "sample" in name.lower() or "msaa" in name.lower()
+    for one, other in ((first, second), (second, first)):
+        if isinstance(one, Constant) and isinstance(other, Constant):
+            if counts and one.value == 1 and type(other.value) is int:
+                return other
+            if one.value in MULTISAMPLED_TYPES and other.value in ("type2D", "type2DArray"):
+                return one
+        if isinstance(one, Texture) and isinstance(other, Texture) and one.multisampled and not other.multisampled:
+            return one
+        if isinstance(one, Symbol) and other == Constant(1):
+            return one
     if isinstance(first, Aggregate) and isinstance(second, Aggregate) and first.items.keys() == second.items.keys():
         return Aggregate({label: join(value, second.items[label], label) for label, value in first.items.items()})
     names = _names(first) | _names(second)
@@ -172,17 +172,7 @@ def _names(value: Value) -> frozenset[str]:
 
 def join_fields(first: dict[str, Field], second: dict[str, Field]) -> dict[str, Field]:
     """Returns the members of an object that has one of two states."""
-    fields: dict[str, Field] = {}
-    for name in {**first, **second}:
-        one, other = first.get(name), second.get(name)
-        if one is None or other is None:
-            known = one or other
-            assert known is not None
-            fields[name] = known._replace(value=join(known.value, UNKNOWN))
-        else:
-            value = join(one.value, other.value, name)
-            fields[name] = (other if value == other.value else one)._replace(value=value)
-    return fields
+    return {name: _join_field(first.get(name), second.get(name), name) for name in {**first, **second}}
 
 
 Writes = dict[tuple[int, str], tuple[dict[str, Any], Any]]
@@ -230,7 +220,7 @@ class UndoLog:
             if one is None and other is None:
                 self.write(where, name, None)
             elif isinstance(one, Field) or isinstance(other, Field):
-                self.write(where, name, _field(one, other, name))
+                self.write(where, name, _join_field(one, other, name))
             else:
                 self.write(where, name, join(one or NIL, other or NIL, name, optional=True))
 
@@ -240,7 +230,7 @@ class UndoLog:
             self.write(where, name, value)
 
 
-def _field(one: Field | None, other: Field | None, name: str) -> Field:
+def _join_field(one: Field | None, other: Field | None, name: str) -> Field:
     if one is None or other is None:
         known = one or other
         assert known is not None
