@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
@@ -144,13 +144,6 @@ def _tool(table: Mapping[str, Any]) -> Mapping[str, Any]:
     return tool if isinstance(tool, dict) else {}
 
 
-class _Layer(NamedTuple):
-    """The values of one file of a chain of `extends`."""
-
-    values: dict[str, Any]
-    origin: Origin
-
-
 def _read(path: str, text: str, table: dict[str, Any] | Finding) -> Loaded:
     """The settings of a parsed configuration file and of the files that it extends."""
     from msaa_lint.core.text.source import Source
@@ -160,7 +153,7 @@ def _read(path: str, text: str, table: dict[str, Any] | Finding) -> Loaded:
 
     folder = os.path.dirname(path)
     root = project_root(folder)
-    layers: list[_Layer] = []
+    layers: list[tuple[dict[str, Any], Origin]] = []
     findings: list[Finding] = []
     sources: dict[str, Source] = {}
     chain: list[str] = []
@@ -182,7 +175,7 @@ def _read(path: str, text: str, table: dict[str, Any] | Finding) -> Loaded:
         reader.read(keys)
         current = _extended(reader, keys, chain)
         findings.extend(sorted(reader.findings, key=lambda finding: finding.span or Span(0, 0)))
-        layers.append(_Layer(reader.values, origin))
+        layers.append((reader.values, origin))
         if current is not None:
             extended = _text(current)
             if isinstance(extended, Finding):
@@ -219,16 +212,16 @@ def _extended(reader: TableReader, table: Mapping[str, Any], chain: list[str]) -
     return None
 
 
-def _merged(layers: list[_Layer], folder: str) -> Settings:
-    """The settings of a chain of files; a file comes before the one that it extends."""
+def _merged(layers: Sequence[tuple[dict[str, Any], Origin]], folder: str) -> Settings:
+    """The settings of a chain of files, from their values; a file comes before the one that it extends."""
     values: dict[str, Any] = {}
     origins: dict[tuple[str, ...], Origin] = {}
-    for layer in reversed(layers):
-        for key, value in layer.values.items():
-            origins[(key,)] = layer.origin
+    for layer, origin in reversed(layers):
+        for key, value in layer.items():
+            origins[(key,)] = origin
             if isinstance(value, dict):
                 values[key] = {**values.get(key, {}), **value}
-                origins.update(((key, name), layer.origin) for name in value)
+                origins.update(((key, name), origin) for name in value)
             else:
                 values[key] = value
     if "per-file-ignores" in values:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 from msaa_lint.core.finding import CONFIDENCES, SEVERITIES, Finding
@@ -118,12 +119,6 @@ class TableReader:
             return str(value)
         self.problem(path, f"unknown value {quoted(value)}", _suggestion(value, words))
         return None
-
-    def severity_level(self, path: Path, value: Any) -> str | None:
-        return self.word(path, value, LEVELS)
-
-    def confidence(self, path: Path, value: Any) -> str | None:
-        return self.word(path, value, CONFIDENCES)
 
     def selectors(self, path: Path, value: Any) -> tuple[str, ...] | None:
         items = self.strings(path, value, "rule")
@@ -262,10 +257,10 @@ KEYS: dict[str, Callable[[TableReader, Path, Any], Any]] = {
     "ignore": TableReader.selectors,
     "per-file-ignores": TableReader.per_file_ignores,
     "severity": TableReader.severities,
-    "fail-on": TableReader.severity_level,
+    "fail-on": partial(TableReader.word, words=LEVELS),
     "fail-on-cost": TableReader.fail_on_cost,
-    "fail-confidence": TableReader.confidence,
-    "min-severity": TableReader.severity_level,
+    "fail-confidence": partial(TableReader.word, words=CONFIDENCES),
+    "min-severity": partial(TableReader.word, words=LEVELS),
     "profile": TableReader.profile,
     "rules": TableReader.rules,
     "exclude": TableReader.globs,

@@ -8,7 +8,6 @@ between equals, `ignore` wins. The command line takes precedence over a file, an
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import NamedTuple
 
 from msaa_lint.core.diagnostics import DIAGNOSTICS
 from msaa_lint.core.finding import SEVERITIES, Finding
@@ -24,12 +23,6 @@ Severity = Callable[[Weighed, str, str | None], str | None]
 """`severity(rule, suggested, vendor)`: the severity of a rule's finding in one file; None where the rule is off."""
 
 
-class _Enabled(NamedTuple):
-    """An enabled rule; `severity` is the configured one, None for the rule's own."""
-
-    severity: str | None
-
-
 class Selection:
     """The rules that one configuration enables.
 
@@ -40,7 +33,8 @@ class Selection:
     def __init__(self, settings: Settings, rules: Iterable[Weighed]) -> None:
         self._settings = settings
         self._rules: list[Named] = []
-        self._enabled: dict[str, _Enabled] = {}
+        self._enabled: dict[str, str | None] = {}
+        """The configured severities of the enabled rules by code, None for the rule's own."""
         self._ignored: dict[str, frozenset[str]] = {}
         self._for_all: dict[str | None, Severity] = {}
         pinned = None if settings.edition is None else _edition(settings.edition)
@@ -51,9 +45,9 @@ class Selection:
 
     def _add(self, rule: Named, later: bool = False, always: bool = False) -> None:
         self._rules.append(rule)
-        enabled = _enabled(self._settings, rule, later, always)
-        if enabled is not None:
-            self._enabled[rule.code] = enabled
+        is_on, severity = _enabled(self._settings, rule, later, always)
+        if is_on:
+            self._enabled[rule.code] = severity
 
     def enabled(self, rule: Named, file: str | None = None) -> bool:
         """Whether a rule is enabled for a file (None: for any file)."""
@@ -63,10 +57,7 @@ class Selection:
 
     def severity(self, rule: Weighed, file: str | None = None, suggested: str | None = None) -> str | None:
         """The severity of a rule's finding in a file; None if the rule is off. `suggested` is the rule's own severity in this case."""
-        if not self.enabled(rule, file):
-            return None
-        enabled = self._enabled.get(rule.code)
-        return (enabled.severity if enabled is not None else None) or suggested or rule.severity
+        return (self._enabled.get(rule.code) or suggested or rule.severity) if self.enabled(rule, file) else None
 
     def names(self, file: str | None = None) -> frozenset[str]:
         """The names of the rules that are enabled for a file (None: for any file)."""
@@ -98,7 +89,7 @@ class Selection:
             return finding
         if not self.enabled(DIAGNOSTICS[finding.code], finding.file):
             return None
-        return finding._replace(severity=self._enabled[finding.code].severity or finding.severity)
+        return finding._replace(severity=self._enabled[finding.code] or finding.severity)
 
     def _ignored_in(self, file: str) -> frozenset[str]:
         """The codes of the rules that `per-file-ignores` disables for a file."""
@@ -114,8 +105,8 @@ def _edition(text: str) -> tuple[int, ...]:
     return tuple(int(part) if part.isdecimal() else 0 for part in text.split("."))
 
 
-def _enabled(settings: Settings, rule: Named, later: bool, always: bool) -> _Enabled | None:
-    """How a configuration enables a rule, `per-file-ignores` aside; None if it disables it."""
+def _enabled(settings: Settings, rule: Named, later: bool, always: bool) -> tuple[bool, str | None]:
+    """Whether a configuration enables a rule, `per-file-ignores` aside, and the severity that it gives it."""
     choice = settings.command_line
     off, severity = _severity(settings.severity, rule)
     ignored = max(max_specificity(settings.ignore, rule), off)
@@ -128,7 +119,7 @@ def _enabled(settings: Settings, rule: Named, later: bool, always: bool) -> _Ena
         selected = _specificity(choice.extend_select, rule, later)
         if selected or ignored:
             is_on = selected > ignored
-    return _Enabled(chosen_severity or severity) if is_on else None
+    return is_on, chosen_severity or severity
 
 
 def _is_selected(select: Iterable[str] | None, extend: Iterable[str], ignored: int, rule: Named, later: bool, always: bool) -> bool:

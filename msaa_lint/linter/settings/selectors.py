@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
-from typing import NamedTuple, Protocol
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Protocol
 
 from msaa_lint.core.diagnostics import DIAGNOSTICS, diagnostic
 from msaa_lint.core.finding import Finding
@@ -63,59 +63,47 @@ class RuleNames:
     def __init__(self, rules: Iterable[Named]) -> None:
         self.rules: list[Named] = [*rules, *DIAGNOSTICS.values()]
         self.by_word = {word: rule for rule in self.rules for word in (rule.name, rule.code)}
-        self._suggestions = Suggestions(self.by_word)
+        self.suggestions = Suggestions(self.by_word)
 
     def selects_any(self, selector: str) -> bool:
         """Whether a selector names at least one rule."""
         return selector in self.by_word or any(specificity(selector, rule) for rule in self.rules)
-
-    def nearest(self, word: str) -> str | None:
-        """The name or code that was most likely meant by an unknown word; see `Suggestions` for its limits."""
-        return self._suggestions.nearest(word)
-
-
-class _Use(NamedTuple):
-    """A selector and where it is used. `path` is that of the selector in the file; `origin` is None on the command line."""
-
-    selector: str
-    key: str
-    path: tuple[str | int, ...]
-    origin: Origin | None
 
 
 def unknown_selectors(settings: Settings, rules: Iterable[Named]) -> list[Finding]:
     """A finding for each selector that names no rule, at its place in the configuration file if it has one."""
     names = RuleNames(rules)
     findings: list[Finding] = []
-    for use in _uses(settings):
-        if names.selects_any(use.selector):
+    for selector, key, path, origin in _uses(settings):
+        if names.selects_any(selector):
             continue
-        close = names.nearest(use.selector)
+        close = names.suggestions.nearest(selector)
         hint = f"did you mean `{close}`?" if close else "`msaa-lint rule --all` lists the rules"
-        message = f"unknown rule {quoted(use.selector)}"
-        if use.origin is None:
-            findings.append(diagnostic("MSAA921", f"{message} in `{use.key}`: {hint}", COMMAND_LINE))
+        message = f"unknown rule {quoted(selector)}"
+        if origin is None:
+            findings.append(diagnostic("MSAA921", f"{message} in `{key}`: {hint}", COMMAND_LINE))
         else:
-            findings.append(use.origin.problem(use.path, message, hint, at_key=use.key == "severity"))
+            findings.append(origin.problem(path, message, hint, at_key=key == "severity"))
         if len(findings) >= MAX_FINDINGS:
             break
     return findings
 
 
-def _uses(settings: Settings) -> Iterator[_Use]:
-    lists = {"select": settings.select or (), "extend-select": settings.extend_select, "ignore": settings.ignore}
-    for key, selectors in lists.items():
-        origin = settings.origin.get((key,))
+def _uses(settings: Settings) -> Iterator[tuple[str, str, tuple[str | int, ...], Origin | None]]:
+    """The selectors, each with the key that has it, its path in the file, and the file; None for the command line."""
+    lists: dict[tuple[str, ...], Sequence[str]] = {
+        ("select",): settings.select or (),
+        ("extend-select",): settings.extend_select,
+        ("ignore",): settings.ignore,
+        **{("per-file-ignores", glob.pattern): selectors for glob, selectors in settings.per_file_ignores},
+    }
+    for path, selectors in lists.items():
         for i, selector in enumerate(selectors):
-            yield _Use(selector, key, (key, i), origin)
-    for glob, selectors in settings.per_file_ignores:
-        origin = settings.origin.get(("per-file-ignores", glob.pattern))
-        for i, selector in enumerate(selectors):
-            yield _Use(selector, "per-file-ignores", ("per-file-ignores", glob.pattern, i), origin)
+            yield selector, path[0], (*path, i), settings.origin.get(path)
     for selector in settings.severity:
-        yield _Use(selector, "severity", ("severity", selector), settings.origin.get(("severity", selector)))
+        yield selector, "severity", ("severity", selector), settings.origin.get(("severity", selector))
     choice = settings.command_line
     by_option = {"select": choice.select or (), "extend-select": choice.extend_select, "ignore": choice.ignore, "severity": choice.severity}
     for key, selected in by_option.items():
         for selector in selected:
-            yield _Use(selector, f"--{key}", (), None)
+            yield selector, f"--{key}", (), None

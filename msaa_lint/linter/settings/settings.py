@@ -101,27 +101,23 @@ def _located(message: str, where: str, hint: str) -> str:
 def override(
     settings: Settings,
     *,
-    edition: str | None = None,
     select: Iterable[str] | None = None,
     extend_select: Iterable[str] = (),
     ignore: Iterable[str] = (),
     severity: Mapping[str, str] | None = None,
-    fail_on: str | None = None,
-    fail_on_cost: str | None = None,
-    fail_confidence: str | None = None,
-    min_severity: str | None = None,
-    profile: str | None = None,
     rules: Iterable[str] = (),
     exclude: Iterable[str] = (),
     include: Iterable[str] = (),
     baseline: str | None = None,
     limits: Mapping[str, int] | None = None,
     output: Iterable[str] = (),
+    **single: Any,
 ) -> Settings:
     """The settings with those of the command line; None and empty values keep a file's.
 
-    `rules` and `exclude` add to a file's, the others replace them. Paths and globs are relative to the current folder. Raises ValueError
-    for a glob that cannot match anything; the other values are not checked here.
+    `rules` and `exclude` add to a file's, the others replace them; `single` are the settings that
+    are one text. Paths and globs are relative to the current folder. Raises ValueError for a glob that cannot match anything; the other
+    values are not checked here.
     """
     from msaa_lint.core.globs import compiled
 
@@ -129,19 +125,14 @@ def override(
     globs = {"exclude": tuple(exclude), "include": tuple(include)}
     for pattern in (*globs["exclude"], *globs["include"]):
         compiled(pattern)
-    single: dict[str, Any] = {
-        "edition": edition,
-        "fail_on": fail_on,
-        "fail_on_cost": fail_on_cost,
-        "fail_confidence": fail_confidence,
-        "min_severity": min_severity,
-        "profile": profile,
+    values: dict[str, Any] = {
+        **single,
         "baseline": None if baseline is None else os.path.abspath(baseline),
         "output": tuple(output) or None,
         "include": tuple(Glob(pattern, here) for pattern in globs["include"]) or None,
         "limits": {**settings.limits, **limits} if limits else None,
     }
-    stated = {name: value for name, value in single.items() if value is not None}
+    stated = {name: value for name, value in values.items() if value is not None}
     replaced = {name.replace("_", "-") for name in stated}
     return settings._replace(
         **stated,

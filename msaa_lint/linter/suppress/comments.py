@@ -89,7 +89,7 @@ class _Lines:
         self.alone = False
         self._run = (0, 0)
         self._content: int | None = None
-        self._suggestions = Suggestions(WORDS)
+        self.suggestions = Suggestions(WORDS)
 
     def move_to(self, comment: Comment) -> None:
         """Makes a comment the current one. One alone on its line is about the next line that is not a comment."""
@@ -118,10 +118,6 @@ class _Lines:
     def example(self, word: str = WORDS[0]) -> str:
         """What to write instead."""
         return f"write `{self.mark} msaa-lint: {word}[rule-name] reason`"
-
-    def nearest(self, word: str) -> str | None:
-        """The one of WORDS that was most likely meant by another word; see `Suggestions` for its limits."""
-        return self._suggestions.nearest(word)
 
     def at_top(self) -> bool:
         """Whether the comment is before all content."""
@@ -178,7 +174,7 @@ def _read(comment: Comment, match: re.Match[str], start: int, end: int, lines: _
 
 
 def _unknown_word(match: re.Match[str], base: int, lines: _Lines, report: Report) -> None:
-    close = lines.nearest(match[3])
+    close = lines.suggestions.nearest(match[3])
     hint = f"did you mean `{close}`?" if close else "expected `ignore[rule-name]` or `ignore-file[rule-name]`"
     span = Span(base + match.start(3), base + match.end(3)) if match[3] else Span(base + match.start(), base + match.end())
     what = f"unknown word {quoted(match[3])}" if match[3] else "no word"

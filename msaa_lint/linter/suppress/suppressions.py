@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Collection, Iterable, Iterator, Sequence
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 from msaa_lint.core.diagnostics import DIAGNOSTICS, diagnostic
@@ -144,17 +145,11 @@ class _Table:
 
     def unused(self, rules: Collection[str]) -> Iterator[tuple[Directive, list[Entry]]]:
         """The suppressions with unused entries for these rules."""
-        waiting: list[Entry] = []
-        of: Directive | None = None
-        for number, (directive, entry, rule) in enumerate(self._entries):
-            if directive is not of:
-                if of is not None and waiting:
-                    yield of, waiting
-                of, waiting = directive, []
-            if number not in self._used and rule in rules:
-                waiting.append(entry)
-        if of is not None and waiting:
-            yield of, waiting
+        for directive, numbers in groupby(range(len(self._entries)), key=lambda number: self._entries[number][0]):
+            entries = [self._entries[number] for number in numbers if number not in self._used]
+            unused = [entry for _, entry, rule in entries if rule in rules]
+            if unused:
+                yield directive, unused
 
 
 def _enter(table: _Table, diagnostics: Diagnostics, names: RuleNames, directive: Directive, entry: Entry) -> None:
@@ -165,14 +160,13 @@ def _enter(table: _Table, diagnostics: Diagnostics, names: RuleNames, directive:
         if info is None or info.severity != "error":
             table.add(directive, entry, rule.name)
             return
-        message = f"{quoted(entry.name)} is an error and cannot be suppressed"
-        diagnostics.add("MSAA911", message, entry.span)
+        diagnostics.add("MSAA911", f"{quoted(entry.name)} is an error and cannot be suppressed", entry.span)
     elif diagnostics.full("MSAA912"):
         return
     elif names.selects_any(entry.name):
         diagnostics.add("MSAA913", f"{quoted(entry.name)} names a group of rules; name each rule to suppress", entry.span)
     else:
-        close = names.nearest(entry.name)
+        close = names.suggestions.nearest(entry.name)
         hint = f"; did you mean `{close}`?" if close else "; separate rules with commas" if " " in entry.name else ""
         fix = Fix(f"write {close}", False, (Edit(entry.span, close),)) if close else None
         diagnostics.add("MSAA912", f"unknown rule {quoted(entry.name)} in a suppression{hint}", entry.span, fix)
