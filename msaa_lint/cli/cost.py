@@ -15,7 +15,7 @@ from msaa_lint.frame.cost.amounts import Terms
 from msaa_lint.frame.cost.input_cost import CostComparison, compare_inputs
 from msaa_lint.frame.cost.samples import COUNTS
 from msaa_lint.frame.cost.variants import DEFAULT_COUNTS
-from msaa_lint.linter.cost_run import CostResult, run_costs, with_fixes
+from msaa_lint.linter.cost_run import CostResult, run_costs
 from msaa_lint.linter.workspace import Request
 
 from .common import (
@@ -54,7 +54,7 @@ def _cost(arguments: Arguments) -> int:
     if chart is not None:
         chart_format(chart, "--chart")
     request = Request(**input_options(arguments), overrides={"profile": arguments["profile"]} if "profile" in arguments else {})
-    result = run_costs(request, terms, counts, with_fixes)
+    result = run_costs(request, terms, counts)
     comparison = None if arguments.get("each") else _comparison(result, request)
     for note in result.notes:
         warn(note)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.finding import Result
@@ -14,9 +14,6 @@ from msaa_lint.frame.facts.frame import Frame
 
 from .results import DocumentResult, FileResult
 from .workspace import Request, Workspace
-
-FixedCost = Callable[[FileResult, DocumentResult, Terms], FrameCost | None]
-"""The cost of a document's frame with the fixes of its findings; None if it has none."""
 
 
 class CostResult(NamedTuple):
@@ -31,8 +28,8 @@ class CostResult(NamedTuple):
         return [frame for frame in self.frames if frame.file == file]
 
 
-def run_costs(request: Request, terms: Terms, counts: Sequence[int], fixed_cost: FixedCost | None = None) -> CostResult:
-    """The costs of the inputs of a request, with variants at other sample counts, and with fixes if `fixed_cost` is given.
+def run_costs(request: Request, terms: Terms, counts: Sequence[int]) -> CostResult:
+    """The costs of the inputs of a request, with variants at other sample counts and with fixes.
 
     A problem of an input or the configuration is an error in the result; the other inputs still get their costs.
     """
@@ -53,7 +50,7 @@ def run_costs(request: Request, terms: Terms, counts: Sequence[int], fixed_cost:
         for document in _valid_documents(result) if errors else result.documents:
             cost = frame_cost(Frame(document.document), document.device, terms)
             others = variants(document.document, document.device, terms, counts)
-            fixed = fixed_cost(result, document, terms) if fixed_cost is not None else None
+            fixed = _with_fixes(result, document, terms)
             frames.append(CostedFrame(result.file, document.number, len(result.documents), cost, others, fixed))
     errors = [finding for finding in dict.fromkeys(findings) if finding.fatal]
     files = dict.fromkeys([*map(request.input_name, discovered.files), *(finding.file for finding in errors)])
@@ -68,7 +65,7 @@ def _valid_documents(result: FileResult) -> list[DocumentResult]:
     return [document for document in result.documents if not document.document.problems]
 
 
-def with_fixes(result: FileResult, document: DocumentResult, terms: Terms) -> FrameCost | None:
+def _with_fixes(result: FileResult, document: DocumentResult, terms: Terms) -> FrameCost | None:
     """The cost of a document's frame with all fixes of its findings, including those that are never applied; None if there are none."""
     from .fixes.document_fixes import DocumentFixes
     from .prices import cost_with_fixes

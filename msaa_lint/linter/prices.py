@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.finding import Finding, Price
-from msaa_lint.frame.cost.amounts import Amount, FrameCost, Terms
+from msaa_lint.frame.cost.amounts import FrameCost, Terms
 from msaa_lint.frame.cost.model import frame_cost
 from msaa_lint.frame.cost.power import ASSUMED_FPS
 from msaa_lint.frame.description.document import Document
@@ -57,9 +57,8 @@ class Prices:
         Only the passes and images that the changes concern are computed, because the rest costs the same before and after.
         """
         part = self._part(changes)
-        before = self.cost(part)
         after = self.cost_with(changes, part)
-        return None if after is None else _difference(before, after)
+        return None if after is None else _difference(self.cost(part), after)
 
     def together(self, fixes: Iterable[Sequence[Change]]) -> Price | None:
         """The saving from several fixes together. If two set a member to different values, the first one counts.
@@ -205,14 +204,8 @@ def _concerns(command: Command, part: Part, render_passes: dict[str, RenderPass]
 
 
 def _difference(before: FrameCost, after: FrameCost) -> Price | None:
-    price = Price(*(round(a - b, _DECIMALS) + 0.0 for a, b in zip(_figures(before.total), _figures(after.total), strict=True)))
-    if not any(price) and (before.unknown or after.unknown):
-        return None
-    return price
-
-
-def _figures(amount: Amount) -> tuple[float, float, float, float]:
-    return amount.read_mb_per_s, amount.write_mb_per_s, amount.memory_mib, amount.milliwatts
+    price = Price(*(round(a - b, _DECIMALS) + 0.0 for a, b in zip(before.total, after.total, strict=True)))
+    return None if not any(price) and (before.unknown or after.unknown) else price
 
 
 def price_findings(

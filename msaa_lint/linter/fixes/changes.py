@@ -74,10 +74,8 @@ def apply_temporarily(changes: Sequence[Change]) -> Iterator[None]:
     """
     if any(change.structural or isinstance(change.record, MetalRecord) for change in changes):
         raise StructuralChange
-    values: list[tuple[Record, str, Any]] = []
+    values = [(record, member, getattr(record, member)) for record, member, *_ in changes]
     try:
-        for record, member, *_ in changes:
-            values.append((record, member, getattr(record, member)))
         for change in changes:
             setattr(change.record, change.member, change.applied_to(getattr(change.record, change.member)))
         yield

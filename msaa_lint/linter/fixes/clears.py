@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from msaa_lint.frame.description.models import BeginRenderPass, ClearAttachments
 from msaa_lint.frame.facts.facts import Subject
-from msaa_lint.frame.facts.parts import Attachment, Pass
+from msaa_lint.frame.facts.parts import Attachment
 
 from .changes import Change, NoFix
 from .context import FixContext
-from .subject_parts import aspect_of, text_fact
+from .subject_parts import aspect_of, present, text_fact
 
 
 def clear_on_load(subject: Subject, context: FixContext) -> list[Change]:
@@ -31,9 +31,7 @@ def draw_the_copy(subject: Subject, context: FixContext) -> list[Change]:
     position, _ = _command(subject, "aspect.copy_command", context)
     attachment, aspect = aspect_of(subject)
     begin = _only_begin(attachment, context)
-    source = text_fact(subject, "aspect.copy_source")
-    if source is None:
-        raise NoFix("the source of the copy is not an image")
+    source = present(text_fact(subject, "aspect.copy_source"), "the source of the copy is not an image")
     read = {"readImage": {"image": source, "stage": "FRAGMENT", "access": "SHADER_READ"}}
     return [
         context.drop_command(position),
@@ -53,18 +51,12 @@ def _command(subject: Subject, fact: str, context: FixContext) -> tuple[int, int
 
 def _only_begin(attachment: Attachment, context: FixContext) -> int:
     """The position of the only command that begins an attachment's pass."""
-    begins = _pass_of(attachment, context).begun
+    candidates = (candidate for target in attachment.targets for candidate in context.attachments.get(id(target.record), ()))
+    render_pass = next((render_pass for render_pass, candidate in candidates if candidate.record is attachment.record), None)
+    begins = present(render_pass, "the pass of the attachment is not known").begun
     if len(begins) != 1:
         raise NoFix("the pass begins more than once")
     return begins[0]
-
-
-def _pass_of(attachment: Attachment, context: FixContext) -> Pass:
-    for target in attachment.targets:
-        for render_pass, candidate in context.attachments.get(id(target.record), ()):
-            if candidate.record is attachment.record:
-                return render_pass
-    raise NoFix("the pass of the attachment is not known")
 
 
 def _drop_clear(position: int, entry: int | None, context: FixContext) -> Change:

@@ -12,7 +12,7 @@ from msaa_lint.frame.facts.parts import RENDERING, Resolve
 
 from .changes import NoFix
 from .context import FixContext
-from .subject_parts import aspect_of, attachment_of, images_of, pipeline_of, resolve_of
+from .subject_parts import aspect_of, attachment_of, images_of, pipeline_of, present, resolve_of
 
 Source = tuple[Record, str]
 """A record and the member of it that states a fact."""
@@ -40,14 +40,9 @@ def _samples(subject: Subject, context: FixContext) -> list[Source]:
     return list(dict.fromkeys(sources))
 
 
-def _load_op(subject: Subject, _: FixContext) -> list[Source]:
+def _operation(member: str, subject: Subject, _: FixContext) -> list[Source]:
     attachment, aspect = aspect_of(subject)
-    return [(attachment.record, aspect.load_member)]
-
-
-def _store_op(subject: Subject, _: FixContext) -> list[Source]:
-    attachment, aspect = aspect_of(subject)
-    return [(attachment.record, aspect.store_member)]
+    return [(attachment.record, getattr(aspect, member))]
 
 
 def _layout(member: str, subject: Subject, _: FixContext) -> list[Source]:
@@ -66,10 +61,7 @@ def resolve_mode(resolve: Resolve) -> Source | None:
 
 
 def _resolve_mode(subject: Subject, _: FixContext) -> list[Source]:
-    source = resolve_mode(resolve_of(subject))
-    if source is None:
-        raise NoFix("Vulkan prescribes the mode of this resolve")
-    return [source]
+    return [present(resolve_mode(resolve_of(subject)), "Vulkan prescribes the mode of this resolve")]
 
 
 def _multisample_state(member: str, dynamic_state: str, subject: Subject, _: FixContext) -> list[Source]:
@@ -87,9 +79,7 @@ def _first_blend(subject: Subject, _: FixContext) -> list[Source]:
 
 
 def _dependency_member(member: str, subject: Subject, _: FixContext) -> list[Source]:
-    if subject.dependency is None:
-        raise NoFix("the description does not state the dependency")
-    return [(subject.dependency, member)]
+    return [(present(subject.dependency, "the description does not state the dependency"), member)]
 
 
 def _clear_values(subject: Subject, context: FixContext) -> list[Source]:
@@ -114,8 +104,8 @@ FACT_SOURCES: dict[str, FindSources] = {
     "image.sharing_mode": partial(_image_member, "sharingMode"),
     "image.mip_levels": partial(_image_member, "mipLevels"),
     "pass.clear_values": _clear_values,
-    "aspect.load": _load_op,
-    "aspect.store": _store_op,
+    "aspect.load": partial(_operation, "load_member"),
+    "aspect.store": partial(_operation, "store_member"),
     "attachment.initial_layout": partial(_layout, "initialLayout"),
     "attachment.final_layout": partial(_layout, "finalLayout"),
     "resolve.mode": _resolve_mode,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.quote import quoted
 from msaa_lint.core.suggestions import question
@@ -22,7 +21,7 @@ from .metal import METAL_ACTIONS, METAL_FACT_SOURCES
 def problems(rule: Rule) -> list[Finding]:
     """Unknown actions, facts that fixes cannot change, and values that facts cannot have (MSAA921)."""
     messages = dict.fromkeys(problem for spec in rule.fix_specs for problem in _problems(spec, rule))
-    return [diagnostic("MSAA921", f"rule page `{rule.name}`: {message}", rule.source.name, span, rule.name) for span, message in messages]
+    return [rule.problem(message, span) for span, message in messages]
 
 
 def _problems(spec: FixSpec, rule: Rule) -> Iterator[tuple[Span, str]]:

@@ -251,10 +251,10 @@ def _objection(before: FileResult, after: FileResult, fixed_findings: Sequence[F
     before_counts = Counter(map(_kind, _with_suppressed(before)))
     findings = _with_suppressed(after)
     counts = Counter(map(_kind, findings))
-    new_kind = next((kind for kind in counts if counts[kind] > before_counts[kind] and kind[0] != UNUSED_SUPPRESSION), None)
-    if new_kind is not None:
-        finding = next(finding for finding in findings if _kind(finding) == new_kind)
-        return f"it would introduce {finding.rule}: {finding.message}"
+    more = {kind for kind in counts if counts[kind] > before_counts[kind] and kind[0] != UNUSED_SUPPRESSION}
+    addition = next((finding for finding in findings if _kind(finding) in more), None)
+    if addition is not None:
+        return f"it would introduce {addition.rule}: {addition.message}"
     kinds = Counter(map(_kind, fixed_findings))
     remaining = any(counts[kind] > before_counts[kind] - count for kind, count in kinds.items() if kind[0] != UNUSED_SUPPRESSION)
     return "it would not remove the finding" if remaining else ""

@@ -29,10 +29,9 @@ class CollectionEditor:
         self.node = node
         self.start = text.content(node)
         self.flow = text.text[self.start : self.start + 1] in ("{", "[")
-        self._values: list[Node] = []
         if node.kind == "mapping":
             entries = sorted((key.start, name) for name, key in node.keys.items() if node.start <= key.start < node.end)
-            self._values = [node.value[name] for _, name in entries]
+            self._values: list[Node] = [node.value[name] for _, name in entries]
             self.items = [Span(start, max(node.keys[name].end, node.value[name].end)) for start, name in entries]
         else:
             self._values = node.value
@@ -163,16 +162,15 @@ class CollectionEditor:
     def _remove_from_block(self, index: int) -> list[Edit]:
         text, column = self.text, self._column()
         start, end = self.items[index]
-        if self.node.kind == "sequence":
-            start = self._dash(index)
+        if column is not None and self.node.kind == "sequence":
+            start = self._dash(index, column)
         if column is None or start < 0 or not text.begins_line(start) or not text.ends_line(end) or len(self.items) == 1:
             raise NoFix(_NOT_ON_OWN_LINES)
         return [text.without_lines(start, end, " " * column)]
 
-    def _dash(self, index: int) -> int:
+    def _dash(self, index: int, column: int) -> int:
         """The place of the `-` of an item, or -1 if it is not found."""
-        column = self._column()
-        if index == 0 or column is None:
+        if index == 0:
             return self.start
         start = self.text.line_start(self.items[index].start)
         while start > self.items[index - 1].end - 1:

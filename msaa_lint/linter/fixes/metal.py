@@ -15,7 +15,7 @@ from .actions import Action
 from .changes import Change, NoFix
 from .context import FixContext
 from .fact_sources import FindSources, Source
-from .subject_parts import aspect_of, copied_images, described_image, images_of, pipeline_of
+from .subject_parts import aspect_of, copied_images, described_image, images_of, pipeline_of, present
 from .transient import check_unread, drop_stores, is_needed
 
 _VULKAN_USAGES = {"shaderRead": "SAMPLED", "shaderWrite": "STORAGE", "shaderAtomic": "STORAGE"}
@@ -47,16 +47,12 @@ def _attachment_record(subject: Subject, context: FixContext) -> Record:
     else:
         attachment, aspect = aspect_of(subject)
         record = stated_for(attachment, aspect.name, context.lowered)
-    if record is None:
-        raise NoFix("the description does not state the attachment")
-    return record
+    return present(record, "the description does not state the attachment")
 
 
 def _pipeline_member(names: tuple[str, ...], subject: Subject, context: FixContext) -> list[Source]:
     """A property of a pipeline, by the name that the description uses, or by the first name if the property is not stated."""
-    record = context.metal.renderPipelines.get(pipeline_of(subject).key)
-    if record is None:
-        raise NoFix("the description does not declare the pipeline")
+    record = present(context.metal.renderPipelines.get(pipeline_of(subject).key), "the description does not declare the pipeline")
     return [(record, next((name for name in names if record.states(name)), names[0]))]
 
 
@@ -79,9 +75,7 @@ METAL_FACT_SOURCES: dict[str, FindSources] = {
 def make_memoryless(subject: Subject, context: FixContext) -> list[Change]:
     """Makes storage memoryless and drops the usages that nothing needs and the stores that nothing reads."""
     image = described_image(subject)
-    texture = context.metal.textures.get(image.key)
-    if texture is None:
-        raise NoFix("the description does not declare the texture")
+    texture = present(context.metal.textures.get(image.key), "the description does not declare the texture")
     check_unread(subject)
     if texture.drawable:
         raise NoFix("the texture is a drawable")

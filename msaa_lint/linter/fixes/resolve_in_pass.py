@@ -17,7 +17,7 @@ from msaa_lint.frame.facts.pass_begin import targets_at
 from .changes import Change, NoFix
 from .context import FixContext
 from .resolve_targets import new_attachment, new_image, next_use, rendering_resolve, target_usage, unused_name
-from .subject_parts import read_of, resolve_of
+from .subject_parts import present, read_of, resolve_of
 from .transient import lazy_memory, transient_usage
 
 MAX_ATTACHMENTS = 64
@@ -41,11 +41,9 @@ class DrawnSamples(NamedTuple):
 def resolve_in_pass(subject: Subject, context: FixContext) -> list[Change]:
     """Moves the resolve of a vkCmdResolveImage into the pass."""
     resolve, uses = resolve_of(subject), context.uses
-    position = uses.positions.get(id(resolve.record))
     if resolve.aspect != "color":
         raise NoFix("the mode of a depth resolve has to be chosen")
-    if position is None:
-        raise NoFix("the frame has more commands than are analyzed")
+    position = present(uses.positions.get(id(resolve.record)), "the frame has more commands than are analyzed")
     images = (resolve.source_image, resolve.target_image)
     source, target = (context.frame.target(image.name) if image is not None else None for image in images)
     if source is None or source.image is None or target is None or target.image is None:

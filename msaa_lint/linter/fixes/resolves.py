@@ -21,7 +21,7 @@ from .changes import Change, NoFix
 from .context import FixContext
 from .fact_sources import resolve_mode
 from .resolve_targets import next_use, target_usage
-from .subject_parts import copied_images, resolve_of
+from .subject_parts import copied_images, present, resolve_of
 
 _SLOT = re.compile(r"\.resolveAttachments\[(\d+)\]$")
 _DEPTH_OPS, _STENCIL_OPS = ("loadOp", "storeOp"), ("stencilLoadOp", "stencilStoreOp")
@@ -34,9 +34,7 @@ def drop_resolve(subject: Subject, context: FixContext) -> list[Change]:
     record = resolve.record
     if resolve.kind == "command":
         position = context.uses.positions.get(id(record))
-        if position is None:
-            raise NoFix("the frame has more commands than are analyzed")
-        return [context.drop_command(position)]
+        return [context.drop_command(present(position, "the frame has more commands than are analyzed"))]
     pair = resolve.pair if resolve.pair is not None and resolve.pair.mode != "NONE" else None
     if pair is not None and not _is_unread(pair, context):
         if subject.facts.values.get("resolve.may_be_none") is not True:
@@ -58,9 +56,7 @@ def _drop_one_aspect(resolve: Resolve) -> list[Change]:
     """Removes the resolve of one aspect; the other aspect's stays."""
     if isinstance(resolve.record, RenderingAttachment):
         return _drop_from_rendering(resolve.record)
-    source = resolve_mode(resolve)
-    if source is None:
-        raise NoFix("the description does not state the mode of the resolve")
+    source = present(resolve_mode(resolve), "the description does not state the mode of the resolve")
     changes = [Change(*source, "set", "NONE")]
     target = resolve.target
     if target is not None and not (target.depth_stencil or target.input) and len(target.resolve) == 1:
@@ -147,9 +143,7 @@ def _redirect(resolve: Resolve, target: Image, copy: int, context: FixContext) -
     if attachment.record.states("image"):
         changes.append(Change(attachment.record, "image", "set", target.key))
     if attachment.record.states("finalLayout"):
-        layout = _FINAL_LAYOUTS.get(next_use(target, copy, context))
-        if layout is None:
-            raise NoFix("the layout that the image needs next is not known")
+        layout = present(_FINAL_LAYOUTS.get(next_use(target, copy, context)), "the layout that the image needs next is not known")
         changes.append(Change(attachment.record, "finalLayout", "set", layout))
     return changes
 

@@ -2,33 +2,38 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 from msaa_lint.frame.description.models import Image, Pipeline
 from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.parts import Aspect, Attachment, Resolve, Target
 
 from .changes import NoFix
 
+T = TypeVar("T")
+
+
+def present(part: T | None, problem: str) -> T:
+    """The part itself; raises NoFix with the problem if there is none."""
+    if part is None:
+        raise NoFix(problem)
+    return part
+
 
 def described_image(subject: Subject) -> Image:
     """The record of an image that the description declares."""
-    image = subject.image.image if subject.image is not None else None
-    if image is None:
-        raise NoFix("the description does not declare the image")
-    return image
+    return present(subject.image.image if subject.image is not None else None, "the description does not declare the image")
 
 
 def attachment_of(subject: Subject) -> Attachment:
     """The attachment of an attachment or of one of its aspects."""
-    if subject.attachment is None:
-        raise NoFix("the finding is not about an attachment")
-    return subject.attachment
+    return present(subject.attachment, "the finding is not about an attachment")
 
 
 def aspect_of(subject: Subject) -> tuple[Attachment, Aspect]:
     """An aspect and its attachment."""
-    if subject.attachment is None or subject.aspect is None:
-        raise NoFix("the finding is not about an aspect of an attachment")
-    return subject.attachment, subject.aspect
+    problem = "the finding is not about an aspect of an attachment"
+    return present(subject.attachment, problem), present(subject.aspect, problem)
 
 
 def images_of(subject: Subject) -> list[Target]:
@@ -40,31 +45,24 @@ def images_of(subject: Subject) -> list[Target]:
 
 def resolve_of(subject: Subject) -> Resolve:
     """The resolve that the subject is."""
-    if subject.resolve is None:
-        raise NoFix("the finding is not about a resolve")
-    return subject.resolve
+    return present(subject.resolve, "the finding is not about a resolve")
 
 
 def pipeline_of(subject: Subject) -> Pipeline:
     """The pipeline that the subject is."""
-    if subject.pipeline is None:
-        raise NoFix("the finding is not about a pipeline")
-    return subject.pipeline
+    return present(subject.pipeline, "the finding is not about a pipeline")
 
 
 def read_of(subject: Subject) -> tuple[int, str]:
     """The position of a command that reads an image, and the image's name."""
-    if subject.position is None or subject.image is None:
-        raise NoFix("the finding is not about a command that reads an image")
-    return subject.position, subject.image.name
+    problem = "the finding is not about a command that reads an image"
+    return present(subject.position, problem), present(subject.image, problem).name
 
 
 def copied_images(subject: Subject) -> tuple[str, str]:
     """The names of the image that a resolve writes and of the one that its result is copied to."""
-    source, target = text_fact(subject, "resolve.copied_from"), text_fact(subject, "resolve.copied_to")
-    if source is None or target is None:
-        raise NoFix("the result of the resolve is not copied exactly once")
-    return source, target
+    problem = "the result of the resolve is not copied exactly once"
+    return present(text_fact(subject, "resolve.copied_from"), problem), present(text_fact(subject, "resolve.copied_to"), problem)
 
 
 def text_fact(subject: Subject, name: str) -> str | None:

@@ -25,6 +25,7 @@ class ValueWriter:
         self._text = text
         self.spelling = spelling
         self._is_json = _JSON.match(text.text, text.content(root)) is not None
+        self._default_quote = '"' if self._is_json else ""
 
     def value(self, shape: Shape, data: Any, record: Record) -> str:
         """Plain data on one line."""
@@ -32,8 +33,10 @@ class ValueWriter:
             return "null"
         if isinstance(data, dict):
             shapes = shape[1].SHAPE if shape[0] == "record" else {}
-            quote = '"' if self._is_json else ""
-            entries = [f"{quote_scalar(key, quote)}: {self.value(shapes.get(key, ('text',)), item, record)}" for key, item in data.items()]
+            entries = [
+                f"{quote_scalar(key, self._default_quote)}: {self.value(shapes.get(key, ('text',)), item, record)}"
+                for key, item in data.items()
+            ]
             return "{" + ", ".join(entries) + "}"
         if isinstance(data, (list, tuple)):
             return f"[{', '.join(self.value(shape[1], item, record) for item in data)}]"
@@ -56,17 +59,12 @@ class ValueWriter:
 
     def item_quote(self, sequence: Node) -> str:
         """The quote of a sequence's items."""
-        if not sequence.value:
-            return '"' if self._is_json else ""
-        return self._text.quote(sequence.value[0])
+        return self._text.quote(sequence.value[0]) if sequence.value else self._default_quote
 
     def entry(self, mapping: Node, key: str, value: str) -> str:
         """An entry of a mapping: its key in the quotes of the other keys, and its value after their separator."""
         first = next(iter(mapping.keys.values()), None)
-        if first is not None:
-            quote = self._text.quote(first)
-        else:
-            quote = '"' if self._is_json else ""
+        quote = self._text.quote(first) if first is not None else self._default_quote
         return f"{quote_scalar(key, quote)}{self._separator(mapping)}{value}"
 
     def _separator(self, mapping: Node) -> str:

@@ -19,6 +19,9 @@ from .rule_file import Rule, read_page, split
 EDITIONS = ("2026.1",)
 """In order. A rule of an edition later than the pinned one is off by default."""
 
+_FENCE = Span(0, 3)
+"""The place of problems of a whole page."""
+
 
 class Registry(NamedTuple):
     """Rules in order of code, the problems of unusable pages, and the texts they point into, by name."""
@@ -90,8 +93,7 @@ def conflicts(rule: Rule, others: Iterable[Rule]) -> list[Finding]:
     for other in others:
         if rule.code == other.code or rule.name == other.name:
             shared = f"code {rule.code}" if rule.code == other.code else f"name {rule.name}"
-            message = f"rule page `{rule.name}`: the {shared} is already used by `{other.name}`"
-            found.append(diagnostic("MSAA921", message, rule.source.name, Span(0, 3), rule.name))
+            found.append(rule.problem(f"the {shared} is already used by `{other.name}`", _FENCE))
     return found
 
 
@@ -104,7 +106,7 @@ def misnamed(rule: Rule) -> list[Finding]:
         found.append("the file name must be lowercase words with hyphens, for example no-multisampled-storage.md")
     if rule.name in rule.supersedes:
         found.append("the rule supersedes itself")
-    return [diagnostic("MSAA921", f"rule page `{rule.name}`: {text}", rule.source.name, Span(0, 3), rule.name) for text in found]
+    return [rule.problem(text, _FENCE) for text in found]
 
 
 def check_rule(rule: Rule) -> list[Finding]:
@@ -116,19 +118,13 @@ def check_rule(rule: Rule) -> list[Finding]:
         try:
             check(when, rule.subject)
         except ConditionError as error:
-            span = _within(rule.source.text, at, when, error)
-            found.append(diagnostic("MSAA921", f"rule page `{rule.name}`: {error}", rule.source.name, span, rule.name))
+            found.append(rule.problem(str(error), _within(rule.source.text, at, when, error)))
     known = {fact.name for fact in SUBJECTS[rule.subject]}
-    named = [*rule.at, *(fact for fact, _ in rule.labels), *placeholders(rule.message), *placeholders(rule.help)]
-    named.extend(name for case in rule.cases for text in (case.message, case.help) for name in placeholders(text or ""))
-    named.extend(name for spec in rule.fix_specs for name in placeholders(spec.title))
-    for text in (text for _, text in rule.labels):
-        named.extend(placeholders(text))
-    for name in dict.fromkeys(named):
-        if name not in known:
-            message = f"rule page `{rule.name}`: unknown fact {name} of {rule.subject}"
-            found.append(diagnostic("MSAA921", message, rule.source.name, rule.condition_at, rule.name))
-    return found
+    texts = [rule.message, rule.help, *(text or "" for case in rule.cases for text in (case.message, case.help))]
+    texts += [*(spec.title for spec in rule.fix_specs), *(text for _, text in rule.labels)]
+    named = [*rule.at, *(fact for fact, _ in rule.labels), *(name for text in texts for name in placeholders(text))]
+    unknown = [name for name in dict.fromkeys(named) if name not in known]
+    return found + [rule.problem(f"unknown fact {name} of {rule.subject}", rule.condition_at) for name in unknown]
 
 
 def _within(text: str, at: Span, when: str, error: ConditionError) -> Span:

@@ -96,6 +96,15 @@ class Rule(NamedTuple):
         """The fixes of the rule and of its cases."""
         return tuple(dict.fromkeys(fix for fix in (self.fix, *(case.fix for case in self.cases)) if fix is not None))
 
+    def problem(self, message: str, span: Span) -> Finding:
+        """A finding about the rule's page (MSAA921)."""
+        return page_problem(self.name, self.source.name, message, span)
+
+
+def page_problem(rule: str, page: str, message: str, span: Span) -> Finding:
+    """A finding about the page of a rule (MSAA921)."""
+    return diagnostic("MSAA921", f"rule page `{rule}`: {message}", page, span, rule)
+
 
 class Page(NamedTuple):
     """The result of reader a page: the rule if it is valid, the problems, and the text if it could be read."""
@@ -178,7 +187,7 @@ class _PageReader:
         self.problems: list[Finding] = []
 
     def problem(self, span: Span, message: str) -> None:
-        self.problems.append(diagnostic("MSAA921", f"rule page `{self.name}`: {message}", self.shown, span, self.name))
+        self.problems.append(page_problem(self.name, self.shown, message, span))
 
     def rule(self, root: Node, body: str, path: str) -> Rule | None:
         from msaa_lint.frame.facts.table import SUBJECTS
@@ -202,7 +211,6 @@ class _PageReader:
         for api in apis:
             self.one_of(api, APIS)
         when = members["when"]
-        self.bounded(when)
         at = members.get("at")
         fix = self.fix(members["fix"], None) if "fix" in members else None
         return Rule(
@@ -211,7 +219,7 @@ class _PageReader:
             severity=members["severity"].text,
             confidence=members["confidence"].text if "confidence" in members else "high",
             subject=members["subject"].text,
-            when=self.text(when),
+            when=self.condition(when),
             message=self.text(members["message"]),
             at=() if at is None else self.texts(at) if at.kind == "sequence" else (self.text(at),),
             labels=self.pairs(members.get("labels")),
@@ -242,9 +250,10 @@ class _PageReader:
             return ""
         return node.text.strip()
 
-    def bounded(self, when: Node) -> None:
+    def condition(self, when: Node) -> str:
         if len(when.text) > MAX_CONDITION:
             self.problem(when.span, f"the condition is longer than {MAX_CONDITION} characters")
+        return self.text(when)
 
     def one_of(self, node: Node, words: tuple[str, ...]) -> None:
         if node.kind != "scalar" or node.text not in words:
@@ -278,18 +287,16 @@ class _PageReader:
         for key in node.value:
             if key not in known:
                 self.unknown(node.keys[key], known)
-        texts_by_key = {key: self.text(value) for key, value in node.value.items() if key != "fix"}
-        if "severity" in texts_by_key:
-            self.one_of(node.value["severity"], SEVERITIES)
-        if "confidence" in texts_by_key:
-            self.one_of(node.value["confidence"], CONFIDENCES)
+        texts = {key: self.text(value) for key, value in node.value.items() if key not in ("when", "fix")}
+        for key, words in (("severity", SEVERITIES), ("confidence", CONFIDENCES)):
+            if key in texts:
+                self.one_of(node.value[key], words)
         when = node.value["when"]
-        self.bounded(when)
         case_fix = node.value.get("fix")
         if case_fix is not None:
             fix = None if case_fix.kind == "scalar" and case_fix.value is None else self.fix(case_fix, fix)
-        texts = (texts_by_key.get("severity"), texts_by_key.get("confidence"), texts_by_key.get("message"))
-        return Case(texts_by_key["when"], *texts, when.span, fix, texts_by_key.get("help"))
+        changed = (texts.get("severity"), texts.get("confidence"), texts.get("message"))
+        return Case(self.condition(when), *changed, when.span, fix, texts.get("help"))
 
     def fix(self, node: Node, of_rule: FixSpec | None) -> FixSpec | None:
         """A fix. In a case, one that only states its safety is the fix of the rule with that safety."""
