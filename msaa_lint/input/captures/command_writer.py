@@ -9,7 +9,7 @@ from msaa_lint.core.text.source import Origin
 
 from .command_buffers import RecordedCommand, RenderPassBegin
 from .frame_boundary import AspectUse, aspect_uses
-from .frames import PASS_BEGINS, FrameKind, Role, role_of
+from .frames import PASS_BEGINS, FrameKind, Role
 from .objects import CapturedObject, Framebuffer, Image, RenderPass
 from .yaml_text import Alias, Lines
 
@@ -139,7 +139,7 @@ class CommandWriter:
         return {command.kind: body}
 
     def _name(self, part: Any) -> str | None:
-        image = self.kind.images[part.number] if isinstance(part, Role) else part
+        image = self.kind.images[part] if isinstance(part, Role) else part
         return self.names.image(image) if isinstance(image, Image) and image in self.described_images else None
 
     def _begin(self, begin: RenderPassBegin, alternates: list[RenderPassBegin]) -> dict[str, Any]:
@@ -198,7 +198,7 @@ class CommandWriter:
 
     def _role(self, image: Image) -> Hashable:
         """The role of an image in the frame; the image itself if it has none."""
-        return next((role_of(number) for number, other in enumerate(self.kind.images) if other is image), image)
+        return next((Role(number) for number, other in enumerate(self.kind.images) if other is image), image)
 
 
 def thaw(value: Any) -> Any:
@@ -212,7 +212,7 @@ def thaw(value: Any) -> Any:
 def commands_of(kind: FrameKind) -> Iterator[tuple[RecordedCommand, int]]:
     """The commands of a kind of frame in order, each with the number of the pass that contains or follows it."""
     for number in range(len(kind.passes) + 1):
-        variants = sorted(kind.gaps[number], key=lambda variant: -variant.count)
+        variants = sorted(kind.gaps[number].values(), key=lambda variant: -variant.count)
         for command in variants[0].items if variants else ():
             yield command, number
         # Images that only some of the frames read here are read nevertheless.
@@ -246,7 +246,7 @@ def _with_images(kind: FrameKind, order: Iterable[tuple[RecordedCommand, int]]) 
     """The commands with roles replaced by images."""
 
     def image_of(part: Any) -> Any:
-        return kind.images[part.number] if isinstance(part, Role) else part
+        return kind.images[part] if isinstance(part, Role) else part
 
     commands = []
     for command, _ in order:

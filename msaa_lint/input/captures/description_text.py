@@ -154,9 +154,7 @@ class _Writer:
     def _framebuffer(self, name: str, framebuffer: Framebuffer, begin: RenderPassBegin) -> None:
         tree: dict[str, Any] = {"renderPass": self.names.of("render_pass", begin.render_pass)}
         tree["attachments"] = [self.names.image(image) if image is not None else None for image in begin.images]
-        for member in ("width", "height", "layers"):
-            if getattr(framebuffer, member) is not None:
-                tree[member] = getattr(framebuffer, member)
+        tree.update(framebuffer.tree)
         count = len(begin.render_pass.tree.get("attachments", []))
         if len(begin.images) != count:
             # The capture lacks some views, so it is unknown which image belongs to which attachment.

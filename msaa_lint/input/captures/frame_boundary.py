@@ -74,21 +74,15 @@ def _image(key: Any) -> Image:
 
 def _render_pass(begin: RenderPassBegin) -> Iterator[tuple[Image, str | None, str]]:
     attachments = begin.render_pass.tree.get("attachments", [])
-    targets = _resolve_targets(begin.render_pass.tree)
-    pairs = [(index, tree, begin.images[index]) for index, tree in enumerate(attachments) if index < len(begin.images)]
-    has_framebuffer = begin.framebuffer is not None
-    for index, tree, image in pairs:
-        if image is None:
-            continue
-        covered = has_framebuffer and _covers(image, begin)
+    pairs = [(tree, image) for tree, image in zip(attachments, begin.images, strict=False) if image is not None]
+    for tree, image in pairs:
+        covered = _covers(image, begin)
         for aspect in image.aspects:
-            member = "stencilLoadOp" if aspect == "stencil" else "loadOp"
-            yield from _load(image, aspect, tree.get(member), covered or (index in targets and covered))
-    for _, tree, image in pairs:
-        for aspect in image.aspects if image is not None else ():
-            assert image is not None
-            member = "stencilStoreOp" if aspect == "stencil" else "storeOp"
-            yield image, aspect, STORE if tree.get(member) in ("STORE", None) else DISCARD
+            yield from _load(image, aspect, tree.get("stencilLoadOp" if aspect == "stencil" else "loadOp"), covered)
+    for tree, image in pairs:
+        for aspect in image.aspects:
+            store = tree.get("stencilStoreOp" if aspect == "stencil" else "storeOp")
+            yield image, aspect, STORE if store in ("STORE", None) else DISCARD
 
 
 def _load(image: Image, aspect: str, load: object, covered: bool) -> Iterator[tuple[Image, str | None, str]]:
@@ -120,16 +114,6 @@ def _rendering(key: Any) -> Iterator[tuple[Image, str | None, str]]:
     yield from stores
 
 
-def _resolve_targets(tree: dict[str, Any]) -> set[int]:
-    targets: set[int] = set()
-    for subpass in tree.get("subpasses", []):
-        for reference in subpass.get("resolveAttachments", []):
-            index = reference.get("attachment") if isinstance(reference, dict) else reference
-            if isinstance(index, int):
-                targets.add(index)
-    return targets
-
-
 def _is_single_level(image: Image) -> bool:
     """Whether an image has one mip level and one layer, so that one pass can write all of it."""
     return all(count == 1 for count in (image.tree.get("mipLevels", 1), image.tree.get("arrayLayers", 1), _depth(image)))
@@ -145,12 +129,12 @@ def _covers(image: Image, begin: RenderPassBegin) -> bool:
     framebuffer = begin.framebuffer
     if framebuffer is None or image.tree.get("mipLevels", 1) > 1 or _depth(image) > 1:
         return False
-    if image.tree.get("arrayLayers", 1) > (framebuffer.layers or 1):
+    if image.tree.get("arrayLayers", 1) > framebuffer.tree.get("layers", 1):
         return False
     extent = image.tree.get("extent", {})
     for number, side in ((2, "width"), (3, "height")):
         full = extent.get(side)
-        sizes = [getattr(framebuffer, side), begin.area[number] if begin.area is not None else None]
+        sizes = [framebuffer.tree.get(side), begin.area[number] if begin.area is not None else None]
         if full is not None and any(size is not None and size < full for size in sizes):
             return False
     return begin.area is None or begin.area[:2] == (0, 0)

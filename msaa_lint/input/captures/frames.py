@@ -7,11 +7,11 @@ over all frames of a kind; between passes, the most frequent sequence of command
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from .command_buffers import RecordedCommand, RenderPassBegin
 from .frame_boundary import aspect_uses
-from .objects import Image, Pipeline, freeze
+from .objects import Image, freeze
 
 MAX_KINDS = 32
 """Maximum number of frame kinds."""
@@ -41,49 +41,26 @@ PASS_BEGINS = ("beginRenderPass", "beginRendering")
 PASS_ENDS = ("endRenderPass", "endRendering")
 
 
-class Role:
-    """Stands for the image that a frame's passes use at this position, in order of first use. There is one object per position."""
+class Role(int):
+    """Stands for the image that a frame's passes use at this position, in order of first use."""
 
-    __slots__ = ("number",)
-
-    def __init__(self, number: int) -> None:
-        self.number = number
+    __slots__ = ()
 
 
-_ROLES: list[Role] = []
-
-
-def role_of(number: int) -> Role:
-    """The role for a position."""
-    while len(_ROLES) <= number:
-        _ROLES.append(Role(len(_ROLES)))
-    return _ROLES[number]
-
-
-class Segment:
-    """The commands within a pass or between two passes. `begin` is the command that begins the pass, None between passes."""
-
-    __slots__ = ("begin", "items")
-
-    def __init__(self, begin: RecordedCommand | None) -> None:
-        self.begin = begin
-        self.items: list[RecordedCommand] = []
+Segment = tuple[RecordedCommand | None, list[RecordedCommand]]
+"""The commands within a pass, after the command that begins it, or between two passes, after None."""
 
 
 class GapVariant:
     """A command sequence between two passes, and the number of frames that contain it."""
 
-    __slots__ = ("count", "items")
-
-    def __init__(self, items: list[RecordedCommand], count: int) -> None:
+    def __init__(self, items: list[RecordedCommand]) -> None:
         self.items = items
-        self.count = count
+        self.count = 0
 
 
 class FrameKind:
     """Frames of the same kind: the passes and images of the first, the number of frames, and the merged contents."""
-
-    __slots__ = ("alternates", "count", "defined", "gaps", "images", "later", "number", "pass_commands", "passes", "undefined")
 
     def __init__(self, number: int, images: list[Image], passes: list[RecordedCommand]) -> None:
         self.number = number
@@ -92,7 +69,7 @@ class FrameKind:
         self.passes = passes
         self.alternates: list[dict[Hashable, RenderPassBegin]] = [{} for _ in passes]
         self.pass_commands: list[dict[Hashable, RecordedCommand]] = [{} for _ in passes]
-        self.gaps: list[list[GapVariant]] = [[] for _ in range(len(passes) + 1)]
+        self.gaps: list[dict[Hashable, GapVariant]] = [{} for _ in range(len(passes) + 1)]
         self.later: set[tuple[Hashable, str]] = set()
         """Images and aspects whose contents a later frame reads."""
         self.defined: set[tuple[Hashable, str]] = set()
@@ -111,8 +88,6 @@ class AspectState(NamedTuple):
 class DistinctFrame:
     """A frame with a distinct command sequence: its kind (None above MAX_KINDS), and how often it occurred since the last count."""
 
-    __slots__ = ("commands", "count", "gaps", "images", "kind", "passes", "pipelines")
-
     def __init__(
         self, kind: FrameKind | None, commands: list[RecordedCommand], roles: Iterable[Image], gaps: list[list[RecordedCommand]]
     ) -> None:
@@ -122,9 +97,9 @@ class DistinctFrame:
         self.count = 0
         self.images = list(roles)
         begins = [command.key for command in commands if isinstance(command.key, RenderPassBegin)]
-        self.passes = list(dict.fromkeys(begin.render_pass for begin in begins))
-        draw_pipelines = [command.key[0] for command in commands if command.kind == "draw" and isinstance(command.key, tuple)]
-        self.pipelines = list(dict.fromkeys(pipeline for pipeline in draw_pipelines if isinstance(pipeline, Pipeline)))
+        pipelines = [command.key[0] for command in commands if command.kind == "draw" and isinstance(command.key, tuple)]
+        self.used: list[Any] = list(dict.fromkeys((*roles, *(begin.render_pass for begin in begins), *filter(None, pipelines))))
+        """The images, render passes and pipelines."""
 
 
 class Frames:
@@ -208,7 +183,7 @@ class Frames:
                 self._stored_commands = len(commands)
             self._distinct[key] = frame
         elif frame.kind is not None and self._repetitions < 2:
-            self._track_contents(frame.kind, commands, {image: role_of(number) for number, image in enumerate(frame.images)})
+            self._track_contents(frame.kind, commands, {image: Role(number) for number, image in enumerate(frame.images)})
         frame.count += 1
         self.dropped += frame.kind is None
         self._repetitions = self._repetitions + 1 if frame is self._last else 0
@@ -217,14 +192,14 @@ class Frames:
     def _classify(self, commands: list[RecordedCommand]) -> DistinctFrame | None:
         """Classifies a new frame; None if it has no pass."""
         segments = _segments(commands)
-        if not any(segment.begin is not None for segment in segments):
+        passes = [begin for begin, _ in segments if begin is not None]
+        if not passes:
             return None
         self._repetitions = 0
         roles: dict[Image, Role] = {}
-        shape = tuple(_shape(segment.begin, roles) for segment in segments if segment.begin is not None)
+        shape = tuple(_shape(begin, roles) for begin in passes)
         kind = self.kinds.get(shape)
         if kind is None and len(self.kinds) < MAX_KINDS:
-            passes = [segment.begin for segment in segments if segment.begin is not None]
             kind = self.kinds[shape] = FrameKind(len(self.kinds), list(roles), passes)
         gaps: list[list[RecordedCommand]] = []
         if kind is not None:
@@ -253,12 +228,14 @@ class Frames:
 
 def _add_counts(frame: DistinctFrame) -> None:
     """Adds a frame's count to its kind, its images, render passes and pipelines."""
-    for used in (*frame.images, *frame.passes, *frame.pipelines):
+    for used in frame.used:
         used.frames += frame.count
     if frame.kind is not None:
         frame.kind.count += frame.count
         for variants, items in zip(frame.kind.gaps, frame.gaps, strict=True):
-            _count_gap(variants, items, frame.count)
+            sequence = tuple((command.kind, command.key) for command in items)
+            if sequence in variants or len(variants) < MAX_GAP_VARIANTS:
+                variants.setdefault(sequence, GapVariant(items)).count += frame.count
     frame.count = 0
 
 
@@ -266,87 +243,61 @@ def _merge(kind: FrameKind, segments: list[Segment], roles: dict[Image, Role]) -
     """Merges the contents of a frame's passes into its kind, and returns the commands between them."""
     number = 0
     gaps: list[list[RecordedCommand]] = []
-    for segment in segments:
-        if segment.begin is None:
-            gaps.append([_with_roles(command, roles) for command in segment.items])
+    for begin, items in segments:
+        if begin is None:
+            gaps.append([_with_roles(command, roles) for command in items])
             continue
-        if isinstance(segment.begin.key, RenderPassBegin):
+        if isinstance(begin.key, RenderPassBegin):
             alternates = kind.alternates[number]
-            begin = segment.begin.key
-            imageless = begin.framebuffer is None or begin.framebuffer.images is None
+            imageless = begin.key.framebuffer is None or begin.key.framebuffer.images is None
             if len(alternates) < MAX_ALTERNATES:
-                alternates.setdefault(begin.images if imageless else begin.framebuffer, begin)
+                alternates.setdefault(begin.key.images if imageless else begin.key.framebuffer, begin.key)
         pass_commands = kind.pass_commands[number]
-        for part, command in _parts(segment.items):
+        subpass = 0
+        for command in items:
+            subpass += command.kind == "nextSubpass"
             command_with_roles = _with_roles(command, roles)
-            identity = (part, command_with_roles.kind, command_with_roles.key)
+            identity = (subpass, command_with_roles.kind, command_with_roles.key)
             if identity not in pass_commands and len(pass_commands) < MAX_PASS_COMMANDS:
                 pass_commands[identity] = command_with_roles
         number += 1
     return gaps
 
 
-def _count_gap(variants: list[GapVariant], items: list[RecordedCommand], count: int) -> None:
-    """Counts a command sequence between two passes."""
-    sequence = [(command.kind, command.key) for command in items]
-    for variant in variants:
-        if [(command.kind, command.key) for command in variant.items] == sequence:
-            variant.count += count
-            return
-    if len(variants) < MAX_GAP_VARIANTS:
-        variants.append(GapVariant(items, count))
-
-
 def _segments(commands: list[RecordedCommand]) -> list[Segment]:
     """The commands before, within, between and after the passes of a frame."""
-    segments = [Segment(None)]
+    segments: list[Segment] = [(None, [])]
     in_pass = False
     for command in commands:
         if command.kind in PASS_BEGINS:
             if in_pass:
                 # The capture lacks the end of this pass.
-                segments.append(Segment(None))
-            segments.append(Segment(command))
+                segments.append((None, []))
+            segments.append((command, []))
             in_pass = True
         elif command.kind in PASS_ENDS:
             if in_pass:
-                segments.append(Segment(None))
+                segments.append((None, []))
             in_pass = False
-        elif command.kind == "nextSubpass" and not in_pass:
-            continue
-        else:
-            segments[-1].items.append(command)
+        elif in_pass or command.kind != "nextSubpass":
+            segments[-1][1].append(command)
     if in_pass:
-        segments.append(Segment(None))
+        segments.append((None, []))
     return segments
-
-
-def _parts(items: list[RecordedCommand]) -> Iterable[tuple[int, RecordedCommand]]:
-    """The commands of a pass, each with its subpass index; nextSubpass belongs to the following subpass."""
-    subpass = 0
-    for command in items:
-        if command.kind == "nextSubpass":
-            subpass += 1
-        yield subpass, command
 
 
 def _shape(begin: RecordedCommand, roles: dict[Image, Role]) -> Hashable:
     """The properties of a pass that define the kind of a frame. Images are replaced by their roles and creation parameters."""
     if isinstance(begin.key, RenderPassBegin):
-        pass_begin = begin.key
-        size = (
-            (pass_begin.framebuffer.width, pass_begin.framebuffer.height, pass_begin.framebuffer.layers)
-            if pass_begin.framebuffer is not None
-            else None
-        )
-        images = tuple(_role(image, roles) if image is not None else None for image in pass_begin.images)
-        return ("renderPass", id(pass_begin.render_pass), images, size, pass_begin.area)
+        size = tuple(begin.key.framebuffer.tree.items()) if begin.key.framebuffer is not None else None
+        images = tuple(_role(image, roles) if image is not None else None for image in begin.key.images)
+        return ("renderPass", id(begin.key.render_pass), images, size, begin.key.area)
     return ("rendering", _rendering_shape(begin.key, roles))
 
 
 def _role(image: Image, roles: dict[Image, Role]) -> Hashable:
     if image not in roles:
-        roles[image] = role_of(len(roles))
+        roles[image] = Role(len(roles))
     return (roles[image], image.swapchain is not None, freeze(image.tree))
 
 

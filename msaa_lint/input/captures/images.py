@@ -8,7 +8,6 @@ from itertools import count
 from typing import Any
 
 from msaa_lint.frame.description.models import Image as ImageRecord
-from msaa_lint.frame.vulkan.formats import format_of
 
 from . import values
 from .call import Call
@@ -38,7 +37,7 @@ class Images(Devices):
         """The memory type index of each allocation."""
         self.multisampled: dict[Hashable, Image] = {}
         """Multisampled images; those created with the same parameters share one entry."""
-        self.numbers: defaultdict[str, count[int]] = defaultdict(count)
+        self.numbers: defaultdict[object, count[int]] = defaultdict(count)
         """The numbers of the next objects, by kind."""
         self.frames = Frames()
         self.commands = CommandCache()
@@ -46,15 +45,11 @@ class Images(Devices):
     def on_CreateImage(self, call: Call) -> None:
         info = values.record(call.args.get("pCreateInfo"))
         handle = values.handle(call.args.get("pImage"))
-        image = self.images[handle] = self._image(call, to_tree(ImageRecord, info))
-        image.shared = any(values.chained(info, kind) is not None for kind in EXTERNAL_MEMORY)
-
-    def _image(self, call: Call, tree: dict[str, Any]) -> Image:
-        format = format_of(tree["format"]) if "format" in tree else None
-        image = Image(call, next(self.numbers["image"]), tree, format.aspects if format is not None else ())
+        tree = to_tree(ImageRecord, info)
+        image = self.images[handle] = Image(call, next(self.numbers[Image]), tree)
         if image.samples > 1 and len(self.multisampled) < MAX_DISTINCT:
             self.multisampled.setdefault(freeze(tree), image)
-        return image
+        image.shared = any(values.chained(info, kind) is not None for kind in EXTERNAL_MEMORY)
 
     def on_CreateImageView(self, call: Call) -> None:
         info = values.record(call.args.get("pCreateInfo"))
@@ -106,7 +101,7 @@ class Images(Devices):
         }
         tree = to_tree(ImageRecord, structure)
         handle = values.handle(call.args.get("pSwapchain"))
-        self.swapchains[handle] = Swapchain(call, next(self.numbers["swapchain"]), {**tree, "presentable": True})
+        self.swapchains[handle] = Swapchain(call, next(self.numbers[Swapchain]), {**tree, "presentable": True})
         self.frames.presents = True
 
     def on_DestroySwapchain(self, call: Call) -> None:
@@ -124,8 +119,7 @@ class Images(Devices):
             existing = self.images.get(handle)
             if existing is not None and existing.swapchain is swapchain:
                 continue
-            format = format_of(swapchain.tree["format"]) if "format" in swapchain.tree else None
-            image = Image(call, len(swapchain.images), dict(swapchain.tree), format.aspects if format is not None else ())
+            image = Image(call, len(swapchain.images), dict(swapchain.tree))
             image.by, image.at = swapchain.by, swapchain.at
             image.swapchain = swapchain
             swapchain.images.append(image)

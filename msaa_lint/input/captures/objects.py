@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Hashable
 from typing import Any
 
+from msaa_lint.frame.vulkan.formats import format_of
+
 from .call import Call, Place
 from .structures import Tree
 
@@ -14,28 +16,29 @@ ATTACHMENT_USAGES = frozenset(("COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT", "
 class CapturedObject:
     """An object: the call that created it, its number within its kind (from 0), and its debug name (`label`), empty if it has none.
 
-    `frames` counts the frames that use it.
+    `tree` describes it. `frames` counts the frames that use it.
     """
 
-    __slots__ = ("at", "by", "frames", "label", "number")
+    __slots__ = ("at", "by", "frames", "label", "number", "tree")
 
-    def __init__(self, call: Call, number: int) -> None:
+    def __init__(self, call: Call, number: int, tree: Tree) -> None:
         self.by = call.name
         self.at: Place = call.at
         self.number = number
+        self.tree = tree
         self.label = ""
         self.frames = 0
 
 
 class Image(CapturedObject):
-    """An image, possibly of a swapchain. `tree` describes it; `aspect_states` holds the state of each aspect after its last use."""
+    """An image, possibly of a swapchain. `aspect_states` holds the state of each aspect after its last use."""
 
-    __slots__ = ("aspect_states", "aspects", "attachable", "shared", "swapchain", "tree")
+    __slots__ = ("aspect_states", "aspects", "attachable", "shared", "swapchain")
 
-    def __init__(self, call: Call, number: int, tree: Tree, aspects: tuple[str, ...]) -> None:
-        super().__init__(call, number)
-        self.tree = tree
-        self.aspects = aspects
+    def __init__(self, call: Call, number: int, tree: Tree) -> None:
+        super().__init__(call, number, tree)
+        format = format_of(tree["format"]) if "format" in tree else None
+        self.aspects = format.aspects if format is not None else ()
         self.swapchain: Swapchain | None = None
         self.shared = False
         """Whether another process or API may read its memory."""
@@ -51,48 +54,38 @@ class Image(CapturedObject):
 
 
 class Swapchain(CapturedObject):
-    """A swapchain with its images, in order."""
+    """A swapchain with its images, in order; its tree describes each of them."""
 
-    __slots__ = ("images", "tree")
+    __slots__ = ("images",)
 
     def __init__(self, call: Call, number: int, tree: Tree) -> None:
-        super().__init__(call, number)
-        self.tree = tree
+        super().__init__(call, number, tree)
         self.images: list[Image] = []
 
 
 class RenderPass(CapturedObject):
     """A render pass. Render passes created with the same parameters are one object."""
 
-    __slots__ = ("tree",)
-
-    def __init__(self, call: Call, number: int, tree: Tree) -> None:
-        super().__init__(call, number)
-        self.tree = tree
+    __slots__ = ()
 
 
 class Framebuffer(CapturedObject):
-    """A framebuffer with its images, None for an unknown one; `images` is None for an imageless framebuffer."""
+    """A framebuffer: its size, and its images, None for an unknown one; `images` is None for an imageless framebuffer."""
 
-    __slots__ = ("height", "images", "layers", "render_pass", "width")
+    __slots__ = ("images",)
 
-    def __init__(self, call: Call, number: int, render_pass: RenderPass | None, images: tuple[Image | None, ...] | None) -> None:
-        super().__init__(call, number)
-        self.render_pass = render_pass
+    def __init__(self, call: Call, number: int, tree: Tree, images: tuple[Image | None, ...] | None) -> None:
+        super().__init__(call, number, tree)
         self.images = images
-        self.width: int | None = None
-        self.height: int | None = None
-        self.layers: int | None = None
 
 
 class Pipeline(CapturedObject):
     """A graphics pipeline. Pipelines created with the same parameters are one object."""
 
-    __slots__ = ("dynamic_samples", "modules", "render_pass", "tree")
+    __slots__ = ("dynamic_samples", "modules", "render_pass")
 
     def __init__(self, call: Call, number: int, tree: Tree, render_pass: RenderPass | None) -> None:
-        super().__init__(call, number)
-        self.tree = tree
+        super().__init__(call, number, tree)
         self.render_pass = render_pass
         self.modules: dict[str, bytes] = {}
         self.dynamic_samples = any(state.startswith("RASTERIZATION_SAMPLES") for state in tree.get("dynamicState", ()))

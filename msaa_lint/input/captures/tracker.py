@@ -18,7 +18,7 @@ from .command_buffers import RecordedCommand
 from .create_infos import pipeline_of, render_pass_of
 from .images import MAX_DISTINCT
 from .objects import CapturedObject, Framebuffer, Pipeline, RenderPass, freeze
-from .structures import to_tree
+from .structures import Tree, to_tree
 from .transfers import Transfers
 
 BOUNDARY = frozenset(
@@ -136,17 +136,16 @@ class Tracker(Transfers):
     def on_CreateRenderPass(self, call: Call) -> None:
         tree = render_pass_of(values.record(call.args.get("pCreateInfo")))
         handle = values.handle(call.args.get("pRenderPass"))
-        self.render_passes[handle] = self._deduplicate(
-            ("renderPass", freeze(tree)), lambda: RenderPass(call, next(self.numbers["render pass"]), tree)
-        )
+        self.render_passes[handle] = self._deduplicate(RenderPass, call, tree)
 
     on_CreateRenderPass2 = on_CreateRenderPass
 
-    def _deduplicate(self, key: Hashable, create: Callable[[], Any]) -> Any:
-        """The object created earlier from the same parameters, or a new one."""
+    def _deduplicate(self, kind: Callable[..., Any], call: Call, tree: Tree, *related: RenderPass | None) -> Any:
+        """The object of a kind created earlier from the same parameters, or a new one."""
+        key = (kind, related, freeze(tree))
         existing = self.distinct.get(key)
         if existing is None:
-            existing = create()
+            existing = kind(call, next(self.numbers[kind]), tree, *related)
             if len(self.distinct) < MAX_DISTINCT:
                 self.distinct[key] = existing
         return existing
@@ -157,11 +156,9 @@ class Tracker(Transfers):
         imageless = "IMAGELESS" in tree.get("flags", ())
         views = values.items(info.get("pAttachments"))
         images = None if imageless else tuple(self.view(view) for view in views[:64])
-        render_pass = self.render_passes.get(values.handle(info.get("renderPass")))
         handle = values.handle(call.args.get("pFramebuffer"))
-        framebuffer = Framebuffer(call, next(self.numbers["framebuffer"]), render_pass, images)
-        framebuffer.width, framebuffer.height, framebuffer.layers = tree.get("width"), tree.get("height"), tree.get("layers")
-        self.framebuffers[handle] = framebuffer
+        size: Tree = {member: tree[member] for member in ("width", "height", "layers") if member in tree}
+        self.framebuffers[handle] = Framebuffer(call, next(self.numbers[Framebuffer]), size, images)
 
     # Shaders and pipelines.
 
@@ -175,16 +172,11 @@ class Tracker(Transfers):
         for info, handle in zip(infos, values.items(call.args.get("pPipelines")), strict=False):
             tree, modules = pipeline_of(values.record(info), self.modules)
             render_pass = self.render_passes.get(values.handle(values.record(info).get("renderPass")))
-            number = values.handle(handle)
             if render_pass is not None and tree.get("subpass", 0) >= max(len(render_pass.tree.get("subpasses", ())), 1):
                 del tree["subpass"]
-
-            def create(tree: dict[str, Any] = tree, render_pass: RenderPass | None = render_pass) -> Pipeline:
-                return Pipeline(call, next(self.numbers["pipeline"]), tree, render_pass)
-
-            pipeline: Pipeline = self._deduplicate(("pipeline", render_pass, freeze(tree)), create)
+            pipeline: Pipeline = self._deduplicate(Pipeline, call, tree, render_pass)
             pipeline.modules.update(modules)
-            self.pipelines[number] = pipeline
+            self.pipelines[values.handle(handle)] = pipeline
 
     # Names.
 
