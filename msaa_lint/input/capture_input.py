@@ -48,19 +48,18 @@ def read_capture(stream: BinaryIO, format: str, name: str, path: str | None) -> 
     except CaptureError as error:
         broken = error
     tracker.finish()
-    description = describe_capture(tracker)
-    text, origins = description.text, description.origins
+    text, origins, modules = describe_capture(tracker)
     notes = []
     if tracker.frames.truncated:
         notes.append(f"{name}: the last entry is truncated and was skipped")
-    if description.dropped:
-        count = f"{description.dropped} of {description.frames} frames"
+    if tracker.frames.dropped:
+        count = f"{tracker.frames.dropped} of {tracker.frames.total} frames"
         notes.append(f"{name}: {count} were not linted because the capture has too many kinds of frames")
     if broken is not None:
         text += "# the capture is readable up to here\n"
         origins.append(Origin(*broken.place, ""))
     message = broken.message if broken is not None else ""
-    return CaptureInput(Source(name, text, origins), description.modules, description.frames, message, tuple(notes))
+    return CaptureInput(Source(name, text, origins), modules, tracker.frames.total, message, tuple(notes))
 
 
 def capture_findings(capture: CaptureInput, findings: Sequence[Finding]) -> list[Finding]:

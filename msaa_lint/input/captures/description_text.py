@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterator
-from typing import Any, NamedTuple
+from typing import Any
 
 from msaa_lint.core.text.source import Origin
 
@@ -24,18 +24,8 @@ MAX_UNUSED = 500
 """Maximum number of objects of a kind that are written although no frame uses them."""
 
 
-class DescriptionText(NamedTuple):
-    """The text, the call behind each line, the shader code by the names in the text, and the number of frames and of dropped frames."""
-
-    text: str
-    origins: list[Origin | None]
-    modules: dict[str, bytes]
-    frames: int
-    dropped: int
-
-
-def describe_capture(tracker: Tracker) -> DescriptionText:
-    """The description of a capture."""
+def describe_capture(tracker: Tracker) -> tuple[str, list[Origin | None], dict[str, bytes]]:
+    """The description of a capture: its text, the call behind each line, and the shader code by the names in the text."""
     lines = Lines()
     writer = _Writer(tracker, lines)
     kinds = sorted(tracker.frames.kinds.values(), key=lambda kind: (-kind.count, kind.number))
@@ -45,7 +35,7 @@ def describe_capture(tracker: Tracker) -> DescriptionText:
         writer.frame(kind, first=number == 0)
     if not kinds:
         writer.structures()
-    return DescriptionText("\n".join(lines.text) + "\n", lines.origins, writer.modules, tracker.frames.total, tracker.frames.dropped)
+    return "\n".join(lines.text) + "\n", lines.origins, writer.modules
 
 
 class _Writer:

@@ -127,15 +127,6 @@ def samples(value: object) -> int | None:
     return sample_count(value)
 
 
-def sample_counts(value: object) -> list[int] | None:
-    """The counts of a VkSampleCountFlags mask, in ascending order."""
-    parsed = flags("VkSampleCountFlagBits", value)
-    if parsed is None:
-        return None
-    counts = (sample_count(name) for name in parsed[0])
-    return sorted(count for count in counts if count is not None)
-
-
 def record(value: object) -> dict[str, Any]:
     """A structure; an empty one if there is none."""
     return value if isinstance(value, dict) else {}

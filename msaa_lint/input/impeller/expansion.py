@@ -6,6 +6,7 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.frame.description.bind import Binder
 from msaa_lint.frame.description.models import Description, Device
 from msaa_lint.frame.devices import builtin
+from msaa_lint.frame.devices.offer import lazily_allocated as has_lazily_allocated
 
 from . import metal, vulkan
 from .target import Target, Value, sections, tree
@@ -71,18 +72,11 @@ def expand(description: Description) -> Node:
 def lazily_allocated(description: Description) -> bool | None:
     """Whether the device has a lazily allocated memory type, which the engine queries; None if the description does not say."""
     device = description.device
-    types: tuple[tuple[str, ...], ...] | None = None
     if isinstance(device, Device):
         types = device.memoryTypes
-    elif device is not None:
-        profile = builtin(device)
-        if profile is not None and (not profile.minimum or _lazy(profile.memory_types or ())):
-            types = profile.memory_types
-    return None if types is None else _lazy(types)
-
-
-def _lazy(types: tuple[tuple[str, ...], ...]) -> bool:
-    return any("LAZILY_ALLOCATED" in flags for flags in types)
+        return None if types is None else any("LAZILY_ALLOCATED" in flags for flags in types)
+    profile = builtin(device) if device is not None else None
+    return has_lazily_allocated(profile) if profile is not None else None
 
 
 def _apple(description: Description) -> tuple[bool | None, bool | None]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from . import words
-from .target import Target, Value
+from .target import Config, Target, Value
 
 Members = dict[str, Any]
 
@@ -27,14 +27,18 @@ def section(targets: list[Target], memoryless: bool | None, apple: bool | None) 
         members["renderPipelines"][target.name] = Value(_pipeline(target), target.at)
     if targets and all(target.onscreen for target in targets):
         # It is unknown who samples an offscreen target. Without commands, its usage counts as a read.
-        members["commands"] = [Value(command, target.at) for target in targets for command in _commands(target)]
+        members["commands"] = [
+            Value(command, target.at)
+            for target in targets
+            for command in ({"renderPass": target.name}, {"present": f"{target.name}_color"})
+        ]
     return {member: entries for member, entries in members.items() if entries}
 
 
 def _textures(target: Target, memoryless: bool | None, apple: bool | None) -> Members:
     def texture(format: Value, usage: list[str], samples: Value | None, mode: Value) -> Value:
         members = {
-            "pixelFormat": Value(words.METAL_FORMATS.get(format.value), format.at),
+            "pixelFormat": format.mapped(words.METAL_FORMATS),
             "width": target.width,
             "height": target.height,
             "textureType": "type2DMultisample" if samples is not None and samples.value > 1 else "type2D",
@@ -44,17 +48,15 @@ def _textures(target: Target, memoryless: bool | None, apple: bool | None) -> Me
         }
         return Value(members, target.at)
 
-    color, at = target.color, target.at
+    color = target.color
     textures: Members = {}
     single = color.resolve_storage if target.multisampled else color.storage
     if target.multisampled:
         textures[f"{target.name}_color_ms"] = texture(target.color_format, ["renderTarget"], target.samples, color.storage)
     if target.onscreen:
-        members = {
-            "pixelFormat": Value(words.METAL_FORMATS.get(target.color_format.value), target.color_format.at),
-            "drawable": True,
-        }
-        textures[f"{target.name}_color"] = Value(members, at)
+        textures[f"{target.name}_color"] = Value(
+            {"pixelFormat": target.color_format.mapped(words.METAL_FORMATS), "drawable": True}, target.at
+        )
     else:
         textures[f"{target.name}_color"] = texture(target.color_format, ["renderTarget", "shaderRead"], None, single)
     if target.has_depth_stencil:
@@ -78,17 +80,11 @@ def _render_pass(target: Target) -> Members:
         "texture": f"{target.name}_color_ms" if target.multisampled else f"{target.name}_color",
         # The engine sets a resolve texture for every multisampled target, whatever its store action.
         "resolveTexture": Value(f"{target.name}_color", color.store.at) if target.multisampled else None,
-        "loadAction": Value(words.METAL_LOADS[color.load.value], color.load.at),
-        "storeAction": Value(words.METAL_STORES[color.store.value], color.store.at),
+        **_actions(color),
     }
     descriptor: Members = {"colorAttachments": [attachment]}
     if target.has_depth_stencil:
-        config = target.depth_stencil
-        aspect = {
-            "texture": f"{target.name}_depth_stencil",
-            "loadAction": Value(words.METAL_LOADS[config.load.value], config.load.at),
-            "storeAction": Value(words.METAL_STORES[config.store.value], config.store.at),
-        }
+        aspect = {"texture": f"{target.name}_depth_stencil", **_actions(target.depth_stencil)}
         if target.has_depth:
             descriptor["depthAttachment"] = aspect
         if target.has_stencil:
@@ -96,16 +92,16 @@ def _render_pass(target: Target) -> Members:
     return descriptor
 
 
+def _actions(config: Config) -> Members:
+    return {"loadAction": config.load.mapped(words.METAL_ACTIONS), "storeAction": config.store.mapped(words.METAL_ACTIONS)}
+
+
 def _pipeline(target: Target) -> Members:
-    depth_stencil = Value(words.METAL_FORMATS.get(target.depth_format.value), target.depth_format.at)
+    depth_stencil = target.depth_format.mapped(words.METAL_FORMATS)
     return {
         "renderPass": target.name,
         "rasterSampleCount": target.samples,
-        "colorAttachments": [{"pixelFormat": Value(words.METAL_FORMATS.get(target.color_format.value), target.color_format.at)}],
+        "colorAttachments": [{"pixelFormat": target.color_format.mapped(words.METAL_FORMATS)}],
         "depthAttachmentPixelFormat": depth_stencil if target.has_depth_stencil and target.has_depth else None,
         "stencilAttachmentPixelFormat": depth_stencil if target.has_depth_stencil and target.has_stencil else None,
     }
-
-
-def _commands(target: Target) -> list[Members]:
-    return [{"renderPass": target.name}, {"present": f"{target.name}_color"}]

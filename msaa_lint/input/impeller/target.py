@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from msaa_lint.core.text.node import Node
@@ -27,6 +28,10 @@ class Value(NamedTuple):
 
     value: Any
     at: Span
+
+    def mapped(self, names: Mapping[Any, Any]) -> Value:
+        """The name of the value in an API, at the same place; unknown if the API has none."""
+        return Value(names.get(self.value), self.at)
 
 
 class Config:

@@ -57,7 +57,7 @@ def _images(target: Target, lazy: bool | None) -> Members:
 def _image(target: Target, format: Value, samples: Value, usage: Value, memory: Value | None, presentable: bool | None) -> Value:
     extent = {"width": target.width, "height": target.height, "depth": 1} if target.width and target.height else None
     members = {
-        "format": Value(words.VULKAN_FORMATS.get(format.value), format.at),
+        "format": format.mapped(words.VULKAN_FORMATS),
         "samples": samples,
         "usage": usage,
         "memory": memory,
@@ -121,8 +121,8 @@ def _color_attachment(target: Target) -> Value:
     before = _final_layout(target.onscreen, samples) if samples > 1 or not target.onscreen else None
     members = {
         "image": f"{target.name}_{name}",
-        "loadOp": Value(words.VULKAN_LOADS[config.load.value], config.load.at),
-        "storeOp": Value(words.VULKAN_STORES[config.store.value], config.store.at),
+        "loadOp": config.load.mapped(words.VULKAN_LOADS),
+        "storeOp": config.store.mapped(words.VULKAN_STORES),
         "initialLayout": before if config.load.value == "kLoad" else "UNDEFINED",
         "finalLayout": _final_layout(target.onscreen, samples),
     }
@@ -134,9 +134,9 @@ def _resolve_attachment(target: Target) -> Value:
     config = target.color
     members: Members = {"image": f"{target.name}_color"} if target.multisampled else {}
     if not target.multisampled:
-        members = {"format": Value(words.VULKAN_FORMATS.get(target.color_format.value), target.color_format.at), "samples": 1}
+        members = {"format": target.color_format.mapped(words.VULKAN_FORMATS), "samples": 1}
     members |= {
-        "loadOp": Value(words.VULKAN_LOADS[config.load.value], config.load.at),
+        "loadOp": config.load.mapped(words.VULKAN_LOADS),
         "storeOp": Value("STORE", config.store.at),
         "initialLayout": _final_layout(target.onscreen, target.samples.value) if config.load.value == "kLoad" else "UNDEFINED",
         "finalLayout": _final_layout(target.onscreen, 1),
@@ -147,8 +147,8 @@ def _resolve_attachment(target: Target) -> Value:
 def _depth_stencil_attachment(target: Target) -> Value:
     """Depth and stencil share their operations; a stencil-only format has no depth operations."""
     config = target.depth_stencil
-    load = Value(words.VULKAN_LOADS[config.load.value], config.load.at)
-    store = Value(words.VULKAN_STORES[config.store.value], config.store.at)
+    load = config.load.mapped(words.VULKAN_LOADS)
+    store = config.store.mapped(words.VULKAN_STORES)
     members = {
         "image": f"{target.name}_depth_stencil",
         "loadOp": load if target.has_depth else "DONT_CARE",

@@ -50,10 +50,10 @@ VULKAN_LOADS = {"kDontCare": "DONT_CARE", "kLoad": "LOAD", "kClear": "CLEAR"}
 VULKAN_STORES = {"kDontCare": "DONT_CARE", "kStore": "STORE", "kMultisampleResolve": "DONT_CARE", "kStoreAndMultisampleResolve": "STORE"}
 """`ToVKAttachmentStoreOp` for the multisampled texture. Both resolving actions store the resolve texture."""
 
-METAL_LOADS = {"kDontCare": "dontCare", "kLoad": "load", "kClear": "clear"}
-
-METAL_STORES = {
+METAL_ACTIONS = {
     "kDontCare": "dontCare",
+    "kLoad": "load",
+    "kClear": "clear",
     "kStore": "store",
     "kMultisampleResolve": "multisampleResolve",
     "kStoreAndMultisampleResolve": "storeAndMultisampleResolve",

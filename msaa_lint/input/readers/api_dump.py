@@ -13,8 +13,6 @@ from typing import Any, BinaryIO
 from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place, is_wanted
 from msaa_lint.input.captures.json_stream import BYTE_ORDER_MARK, TRUNCATED, Cursor, loads
 
-NAME = "api-dump"
-
 HEAD = re.compile(rb'\s*\[\s*\{\s*"frameNumber"\s*:')
 START = re.compile(rb'\{\s*"name"\s*:\s*"(\w{1,100})"')
 

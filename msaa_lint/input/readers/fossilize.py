@@ -15,8 +15,6 @@ from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place
 
 from .fossilize_objects import APPLICATION, GRAPHICS_PIPELINE, RENDER_PASS, SHADER_MODULE, calls_of, fragment_modules
 
-NAME = "fossilize"
-
 MAGIC = b"\x81FOSSILIZEDB\x00\x00\x00"
 VERSIONS = (5, 6)
 

@@ -15,8 +15,6 @@ from typing import Any, BinaryIO, NamedTuple
 from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place, is_wanted
 from msaa_lint.input.captures.json_stream import BYTE_ORDER_MARK, TRUNCATED, Blocks, Cursor, PeekedStream, loads, parse_call
 
-NAME = "gfxreconstruct"
-
 DEVICE_COMMANDS = frozenset({"SetDevicePropertiesCommand", "SetDeviceMemoryPropertiesCommand"})
 """The `meta` commands that describe the device. A trimmed capture has them instead of the queries."""
 

@@ -21,7 +21,6 @@ from msaa_lint.frame.description.models import (
     Image,
     Metal,
     MetalCommand,
-    MetalCopy,
     MetalPipelineColor,
     MetalRead,
     MetalRenderPass,
@@ -36,12 +35,17 @@ from msaa_lint.frame.metal.formats import PIXEL_FORMATS
 from msaa_lint.frame.metal.names import MULTISAMPLE_TYPES
 from msaa_lint.frame.vulkan.formats import format_of
 
-from .metal_pass import Items, PassTree, attachments_of, by_index, first_stated, key_of, placed, resolves
+from .metal_pass import Items, PassTree, attachments_of, by_index, first_stated, key_of, placed, renamed, resolves
 
 BESIDE = ("images", "renderPasses", "framebuffers", "pipelines", "commands")
 """The sections of a Vulkan frame."""
 
 _USAGE = {"shaderRead": "SAMPLED", "shaderWrite": "STORAGE", "shaderAtomic": "STORAGE"}
+_COMMANDS = {
+    "copy": ("copyImage", {"source": "srcImage", "destination": "dstImage"}),
+    "readTexture": ("readImage", {"texture": "image", "samples": "samples", "resolves": "resolves"}),
+    "writeTexture": ("writeImage", {"texture": "image"}),
+}
 _STAGES = {"vertex": "VERTEX", "fragment": "FRAGMENT", "compute": "COMPUTE", "tile": "FRAGMENT"}
 
 
@@ -109,13 +113,10 @@ class _Lowering:
             flags = ("DEVICE_LOCAL", "LAZILY_ALLOCATED") if texture.storageMode == "memoryless" else ("DEVICE_LOCAL",)
             at = texture.spelled["storageMode"][1].span
             items.append(("memory", key_of(texture, "storageMode"), sequence([scalar(flag, at) for flag in flags], at)))
-        if texture.width is not None or texture.height is not None:
-            sides: Items = [(m, *placed(texture, m, getattr(texture, m))) for m in ("width", "height") if getattr(texture, m) is not None]
+        sides = renamed(texture, {"width": "width", "height": "height"})
+        if sides:
             items.append(("extent", sides[0][1], mapping(sides, sides[0][1])))
-        for member, ours in (("drawable", "presentable"), ("mipmapLevelCount", "mipLevels"), ("encoding", "encoding")):
-            value = getattr(texture, member)
-            if value is not None:
-                items.append((ours, *placed(texture, member, value)))
+        items += renamed(texture, {"drawable": "presentable", "mipmapLevelCount": "mipLevels", "encoding": "encoding"})
         items += _type(texture)
         return mapping(items, texture.node.span)
 
@@ -194,27 +195,17 @@ class _Lowering:
     def commands(self, each: MetalCommand) -> Iterable[Command]:
         """What a command records; both of a pass stand at its place."""
         body = each.body
-        if each.kind == "renderPass":
+        if not isinstance(body, Record):
             name = scalar(str(body), _inner(each).span)
+            if each.kind == "present":
+                return [self._command("present", mapping([("image", each.head, name)], name.span), each)]
             begin = mapping([("renderPass", each.head, name)], name.span)
             return [self._command("beginRenderPass", begin, each), self._command("endRenderPass", mapping((), name.span), each)]
-        if each.kind == "present":
-            name = scalar(str(body), _inner(each).span)
-            return [self._command("present", mapping([("image", each.head, name)], name.span), each)]
-        assert isinstance(body, Record)
-        items: Items = []
-        if isinstance(body, MetalCopy):
-            members = {"source": "srcImage", "destination": "dstImage"}
-            items = [(ours, *placed(body, m, getattr(body, m))) for m, ours in members.items() if getattr(body, m) is not None]
-            return [self._command("copyImage", mapping(items, body.node.span), each)]
-        assert isinstance(body, (MetalRead, MetalWrite))
-        if body.texture is not None:
-            items.append(("image", *placed(body, "texture", body.texture)))
-        if body.stage is not None:
+        kind, members = _COMMANDS[each.kind]
+        items = renamed(body, members)
+        if isinstance(body, (MetalRead, MetalWrite)) and body.stage is not None:
             items.append(("stage", *placed(body, "stage", _STAGES[body.stage])))
-        if isinstance(body, MetalRead):
-            items += [(m, *placed(body, m, getattr(body, m))) for m in ("samples", "resolves") if getattr(body, m) is not None]
-        return [self._command("readImage" if isinstance(body, MetalRead) else "writeImage", mapping(items, body.node.span), each)]
+        return [self._command(kind, mapping(items, body.node.span), each)]
 
     def _command(self, kind: str, body: Node, origin: MetalCommand) -> Command:
         node = mapping([(kind, origin.head, body)], origin.node.span)

@@ -77,12 +77,12 @@ class PassTree:
         if color is None:
             return scalar(None, self.each.head)
         slot = f"colorAttachments[{number}]"
-        return self._add(color, slot, _image(color) + _operations(color, ""), color.path, {"color": color})
+        return self._add(color, slot, renamed(color, {"texture": "image"}) + _operations(color, ""), {"color": color})
 
-    def _add(self, of: MetalAttachment, slot: str, items: Items, path: str, origin: Mapping[str, Record]) -> Node:
+    def _add(self, of: MetalAttachment, slot: str, items: Items, origin: Mapping[str, Record]) -> Node:
         name = self._name(of.texture, slot)
         self.attachments.append((name, of.head, mapping(items, of.node.span)))
-        self.origins.append((path, origin))
+        self.origins.append((of.path, origin))
         return scalar(name, of.place("texture"))
 
     def _depth_stencil(self) -> Items:
@@ -90,7 +90,7 @@ class PassTree:
         first = depth if depth is not None else stencil
         if first is None:
             return []
-        items, origin = _image(first), dict[str, Record]()
+        items, origin = renamed(first, {"texture": "image"}), dict[str, Record]()
         together = depth is None or stencil is None or (depth.texture is not None and depth.texture == stencil.texture)
         if depth is not None:
             items += _operations(depth, "")
@@ -99,11 +99,11 @@ class PassTree:
             items += _operations(stencil, "stencil")
             origin["stencil"] = stencil
         slot = "depthAttachment" if depth is not None else "stencilAttachment"
-        reference = self._add(first, slot, items, first.path, origin)
+        reference = self._add(first, slot, items, origin)
         references: Items = [("depthStencilAttachment", key_of(self.each, slot), reference)]
         if stencil is not None and not together:
             name = self._add(
-                stencil, "stencilAttachment", _image(stencil) + _operations(stencil, "stencil"), stencil.path, {"stencil": stencil}
+                stencil, "stencilAttachment", renamed(stencil, {"texture": "image"}) + _operations(stencil, "stencil"), {"stencil": stencil}
             )
             target = self._target(stencil, "stencilAttachment", ("stencil",)).text if resolves(stencil) else None
             self.apart = StencilApart(name.text, target, stencil)
@@ -171,6 +171,12 @@ def placed(record: Record, member: str, value: str | int | bool) -> tuple[Span, 
     return key_of(record, member), scalar(value, record.place(member))
 
 
+def renamed(record: Record, names: Mapping[str, str]) -> Items:
+    """The stated members of a record under other names."""
+    values = ((name, member, getattr(record, member)) for member, name in names.items())
+    return [(name, *placed(record, member, value)) for name, member, value in values if value is not None]
+
+
 def attachments_of(render_pass: MetalRenderPass) -> Iterable[tuple[str, MetalAttachment]]:
     """The attachments of a pass, each with its aspect."""
     for color in by_index(render_pass.colorAttachments):
@@ -185,10 +191,6 @@ def attachments_of(render_pass: MetalRenderPass) -> Iterable[tuple[str, MetalAtt
 def resolves(attachment: MetalAttachment) -> bool:
     """Whether a pass resolves an attachment: its store action resolves, and it has a resolve texture."""
     return attachment.storeAction in MULTISAMPLE_RESOLVES and attachment.resolveTexture is not None
-
-
-def _image(attachment: MetalAttachment) -> Items:
-    return [("image", *placed(attachment, "texture", attachment.texture))] if attachment.texture is not None else []
 
 
 def _operations(attachment: MetalAttachment, aspect: str) -> Items:

@@ -16,8 +16,6 @@ from .renderdoc_blobs import Blobs
 from .renderdoc_calls import INITIAL_CONTENTS, NEEDED_FOR, CallConverter
 from .renderdoc_sets import unknown_set
 
-NAME = "renderdoc"
-
 BLOCK = 1 << 16
 MAX_CHUNK = 32 << 20
 """Maximum size of a chunk in bytes; parsed it takes about six times as much memory."""
@@ -270,7 +268,7 @@ class _ChunkParser:
                 attributes = value_attributes
                 try:
                     value = value_of("".join(text))
-                except (ValueError, OverflowError):
+                except (ValueError, OverflowError, KeyError):
                     raise self.error_here(f"`{''.join(text)[:64]}` is not a valid `{tag}`") from None
                 value_of = None
             elif outer:
@@ -332,12 +330,6 @@ def _attribute(attributes: list[str], name: str) -> str | None:
     return None
 
 
-def _boolean(text: str) -> bool:
-    if text not in ("true", "false"):
-        raise ValueError(text[:24])
-    return text == "true"
-
-
 VALUES: dict[str, Callable[[str], Any]] = {
     "uint": int,
     "int": int,
@@ -345,7 +337,7 @@ VALUES: dict[str, Callable[[str], Any]] = {
     "ResourceId": int,
     "buffer": int,
     "float": float,
-    "bool": _boolean,
+    "bool": {"true": True, "false": False}.__getitem__,
     "string": str,
     "char": str,
     "null": lambda text: None,

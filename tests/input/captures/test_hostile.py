@@ -96,7 +96,7 @@ def described(calls: list[tuple[str, dict[str, Any]]]) -> list[Document]:
         tracker.feed(Call(name, args, Place(number + 1, 1, number)))
     tracker.feed(Mark("frame", Place()))
     tracker.finish()
-    source = Source("capture", describe_capture(tracker).text)
+    source = Source("capture", describe_capture(tracker)[0])
     parsed = parse(source, Limits())
     assert parsed.problems == []
     return [readers.read(source, root) for root in parsed.documents]
