@@ -84,6 +84,6 @@ def test_lines_that_hold_nothing_else(text: str, alone: set[int]) -> None:
 @pytest.mark.parametrize("language", ["cpp", "swift"])
 @pytest.mark.parametrize("piece", ["/*", "/* */ ", '"', 'R"(', 'R"a(', "'", '#"', '"""', '#"""', '\\"', "//", "\n/*\n"])
 def test_hostile_code_takes_no_time(piece: str, language: str) -> None:
-    begun = time.monotonic()
+    begun = time.process_time()
     comments([Code(piece * 100_000, language)])
-    assert time.monotonic() - begun < 5
+    assert time.process_time() - begun < 5

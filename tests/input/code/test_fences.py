@@ -93,9 +93,9 @@ def test_any_text_keeps_its_length_and_its_lines(text: str) -> None:
 
 @pytest.mark.parametrize("text", ["- " * 200_000, "> " * 200_000, "```" * 100_000, "```cpp\n" * 50_000, "  - x\n" * 20_000, ">" * 300_000])
 def test_hostile_pages_take_no_time(text: str) -> None:
-    begun = time.monotonic()
+    begun = time.process_time()
     codes(text)
-    assert time.monotonic() - begun < 5
+    assert time.process_time() - begun < 5
 
 
 def test_every_name_is_of_a_language() -> None:

@@ -372,6 +372,6 @@ HOSTILE = [
 
 @pytest.mark.parametrize("n", range(len(HOSTILE)))
 def test_hostile_code_ends_soon(n: int) -> None:
-    begun = time.perf_counter()
+    begun = time.process_time()
     read(HOSTILE[n])
-    assert time.perf_counter() - begun < 5
+    assert time.process_time() - begun < 5

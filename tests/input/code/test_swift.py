@@ -819,9 +819,9 @@ HOSTILE = [
 
 @pytest.mark.parametrize("text", HOSTILE, ids=range(len(HOSTILE)))
 def test_hostile_text(text: str) -> None:
-    begun = time.perf_counter()
+    begun = time.process_time()
     trees(Code(MADE + text, "swift"))
-    assert time.perf_counter() - begun < 5
+    assert time.process_time() - begun < 5
 
 
 def test_mutated_programs_do_no_harm() -> None:
@@ -846,9 +846,9 @@ def test_two_thousand_lines_in_little_time() -> None:
     code = Code(ascii_only(text), "swift")
     best = 9.0
     for _ in range(3):
-        begun = time.perf_counter()
+        begun = time.process_time()
         assert trees(code)
-        best = min(best, time.perf_counter() - begun)
+        best = min(best, time.process_time() - begun)
     assert best < 0.3 * text.count("\n") / 2_000 * 2, "twice the time, for machines that do other things as well"
 
 

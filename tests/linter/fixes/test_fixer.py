@@ -131,21 +131,21 @@ def test_thousands_of_fixes_are_applied_in_time() -> None:
     references = ", ".join(f"c{n}" for n in range(1000))
     text = f"renderPasses:\n  main:\n    attachments:\n{lines}      out: {{format: R8_UNORM, samples: 1, loadOp: DONT_CARE}}\n"
     text += f"    subpasses:\n      - {{colorAttachments: [{references}], resolveAttachments: [{', '.join(['out'] * 1000)}]}}\n"
-    start = time.monotonic()
+    start = time.process_time()
     done = fix_findings(text, True)
     assert len(done.fixed_findings) == 1000
-    assert time.monotonic() - start < 30
+    assert time.process_time() - start < 30
 
 
 def test_many_failing_fixes_are_given_up() -> None:
     each = "  g{0}: {{renderPass: main, multisampleState: {{rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 4}}}}\n"
     text = PASS + "pipelines:\n" + "".join(each.format(n) for n in range(200))
-    start = time.monotonic()
+    start = time.process_time()
     done = fix_findings(text, True)
     assert done.fixed_findings == ()
     assert len(done.failed_fixes) == 200
     assert done.failed_fixes[-1].reason == "too many fixes of this input failed"
-    assert time.monotonic() - start < 30
+    assert time.process_time() - start < 30
     assert MAX_TRIALS == 60
 
 
