@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import textwrap
 
+import pytest
+
 from msaa_lint.linter.fixes.changes import NoFix
 from msaa_lint.linter.fixes.document_fixes import DocumentFixes
 from tests.linter.fixes.linting import fix_findings, lint
@@ -52,6 +54,15 @@ def test_clear_becomes_the_load_operation_with_its_clear_value() -> None:
     assert "depth: {image: depth, loadOp: CLEAR, storeOp: STORE}" in done.text
     assert "color: {image: color, loadOp: LOAD, storeOp: STORE}" in done.text
     assert commands(done.text) == "commands:\n" + BEGIN % 2 + "  - draw: {vertexCount: 3}\n  - endRenderPass\n"
+
+
+@pytest.mark.parametrize(("stated", "index", "needed"), [(0, 0, 1), (0, 1, 2), (1, 1, 2), (1, 0, 1), (2, 1, 2)])
+def test_clear_values_reach_the_cleared_attachment(stated: int, index: int, needed: int) -> None:
+    """VUID-VkRenderPassBeginInfo-clearValueCount-00902, and not one value more."""
+    what = ("{aspect: COLOR, colorAttachment: 0}", "{aspect: DEPTH}")[index]
+    text = FRAME + BEGIN % stated + f"  - {CLEAR % what}\n  - draw: {{vertexCount: 3}}\n  - endRenderPass\n"
+    expected = "commands:\n" + BEGIN % needed + "  - draw: {vertexCount: 3}\n  - endRenderPass\n"
+    assert commands(fix_findings(text, True).text) == expected
 
 
 def test_sufficient_clear_values_stay() -> None:
