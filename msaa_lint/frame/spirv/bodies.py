@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Iterable
+from operator import itemgetter
 from typing import NamedTuple
 
 from . import numbers as op
@@ -48,13 +48,8 @@ class Body:
 
     def written(self, start: int, end: int) -> set[int]:
         """The variables that are written between two places."""
-        first = bisect_left(self.writes, (start, -2))
-        found = set()
-        for at, root in self.writes[first:]:
-            if at >= end:
-                break
-            found.add(root)
-        return found
+        first, last = (bisect_left(self.writes, place, key=itemgetter(0)) for place in (start, end))
+        return {root for _, root in self.writes[first:last]}
 
     def fetching(self, start: int, end: int) -> bool:
         """Whether samples are fetched, directly or by a call, between two places."""
@@ -72,14 +67,16 @@ _LEAST = {
 }  # fmt: skip
 """The minimum number of words of instructions in functions."""
 
-_NOTED = frozenset({
-    op.LABEL, op.LOAD, op.STORE, op.ACCESS_CHAIN, op.IN_BOUNDS_ACCESS_CHAIN, op.PTR_ACCESS_CHAIN, op.SELECTION_MERGE, op.LOOP_MERGE,
-    op.FUNCTION_CALL, op.VARIABLE, op.EXT_INST, op.COPY_OBJECT, op.COPY_MEMORY, op.IMAGE_TEXEL_POINTER,
-    *op.FETCHES, *op.DISCARDS,
-})  # fmt: skip
-"""The instructions that the analysis of bodies records."""
+_USED = {
+    op.LOAD: slice(3, 4), op.STORE: slice(1, 3), op.FUNCTION_CALL: slice(4, None), op.EXT_INST: slice(5, None),
+    op.COPY_OBJECT: slice(3, 4), op.COPY_MEMORY: slice(1, 3), op.IMAGE_TEXEL_POINTER: slice(3, 4),
+}  # fmt: skip
+"""The words of instructions that may be pointers to variables that are used as a whole."""
 
 _CHAINS = (op.ACCESS_CHAIN, op.IN_BOUNDS_ACCESS_CHAIN, op.PTR_ACCESS_CHAIN)
+
+_NOTED = frozenset({*_USED, *_CHAINS, *op.FETCHES, *op.DISCARDS, op.LABEL, op.SELECTION_MERGE, op.LOOP_MERGE, op.VARIABLE})
+"""The instructions that the analysis of bodies records."""
 
 
 def reached(module: Module, start: int) -> dict[int, Body]:
@@ -134,12 +131,9 @@ def _body(module: Module, function: Function, lengths: dict[int, int]) -> Body:
                 body.blocks[label] = Block(start, merge, continues)
             label, start, merge, continues = words[at + 1], after, None, None
             body.first = body.first or label
-        elif number == op.LOAD:
-            body.uses.setdefault(words[at + 3], set()).add(None)
-        elif number == op.STORE:
+        elif number in (op.STORE, op.COPY_MEMORY):
             root = words[at + 1]
             body.writes.append((at, roots.get(root, root)))
-            _use(body, words[at + 1 : at + 3])
         elif number in _CHAINS:
             base = words[at + 3]
             roots[words[at + 2]] = roots.get(base, base)
@@ -150,10 +144,8 @@ def _body(module: Module, function: Function, lengths: dict[int, int]) -> Body:
             merge, continues = words[at + 1], words[at + 2]
         elif number == op.FUNCTION_CALL:
             body.calls.append((at, words[at + 3]))
-            passed = words[at + 4 : after]
-            _use(body, passed)
             body.writes.append((at, GLOBALS))
-            body.writes.extend((at, roots.get(each, each)) for each in passed)
+            body.writes.extend((at, roots.get(each, each)) for each in words[at + 4 : after])
         elif number == op.VARIABLE:
             body.locals.add(words[at + 2])
         elif number in op.FETCHES:
@@ -162,25 +154,15 @@ def _body(module: Module, function: Function, lengths: dict[int, int]) -> Body:
         elif number in op.DISCARDS:
             body.discards = True
         elif number == op.EXT_INST:
-            _use(body, words[at + 5 : after])
             # Modf and Frexp write to their last operand.
             if words[at + 4] in (35, 51) and after > at + 5:
                 root = words[after - 1]
                 body.writes.append((at, roots.get(root, root)))
         elif number == op.COPY_OBJECT:
             roots[words[at + 2]] = roots.get(words[at + 3], words[at + 3])
-            _use(body, words[at + 3 : at + 4])
-        elif number == op.COPY_MEMORY:
-            body.writes.append((at, roots.get(words[at + 1], words[at + 1])))
-            _use(body, words[at + 1 : at + 3])
-        elif number == op.IMAGE_TEXEL_POINTER:
-            _use(body, words[at + 3 : at + 4])
+        for pointer in words[at:after][_USED[number]] if number in _USED else ():
+            body.uses.setdefault(pointer, set()).add(None)
         at = after
     if label:
         body.blocks[label] = Block(start, merge, continues)
     return body
-
-
-def _use(body: Body, operands: Iterable[int]) -> None:
-    for each in operands:
-        body.uses.setdefault(each, set()).add(None)

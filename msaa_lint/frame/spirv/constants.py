@@ -11,6 +11,9 @@ from .values import MAX_PARTS, Opaque, Value, computed, given, literal, small
 MAX_DEPTH = 16
 """Levels of nested types."""
 
+_BOOLEANS = {op.CONSTANT_TRUE: True, op.SPEC_CONSTANT_TRUE: True, op.CONSTANT_FALSE: False, op.SPEC_CONSTANT_FALSE: False}
+_ZEROS = {op.TYPE_BOOL: False, op.TYPE_INT: 0, op.TYPE_FLOAT: 0.0}
+
 
 class Constants:
     """Values by id; unknown values are opaque."""
@@ -29,10 +32,8 @@ class Constants:
             spec = self.module.decoration(identity, op.SPEC_ID)
             if spec is not None and spec in specialization:
                 return given(kind, specialization[spec])
-        if number in (op.CONSTANT_TRUE, op.SPEC_CONSTANT_TRUE):
-            return True
-        if number in (op.CONSTANT_FALSE, op.SPEC_CONSTANT_FALSE):
-            return False
+        if number in _BOOLEANS:
+            return _BOOLEANS[number]
         if number in (op.CONSTANT, op.SPEC_CONSTANT):
             return literal(kind, tuple(operands))
         if number in (op.CONSTANT_COMPOSITE, op.SPEC_CONSTANT_COMPOSITE):
@@ -53,7 +54,7 @@ class Constants:
             return value
         values = tuple(self.values.get(each) for each in operands[:3])
         width = self.width(operands[-1]) if operands else 32
-        if not kind or kind[0] not in (op.TYPE_VECTOR,):
+        if not kind or kind[0] != op.TYPE_VECTOR:
             return computed(number, kind, values, width)
         inner, count = self.module.types.get(kind[1], ()), kind[2]
         if not all(type(each) is tuple and len(each) == count for each in values):
@@ -62,12 +63,8 @@ class Constants:
         return None if None in parts else parts
 
     def width(self, identity: int) -> int:
-        """The width of an integer constant in bits; 32 if it is unknown."""
-        made = self.module.constants.get(identity)
-        return self.scalar_width(made[1]) if made is not None else 32
-
-    def scalar_width(self, type_id: int) -> int:
-        """The width of a scalar or of a vector's components in bits; 32 if it is unknown."""
+        """The width of an integer constant or of its components in bits; 32 if it is unknown."""
+        _, type_id, *_ = self.module.constants.get(identity, (0, 0))
         kind = self.module.types.get(type_id, ())
         if kind and kind[0] == op.TYPE_VECTOR and len(kind) > 1:
             kind = self.module.types.get(kind[1], ())
@@ -78,12 +75,8 @@ class Constants:
         kind = self.module.types.get(type_id, ())
         if not kind or depth > MAX_DEPTH:
             return None
-        if kind[0] == op.TYPE_BOOL:
-            return False
-        if kind[0] == op.TYPE_INT:
-            return 0
-        if kind[0] == op.TYPE_FLOAT:
-            return 0.0
+        if kind[0] in _ZEROS:
+            return _ZEROS[kind[0]]
         parts = self.parts(kind)
         if parts is None:
             return None

@@ -7,6 +7,7 @@ unknown. It takes a bounded number of steps; a shader that takes more is given u
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from functools import reduce
 from typing import NamedTuple
 
 from . import numbers as op
@@ -21,10 +22,7 @@ MAX_NESTED = 100
 """Levels of nested constructs and calls."""
 
 MAX_ROUNDS, MAX_IDLE_ROUNDS = 128, 16
-"""Iterations of a loop with constant bounds that fetches samples; after them, what it changes is unknown."""
-
-MAX_ROUNDS, MAX_IDLE_ROUNDS = 128, 16
-"""Iterations of a loop with constant bounds that fetches no samples; after them, what it changes is unknown."""
+"""Iterations of a loop with constant bounds, if it fetches samples and if not; after them, what it changes is unknown."""
 
 MAX_DOUBTFUL = 16
 """Iterations of a loop that fetches and may end after any of them; in practice no image has more samples."""
@@ -61,7 +59,7 @@ class Follower(Instructions):
         super().__init__(module, constants, bodies)
         self._calling: list[int] = []
         self._nested = 0
-        self._instructions: dict[int, Callable[[int, int], None]] = {
+        self._instructions: dict[int, Callable[[int, int], Value]] = {
             op.LOAD: self._load, op.STORE: self._store, op.VARIABLE: self._variable, op.FUNCTION_CALL: self._call,
             op.ACCESS_CHAIN: self._chain, op.IN_BOUNDS_ACCESS_CHAIN: self._chain, op.COPY_MEMORY: self._copy_memory,
             op.COPY_OBJECT: self._same, op.COPY_LOGICAL: self._same, op.IMAGE: self._same, op.SAMPLED_IMAGE: self._same,
@@ -77,8 +75,7 @@ class Follower(Instructions):
         for identity, variable in self.module.variables.items():
             if variable.storage in op.LOCAL:
                 self.holds[identity] = variable.holds
-                initial = self.constants.values.get(variable.initial) if variable.initial is not None else None
-                self.memory[identity] = UNWRITTEN if initial is None else initial
+                self.memory[identity] = self.constants.values.get(variable.initial, UNWRITTEN)
         exits = self._function(function, ())
         if not exits:
             return None
@@ -99,7 +96,7 @@ class Follower(Instructions):
         self._calling.pop()
         return [exit for exit in exits if exit.label == RETURNED]
 
-    def _call(self, at: int, end: int) -> None:
+    def _call(self, at: int, end: int) -> Value:
         words = self.words
         identity = words[at + 3]
         if identity not in self.bodies:
@@ -108,12 +105,10 @@ class Follower(Instructions):
         if not exits:
             raise _Ended
         self._resume(exits)
-        value = exits[0].value
-        for exit in exits[1:]:
-            value = met(value, exit.value)
+        value = reduce(met, (exit.value for exit in exits))
         for root in self.bodies[identity].locals:
             self.memory.pop(root, None)
-        self._assign(words[at + 2], Opaque() if value is None else value)
+        return Opaque() if value is None else value
 
     def _run(self, body: Body, label: int, stops: frozenset[int], header: int = 0) -> list[Exit]:
         """Follows from a label, whose phis have values, to the labels that stop it. `header` is that of the loop being iterated."""
@@ -133,36 +128,31 @@ class Follower(Instructions):
             if block is None:
                 raise GivenUp
             if block.continues is not None and label != header:
-                assert block.merge is not None
+                merge, conditional = block.merge, False
                 left = self._loop(body, label, block, stops)
-                arrived = [exit for exit in left if exit.label == block.merge]
-                exits += [exit for exit in left if exit.label != block.merge]
-                if not self._arrive(arrived, stops, exits):
+            else:
+                try:
+                    at = self._execute(block.start, body.function.end)
+                except _Ended:
                     return exits
-                label = block.merge
-                continue
-            try:
-                at = self._execute(block.start, body.function.end)
-            except _Ended:
-                return exits
-            targets = self._targets(at, exits)
-            if not targets:
-                return exits
-            if len(targets) == 1:
-                if not self._go(body, label, targets[0], stops, exits):
+                targets = self._targets(at, exits)
+                if not targets:
                     return exits
-                label, header = targets[0], 0
-                continue
-            merge = block.merge if block.continues is None else None
-            left = self._ways(body, label, targets, stops if merge is None else stops | {merge})
-            if merge is None or merge in stops:
-                return exits + left
+                if len(targets) == 1:
+                    if not self._go(body, label, targets[0], stops, exits):
+                        return exits
+                    label, header = targets[0], 0
+                    continue
+                merge = block.merge if block.continues is None else None
+                left = self._ways(body, label, targets, stops if merge is None else stops | {merge})
+                # If one branch leaves the construct, the rest is reached conditionally.
+                conditional = any(exit.label != merge for exit in left)
             arrived = [exit for exit in left if exit.label == merge]
+            if merge is None or merge in stops or not arrived:
+                return exits + left
             exits += [exit for exit in left if exit.label != merge]
-            if not self._arrive(arrived, stops, exits):
-                return exits
-            # If one branch leaves the construct, the rest is reached conditionally.
-            self.guarded += len(arrived) < len(left)
+            self._resume(arrived)
+            self.guarded += conditional
             label, header = merge, 0
 
     def _ways(self, body: Body, label: int, targets: Sequence[int], stops: frozenset[int]) -> list[Exit]:
@@ -226,12 +216,11 @@ class Follower(Instructions):
         if GLOBALS in roots:
             roots.update(self.module.variables)
         unknown = ANYWHERE in roots or any(root > 0 and root not in self.memory and root not in self.module.variables for root in roots)
-        phis = self._phis(body, label, 0)
         for root in list(self.memory) if unknown else [root for root in roots if root in self.memory]:
             if used:
                 self._escape(self.memory[root])
             self.memory[root] = Opaque((self.memory[root],))
-        for identity, _ in phis:
+        for identity, _ in self._phis(body, label, 0):
             value = self.values.get(identity)
             if used:
                 self._escape(value)
@@ -278,16 +267,6 @@ class Follower(Instructions):
             self._assign(identity, value)
         return True
 
-    def _arrive(self, arrived: list[Exit], stops: frozenset[int], exits: list[Exit]) -> bool:
-        """Continues where several paths meet, or records them as exits if following stops there."""
-        if arrived and arrived[0].label in stops:
-            exits += arrived
-            return False
-        if not arrived:
-            return False
-        self._resume(arrived)
-        return True
-
     def _phis(self, body: Body, label: int, source: int) -> Iterable[tuple[int, Value]]:
         """The values of a label's phis on the path from another label."""
         block = body.blocks.get(label)
@@ -316,10 +295,8 @@ class Follower(Instructions):
                     if own is not value:
                         memory[root] = met(own, value)
         self.memory = memory
-        for n, (identity, value) in enumerate(exits[0].phis):
-            for exit in exits[1:]:
-                value = met(value, exit.phis[n][1])
-            self._assign(identity, value)
+        for phis in zip(*(exit.phis for exit in exits), strict=True):
+            self._assign(phis[0][0], reduce(met, (value for _, value in phis)))
 
     def _execute(self, at: int, end: int) -> int:
         """The instructions of a block from a place up to the one that ends it."""
@@ -327,14 +304,12 @@ class Follower(Instructions):
         while at < end:
             first = words[at]
             number, after = first & 0xFFFF, at + (first >> 16)
-            self.steps -= 1
-            if self.steps < 0:
-                raise GivenUp
-            if number in known:
-                known[number](at, after)
-            elif number in _ENDS:
+            self._take(1)
+            if number in _ENDS:
                 return at
-            elif number not in _SILENT:
-                self._other(number, at, after)
+            if number not in _SILENT:
+                value = known[number](at, after) if number in known else self._other(number, at, after)
+                if value is not None:
+                    self._assign(words[at + 2], value)
             at = after
         raise GivenUp

@@ -30,11 +30,11 @@ class Function(NamedTuple):
 
 
 class Variable(NamedTuple):
-    """A variable: the type of its value, its storage class, its initial value."""
+    """A variable: the type of its value, its storage class, the id of its initial value (0 if it has none)."""
 
     holds: int
     storage: int
-    initial: int | None
+    initial: int
 
 
 class Module:
@@ -112,7 +112,7 @@ class Module:
         elif number == op.VARIABLE:
             pointer = self.types.get(words[at + 1], ())
             holds = pointer[2] if len(pointer) > 2 and pointer[0] == op.TYPE_POINTER else 0
-            self.variables[words[at + 2]] = Variable(holds, words[at + 3], words[at + 4] if end > at + 4 else None)
+            self.variables[words[at + 2]] = Variable(holds, words[at + 3], words[at + 4] if end > at + 4 else 0)
         elif number == op.ENTRY_POINT:
             name, after = text_at(words, at + 3, end)
             self.entries.append(Entry(words[at + 1], words[at + 2], name, frozenset(words[after:end])))

@@ -44,9 +44,6 @@ LOCAL = frozenset({OUTPUT, PRIVATE, FUNCTION_LOCAL})
 FRAGMENT = 4
 """An execution model."""
 
-SUBPASS_DATA = 6
-"""A dimension of images."""
-
 INT64, SAMPLE_RATE_SHADING = 11, 35
 ANY_POINTERS = frozenset({4, 4441, 4442, 5347})
 """Capabilities; the last are those with which pointers need not be to a variable that is known: Addresses, VariablePointers and

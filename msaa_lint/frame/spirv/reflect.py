@@ -13,7 +13,6 @@ from .instructions import QUERIED
 from .module import Entry, Module
 from .state import UNWRITTEN, GivenUp, ImageKey, Seen, Site
 from .values import Value, plain
-from .words import SpirvError
 
 CONSTANT, LOOP, CURRENT, UNKNOWN = "CONSTANT", "LOOP", "CURRENT", "UNKNOWN"
 """The kind of a sample operand: one constant; several, one after another; the shaded sample; anything else."""
@@ -249,6 +248,3 @@ def _alpha(module: Module, constants: Constants, entry: Entry, memory: Mapping[i
     written = any(value is not UNWRITTEN for value in values)
     constant = float(values[0]) if len(values) == 1 and plain(values[0]) else None
     return Alpha(True, written, constant)
-
-
-__all__ = ["Alpha", "Fetch", "Multisampled", "Reflected", "SpirvError", "Where", "reflect", "reflected"]

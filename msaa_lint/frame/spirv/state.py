@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import reduce
 
 from . import numbers as op
 from .bodies import Body
@@ -76,9 +77,8 @@ class State:
         self._places: dict[tuple[object, ...], int] = {}
         """The numbers of fetched texels, by image and place."""
         self._known: dict[tuple[object, ...], Opaque] = {}
-        self._lengths: dict[int, int] = {}
-        for body in bodies.values():
-            self._lengths.update(body.vectors)
+        self._lengths = {identity: length for body in bodies.values() for identity, length in body.vectors.items()}
+        """The lengths of the vectors that instructions create."""
 
     def _take(self, steps: int) -> None:
         self.steps -= steps
@@ -90,20 +90,16 @@ class State:
         self.assigned.append(identity)
 
     def _value(self, identity: int) -> Value:
-        value = self.values.get(identity)
-        if value is None:
-            value = self.constants.values.get(identity)
-        if value is None:
-            value = Pointer(identity, ()) if identity in self.module.variables else self._same_as("id", identity)
-        return value
+        for values in (self.values, self.constants.values):
+            if identity in values:
+                return values[identity]
+        return Pointer(identity, ()) if identity in self.module.variables else self._same_as("id", identity)
 
-    def _same_as(self, *made: object) -> Opaque:
+    def _same_as(self, *origin: object) -> Opaque:
         """An unknown value that is equal whenever it is created from the same origin."""
-        found = self._known.get(made)
-        if found is None:
-            found = self._known[made] = Opaque()
-            found.origin = made
-        return found
+        value = self._known.setdefault(origin, Opaque())
+        value.origin = origin
+        return value
 
     def _kind(self, type_id: int) -> tuple[int, ...]:
         return self.module.types.get(type_id, ())
@@ -131,9 +127,9 @@ class State:
             return tuple(Opaque((value,)) for _ in range(count))
         return tuple(self._same_as("part", value, n) for n in range(count))
 
-    def _escape(self, value: Value) -> None:
-        """Records that a value is used in a way that is not followed."""
-        waiting = [value]
+    def _escape(self, *values: Value) -> None:
+        """Records that values are used in a way that is not followed."""
+        waiting = list(values)
         roots: set[int] = set()
         while waiting:
             each = waiting.pop()
@@ -148,7 +144,9 @@ class State:
                 for fetched in {term[0] for term in each.terms}:
                     self._used(fetched, "OTHER", ())
             elif type(each) is Extreme:
-                self._extreme_used(each)
+                sources = {(term[0], term[1]) for term in each.terms}
+                for fetched, _ in sources:
+                    self._used(fetched, each.kind if len(sources) == 1 else "OTHER", (term[2] for term in each.terms))
             elif type(each) is Pointer:
                 waiting.extend(each.path)
                 if each.root in self.memory and each.root not in roots:
@@ -156,12 +154,6 @@ class State:
                     roots.add(each.root)
                     self._take(1)
                     waiting.append(self.memory[each.root])
-
-    def _extreme_used(self, value: Extreme) -> None:
-        sources = {(term[0], term[1]) for term in value.terms}
-        for fetched, _ in sources:
-            kind = value.kind if len(sources) == 1 else "OTHER"
-            self._used(fetched, kind, (term[2] for term in value.terms))
 
     def _used(self, fetched: int, kind: str, samples: Iterable[int]) -> None:
         self.images[self._fetched[fetched]].uses.add((kind, frozenset(samples)))
@@ -181,25 +173,23 @@ class State:
             return Opaque()
         if pointer.root not in self.memory:
             variable = self.module.variables.get(pointer.root)
-            for index in pointer.path:
-                self._escape(index)
+            self._escape(*pointer.path)
             if variable is None or not self._read_only(variable.storage, variable.holds):
                 return Opaque()
             return self._same_as("load", pointer.root, tuple(map(keyed, pointer.path)))
-        value = self.memory[pointer.root]
-        for index in pointer.path:
-            if type(index) is not int:
-                self._escape(value)
-                self._escape(index)
-                return Opaque()
+        return reduce(self._part, pointer.path, self.memory[pointer.root])
+
+    def _part(self, value: Value, index: Value) -> Value:
+        """The part of a composite value at an index."""
+        if type(index) is int:
             if type(value) is tuple:
-                value = value[index] if 0 <= index < len(value) else Opaque()
-            elif value is not UNWRITTEN:
-                if type(value) is not Opaque or value.held:
-                    self._escape(value)
-                    return Opaque()
-                value = self._same_as("part", value, index)
-        return value
+                return value[index] if 0 <= index < len(value) else Opaque()
+            if value is UNWRITTEN:
+                return value
+            if type(value) is Opaque and not value.held:
+                return self._same_as("part", value, index)
+        self._escape(value, index)
+        return Opaque()
 
     def _read_only(self, storage: int, holds: int) -> bool:
         """Whether a variable has the same value at every read."""
@@ -213,8 +203,7 @@ class State:
         if not isinstance(pointer, Pointer) and self.module.capabilities.isdisjoint(op.ANY_POINTERS):
             raise GivenUp
         if not isinstance(pointer, Pointer) or pointer.root not in self.memory:
-            self._escape(pointer)
-            self._escape(value)
+            self._escape(pointer, value)
             return
         whole = self._put(self.memory[pointer.root], pointer.path, value, self.holds.get(pointer.root, 0))
         self.memory[pointer.root] = whole if small(whole) else Opaque((whole,))
@@ -246,11 +235,9 @@ def met(one: Value, other: Value) -> Value:
     if type(one) is type(other):
         if type(one) is tuple and len(one) == len(other):
             return tuple(met(a, b) for a, b in zip(one, other, strict=True))
-        if (
-            (type(one) is Sum or type(one) is Extreme)
-            and one.terms == other.terms
-            and getattr(one, "kind", "") == getattr(other, "kind", "")
-        ):
+        if type(one) is Sum and one.terms == other.terms:
+            return one
+        if type(one) is Extreme and (one.kind, one.terms) == (other.kind, other.terms):
             return one
         if (plain(one) or type(one) is Pointer) and one == other:
             return one

@@ -7,6 +7,7 @@ some; a Pointer; or an Opaque, of which only is known whether it is the same as 
 from __future__ import annotations
 
 import math
+import operator
 import struct
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -80,9 +81,7 @@ def plain(value: Value) -> bool:
 
 def telling(value: Value) -> bool:
     """Whether a value, or a component of it, contains samples."""
-    if type(value) is tuple:
-        return any(type(part) is Sum or type(part) is Extreme for part in value)
-    return type(value) is Sum or type(value) is Extreme
+    return any(type(part) is Sum or type(part) is Extreme for part in (value if type(value) is tuple else (value,)))
 
 
 def small(value: Value) -> bool:
@@ -164,9 +163,7 @@ def literal(kind: tuple[int, ...], words: tuple[int, ...]) -> Value:
         return wrapped(bits, kind[1], len(kind) > 2 and kind[2] == 1)
     if kind[0] != op.TYPE_FLOAT or kind[1] == 8:
         return None
-    sizes = {16: ("<e", 2), 32: ("<f", 4), 64: ("<d", 8)}
-    form, size = sizes[kind[1]]
-    return struct.unpack(form, (bits & ((1 << 8 * size) - 1)).to_bytes(size, "little"))[0]
+    return struct.unpack_from({16: "<e", 32: "<f", 64: "<d"}[kind[1]], bits.to_bytes(8, "little"))[0]
 
 
 def given(kind: tuple[int, ...], value: float | bool) -> Value:
@@ -180,10 +177,6 @@ def given(kind: tuple[int, ...], value: float | bool) -> Value:
     return as_float(float(value), kind[1]) if kind[0] == op.TYPE_FLOAT and len(kind) > 1 else None
 
 
-def _shift(one: int, other: int) -> int:
-    return one << other if 0 <= other < 64 else 0
-
-
 def _quotient(one: int, other: int) -> int:
     """The quotient rounded toward zero."""
     whole = abs(one) // abs(other)
@@ -191,51 +184,39 @@ def _quotient(one: int, other: int) -> int:
 
 
 _INTEGERS: dict[int, Callable[[int, int], int]] = {
-    128: lambda one, other: one + other,
-    130: lambda one, other: one - other,
-    132: lambda one, other: one * other,
-    134: lambda one, other: one // other,
+    128: operator.add,
+    130: operator.sub,
+    132: operator.mul,
+    134: operator.floordiv,
     135: _quotient,
-    137: lambda one, other: one % other,
+    137: operator.mod,
     138: lambda one, other: one - _quotient(one, other) * other,
-    139: lambda one, other: one % other,
+    139: operator.mod,
     194: lambda one, other: one >> other if 0 <= other < 64 else 0,
     195: lambda one, other: one >> other if 0 <= other < 64 else (-1 if one < 0 else 0),
-    196: _shift,
-    197: lambda one, other: one | other,
-    198: lambda one, other: one ^ other,
-    199: lambda one, other: one & other,
+    196: lambda one, other: one << other if 0 <= other < 64 else 0,
+    197: operator.or_,
+    198: operator.xor,
+    199: operator.and_,
 }
 _UNSIGNED = frozenset({134, 137, 170, 171, 172, 174, 176, 178, 194})
 
 _COMPARISONS: dict[int, Callable[[Any, Any], bool]] = {
-    164: lambda one, other: one == other,
-    165: lambda one, other: one != other,
+    **dict.fromkeys((164, 170, 180), operator.eq),
+    **dict.fromkeys((165, 171, 182), operator.ne),
     166: lambda one, other: bool(one or other),
     167: lambda one, other: bool(one and other),
-    170: lambda one, other: one == other,
-    171: lambda one, other: one != other,
-    172: lambda one, other: one > other,
-    173: lambda one, other: one > other,
-    174: lambda one, other: one >= other,
-    175: lambda one, other: one >= other,
-    176: lambda one, other: one < other,
-    177: lambda one, other: one < other,
-    178: lambda one, other: one <= other,
-    179: lambda one, other: one <= other,
-    180: lambda one, other: one == other,
-    182: lambda one, other: one != other,
-    184: lambda one, other: one < other,
-    186: lambda one, other: one > other,
-    188: lambda one, other: one <= other,
-    190: lambda one, other: one >= other,
+    **dict.fromkeys((172, 173, 186), operator.gt),
+    **dict.fromkeys((174, 175, 190), operator.ge),
+    **dict.fromkeys((176, 177, 184), operator.lt),
+    **dict.fromkeys((178, 179, 188), operator.le),
 }
 
 _FLOATS: dict[int, Callable[[float, float], float]] = {
-    129: lambda one, other: one + other,
-    131: lambda one, other: one - other,
-    133: lambda one, other: one * other,
-    136: lambda one, other: one / other,
+    129: operator.add,
+    131: operator.sub,
+    133: operator.mul,
+    136: operator.truediv,
 }
 
 
