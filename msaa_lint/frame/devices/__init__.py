@@ -1,9 +1,9 @@
 """Devices: what they support, and the built-in profiles that a description can name."""
 
+from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from .builtin_profiles import Row
     from .tile_models import TileModel
 
 
@@ -57,26 +57,26 @@ def builtin(name: str) -> DeviceProfile | None:
     """The built-in profile of a name, which is case-sensitive; None if there is none."""
     from .builtin_profiles import PROFILES
 
-    if name not in _profiles and name in PROFILES:
-        _profiles[name] = _profile(PROFILES[name])
-    return _profiles.get(name)
+    return _profile(name) if name in PROFILES else None
 
 
-_profiles: dict[str, DeviceProfile] = {}
-
-
-def _profile(row: "Row") -> DeviceProfile:
+@cache
+def _profile(name: str) -> DeviceProfile:
     from msaa_lint.frame.vulkan.names import flag_names
 
+    from .builtin_profiles import EFFICIENT, PROFILES
     from .tile_models import MODELS
+    from .vendors import is_tiler
 
+    row = PROFILES[name]
+    vendor = row["vendor"]
     color, depth, stencil, integer = row["counts"]
     depth_modes, stencil_modes, independent, independent_none = row["resolve"]
     memory = row.get("memory")
     return DeviceProfile(
         name=row["name"],
-        vendor=row["vendor"],
-        tiler=row.get("tiler"),
+        vendor=vendor,
+        tiler=row.get("tiler", is_tiler(vendor)),
         color_samples=sample_counts(color),
         depth_samples=sample_counts(depth),
         stencil_samples=sample_counts(stencil),
@@ -89,9 +89,9 @@ def _profile(row: "Row") -> DeviceProfile:
         features=("sampleRateShading",) if row.get("sample_rate_shading", True) else (),
         extensions=row["extensions"],
         api_version=row["api"],
-        max_efficient_samples=row.get("efficient"),
+        max_efficient_samples=row.get("efficient", 4 if vendor in EFFICIENT else None),
         minimum=row.get("minimum", False),
-        source=row["source"],
+        source=row["source"] + EFFICIENT.get(vendor, "") + row.get("hardware", ""),
         tile=MODELS.get(row.get("tile", "")),
         compression=row.get("compression"),
     )

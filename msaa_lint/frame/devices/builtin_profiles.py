@@ -17,9 +17,12 @@ RECORDED = (
 
 REPORT = "vulkan.gpuinfo.org report {} ({}), CC BY 4.0"
 SAMPLE_RATE_SHADING = "; sampleRateShading: the report says that it supports {}"
-EFFICIENT_ARM = "; efficient samples: Arm GPU Best Practices, and kMaxEfficientSamplesArm of the Khronos best-practices layer"
-EFFICIENT_IMG = "; efficient samples: kMaxEfficientSamplesImg of the Khronos best-practices layer"
-EFFICIENT_QUALCOMM = "; efficient samples: Meta's Multisample Anti-Aliasing Analysis for Quest, which advises against more than 4"
+EFFICIENT = {
+    "arm": "; efficient samples: Arm GPU Best Practices, and kMaxEfficientSamplesArm of the Khronos best-practices layer",
+    "img": "; efficient samples: kMaxEfficientSamplesImg of the Khronos best-practices layer",
+    "qualcomm": "; efficient samples: Meta's Multisample Anti-Aliasing Analysis for Quest, which advises against more than 4",
+}
+"""Vendors whose guides advise against more than four samples, and which guides."""
 
 RESOLVE = ("VK_KHR_depth_stencil_resolve",)
 RENDERING = ("VK_KHR_depth_stencil_resolve", "VK_KHR_dynamic_rendering")
@@ -40,8 +43,9 @@ class Row(TypedDict, total=False):
     """A profile in Vulkan's masks. `counts` are those of colour, depth, stencil and integer colour; memory types are listed once each.
 
     `resolve` is supportedDepthResolveModes, supportedStencilResolveModes, independentResolve and independentResolveNone. Features are
-    sampleRateShading unless `sample_rate_shading` says otherwise. `tile` names a model of `tile_models.py`, where its source stands; a
-    GPU whose budgets no open-source driver states (Mali-G715) has none.
+    sampleRateShading unless `sample_rate_shading` says otherwise. `tiler` and `efficient` are stated where the vendor does not decide
+    them. `tile` names a model of `tile_models.py`, where its source stands; a GPU whose budgets no open-source driver states (Mali-G715)
+    has none. `hardware` is what the source says of the tile and the compression beyond that.
     """
 
     name: str
@@ -58,85 +62,69 @@ class Row(TypedDict, total=False):
     tile: str
     compression: dict[int, tuple[float, float]]
     source: str
+    hardware: str
 
 
 PROFILES: dict[str, Row] = {
     "mali-g76": {
         "name": "Mali-G76",
         "vendor": "arm",
-        "tiler": True,
         "counts": (13, 13, 13, None),
         "memory": (7, 11, 17, 33),
         "resolve": (1, 1, False, False),
         "extensions": RESOLVE,
         "api": "1.1.213",
-        "efficient": 4,
         "tile": "mali-g76",
         "compression": {1: (0.484, 0.462), 2: (1.0, 1.0), 4: (1.0, 1.0), 8: (1.0, 1.0), 16: (1.0, 1.0)},
-        "source": REPORT.format(38559, "Mali-G76, driver r38p1")
-        + SAMPLE_RATE_SHADING.format("VP_ANDROID_baseline_2022")
-        + EFFICIENT_ARM
-        + COMPRESSION_G76,
+        "source": REPORT.format(38559, "Mali-G76, driver r38p1") + SAMPLE_RATE_SHADING.format("VP_ANDROID_baseline_2022"),
+        "hardware": COMPRESSION_G76,
     },
     "mali-g610": {
         "name": "Mali-G610",
         "vendor": "arm",
-        "tiler": True,
         "counts": (29, 29, 29, 29),
         "memory": (7, 11, 17),
         "resolve": (1, 1, False, False),
         "extensions": SINGLE_SAMPLED,
         "api": "1.3.219",
-        "efficient": 4,
         "tile": "mali-g610",
-        "source": REPORT.format(37373, "Mali-G610 MC4, driver r38p1")
-        + SAMPLE_RATE_SHADING.format("VP_ANDROID_baseline_2022")
-        + EFFICIENT_ARM,
+        "source": REPORT.format(37373, "Mali-G610 MC4, driver r38p1") + SAMPLE_RATE_SHADING.format("VP_ANDROID_baseline_2022"),
     },
     "mali-g715": {
         "name": "Mali-G715",
         "vendor": "arm",
-        "tiler": True,
         "counts": (29, 29, 29, 29),
         "memory": (7, 11, 17, 33),
         "resolve": (1, 1, False, False),
         "extensions": SINGLE_SAMPLED,
         "api": "1.3.283",
-        "efficient": 4,
-        "source": REPORT.format(38609, "Mali-G715, driver r50p0") + EFFICIENT_ARM,
+        "source": REPORT.format(38609, "Mali-G715, driver r50p0"),
     },
     "mali-g720": {
         "name": "Mali-G720",
         "vendor": "arm",
-        "tiler": True,
         "counts": (31, 31, 31, 31),
         "memory": (7, 11, 17, 33),
         "resolve": (1, 1, False, False),
         "extensions": SINGLE_SAMPLED,
         "api": "1.3.247",
-        "efficient": 4,
         "tile": "mali-g720",
-        "source": REPORT.format(38589, "Mali-G720-Immortalis MC12, driver r44p1")
-        + SAMPLE_RATE_SHADING.format("VP_ANDROID_baseline_2022")
-        + EFFICIENT_ARM,
+        "source": REPORT.format(38589, "Mali-G720-Immortalis MC12, driver r44p1") + SAMPLE_RATE_SHADING.format("VP_ANDROID_baseline_2022"),
     },
     "adreno-740": {
         "name": "Adreno 740",
         "vendor": "qualcomm",
-        "tiler": True,
         "counts": (7, 7, 7, 7),
         "memory": (1, 11, 7, 15, 33, 17),
         "resolve": (15, 5, False, False),
         "extensions": RENDERING,
         "api": "1.3.128",
-        "efficient": 4,
         "tile": "adreno-740",
-        "source": REPORT.format(38724, "Adreno (TM) 740, driver 512.676.67") + EFFICIENT_QUALCOMM,
+        "source": REPORT.format(38724, "Adreno (TM) 740, driver 512.676.67"),
     },
     "apple-m1": {
         "name": "Apple M1",
         "vendor": "apple",
-        "tiler": True,
         "counts": (7, 7, 7, None),
         "memory": (1, 15, 11, 17),
         "resolve": (13, 1, True, True),
@@ -148,32 +136,30 @@ PROFILES: dict[str, Row] = {
     "apple-a15": {
         "name": "Apple A15",
         "vendor": "apple",
-        "tiler": True,
         "counts": (7, 7, 7, 7),
         "memory": (1, 15, 17),
         "resolve": (13, 1, True, True),
         "extensions": RENDERING,
         "api": "1.2.296",
         "tile": "apple-g13",
-        "source": REPORT.format(37680, "Apple A15 GPU, MoltenVK 1.2.11") + TILE_A15,
+        "source": REPORT.format(37680, "Apple A15 GPU, MoltenVK 1.2.11"),
+        "hardware": TILE_A15,
     },
     "powervr": {
         "name": "PowerVR BXE-4-32",
         "vendor": "img",
-        "tiler": True,
         "counts": (7, 7, 7, 7),
         "memory": (1, 17, 7, 11),
         "resolve": (1, 1, True, True),
         "extensions": RENDERING,
         "api": "1.3.204",
-        "efficient": 4,
         "tile": "powervr",
-        "source": REPORT.format(35506, "PowerVR B-Series BXE-4-32, driver 1.17") + EFFICIENT_IMG + TILE_POWERVR,
+        "source": REPORT.format(35506, "PowerVR B-Series BXE-4-32, driver 1.17"),
+        "hardware": TILE_POWERVR,
     },
     "v3d": {
         "name": "V3D 7.1",
         "vendor": "broadcom",
-        "tiler": True,
         "counts": (5, 5, 5, 5),
         "memory": (7,),
         "resolve": (1, 1, False, False),
@@ -196,7 +182,6 @@ PROFILES: dict[str, Row] = {
     "nvidia": {
         "name": "GeForce RTX 4070",
         "vendor": "nvidia",
-        "tiler": False,
         "counts": (15, 15, 31, 15),
         "memory": (0, 1, 6, 14, 7),
         "resolve": (15, 13, True, True),
@@ -207,7 +192,6 @@ PROFILES: dict[str, Row] = {
     "amd": {
         "name": "Radeon RX 9070 XT",
         "vendor": "amd",
-        "tiler": False,
         "counts": (15, 15, 15, 15),
         "memory": (1, 6, 7, 14, 193, 198, 199, 206),
         "resolve": (13, 13, True, True),
@@ -218,7 +202,6 @@ PROFILES: dict[str, Row] = {
     "intel": {
         "name": "Arc B580",
         "vendor": "intel",
-        "tiler": False,
         "counts": (15, 15, 15, 15),
         "memory": (1, 6, 14, 7),
         "resolve": (15, 13, True, True),
@@ -259,7 +242,7 @@ PROFILES: dict[str, Row] = {
         "efficient": 4,
         "minimum": True,
         "source": "Vulkan profile VP_ANDROID_baseline_2022; integer samples and resolve modes: what the Vulkan specification requires"
-        + EFFICIENT_ARM,
+        + EFFICIENT["arm"],
     },
     "desktop": {
         "name": "any desktop device of the 2022 baseline",

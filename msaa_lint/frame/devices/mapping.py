@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 
 from . import DeviceProfile, builtin
@@ -28,13 +29,9 @@ def description(offer: Offer) -> str:
 
 
 def _members(profile: DeviceProfile) -> list[tuple[str, str]]:
-    counts = {
-        "color": profile.color_samples,
-        "depth": profile.depth_samples,
-        "stencil": profile.stencil_samples,
-        "integer": profile.integer_samples,
-    }
-    stated = ", ".join(f"{aspect}: {_flow(map(str, found))}" for aspect, found in counts.items() if found is not None)
+    samples = profile.color_samples, profile.depth_samples, profile.stencil_samples, profile.integer_samples
+    counts = zip(("color", "depth", "stencil", "integer"), samples, strict=True)
+    stated = ", ".join(f"{aspect}: {_flow(map(str, found))}" for aspect, found in counts if found is not None)
     types = profile.memory_types
     modes = profile.depth_resolve_modes, profile.stencil_resolve_modes
     return [
@@ -62,23 +59,12 @@ def _line(key: str, value: str) -> str:
     if len(value) + len(key) + 4 <= WIDTH or not value.startswith("["):
         return f"  {key}: {value}\n"
     lines, line = [], "   "
-    for item in _items(value[1:-1]):
+    for item in re.findall(r"\[[^]]*\]|[^, ][^,]*", value[1:-1]):
         if len(line) + len(item) + 2 > WIDTH:
             lines.append(line)
             line = "   "
         line += f" {item},"
     return f"  {key}: [\n" + "\n".join([*lines, line[:-1]]) + "\n  ]\n"
-
-
-def _items(text: str) -> list[str]:
-    """The items of a flow list, which may be lists themselves."""
-    items, depth, start = [], 0, 0
-    for place, letter in enumerate(text):
-        depth += (letter == "[") - (letter == "]")
-        if letter == "," and not depth:
-            items.append(text[start:place].strip())
-            start = place + 1
-    return [*items, text[start:].strip()]
 
 
 def _flow(items: Iterable[str]) -> str:

@@ -57,19 +57,13 @@ def builtin_offer(name: str) -> Offer | None:
 
 def counts_of(offer: Offer) -> dict[str, tuple[int, ...] | None]:
     """Sample counts by use, of attachments first. None is unknown."""
-    profile, details = offer.profile, offer.details
+    profile = offer.profile
     return {
         "color": profile.color_samples,
         "depth": profile.depth_samples,
         "stencil": profile.stencil_samples,
         "integer": profile.integer_samples,
-        "no_attachments": details.no_attachments,
-        "sampled_color": details.sampled_color,
-        "sampled_integer": details.sampled_integer,
-        "sampled_depth": details.sampled_depth,
-        "sampled_stencil": details.sampled_stencil,
-        "storage": details.storage,
-        "sample_locations": details.sample_locations,
+        **offer.details.counts,
     }
 
 

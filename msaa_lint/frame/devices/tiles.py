@@ -26,6 +26,7 @@ Targets = Sequence[tuple[Format, int]]
 SMALLEST = {"mali": 16, "apple": 256, "v3d4": 64, "v3d7": 64, "powervr": 256, "adreno": 1}
 """Pixels of the smallest tile of each kind."""
 
+V3D_SAMPLES = (1, 4)
 V3D_TILES = (4096, 2048, 1024, 512, 256, 128, 64)
 APPLE_TILES = (1024, 512, 256)
 APPLE_SAMPLE_BYTES = 64
@@ -39,8 +40,9 @@ def tile_use(model: TileModel, colors: Targets, depth: tuple[Format, int] | None
     """
     if not colors and depth is None:
         return None
-    used = _USES[model.kind](model, colors, depth)
-    single = _USES[model.kind](model, [(format, 1) for format, _ in colors], (depth[0], 1) if depth is not None else None)
+    samples = max(count for _, count in (*colors, *([depth] if depth is not None else [])))
+    used = _USES[model.kind](model, colors, depth, samples)
+    single = _USES[model.kind](model, [(format, 1) for format, _ in colors], (depth[0], 1) if depth is not None else None, 1)
     if used is None or single is None:
         return None
     bytes_per_pixel, pixels = used
@@ -48,7 +50,7 @@ def tile_use(model: TileModel, colors: Targets, depth: tuple[Format, int] | None
     return TileUse(bytes_per_pixel, max(pixels, least), max(single[1], least), pixels < least)
 
 
-def _mali(model: TileModel, colors: Targets, depth: tuple[Format, int] | None) -> tuple[int, int]:
+def _mali(model: TileModel, colors: Targets, depth: tuple[Format, int] | None, samples: int) -> tuple[int, int]:
     """The largest power of two that fits in the budgets. Blendable formats take 4 bytes, others their size rounded up to a power of two."""
     size = sum((4 if _blendable(format) else _power_of_two(format.bytes)) * samples for format, samples in colors)
     pixels = model.max_pixels
@@ -58,7 +60,6 @@ def _mali(model: TileModel, colors: Targets, depth: tuple[Format, int] | None) -
             fitting = model.limit_bytes // _power_of_two(size)
         pixels = min(pixels, fitting)
     # The tile keeps 32 bits of depth for every sample, whatever the format, and room for it where nothing is attached.
-    samples = max([count for _, count in colors] + ([depth[1]] if depth is not None else []))
     return size, min(pixels, max(model.depth_bytes // _power_of_two(4 * samples), SMALLEST["mali"]))
 
 
@@ -71,13 +72,12 @@ def _power_of_two(number: int) -> int:
     return 1 << (number - 1).bit_length()
 
 
-def _apple(model: TileModel, colors: Targets, depth: tuple[Format, int] | None) -> tuple[int, int]:
+def _apple(model: TileModel, colors: Targets, depth: tuple[Format, int] | None, samples: int) -> tuple[int, int]:
     """Colour alone lies in the tile buffer, a sample in multiples of 8 bytes; beyond 64 render targets go to memory."""
     sample = 0
     for size in (_power_of_two(format.bytes) for format, _ in colors):
         sample = -(-sample // size) * size + size
     sample = -(-sample // 8) * 8
-    samples = max([count for _, count in colors] + ([depth[1]] if depth is not None else []))
     size = sample * samples
     fitting = next((pixels for pixels in APPLE_TILES if size * pixels <= model.color_bytes), 0)
     return size, fitting if sample <= APPLE_SAMPLE_BYTES else 0
@@ -93,10 +93,9 @@ def _v3d_words(format: Format) -> int:
     return 1 if format.is_integer and format.bytes <= 4 and widest == 16 else 2
 
 
-def _v3d7(model: TileModel, colors: Targets, depth: tuple[Format, int] | None) -> tuple[int, int] | None:
+def _v3d7(model: TileModel, colors: Targets, depth: tuple[Format, int] | None, samples: int) -> tuple[int, int] | None:
     """The first tile size whose colour and depth fit; colour may take the depth's memory where depth fits in an auxiliary half of it."""
-    samples = _v3d_samples(colors, depth)
-    if samples is None:
+    if samples not in V3D_SAMPLES:
         return None
     size = 4 * sum(_v3d_words(format) for format, _ in colors) * samples
     for pixels in V3D_TILES:
@@ -107,10 +106,9 @@ def _v3d7(model: TileModel, colors: Targets, depth: tuple[Format, int] | None) -
     return size, 0
 
 
-def _v3d4(model: TileModel, colors: Targets, depth: tuple[Format, int] | None) -> tuple[int, int] | None:
+def _v3d4(model: TileModel, colors: Targets, depth: tuple[Format, int] | None, samples: int) -> tuple[int, int] | None:
     """A step down the sizes for more render targets, for multisampling two, and for wider formats."""
-    samples = _v3d_samples(colors, depth)
-    if samples is None:
+    if samples not in V3D_SAMPLES:
         return None
     words = [_v3d_words(format) for format, _ in colors]
     step = 3 if len(words) > 4 else 2 if len(words) > 2 else 1 if len(words) > 1 else 0
@@ -118,20 +116,13 @@ def _v3d4(model: TileModel, colors: Targets, depth: tuple[Format, int] | None) -
     return 4 * sum(words) * samples, V3D_TILES[step] if step < len(V3D_TILES) else 0
 
 
-def _v3d_samples(colors: Targets, depth: tuple[Format, int] | None) -> int | None:
-    """1 or 4: it knows no other count."""
-    samples = max([count for _, count in colors] + ([depth[1]] if depth is not None else []))
-    return samples if samples in (1, 4) else None
-
-
-def _powervr(model: TileModel, colors: Targets, depth: tuple[Format, int] | None) -> tuple[int, int] | None:
+def _powervr(model: TileModel, colors: Targets, depth: tuple[Format, int] | None, samples: int) -> tuple[int, int] | None:
     """By the sample count alone."""
-    samples = max([count for _, count in colors] + ([depth[1]] if depth is not None else []))
     size = sum(format.bytes * count for format, count in colors)
     return None if samples not in POWERVR_TILES else (size, POWERVR_TILES[samples])
 
 
-def _adreno(model: TileModel, colors: Targets, depth: tuple[Format, int] | None) -> tuple[int, int]:
+def _adreno(model: TileModel, colors: Targets, depth: tuple[Format, int] | None, samples: int) -> tuple[int, int]:
     """Every attachment lies in GMEM, stencil beside depth where the format keeps them apart."""
     size = sum(format.bytes * samples for format, samples in [*colors, *([depth] if depth is not None else [])])
     return size, model.color_bytes // size

@@ -21,6 +21,16 @@ TILERS = ("apple", "arm", "broadcom", "huawei", "img", "qualcomm", "samsung")
 """Vendors of mobile GPUs, whose devices are counted as tile-based."""
 
 
+_NOT_TILERS = ("amd", "nvidia", "intel")
+
+
+def is_tiler(vendor: str | None) -> bool | None:
+    """Whether a vendor's GPUs are tile-based; unknown for Samsung's, whose architecture is AMD's, and for Mesa's own, which vary."""
+    if vendor in _NOT_TILERS:
+        return False
+    return True if vendor in TILERS and vendor != "samsung" else None
+
+
 def vendor_of(vendor_id: int) -> str | None:
     """The vendor's name in a description; None where it has none."""
     return VENDORS.get(vendor_id)

@@ -159,7 +159,8 @@ def _efficient(profile: DeviceProfile) -> str:
 def _locations(offer: Offer) -> str:
     details = offer.details
     words = {True: "standard", False: "not standard", None: ""}[details.standard_sample_locations]
-    own = f"chosen by the application at {', '.join(map(str, details.sample_locations))} samples" if details.sample_locations else ""
+    counts = details.counts["sample_locations"]
+    own = f"chosen by the application at {', '.join(map(str, counts))} samples" if counts else ""
     snap = details.sub_pixel_precision_bits
     bits = f"vertices snap to 1/{1 << snap} pixel" if snap is not None and snap < 32 else ""
     return "; ".join(part for part in (words, own, bits) if part)

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 _BLOCKS = ("4x4", "5x4", "5x5", "6x5", "6x6", "8x5", "8x6", "8x8", "10x5", "10x6", "10x8", "10x10", "12x10", "12x12")
 
-_NUMERIC = {"Unorm": "UNORM", "Snorm": "SNORM", "Uint": "UINT", "Sint": "SINT", "Float": "SFLOAT", "Unorm_srgb": "SRGB"}
+_ASTC = {"srgb": "SRGB", "ldr": "UNORM", "hdr": "SFLOAT"}
 
+_NUMERIC = {"Unorm": "UNORM", "Snorm": "SNORM", "Uint": "UINT", "Sint": "SINT", "Float": "SFLOAT", "Unorm_srgb": "SRGB"}
 
 _KINDS: dict[int, tuple[str, ...]] = {
     8: ("Unorm", "Unorm_srgb", "Snorm", "Uint", "Sint"),
@@ -21,28 +22,10 @@ def _plain() -> dict[str, str]:
     """Formats such as `rgba8Unorm`, whose components have one width."""
     named = [(letters, bits, kind) for letters in ("r", "rg", "rgba") for bits, kinds in _KINDS.items() for kind in kinds]
     named += [("bgra", 8, "Unorm"), ("bgra", 8, "Unorm_srgb")]
-    components = {letters: [letter.upper() for letter in letters] for letters, _, _ in named}
     return {
-        f"{letters}{bits}{kind}": "".join(f"{letter}{bits}" for letter in components[letters]) + f"_{_NUMERIC[kind]}"
+        f"{letters}{bits}{kind}": "".join(f"{letter}{bits}" for letter in letters.upper()) + f"_{_NUMERIC[kind]}"
         for letters, bits, kind in named
     }
-
-
-def _astc() -> dict[str, str]:
-    found = {}
-    for block in _BLOCKS:
-        for kind, numeric in (("srgb", "SRGB"), ("ldr", "UNORM"), ("hdr", "SFLOAT")):
-            found[f"astc_{block}_{kind}"] = f"ASTC_{block}_{numeric}_BLOCK"
-    return found
-
-
-def _pvrtc() -> dict[str, str]:
-    found = {}
-    for letters in ("rgb", "rgba"):
-        for bits in (2, 4):
-            found[f"pvrtc_{letters}_{bits}bpp"] = f"PVRTC1_{bits}BPP_UNORM_BLOCK_IMG"
-            found[f"pvrtc_{letters}_{bits}bpp_srgb"] = f"PVRTC1_{bits}BPP_SRGB_BLOCK_IMG"
-    return found
 
 
 PIXEL_FORMATS: dict[str, str] = {
@@ -76,7 +59,12 @@ PIXEL_FORMATS: dict[str, str] = {
     "bc6H_rgbuFloat": "BC6H_UFLOAT_BLOCK",
     "bc7_rgbaUnorm": "BC7_UNORM_BLOCK",
     "bc7_rgbaUnorm_srgb": "BC7_SRGB_BLOCK",
-    **_pvrtc(),
+    **{
+        f"pvrtc_{letters}_{bits}bpp{suffix}": f"PVRTC1_{bits}BPP_{numeric}_BLOCK_IMG"
+        for letters in ("rgb", "rgba")
+        for bits in (2, 4)
+        for suffix, numeric in (("", "UNORM"), ("_srgb", "SRGB"))
+    },
     "eac_r11Unorm": "EAC_R11_UNORM_BLOCK",
     "eac_r11Snorm": "EAC_R11_SNORM_BLOCK",
     "eac_rg11Unorm": "EAC_R11G11_UNORM_BLOCK",
@@ -87,7 +75,7 @@ PIXEL_FORMATS: dict[str, str] = {
     "etc2_rgb8_srgb": "ETC2_R8G8B8_SRGB_BLOCK",
     "etc2_rgb8a1": "ETC2_R8G8B8A1_UNORM_BLOCK",
     "etc2_rgb8a1_srgb": "ETC2_R8G8B8A1_SRGB_BLOCK",
-    **_astc(),
+    **{f"astc_{block}_{kind}": f"ASTC_{block}_{numeric}_BLOCK" for block in _BLOCKS for kind, numeric in _ASTC.items()},
     "gbgr422": "G8B8G8R8_422_UNORM",
     "bgrg422": "B8G8R8G8_422_UNORM",
     "depth16Unorm": "D16_UNORM",

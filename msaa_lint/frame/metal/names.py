@@ -61,11 +61,6 @@ _CHANNELS = re.compile(r"(?:[rgbaex]+\d+)+|(?:gbgr|bgrg|rgba?)(?=\d|$)")
 _UPPER = {"srgb": "sRGB", "xr": "XR", "stencil8": "Stencil8", "ldr": "LDR", "hdr": "HDR", "rgba": "RGBA", "rgb": "RGB"}
 
 
-def is_metal(enum: str) -> bool:
-    """Whether an enum is one of Metal's, by its name."""
-    return enum.startswith("MTL")
-
-
 def parse(enum: str, text: str) -> str | None:
     """The Swift name of an enumerant in any of its spellings; None if `enum` does not have it. Names are case-sensitive."""
     return _spellings(enum).get(text)
@@ -140,11 +135,7 @@ def _block_part(part: str) -> str:
 
 @lru_cache(maxsize=16)
 def _spellings(enum: str) -> dict[str, str]:
-    found: dict[str, str] = {}
-    for name in ENUMS[enum]:
-        for text in (name, f".{name}", f"{enum}.{name}", objective_c(enum, name)):
-            found[text] = name
-    return found
+    return {text: name for name in ENUMS[enum] for text in (name, f".{name}", f"{enum}.{name}", objective_c(enum, name))}
 
 
 def spellings(enum: str) -> list[str]:

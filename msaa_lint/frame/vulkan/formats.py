@@ -1,5 +1,6 @@
 """Vulkan's formats: their sizes, aspects, components and numeric types."""
 
+from functools import cache
 from typing import NamedTuple
 
 from .formats_table import ARM_FLOAT_BLEND, ROWS
@@ -60,18 +61,11 @@ class Format(NamedTuple):
 
 def format_of(name: str) -> Format | None:
     """The format with a canonical short name (`R8G8B8A8_UNORM`); None for UNDEFINED and unknown names."""
-    found = _known.get(name)
-    if found is None:
-        text = ROWS.get(name)
-        if text is None:
-            return None
-        found = _known[name] = _read(name, text)
-    return found
+    row = ROWS.get(name)
+    return None if row is None else _read(name, row)
 
 
-_known: dict[str, Format] = {}
-
-
+@cache
 def _read(name: str, text: str) -> Format:
     size, extent, numeric, parts, scheme = text.split()
     depth, stencil = (0, ""), (0, "")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cache
 
 from msaa_lint.core.suggestions import MAX_LENGTH, letters_and_digits, nearest
 
@@ -18,10 +19,10 @@ def parse_enum(enum: str, text: str) -> str | None:
 
     The type's prefix, or only its `VK_`, and for flag bits `_BIT` may be left out. Names are case-sensitive, as in Vulkan.
     """
-    values, aliases = VALUES[enum], ALIASES.get(enum)
+    values, aliases = VALUES[enum], ALIASES.get(enum, {})
     if text in values:
         return text
-    if aliases is not None and text in aliases:
+    if text in aliases:
         return aliases[text]
     if len(text) > MAX_LENGTH:
         return None
@@ -37,20 +38,17 @@ def parse_enum(enum: str, text: str) -> str | None:
         if bare != name and bare in BITLESS.get(enum, ()):
             return None
         name = bare
-    if name in values:
-        return name
-    return aliases.get(name) if aliases is not None else None
+    return name if name in values else aliases.get(name)
 
 
 def from_value(enum: str, value: int) -> str | None:
     """The canonical short name of a value; None if the enum does not have it."""
-    by_value = _by_value.get(enum)
-    if by_value is None:
-        by_value = _by_value[enum] = {known: name for name, known in VALUES[enum].items()}
-    return by_value.get(value)
+    return _names_by_value(enum).get(value)
 
 
-_by_value: dict[str, dict[int, str]] = {}
+@cache
+def _names_by_value(enum: str) -> dict[int, str]:
+    return {value: name for name, value in VALUES[enum].items()}
 
 
 def flag_names(enum: str, mask: int) -> list[str] | None:
@@ -62,12 +60,9 @@ def flag_names(enum: str, mask: int) -> list[str] | None:
     whole = from_value(enum, mask)
     if whole is not None:
         return [whole]
-    found = []
-    for name, value in VALUES[enum].items():
-        if mask & value and value & (value - 1) == 0:
-            found.append((value, name))
-            mask &= ~value
-    return [name for _, name in sorted(found)] if mask == 0 else None
+    bits = [1 << place for place in range(mask.bit_length()) if mask >> place & 1]
+    names = [name for name in map(_names_by_value(enum).get, bits) if name is not None]
+    return names if len(names) == len(bits) else None
 
 
 def parse_flags(enum: str, text: str) -> list[str]:

@@ -45,7 +45,7 @@ def test_a_dialect_gives_the_device(dialect: str) -> None:
     assert profile.features == ("dynamicRendering", "sampleRateShading", "shaderStorageImageMultisample")
     assert profile.extensions == ("VK_ARM_shader_core_properties", "VK_EXT_sample_locations", "VK_KHR_depth_stencil_resolve")
     assert (profile.api_version, profile.max_efficient_samples) == ("1.3.77", 4)
-    assert (details.no_attachments, details.sampled_integer, details.storage) == ((1, 2, 4, 8), (1,), (1,))
+    assert (details.counts["no_attachments"], details.counts["sampled_integer"], details.counts["storage"]) == ((1, 2, 4, 8), (1,), (1,))
     assert (details.standard_sample_locations, details.sub_pixel_precision_bits, details.max_framebuffer) == (True, 8, (8192, 4096))
     assert (details.device_type, details.driver) == ("integrated GPU", "Own v7")
     assert profile.source.startswith("own.json: ")
@@ -219,7 +219,7 @@ def sane(found: list[Report]) -> None:
         profile = report.profile
         assert isinstance(profile.name, str)
         assert profile.name
-        for each in (profile.color_samples, profile.depth_samples, profile.integer_samples, report.details.storage):
+        for each in (profile.color_samples, profile.depth_samples, profile.integer_samples, report.details.counts["storage"]):
             assert each is None or (each and set(each) <= COUNTS and list(each) == sorted(set(each)))
         assert profile.depth_resolve_modes is None or profile.depth_resolve_modes
         assert profile.tiler in (True, False, None)

@@ -50,8 +50,8 @@ def test_built_in_profiles_are_their_reports(name: str, file: str) -> None:
 def test_mali_g715() -> None:
     found = sample("gpuinfo_report_38609_mali_g715.json")
     assert (found.profile.name, found.profile.vendor, found.profile.api_version) == ("Mali-G715", "arm", "1.3.283")
-    assert found.profile.color_samples == found.profile.integer_samples == found.details.sampled_stencil == (1, 4, 8, 16)
-    assert found.details.storage == (1,)
+    assert found.profile.color_samples == found.profile.integer_samples == found.details.counts["sampled_stencil"] == (1, 4, 8, 16)
+    assert found.details.counts["storage"] == (1,)
     assert found.details.heaps == ((7685464064, True), (104857600, True))
     assert found.profile.memory_types is not None
     assert ("DEVICE_LOCAL", "LAZILY_ALLOCATED") in found.profile.memory_types
@@ -67,7 +67,7 @@ def test_adreno_740() -> None:
     assert found.profile.stencil_resolve_modes == ("SAMPLE_ZERO", "MIN")
     assert found.profile.memory_types is not None
     assert len(found.profile.memory_types) == 6
-    assert found.details.sample_locations == (1, 2, 4)
+    assert found.details.counts["sample_locations"] == (1, 2, 4)
 
 
 def test_m1() -> None:
@@ -108,7 +108,11 @@ def test_profiles() -> None:
     baseline, roadmap = sample("VP_ANDROID_baseline_2022.json"), sample("VP_KHR_roadmap_2022.json")
     assert baseline.profile.minimum
     assert (baseline.profile.color_samples, baseline.profile.api_version) == ((1, 4), "1.1.106")
-    assert (baseline.details.sampled_integer, baseline.details.storage, baseline.profile.memory_types) == ((1,), (1,), None)
+    assert (baseline.details.counts["sampled_integer"], baseline.details.counts["storage"], baseline.profile.memory_types) == (
+        (1,),
+        (1,),
+        None,
+    )
     assert "sampleRateShading" in (baseline.profile.features or ())
     assert (roadmap.profile.color_samples, roadmap.profile.api_version) == (None, "1.3.204")
     assert {"sampleRateShading", "dynamicRendering"} <= set(roadmap.profile.features or ())

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from .gpuinfo import memory
-from .members import Found, gathered
+from .members import Found, extension_names, gathered
 
 _STRUCTURE = "VkPhysicalDevice"
 
@@ -24,14 +24,11 @@ def read(root: Mapping[str, Any]) -> list[Found]:
     for name in sorted(structures, reverse=True):
         if "Features" in name:
             features.update(structures[name])
-    extensions = root.get("ArrayOfVkExtensionProperties")
     return [
         Found(
             gathered(*properties),
             features if "VkPhysicalDeviceFeatures" in structures else None,
-            [entry.get("extensionName") if isinstance(entry, dict) else entry for entry in extensions]
-            if isinstance(extensions, list)
-            else None,
+            extension_names(root.get("ArrayOfVkExtensionProperties")),
             *memory(root.get("VkPhysicalDeviceMemoryProperties")),
             what="vulkaninfo --json (devsim)",
         )

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from . import values
-from .members import Found, gathered
+from .members import Found, extension_names, gathered
 
 CORES = ("core11", "core12", "core13", "core14")
 
@@ -39,7 +39,7 @@ def read(root: Mapping[str, Any]) -> list[Found]:
         Found(
             members,
             features if isinstance(root.get("features"), dict) else None,
-            [entry.get("extensionName") for entry in _entries(root["extensions"])] if isinstance(root.get("extensions"), list) else None,
+            extension_names(root.get("extensions")),
             *memory(root.get("memory")),
             api=properties.get("apiVersionText") or properties.get("apiVersion"),
             what="report of vulkan.gpuinfo.org or its tool" + (f", {system}" if system else ""),

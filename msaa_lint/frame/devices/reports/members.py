@@ -5,15 +5,22 @@ from typing import NamedTuple
 
 from msaa_lint.frame.devices import DeviceProfile
 
-COUNTS = (
-    "framebufferColorSampleCounts", "framebufferDepthSampleCounts", "framebufferStencilSampleCounts", "framebufferIntegerColorSampleCounts",
-    "framebufferNoAttachmentsSampleCounts", "sampledImageColorSampleCounts", "sampledImageIntegerSampleCounts",
-    "sampledImageDepthSampleCounts", "sampledImageStencilSampleCounts", "storageImageSampleCounts", "sampleLocationSampleCounts",
-)  # fmt: skip
-MODES = ("supportedDepthResolveModes", "supportedStencilResolveModes")
+COUNTS = {
+    "no_attachments": "framebufferNoAttachmentsSampleCounts",
+    "sampled_color": "sampledImageColorSampleCounts",
+    "sampled_integer": "sampledImageIntegerSampleCounts",
+    "sampled_depth": "sampledImageDepthSampleCounts",
+    "sampled_stencil": "sampledImageStencilSampleCounts",
+    "storage": "storageImageSampleCounts",
+    "sample_locations": "sampleLocationSampleCounts",
+}
+"""The members with the sample counts that profiles do not have, by use."""
+
+_SAMPLES = "VkSampleCountFlagBits"
 FLAGS = {
-    **dict.fromkeys(COUNTS, "VkSampleCountFlagBits"),
-    **dict.fromkeys(MODES, "VkResolveModeFlagBits"),
+    **dict.fromkeys((f"framebuffer{aspect}SampleCounts" for aspect in ("Color", "Depth", "Stencil", "IntegerColor")), _SAMPLES),
+    **dict.fromkeys(COUNTS.values(), _SAMPLES),
+    **dict.fromkeys(("supportedDepthResolveModes", "supportedStencilResolveModes"), "VkResolveModeFlagBits"),
 }
 """Members that are masks, and of which enum."""
 
@@ -46,17 +53,11 @@ class Found(NamedTuple):
 class Details(NamedTuple):
     """What a report has beyond the profile. None is unknown.
 
-    Sample counts of images by their use, memory heaps (bytes, and whether they are the device's own), the framebuffer's largest size in
+    Sample counts by use (those of `COUNTS`), memory heaps (bytes, and whether they are the device's own), the framebuffer's largest size in
     pixels, the snap of vertices in bits, what Vulkan says of sample locations, the driver and the kind of device in words.
     """
 
-    no_attachments: tuple[int, ...] | None = None
-    sampled_color: tuple[int, ...] | None = None
-    sampled_integer: tuple[int, ...] | None = None
-    sampled_depth: tuple[int, ...] | None = None
-    sampled_stencil: tuple[int, ...] | None = None
-    storage: tuple[int, ...] | None = None
-    sample_locations: tuple[int, ...] | None = None
+    counts: Mapping[str, tuple[int, ...] | None] = dict.fromkeys(COUNTS)
     standard_sample_locations: bool | None = None
     sub_pixel_precision_bits: int | None = None
     max_framebuffer: tuple[int, int] | None = None
@@ -88,6 +89,13 @@ def gathered(*structures: object) -> dict[str, list[object]]:
             elif isinstance(value, dict) and depth < 4:
                 waiting.append((value, depth + 1))
     return found
+
+
+def extension_names(listed: object) -> list[object] | None:
+    """The names in a list of VkExtensionProperties, or of names; None where it is not a list."""
+    if not isinstance(listed, list):
+        return None
+    return [entry.get("extensionName") if isinstance(entry, dict) else entry for entry in listed]
 
 
 def shown(value: object) -> str:

@@ -6,7 +6,9 @@ alternative has is what is guaranteed. What a profile calls optional is not.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import operator
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial, reduce
 from typing import Any, NamedTuple
 
 from . import values
@@ -145,31 +147,21 @@ def _block(root: Mapping[str, Any], name: object) -> Block:
     )
 
 
-def _all_of(blocks: list[Block]) -> Block:
-    members: dict[str, int] = {}
-    for block in blocks:
-        for member, value in block.members.items():
-            before = members.get(member, 0)
-            members[member] = before | value if member in FLAGS else max(before, value)
+def _merged(
+    blocks: list[Block], names: Callable[..., frozenset[str]], masks: Callable[[int, int], int], numbers: Callable[..., int]
+) -> Block:
+    """Blocks as one: `names` merges sets of names, `masks` and `numbers` the values of a member."""
+    members = {
+        member: reduce(masks if member in FLAGS else numbers, (block.members[member] for block in blocks if member in block.members))
+        for member in names(*(frozenset(block.members) for block in blocks))
+    }
     return Block(
         members,
-        frozenset().union(*(block.features for block in blocks)),
-        frozenset().union(*(block.extensions for block in blocks)),
+        names(*(block.features for block in blocks)),
+        names(*(block.extensions for block in blocks)),
         tuple(note for block in blocks for note in block.notes),
     )
 
 
-def _any_of(blocks: list[Block]) -> Block:
-    members: dict[str, int] = {}
-    for member in frozenset.intersection(*(frozenset(block.members) for block in blocks)):
-        every = [block.members[member] for block in blocks]
-        common = every[0]
-        for value in every[1:]:
-            common = common & value if member in FLAGS else min(common, value)
-        members[member] = common
-    return Block(
-        members,
-        frozenset.intersection(*(block.features for block in blocks)),
-        frozenset.intersection(*(block.extensions for block in blocks)),
-        tuple(note for block in blocks for note in block.notes),
-    )
+_all_of = partial(_merged, names=frozenset().union, masks=operator.or_, numbers=max)
+_any_of = partial(_merged, names=frozenset.intersection, masks=operator.and_, numbers=min)

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+from typing import TypeVar
+
 from msaa_lint.frame.devices import DeviceProfile, builtin, sample_counts
 from msaa_lint.frame.devices import names as builtin_names
-from msaa_lint.frame.devices.builtin_profiles import EFFICIENT_ARM, EFFICIENT_IMG, EFFICIENT_QUALCOMM
-from msaa_lint.frame.devices.vendors import vendor_of
+from msaa_lint.frame.devices.builtin_profiles import EFFICIENT
+from msaa_lint.frame.devices.vendors import is_tiler, vendor_of
 
 from . import values
-from .members import FLAGS, Details, Found, Report, shown
+from .members import COUNTS, FLAGS, Details, Found, Report, shown
+
+Value = TypeVar("Value")
 
 MAX_NAMES = 4000
 """Features, extensions: a driver has some hundreds."""
@@ -21,11 +27,6 @@ MAX_NOTES = 12
 DEVICE_TYPES = ("OTHER", "INTEGRATED_GPU", "DISCRETE_GPU", "VIRTUAL_GPU", "CPU")
 """VkPhysicalDeviceType, by value."""
 
-NOT_TILERS = ("amd", "nvidia", "intel")
-TILERS = ("apple", "arm", "broadcom", "huawei", "img", "qualcomm")
-EFFICIENT = {"arm": EFFICIENT_ARM, "img": EFFICIENT_IMG, "qualcomm": EFFICIENT_QUALCOMM}
-"""Vendors whose guides advise against more than four samples, and which guides."""
-
 
 def report(found: Found, file: str = "") -> Report:
     """The report as a profile and its details."""
@@ -33,14 +34,14 @@ def report(found: Found, file: str = "") -> Report:
     name = found.name or made.text("deviceName") or "a device without a name"
     number = made.number("vendorID")
     vendor = vendor_of(number) if number is not None else None
-    kind = _device_type(made.first("deviceType"))
+    kind = _device_type(next(iter(found.members.get("deviceType", [])), None))
     twin = None if found.minimum else _twin(name, vendor)
     driver = _driver(made)
     source = f"{file}: {found.what}" if file else found.what
     profile = DeviceProfile(
         name=name,
         vendor=vendor,
-        tiler=_tiler(vendor, kind, name),
+        tiler=False if kind == "CPU" or "llvmpipe" in name else is_tiler(vendor),
         color_samples=made.counts("framebufferColorSampleCounts"),
         depth_samples=made.counts("framebufferDepthSampleCounts"),
         stencil_samples=made.counts("framebufferStencilSampleCounts"),
@@ -61,13 +62,7 @@ def report(found: Found, file: str = "") -> Report:
     )
     width, height = made.number("maxFramebufferWidth"), made.number("maxFramebufferHeight")
     details = Details(
-        no_attachments=made.counts("framebufferNoAttachmentsSampleCounts"),
-        sampled_color=made.counts("sampledImageColorSampleCounts"),
-        sampled_integer=made.counts("sampledImageIntegerSampleCounts"),
-        sampled_depth=made.counts("sampledImageDepthSampleCounts"),
-        sampled_stencil=made.counts("sampledImageStencilSampleCounts"),
-        storage=made.counts("storageImageSampleCounts"),
-        sample_locations=made.counts("sampleLocationSampleCounts"),
+        counts={use: made.counts(member) for use, member in COUNTS.items()},
         standard_sample_locations=made.boolean("standardSampleLocations"),
         sub_pixel_precision_bits=made.number("subPixelPrecisionBits"),
         max_framebuffer=(width, height) if width and height else None,
@@ -86,42 +81,33 @@ class _Reading:
         self.found = found
         self.notes: list[str] = []
 
-    def first(self, member: str) -> object:
-        return next(iter(self.found.members.get(member, [])), None)
-
     def wrong(self, what: str, value: object, due: str) -> None:
         if len(self.notes) < MAX_NOTES:
             self.notes.append(f"{what}: {shown(value)} where {due} is due, passed over")
 
     def counts(self, member: str) -> tuple[int, ...] | None:
         """None too for a mask without a count: Vulkan guarantees some."""
-        found = self._mask(member, "a mask of sample counts")
-        return sample_counts(found) or None
+        return sample_counts(self._mask(member, "a mask of sample counts")) or None
 
     def modes(self, member: str) -> tuple[str, ...] | None:
-        found = self._mask(member, "a mask of resolve modes")
-        return values.names("VkResolveModeFlagBits", found) or None
+        return values.names("VkResolveModeFlagBits", self._mask(member, "a mask of resolve modes")) or None
 
     def _mask(self, member: str, due: str) -> int:
-        every = self.found.members.get(member, [])
-        read = [values.mask(FLAGS[member], value) for value in every]
-        if every and all(bits is None for bits in read):
-            self.wrong(member, every[0], due)
-        return next((bits for bits in read if bits), 0)
+        return next(filter(None, self._readable(member, partial(values.mask, FLAGS[member]), due)), 0)
 
     def boolean(self, member: str) -> bool | None:
-        every = self.found.members.get(member, [])
-        read = next((found for found in map(values.boolean, every) if found is not None), None)
-        if every and read is None:
-            self.wrong(member, every[0], "a boolean")
-        return read
+        return next(iter(self._readable(member, values.boolean, "a boolean")), None)
 
     def number(self, member: str) -> int | None:
+        return next(iter(self._readable(member, values.number, "a number")), None)
+
+    def _readable(self, member: str, read: Callable[[object], Value | None], due: str) -> list[Value]:
+        """The values of a member that can be read."""
         every = self.found.members.get(member, [])
-        read = next((found for found in map(values.number, every) if found is not None), None)
-        if every and read is None:
-            self.wrong(member, every[0], "a number")
-        return read
+        readable = [value for value in map(read, every) if value is not None]
+        if every and not readable:
+            self.wrong(member, every[0], due)
+        return readable
 
     def text(self, member: str) -> str | None:
         return next(filter(None, map(values.text, self.found.members.get(member, []))), None)
@@ -180,13 +166,6 @@ def _device_type(value: object) -> str | None:
         return DEVICE_TYPES[number] if number < len(DEVICE_TYPES) else None
     word = (values.text(value) or "").removeprefix("VK_").removeprefix("PHYSICAL_DEVICE_TYPE_")
     return word if word in DEVICE_TYPES else None
-
-
-def _tiler(vendor: str | None, kind: str | None, name: str) -> bool | None:
-    """Unknown of Samsung's, which have AMD's architecture, and of Mesa's own, which are many."""
-    if kind == "CPU" or "llvmpipe" in name:
-        return False
-    return True if vendor in TILERS else False if vendor in NOT_TILERS else None
 
 
 def _driver(made: _Reading) -> str | None:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from .gpuinfo import memory
-from .members import Found, gathered
+from .members import Found, extension_names, gathered
 
 MAX_DEVICES = 16
 _OWN = ("queues", "layers", "formats", "memory", "extensions")
@@ -33,13 +33,10 @@ def _is_device(device: object) -> bool:
 
 def _device(device: Mapping[str, Any]) -> Found:
     groups = {name: value for name, value in device.items() if name not in _OWN and isinstance(value, dict)}
-    extensions = device.get("extensions")
     return Found(
         gathered(device["properties"], *(groups[name] for name in sorted(groups) if name != "properties")),
         dict(_features(groups)) if isinstance(device.get("features"), dict) else None,
-        [entry.get("extensionName") if isinstance(entry, dict) else entry for entry in extensions]
-        if isinstance(extensions, list)
-        else None,
+        extension_names(device.get("extensions")),
         *memory(device.get("memory")),
         what="vkjson",
     )
