@@ -110,7 +110,8 @@ class CommandWriter:
             return {"beginRenderPass": self._begin(key, list(self.kind.alternates[number].values()))}
         if command.kind == "beginRendering":
             name = self.renderings.setdefault(key, f"rendering_{len(self.renderings)}")
-            return {"beginRendering": Alias(name, self._rendering(key))}
+            tree = {member: value for member, value in thaw(key).items() if value not in ([], None)}
+            return {"beginRendering": Alias(name, self._with_names(tree))}
         if command.kind == "draw":
             return {"draw": _draw(command, self.names)}
         if command.kind == "clearAttachments":
@@ -154,20 +155,13 @@ class CommandWriter:
             tree["clearValueCount"] = begin.clear_values
         return tree
 
-    def _rendering(self, key: Hashable) -> dict[str, Any]:
-        tree: dict[str, Any] = thaw(key)
-        body = {member: value for member, value in tree.items() if value not in ([], None)}
-        if "colorAttachments" in body:
-            body["colorAttachments"] = [self._attachment(attachment) for attachment in body["colorAttachments"]]
-        for member in ("depthAttachment", "stencilAttachment"):
-            if member in body:
-                body[member] = self._attachment(body[member])
-        return body
-
-    def _attachment(self, tree: dict[str, Any] | None) -> dict[str, Any] | None:
-        if tree is None:
-            return None
-        return {key: self.names.image(value) if isinstance(value, Image) else value for key, value in tree.items()}
+    def _with_names(self, value: Any) -> Any:
+        """Plain data with the names of images in place of images."""
+        if isinstance(value, dict):
+            return {key: self._with_names(item) for key, item in value.items()}
+        if isinstance(value, list):
+            return [self._with_names(item) for item in value]
+        return self.names.image(value) if isinstance(value, Image) else value
 
     def _barrier(self, key: Any) -> Any:
         masks, part, layouts = key

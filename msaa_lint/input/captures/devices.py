@@ -35,13 +35,9 @@ class Devices:
             self.api = f"{version >> 22 & 0x7F}.{version >> 12 & 0x3FF}"
 
     def on_GetPhysicalDeviceProperties(self, call: Call) -> None:
-        structure: Any = call.args.get("pProperties")
         structures = self._queried(call.args.get("physicalDevice"))["properties"]
-        for _ in range(64):
-            if not isinstance(structure, dict):
-                break
+        for structure in values.chain(call.args.get("pProperties")):
             structures.append({key: item for key, item in structure.items() if key != "pNext"})
-            structure = structure.get("pNext")
 
     on_GetPhysicalDeviceProperties2 = on_GetPhysicalDeviceProperties
 
@@ -149,11 +145,8 @@ def _spelled(member: str, value: object) -> object:
 
 def _features_in(chain: object) -> list[dict[str, Any]]:
     """The feature structures in a pNext chain."""
-    structures: list[dict[str, Any]] = []
-    for _ in range(64):
-        if not isinstance(chain, dict):
-            break
-        if "FEATURES" in values.structure_type(chain) or "features" in chain:
-            structures.append(values.record(chain.get("features")) or chain)
-        chain = chain.get("pNext")
-    return structures
+    return [
+        values.record(structure.get("features")) or structure
+        for structure in values.chain(chain)
+        if "FEATURES" in values.structure_type(structure) or "features" in structure
+    ]

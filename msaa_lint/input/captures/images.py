@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Hashable
 from itertools import count
-from typing import Any
 
 from msaa_lint.frame.description.models import Image as ImageRecord
 
@@ -70,19 +69,14 @@ class Images(Devices):
             self.memory[values.handle(call.args.get("pMemory"))] = index
 
     def on_BindImageMemory(self, call: Call) -> None:
-        self._bind(call.args)
-
-    def on_BindImageMemory2(self, call: Call) -> None:
-        for info in values.items(call.args.get("pBindInfos")):
-            self._bind(values.record(info))
-
-    def _bind(self, info: dict[str, Any]) -> None:
-        image = self.images.get(values.handle(info.get("image")))
-        index = self.memory.get(values.handle(info.get("memory")))
-        if image is not None and index is not None:
-            flags = self.memory_flags(index)
-            if flags is not None:
+        for info in map(values.record, values.items(call.args.get("pBindInfos")) or [call.args]):
+            image = self.images.get(values.handle(info.get("image")))
+            index = self.memory.get(values.handle(info.get("memory")))
+            flags = self.memory_flags(index) if image is not None and index is not None else None
+            if image is not None and flags is not None:
                 image.tree["memory"] = flags
+
+    on_BindImageMemory2 = on_BindImageMemory
 
     # Swapchains.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from msaa_lint.frame.description.dumps import DECISIVE, OTHER_NAMES, PNEXT, WITHIN
@@ -30,12 +31,9 @@ def to_tree(kind: type[Record], structure: object, depth: int = 0) -> Tree:
             value = _value(shape, given_value, depth)
             if value is not None and not (value in ([], ()) and getattr(kind, member) is not None):
                 tree[member] = value
-    chained = members.get("pNext")
-    for _ in range(64):
-        if not isinstance(chained, dict) or depth > MAX_DEPTH:
-            break
-        _add_chained(kind, tree, chained, depth)
-        chained = chained.get("pNext")
+    if depth <= MAX_DEPTH:
+        for chained in values.chain(members.get("pNext")):
+            _add_chained(kind, tree, chained, depth)
     return tree
 
 
@@ -74,24 +72,18 @@ def _value(shape: Shape, value: object, depth: int) -> Any:
         return to_tree(shape[1], value, depth + 1) if isinstance(value, dict) and depth < MAX_DEPTH else None
     if kind in ("list", "counted"):
         return _items(shape[1], value, depth)
-    if kind == "slot":
-        return slot(value)
-    if kind == "bool":
-        return values.boolean(value)
-    if kind == "samples":
-        return values.samples(value)
+    if kind in PARSERS:
+        return PARSERS[kind](value)
     if kind == "int":
         number = values.integer(value)
         in_range = number is not None and (shape[1] is None or number >= shape[1]) and (shape[2] is None or number <= shape[2])
         return number if in_range else None
-    if kind == "number":
-        return values.number(value)
     if kind == "subpass":
         number = values.integer(value)
         return "EXTERNAL" if number == ATTACHMENT_UNUSED else number
     if kind == "null":
         return _value(shape[1], value, depth)
-    return values.text(value) if kind == "text" else None
+    return None
 
 
 def _items(shape: Shape, value: object, depth: int) -> list[Any] | None:
@@ -123,3 +115,13 @@ def slot(value: object) -> Any:
         return None
     layout = values.enum("VkImageLayout", reference.get("layout")) if "layout" in reference else None
     return {"attachment": index, "layout": layout} if layout is not None else index
+
+
+PARSERS: dict[str, Callable[[object], Any]] = {
+    "slot": slot,
+    "bool": values.boolean,
+    "samples": values.samples,
+    "number": values.number,
+    "text": values.text,
+}
+"""By kind of shape, for those without parameters."""

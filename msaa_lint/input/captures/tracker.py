@@ -182,27 +182,12 @@ class Tracker(Transfers):
 
     def on_SetDebugUtilsObjectName(self, call: Call) -> None:
         info = values.record(call.args.get("pNameInfo"))
-        kind = info.get("objectType")
-        self._set_label(kind, info.get("objectHandle"), values.text(info.get("pObjectName")), "VK_OBJECT_TYPE_")
+        number, name = values.handle(info.get("objectHandle", info.get("object"))), values.text(info.get("pObjectName"))
+        objects: dict[int, CapturedObject] = getattr(self, LABELED.get(_object_type(info.get("objectType")), ""), {})
+        if name and number in objects and not objects[number].label:
+            objects[number].label = name[:MAX_NAME]
 
-    def on_DebugMarkerSetObjectName(self, call: Call) -> None:
-        info = values.record(call.args.get("pNameInfo"))
-        self._set_label(info.get("objectType"), info.get("object"), values.text(info.get("pObjectName")), "VK_DEBUG_REPORT_OBJECT_TYPE_")
-
-    def _set_label(self, kind: object, handle: object, name: str | None, prefix: str) -> None:
-        number = values.handle(handle)
-        kinds: dict[str, dict[int, Any]] = {
-            "IMAGE": self.images,
-            "RENDER_PASS": self.render_passes,
-            "FRAMEBUFFER": self.framebuffers,
-            "PIPELINE": self.pipelines,
-            "SWAPCHAIN_KHR": self.swapchains,
-        }
-        word = _object_type(kind, prefix)
-        if name and word in kinds and number:
-            target: CapturedObject | None = kinds[word].get(number)
-            if target is not None and not target.label:
-                target.label = name[:MAX_NAME]
+    on_DebugMarkerSetObjectName = on_SetDebugUtilsObjectName
 
 
 def _remove(objects: dict[int, Any], parameter: str, call: Call) -> None:
@@ -215,10 +200,19 @@ def _remove(objects: dict[int, Any], parameter: str, call: Call) -> None:
 MAX_NAME = 80
 _TYPES = {10: "IMAGE", 18: "RENDER_PASS", 19: "PIPELINE", 24: "FRAMEBUFFER", 1000001000: "SWAPCHAIN_KHR"}
 """VkObjectType."""
+LABELED = {
+    "IMAGE": "images",
+    "RENDER_PASS": "render_passes",
+    "FRAMEBUFFER": "framebuffers",
+    "PIPELINE": "pipelines",
+    "SWAPCHAIN_KHR": "swapchains",
+}
+"""The tracker's mappings of objects that have debug names."""
 
 
-def _object_type(kind: object, prefix: str) -> str:
+def _object_type(kind: object) -> str:
     number = values.integer(kind)
     if number is not None:
         return _TYPES.get(number, "")
-    return values.enumerant_name(kind).removeprefix(prefix).removesuffix("_EXT")
+    name = values.enumerant_name(kind).removeprefix("VK_OBJECT_TYPE_").removeprefix("VK_DEBUG_REPORT_OBJECT_TYPE_")
+    return name.removesuffix("_EXT")

@@ -7,6 +7,7 @@ number or `4 (VK_SAMPLE_COUNT_4_BIT)`; flags a number, `0x00000011`, `VK_A|VK_B`
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 from msaa_lint.frame.description.scalars import enumerant, sample_count
@@ -78,10 +79,7 @@ def text(value: object) -> str | None:
 def enum(enums: str, value: object) -> str | None:
     """The canonical short name of an enumerant. `enums` is one enum name, or several joined by `|`."""
     if isinstance(value, str) and len(value) <= MAX_TEXT:
-        name = enumerant(enums, value)
-        if name is not None:
-            return name
-        name = enumerant(enums, enumerant_name(value))
+        name = enumerant(enums, value) or enumerant(enums, enumerant_name(value))
         if name is not None:
             return name
     value_ = integer(value)
@@ -137,16 +135,18 @@ def items(value: object) -> list[Any]:
     return value if isinstance(value, list) else []
 
 
+def chain(structure: object) -> Iterator[dict[str, Any]]:
+    """A structure and those in its pNext chain, at most 64."""
+    for _ in range(64):
+        if not isinstance(structure, dict):
+            return
+        yield structure
+        structure = structure.get("pNext")
+
+
 def chained(structure: dict[str, Any], kind: str) -> dict[str, Any] | None:
     """The structure in a pNext chain whose sType, without prefix and vendor suffix, is `kind`."""
-    following = structure.get("pNext")
-    for _ in range(64):
-        if not isinstance(following, dict):
-            return None
-        if structure_type(following) == kind:
-            return following
-        following = following.get("pNext")
-    return None
+    return next((following for following in chain(structure.get("pNext")) if structure_type(following) == kind), None)
 
 
 def structure_type(structure: dict[str, Any]) -> str:

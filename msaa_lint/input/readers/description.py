@@ -12,7 +12,7 @@ from msaa_lint.core.text.tree import Node
 from msaa_lint.frame.description.bind import Binder
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import AttachmentReference, Description, Device, Framebuffer, RenderPass, Subpass
-from msaa_lint.frame.description.problems import Mention, member_of
+from msaa_lint.frame.description.problems import member_of
 
 SECTIONS = frozenset(Description.SHAPE)
 
@@ -32,19 +32,13 @@ def read(source: Source, root: Node) -> Document:
     if description.states("renderTargets"):
         return _of_render_targets(source, description, binder)
     check_names(binder, description)
-    if description.metal is not None:
-        return _of_metal(source, description, binder)
-    return Document(source, description, tuple(binder.problems))
-
-
-def _of_metal(source: Source, description: Description, binder: Binder) -> Document:
-    """A Metal frame, with the equivalent Vulkan records if it is valid."""
+    if description.metal is None:
+        return Document(source, description, tuple(binder.problems))
     from . import metal
 
     metal.check(binder, description)
-    if binder.problems:
-        return Document(source, description, tuple(binder.problems))
-    return Document(source, description, (), metal=metal.lower(description))
+    lowered = None if binder.problems else metal.lower(description)
+    return Document(source, description, tuple(binder.problems), metal=lowered)
 
 
 def _of_render_targets(source: Source, description: Description, binder: Binder) -> Document:
@@ -64,7 +58,8 @@ def check_names(binder: Binder, description: Description) -> None:
     for mention in binder.mentions:
         entries = _section(description, mention.section)
         if mention.name not in entries:
-            _dangling(binder, mention, entries)
+            message = f"{member_of(mention.path)} names {quoted(mention.name)}, which is not in `{mention.section}`"
+            _report_unknown(binder, message, mention.name, entries, mention.section, mention.node.span, mention.path)
     _device(binder, description)
     for name, render_pass in description.renderPasses.items():
         _attachments(binder, name, render_pass)
@@ -84,11 +79,6 @@ def _section(description: Description, name: str) -> dict[str, object]:
         found = getattr(found, part)
     assert isinstance(found, dict)
     return found
-
-
-def _dangling(binder: Binder, mention: Mention, entries: dict[str, object]) -> None:
-    message = f"{member_of(mention.path)} names {quoted(mention.name)}, which is not in `{mention.section}`"
-    _report_unknown(binder, message, mention.name, entries, mention.section, mention.node.span, mention.path)
 
 
 def _report_unknown(binder: Binder, message: str, name: str, names: Collection[str], section: str, span: Span, path: str) -> None:

@@ -14,6 +14,7 @@ from typing import Any, BinaryIO, NamedTuple
 
 from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place, is_wanted
 from msaa_lint.input.captures.json_stream import BYTE_ORDER_MARK, TRUNCATED, Blocks, Cursor, PeekedStream, loads, parse_call
+from msaa_lint.input.captures.values import chain, items, record
 
 DEVICE_COMMANDS = frozenset({"SetDevicePropertiesCommand", "SetDeviceMemoryPropertiesCommand"})
 """The `meta` commands that describe the device. A trimmed capture has them instead of the queries."""
@@ -182,27 +183,20 @@ class Reader:
 
     def _read_shaders(self, args: dict[str, Any]) -> None:
         """Replaces the file names in `pCode` by the code from files beside the capture, and removes other placeholders."""
-        infos = args.get("pCreateInfos")
-        for info in (args.get("pCreateInfo"), *(infos if isinstance(infos, list) else ())):
-            stages = info.get("pStages") if isinstance(info, dict) else None
-            for structure in (info, *(stages if isinstance(stages, list) else ())):
-                for _ in range(16):
-                    if not isinstance(structure, dict):
-                        break
-                    if "pCode" in structure:
-                        path = structure.pop("pCode")
-                        code = self.folder.read(path) if isinstance(path, str) and not path.startswith(("[", "0x")) else None
-                        if code is not None:
-                            structure["pCode"] = code
-                    structure = structure.get("pNext")
+        for info in (args.get("pCreateInfo"), *items(args.get("pCreateInfos"))):
+            for structure in (info, *items(record(info).get("pStages"))):
+                for holder in (holder for holder in chain(structure) if "pCode" in holder):
+                    path = holder.pop("pCode")
+                    code = self.folder.read(path) if isinstance(path, str) and not path.startswith(("[", "0x")) else None
+                    if code is not None:
+                        holder["pCode"] = code
 
 
 def _drop_null_sample_masks(args: dict[str, Any]) -> None:
     """Removes null sample masks: version 0.9 writes null for every mask, so its value is unknown."""
-    infos = args.get("pCreateInfos")
-    for info in infos if isinstance(infos, list) else ():
-        state = info.get("pMultisampleState") if isinstance(info, dict) else None
-        if isinstance(state, dict) and state.get("pSampleMask", ...) is None:
+    for info in items(args.get("pCreateInfos")):
+        state = record(record(info).get("pMultisampleState"))
+        if state.get("pSampleMask", ...) is None:
             del state["pSampleMask"]
 
 

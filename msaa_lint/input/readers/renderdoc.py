@@ -100,9 +100,10 @@ class _ChunkParser:
 
     def __init__(self, wanted: frozenset[str], blobs: Blobs) -> None:
         # The same module as xml.parsers.expat, without importing that package.
-        from pyexpat import ExpatError, ParserCreate
+        from pyexpat import ErrorString, ExpatError, ParserCreate
 
         self.error = ExpatError
+        self.error_text = ErrorString
         self.names: dict[str, str] = {}
         # With a stated encoding, a document cannot select one of Python's codecs.
         self.parser = ParserCreate("utf-8", None, self.names)
@@ -132,7 +133,7 @@ class _ChunkParser:
         try:
             self.parser.Parse(block, last)
         except self.error as error:
-            what = "the XML is truncated" if last else f"invalid XML: {_reason(error.code)}"
+            what = "the XML is truncated" if last else f"invalid XML: {self.error_text(error.code) or error.code}"
             raise CaptureError(what, Place(error.lineno, error.offset + 1, self.number if self.in_chunk else None)) from None
         self.fed += len(block)
         done = self.parser.CurrentByteIndex
@@ -347,9 +348,3 @@ VALUES: dict[str, Callable[[str], Any]] = {
 _BUFFERS = ("pCode", "pData")
 _SPECIAL = frozenset({"sType", "pNextType", "pSampleMask", "DebugMessages", "BakedCommandBuffer", *_BUFFERS})
 """Members that `special_value` converts."""
-
-
-def _reason(code: int) -> str:
-    from pyexpat import ErrorString
-
-    return ErrorString(code) or f"error {code}"
