@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Sequence
+from functools import cached_property
 from typing import NamedTuple, Protocol
 
 from msaa_lint.core.diagnostics import diagnostic
@@ -81,7 +82,6 @@ class _Walk:
         self.looks_like = looks_like
         self.sources = sources
         self.unreadable_sources = 0
-        self._has_extra: bool | None = None
         self.files: dict[str, None] = {}
         self.findings: list[Finding] = []
         self.notes: list[str] = []
@@ -122,7 +122,7 @@ class _Walk:
                 elif entry.is_symlink() and not (os.path.isfile(path) and inside(path, project)):
                     self.notes.append(f"{shown(path)} is a link that is broken or leaves the project: name it to lint it")
                 elif os.path.isfile(path):
-                    if entry.name.lower().endswith((*SOURCES, *LANGUAGES["markdown"])) and not self._can_read_sources():
+                    if entry.name.lower().endswith((*SOURCES, *LANGUAGES["markdown"])) and not self._can_read_sources:
                         self.unreadable_sources += 1
                     else:
                         self.files[shown(path)] = None
@@ -160,12 +160,11 @@ class _Walk:
                 self.notes.append(f"{shown(path)} cannot be read to see if it is an input")
             return False
 
+    @cached_property
     def _can_read_sources(self) -> bool:
-        if self._has_extra is None:
-            from .code import installed
+        from .code import installed
 
-            self._has_extra = installed()
-        return self._has_extra
+        return installed()
 
 
 def _head(path: str) -> str:

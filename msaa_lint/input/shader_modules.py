@@ -82,12 +82,11 @@ class Modules:
                 self._left -= STEP * found.steps
             except SpirvError as error:
                 raise _Unusable("MSAA904" if "entry point" in str(error) else "MSAA903", f"{quoted_path(name)}: {error}") from None
+            if found.stage != stage.stage:
+                message = f"{quoted_path(name)}: `{found.name[:40]}` is a shader of stage {found.stage}, not {stage.stage}"
+                raise _Unusable("MSAA903", message)
         except _Unusable as error:
             self._warn(error, stage)
-            return None
-        if found.stage != stage.stage:
-            wrong = _Unusable("MSAA903", f"{quoted_path(name)}: `{found.name[:40]}` is a shader of stage {found.stage}, not {stage.stage}")
-            self._warn(wrong, stage)
             return None
         return found
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping
-from typing import Any, NamedTuple
+from collections.abc import Hashable
+from typing import NamedTuple
 
-from . import values
 from .call import Call, Place, without_vendor
 from .objects import DescriptorSet, Framebuffer, Image, Pipeline, RenderPass
 
@@ -115,14 +114,3 @@ def kind_of(call: Call) -> str:
     """The name in a description of the command that a call records: `copyImage` for vkCmdCopyImage2KHR."""
     name = without_vendor(call.name).removeprefix("vkCmd").removesuffix("2")
     return name[:1].lower() + name[1:]
-
-
-def draw_counts(counted: str, args: Mapping[str, Any]) -> tuple[int | None, int | None]:
-    """The number of vertices or indices of a draw, and the number of instances."""
-    return (values.count(args.get(counted)), values.count(args.get("instanceCount"))) if counted else (None, None)
-
-
-def draw_key(pipeline: Pipeline | None, counted: str, count: int | None, instances: int | None) -> tuple[Any, ...]:
-    """The properties that distinguish draws for the rules: the count of a full-screen triangle or quad matters, larger counts do not."""
-    few = count is not None and count <= MAX_FULLSCREEN_VERTICES and instances == 1
-    return (pipeline, counted, count if few else None)

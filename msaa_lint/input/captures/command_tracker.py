@@ -14,8 +14,6 @@ from .command_buffers import (
     DescriptorReads,
     RecordedCommand,
     RenderPassBegin,
-    draw_counts,
-    draw_key,
     kind_of,
 )
 from .descriptors import Descriptors
@@ -215,13 +213,15 @@ class CommandTracker(Descriptors):
             count = args.get(counted)
             if type(count) is int and count > MAX_FULLSCREEN_VERTICES:
                 return
-        detail = draw_counts(counted, call.args)
-        key = draw_key(buffer.pipeline, counted, *detail)
+        vertices, instances = (values.count(args.get(counted)), values.count(args.get("instanceCount"))) if counted else (None, None)
+        # The rules ask only for the count of a full-screen triangle or quad.
+        few = vertices is not None and vertices <= MAX_FULLSCREEN_VERTICES and instances == 1
+        key = (buffer.pipeline, counted, vertices if few else None, buffer.dynamic_samples)
         if buffer.fresh:
             self._reads(buffer, buffer.bound, "FRAGMENT", call)
             buffer.fresh = False
-        buffer.record_once(self.commands.command("draw", (*key, buffer.dynamic_samples), call, detail))
-        if counted and key[2] is None:
+        buffer.record_once(self.commands.command("draw", key, call, (vertices, instances)))
+        if counted and not few:
             buffer.many.add(buffer.pipeline)
 
     on_CmdDrawIndexed = on_CmdDrawIndirect = on_CmdDrawIndexedIndirect = on_CmdDrawIndirectByteCount = on_CmdDraw

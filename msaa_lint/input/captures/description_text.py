@@ -13,7 +13,7 @@ from msaa_lint.core.text.source import Origin
 from .command_buffers import RenderPassBegin
 from .command_writer import CommandWriter, Names, commands_of
 from .frames import FrameKind
-from .objects import CapturedObject, Framebuffer, Image, Pipeline, RenderPass, freeze
+from .objects import CapturedObject, Image, Pipeline, RenderPass, freeze
 from .tracker import Tracker
 from .yaml_text import Lines
 
@@ -138,18 +138,13 @@ class _Writer:
                 if not names:
                     self.lines.line("framebuffers:")
                 names[key] = self.names.framebuffer(begin.framebuffer, begin.images, begin.render_pass)
-                self._framebuffer(names[key], begin.framebuffer, begin)
+                tree: dict[str, Any] = {"renderPass": self.names.of("render_pass", begin.render_pass)}
+                # With another count, the capture lacks some views: it is unknown which image belongs to which attachment.
+                if len(begin.images) == len(begin.render_pass.tree.get("attachments", [])):
+                    tree["attachments"] = [self.names.image(image) if image is not None else None for image in begin.images]
+                tree.update(begin.framebuffer.tree)
+                self.lines.member(2, names[key], tree, self.origin(begin.framebuffer), origin_comment(begin.framebuffer))
         return names
-
-    def _framebuffer(self, name: str, framebuffer: Framebuffer, begin: RenderPassBegin) -> None:
-        tree: dict[str, Any] = {"renderPass": self.names.of("render_pass", begin.render_pass)}
-        tree["attachments"] = [self.names.image(image) if image is not None else None for image in begin.images]
-        tree.update(framebuffer.tree)
-        count = len(begin.render_pass.tree.get("attachments", []))
-        if len(begin.images) != count:
-            # The capture lacks some views, so it is unknown which image belongs to which attachment.
-            del tree["attachments"]
-        self.lines.member(2, name, tree, self.origin(framebuffer), origin_comment(framebuffer))
 
     def _pipelines(self, pipelines: list[Pipeline]) -> None:
         if pipelines:

@@ -79,16 +79,15 @@ class Transfers(CommandTracker):
         stages = {"srcStageMask": args.get("srcStageMask"), "dstStageMask": args.get("dstStageMask")}
         self._barriers(call, args, stages)
 
-    def on_CmdPipelineBarrier2(self, call: Call) -> None:
-        self._barriers(call, values.record(call.args.get("pDependencyInfo")), None)
-
     on_CmdWaitEvents = on_CmdPipelineBarrier
 
-    def on_CmdWaitEvents2(self, call: Call) -> None:
-        for info in values.items(call.args.get("pDependencyInfos"))[:64]:
-            self._barriers(call, values.record(info), None)
+    def on_CmdPipelineBarrier2(self, call: Call) -> None:
+        for info in (call.args.get("pDependencyInfo"), *values.items(call.args.get("pDependencyInfos"))[:64]):
+            self._barriers(call, values.record(info), {})
 
-    def _barriers(self, call: Call, info: dict[str, Any], stages: dict[str, Any] | None) -> None:
+    on_CmdWaitEvents2 = on_CmdPipelineBarrier2
+
+    def _barriers(self, call: Call, info: dict[str, Any], stages: dict[str, Any]) -> None:
         buffer = self.buffer(call)
         for name in ("pMemoryBarriers", "pImageMemoryBarriers"):
             for item in values.items(info.get(name))[:4096]:
@@ -97,7 +96,7 @@ class Transfers(CommandTracker):
                 if name == "pImageMemoryBarriers" and (image is None or not image.attachable):
                     continue
                 # The mask members have the same names in a subpass dependency.
-                masks = to_tree(SubpassDependency, {**barrier, **(stages or {})})
+                masks = to_tree(SubpassDependency, {**barrier, **stages})
                 tree = {key: masks[key] for key in PipelineBarrier.SHAPE if key in masks}
                 layouts = tuple(values.enum("VkImageLayout", barrier.get(each)) for each in ("oldLayout", "newLayout"))
                 buffer.record(self.commands.command("pipelineBarrier", (freeze(tree), image, layouts), call))

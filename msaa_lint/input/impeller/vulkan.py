@@ -218,18 +218,14 @@ def _commands(target: Target, framebuffer: bool) -> list[Value]:
     commands: list[Any] = [{"beginRenderPass": begin}, {"draw": {"pipeline": target.name}}, "endRenderPass"]
     image = f"{target.name}_color"
     if target.onscreen:
-        commands += _presented(image)
+        barrier = {
+            "srcStageMask": ["COLOR_ATTACHMENT_OUTPUT"],
+            "srcAccessMask": ["COLOR_ATTACHMENT_WRITE"],
+            "dstStageMask": ["BOTTOM_OF_PIPE"],
+            "images": [{"image": image, "oldLayout": "GENERAL", "newLayout": "PRESENT_SRC_KHR"}],
+        }
+        commands += [{"pipelineBarrier": barrier}, {"present": {"image": image}}]
     else:
         # An offscreen texture is assumed to be sampled in this frame.
         commands.append({"readImage": {"image": image, "stage": "FRAGMENT"}})
     return [Value(command, target.at) for command in commands]
-
-
-def _presented(image: str) -> list[Members]:
-    barrier = {
-        "srcStageMask": ["COLOR_ATTACHMENT_OUTPUT"],
-        "srcAccessMask": ["COLOR_ATTACHMENT_WRITE"],
-        "dstStageMask": ["BOTTOM_OF_PIPE"],
-        "images": [{"image": image, "oldLayout": "GENERAL", "newLayout": "PRESENT_SRC_KHR"}],
-    }
-    return [{"pipelineBarrier": barrier}, {"present": {"image": image}}]

@@ -7,6 +7,7 @@ from typing import Any
 
 from msaa_lint.input.captures.call import Call, CaptureError, Place
 from msaa_lint.input.captures.json_stream import MAX_DEPTH, is_too_deep
+from msaa_lint.input.captures.values import items, record
 
 from .fossilize_code import unpack_code
 
@@ -120,8 +121,7 @@ def _lenient(text: bytes, at: Place) -> Json:
 
 def _objects(document: Json, key: str) -> Iterator[tuple[int, dict[str, Any]]]:
     """The objects of a kind with their hashes."""
-    objects = document.get(key)
-    for name, created in objects.items() if isinstance(objects, dict) else ():
+    for name, created in record(document.get(key)).items():
         if isinstance(created, dict):
             yield _handle(name), created
 
@@ -138,8 +138,7 @@ def _handle(value: object) -> int:
 
 def _instance(document: Json, at: Place) -> Call:
     """The application. Fossilize records only the features that affect pipeline hashes; stating these would deny all others."""
-    info = document.get("applicationInfo")
-    info = info if isinstance(info, dict) else {}
+    info = record(document.get("applicationInfo"))
     names = {"applicationName": "pApplicationName", "engineName": "pEngineName"}
     return Call("vkCreateInstance", {"pCreateInfo": {"pNext": None, "pApplicationInfo": _renamed(info, names)}}, at)
 
@@ -215,7 +214,7 @@ def _renamed(source: object, names: dict[str, str]) -> Json:
 def _chain(structures: object) -> dict[str, Any] | None:
     """Fossilize's list of chained structures as a pNext chain of the supported ones."""
     chain: dict[str, Any] | None = None
-    for structure in reversed(structures if isinstance(structures, list) else []):
+    for structure in reversed(items(structures)):
         kind = structure.get("sType") if isinstance(structure, dict) else None
         if type(kind) is int and kind in CHAINED:
             name, names = CHAINED[kind]

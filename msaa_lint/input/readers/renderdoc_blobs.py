@@ -31,9 +31,9 @@ class Blobs:
         """Resets the size limit of a chunk."""
         self.chunk_budget = MAX_BLOB
 
-    def read(self, number: object, length_text: str) -> bytes | None:
+    def read(self, number: int, length_text: str) -> bytes | None:
         """The buffer with this number and stated length; None if the zip does not contain it."""
-        if self.path is None or type(number) is not int or not (length_text.isdecimal() and len(length_text) < 12):
+        if self.path is None or not (length_text.isdecimal() and len(length_text) < 12):
             return None
         length = int(length_text)
         if length > min(self.chunk_budget, self.capture_budget) or not 0 <= number < 1 << 32:

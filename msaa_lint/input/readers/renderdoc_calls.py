@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from msaa_lint.input.captures.call import Call, Place
+from msaa_lint.input.captures.values import record
 
 from .renderdoc_sets import DescriptorSets
 
@@ -161,19 +162,12 @@ class CallConverter:
 
 
 def _renamed(name: str, chunk: dict[str, Any]) -> dict[str, Any]:
-    call_names = RENAMED_BY_CALL.get(name, {})
+    call_names = RENAMED | RENAMED_BY_CALL.get(name, {})
     out: dict[str, Any] = {}
     for key, value in chunk.items():
-        renamed = call_names.get(key)
-        if renamed is None:
-            renamed = RENAMED.get(key)
-        if renamed is None:
-            renamed = "p" + key if key[:1].isupper() else key
-        elif not renamed:
-            continue
-        elif renamed in ARRAYS:
-            value = [value]
-        out[renamed] = value
+        renamed = call_names.get(key, "p" + key if key[:1].isupper() else key)
+        if renamed:
+            out[renamed] = [value] if key in call_names and renamed in ARRAYS else value
     return out
 
 
@@ -198,8 +192,7 @@ def _device_queries(chunk: dict[str, Any], at: Place) -> Iterator[Call]:
 
 
 def _instance(chunk: dict[str, Any]) -> dict[str, Any]:
-    init = chunk.get("InitParams")
-    init = init if isinstance(init, dict) else {}
+    init = record(chunk.get("InitParams"))
     return {
         "pCreateInfo": {
             "sType": "VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO",

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from msaa_lint.input.captures.call import Call, Place
+from msaa_lint.input.captures.values import record
 
 IMAGES = (1, 2, 3, 10)
 """VkDescriptorType of image views: COMBINED_IMAGE_SAMPLER, SAMPLED_IMAGE, STORAGE_IMAGE, INPUT_ATTACHMENT."""
@@ -31,13 +32,13 @@ class DescriptorSets:
     def observe(self, name: str, arguments: dict[str, Any]) -> None:
         """Records the layouts and sets that a call creates."""
         if name == "vkCreateDescriptorSetLayout":
-            handle, bindings = arguments.get("pSetLayout"), _member(arguments.get("pCreateInfo"), "pBindings")
+            handle, bindings = arguments.get("pSetLayout"), record(arguments.get("pCreateInfo")).get("pBindings")
             if type(handle) is int and isinstance(bindings, list) and len(bindings) <= min(MAX_BINDINGS, self.remaining - 1):
                 self.remaining -= len(bindings) + 1
                 parsed = map(_binding, bindings)
                 self.layouts[handle] = sorted(binding for binding in parsed if binding is not None)
         elif name == "vkAllocateDescriptorSets":
-            handles, layouts = arguments.get("pDescriptorSets"), _member(arguments.get("pAllocateInfo"), "pSetLayouts")
+            handles, layouts = arguments.get("pDescriptorSets"), record(arguments.get("pAllocateInfo")).get("pSetLayouts")
             if isinstance(handles, list) and isinstance(layouts, list):
                 for handle, layout in zip(handles, layouts, strict=False):
                     if type(handle) is int and type(layout) is int and len(self.layout_of_set) < MAX_BINDINGS_TOTAL:
@@ -70,7 +71,7 @@ def _writes(handle: int, binding: int, slots: list[Any]) -> Iterator[dict[str, A
     """A write for each run of image slots of the same type."""
     write: dict[str, Any] | None = None
     for element, slot in enumerate(slots):
-        kind, resource = _member(slot, "type"), _member(slot, "resource")
+        kind, resource = record(slot).get("type"), record(slot).get("resource")
         if kind not in IMAGES or type(resource) is not int or not resource:
             write = None
             continue
@@ -82,11 +83,7 @@ def _writes(handle: int, binding: int, slots: list[Any]) -> Iterator[dict[str, A
 
 
 def _binding(chunk: object) -> tuple[int, int] | None:
-    binding, count = _member(chunk, "binding"), _member(chunk, "descriptorCount")
+    binding, count = record(chunk).get("binding"), record(chunk).get("descriptorCount")
     if type(binding) is not int or type(count) is not int or count < 0:
         return None
-    return binding, 1 if _member(chunk, "descriptorType") == INLINE else count
-
-
-def _member(structure: object, name: str) -> Any:
-    return structure.get(name) if isinstance(structure, dict) else None
+    return binding, 1 if record(chunk).get("descriptorType") == INLINE else count
