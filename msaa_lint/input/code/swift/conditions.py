@@ -1,15 +1,30 @@
-"""Decides conditions in Swift and binds their names."""
+"""Decides conditions in Swift and binds their names.
+
+Unknown conditions are decided in favor of the multisampled configuration, equal ones alike.
+"""
 
 from __future__ import annotations
 
 import re
+from typing import Any
 
-from .configurations import by_branches, by_words, last_name, words_of
 from .frame_state import CallFrame
 from .interpreter import Interpreter
-from .terms import BINARY, BIND, CALL, LITERAL, MEMBER, NAME, NOT, Term
+from .terms import BINARY, BIND, CALL, LITERAL, MEMBER, NAME, NOT, OTHER, SET, Term
 from .values import NIL, Constant, MetalObject, Symbol, Texture
 
+MAX_TERMS = 2000
+"""The maximum number of terms of a branch searched for multisampling."""
+
+ALWAYS_OFFERED = (1, 2, 4)
+"""Counts that a check with supportsTextureSampleCount accepts: every device supports 4, and nearly all support 2."""
+
+_ABOUT_SAMPLES = re.compile(r"sample|msaa|antialias", re.IGNORECASE)
+_SWITCHED = re.compile(r"msaa|multisampl|antialias", re.IGNORECASE)
+_ABOVE_ONE = {(">", 1), (">=", 2), ("!=", 1), ("==", 4)}
+_ONE = {("==", 1), ("<=", 1), ("<", 2)}
+_MIRRORED = {">": "<", "<": ">", ">=": "<=", "<=": ">="}
+_WORDS = frozenset({"type2DMultisample", "type2DMultisampleArray", "multisampleResolve", "storeAndMultisampleResolve"})
 _FAMILY = re.compile(r"(?:apple|mac|common|metal)\d{1,2}")
 
 
@@ -80,3 +95,78 @@ def note_capabilities(interpreter: Interpreter, conditions: tuple[Term, ...]) ->
             interpreter.offered_counts.setdefault(first[1], first[-1])
         elif name == "supportsFamily" and first[0] == MEMBER and interpreter.family is None and _FAMILY.fullmatch(first[2]):
             interpreter.family = (first[2], first[-1])
+
+
+def by_words(condition: Term) -> bool | None:
+    """Returns the value of a condition in the multisampled configuration, based on its names."""
+    turned = False
+    while condition[0] == NOT:
+        condition, turned = condition[1], not turned
+    result = _by_words(condition)
+    return None if result is None else result != turned
+
+
+def _by_words(condition: Term) -> bool | None:
+    if condition[0] == BINARY:
+        sign, left, right = condition[1], condition[2], condition[3]
+        if sign in ("&&", "||"):
+            one, other = by_words(left), by_words(right)
+            if sign == "&&":
+                return False if False in (one, other) else True if one and other else None
+            return True if True in (one, other) else False if one is False and other is False else None
+        if left[0] == LITERAL:
+            sign, left, right = _MIRRORED.get(sign, sign), right, left
+        if right[0] == LITERAL and type(right[1]) is int and _ABOUT_SAMPLES.search(last_name(left)):
+            return True if (sign, right[1]) in _ABOVE_ONE else False if (sign, right[1]) in _ONE else None
+        return None
+    if condition[0] == CALL and last_name(condition[1]) == "supportsTextureSampleCount" and condition[2]:
+        count = condition[2][0][1]
+        return count[1] in ALWAYS_OFFERED if count[0] == LITERAL else None
+    if condition[0] in (NAME, MEMBER) and _SWITCHED.search(last_name(condition)):
+        return True
+    return None
+
+
+def by_branches(then: Any, otherwise: Any) -> bool | None:
+    """Returns the value of a condition in the multisampled configuration if only one branch sets up multisampling."""
+    one, other = mentions_multisampling(then), mentions_multisampling(otherwise)
+    return one if one != other else None
+
+
+def mentions_multisampling(term: Any) -> bool:
+    """Returns whether a branch sets up multisampling."""
+    stack = [term]
+    left = MAX_TERMS
+    while stack and left:
+        left -= 1
+        inner = stack.pop()
+        if not isinstance(inner, tuple) or not inner:
+            continue
+        if inner[0] == MEMBER and len(inner) == 4 and inner[2] in _WORDS:
+            return True
+        if inner[0] == SET and len(inner) == 5 and inner[2][0] == MEMBER:
+            name, value = inner[2][2], inner[3]
+            if name in ("sampleCount", "rasterSampleCount") and not (value[0] == LITERAL and value[1] == 1):
+                return True
+            if name == "resolveTexture" and value[:2] != (LITERAL, None):
+                return True
+        stack.extend(inner)
+    return False
+
+
+def about_samples(name: str) -> bool:
+    """Returns whether a name suggests a sample count or a switch for multisampling."""
+    return _ABOUT_SAMPLES.search(name) is not None
+
+
+def last_name(term: Term) -> str:
+    """Returns the last name in an expression, `count` for `a.b.count`, or an empty string."""
+    return str(term[2]) if term[0] == MEMBER else str(term[1]) if term[0] == NAME else last_name(term[1]) if term[0] == CALL else ""
+
+
+def words_of(conditions: tuple[Term, ...], text: str) -> str:
+    """Returns the text that identifies conditions."""
+    first, last = conditions[0][-1], conditions[-1][-1]
+    if conditions[0][0] == OTHER:
+        return str(conditions[0][1])
+    return "".join(text[first.start : last.end].split())[:500]

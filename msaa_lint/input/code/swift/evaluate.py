@@ -6,8 +6,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.operators import ARITHMETIC, COMPARISONS
 
 from .calls import evaluate_call
-from .conditions import decide
-from .configurations import about_samples, last_name
+from .conditions import about_samples, decide, last_name
 from .frame_state import CallFrame
 from .interpreter import Interpreter
 from .members import adopt_descriptor, drawable, index_of, member_of

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
 
-from .conditions import decide, note_capabilities, truth
-from .configurations import about_samples
+from .conditions import about_samples, decide, note_capabilities, truth
 from .evaluate import cell, evaluate, owner_of
 from .frame_state import CallFrame
 from .interpreter import OBJECTS, Interpreter, join_all

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
 
-from .configurations import last_name
+from .conditions import last_name
 from .frame_state import CallFrame
 from .interpreter import Interpreter
 from .terms import MEMBER, NAME, Term

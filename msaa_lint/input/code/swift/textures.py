@@ -2,17 +2,47 @@
 
 from __future__ import annotations
 
-from msaa_lint.core.text.node_builder import scalar
+from collections import Counter
+from functools import reduce
+
+from msaa_lint.core.text.node import Node
+from msaa_lint.core.text.node_builder import mapping, scalar, words
 from msaa_lint.core.text.span import Span
 
-from .entries import COUNTS, Entry, Names, plain, type_of, usage, word
 from .interpreter import Interpreter
-from .values import MULTISAMPLED_TYPES, Constant, Field, MetalObject, Symbol, Texture, join_fields
+from .values import MULTISAMPLED_TYPES, Field, MetalObject, Symbol, Texture, constant_of, join_fields, options
 
+Entry = tuple[str, Span, Node]
+"""A member of a description with the location of its name."""
+
+COUNTS = (1, 2, 4, 8, 16, 32, 64)
 ASSUMED_COUNT = 4
 """The only count above 1 that every device supports (Apple's documentation of supportsTextureSampleCount)."""
 
 _STORAGE = frozenset({"shared", "managed", "private", "memoryless"})
+_USAGES = frozenset({"renderTarget", "shaderRead", "shaderWrite", "pixelFormatView", "shaderAtomic"})
+
+
+class Names:
+    """Unique names; equal names are qualified by their context."""
+
+    def __init__(self) -> None:
+        self.of: dict[int, str] = {}
+        self.taken: set[str] = set()
+        self.numbers: dict[str, int] = {}
+
+    def assign(self, items: list[tuple[object, str, str]]) -> None:
+        """Assigns names to items by their own name and context."""
+        often = Counter(name for _, name, _ in items)
+        for item, name, type_name in items:
+            unique = f"{type_name}.{name}" if often[name] > 1 and type_name else name
+            while unique in self.taken:
+                number = self.numbers[unique] = self.numbers.get(unique, 1) + 1
+                candidate = f"{unique} {number}"
+                if candidate not in self.taken:
+                    unique = candidate
+            self.taken.add(unique)
+            self.of[id(item)] = unique
 
 
 class Textures:
@@ -47,11 +77,9 @@ class Textures:
         """Returns the members on which all creations of a texture agree; of those, only the multisampled ones if there are any."""
         common = self.given.get(id(texture))
         if common is None:
-            several = [fields for fields in texture.made if type_of(fields) in MULTISAMPLED_TYPES]
-            common = {}
-            for index, texture_fields in enumerate(several or texture.made):
-                common = texture_fields if index == 0 else join_fields(common, texture_fields)
-            self.given[id(texture)] = common
+            several = [fields for fields in texture.made if constant_of(fields.get("textureType")) in MULTISAMPLED_TYPES]
+            made = several or texture.made
+            common = self.given[id(texture)] = reduce(join_fields, made) if made else {}
         return common
 
     def add_pass(self, textures: list[Texture]) -> None:
@@ -67,8 +95,7 @@ class Textures:
     def stated_count(self, texture: Texture) -> int | None:
         """Returns the sample count that the file states."""
         fields = self.fields(texture) if texture.owner is None else self.interpreter.snapshot(texture.owner)
-        count = fields.get("sampleCount")
-        value = count.value.value if count is not None and isinstance(count.value, Constant) else None
+        value = constant_of(fields.get("sampleCount"))
         return value if type(value) is int and value in COUNTS else None
 
     def members(self, texture: Texture) -> list[Entry]:
@@ -78,32 +105,30 @@ class Textures:
         if texture.owner is not None:
             return self.view_members(texture, texture.owner)
         fields = self.fields(texture)
-        entries: list[Entry] = []
-        for name in ("pixelFormat", "width", "height", "mipmapLevelCount", "arrayLength"):
-            if name in fields:
-                entries.extend(plain(name, fields[name]))
-        entries.extend(self.count(texture, fields))
-        if "usage" in fields:
-            entries.extend(usage(fields["usage"]))
+        names = ("pixelFormat", "width", "height", "mipmapLevelCount", "arrayLength")
+        entries = [entry for name in names for entry in plain(name, fields.get(name))]
+        entries += self.count(texture, fields) + _usage(fields.get("usage"))
         # Passes in other files may need memory for a texture that no pass of this file uses.
-        if "storageMode" in fields and (id(texture) in self.attached or fields["storageMode"].value == Constant("memoryless")):
-            entries.extend(word("storageMode", fields["storageMode"], _STORAGE))
+        mode = fields.get("storageMode")
+        if id(texture) in self.attached or constant_of(mode) == "memoryless":
+            entries += word("storageMode", mode, _STORAGE)
         return entries
 
     def count(self, texture: Texture, fields: dict[str, Field]) -> list[Entry]:
         """Returns the texture type and the sample count; a count above 1 that is unknown is assumed."""
         kind, count = fields.get("textureType"), fields.get("sampleCount")
-        number = count.value.value if count is not None and isinstance(count.value, Constant) else None
+        number = constant_of(count)
         if kind is not None and kind.default and count is not None and not count.default:
             kind = kind._replace(key=count.key, at=count.at)
         if count is not None and count.default and kind is not None and not kind.default:
             count = count._replace(key=kind.key, at=kind.at)
         entries: list[Entry] = []
-        several = type_of(fields) in MULTISAMPLED_TYPES
+        several = constant_of(kind) in MULTISAMPLED_TYPES
         if several and count is not None and count.default and not self.defaults:
             count, number = None, None
-        if kind is not None and isinstance(kind.value, Constant) and isinstance(kind.value.value, str) and (number is not None or several):
-            entries.append(("textureType", kind.key, scalar(kind.value.value, kind.at)))
+        type_name = constant_of(kind)
+        if kind is not None and isinstance(type_name, str) and (number is not None or several):
+            entries.append(("textureType", kind.key, scalar(type_name, kind.at)))
         if type(number) is int and number in COUNTS and count is not None:
             entries.append(("sampleCount", count.key, scalar(number, count.at)))
         elif number is None and (several or id(texture) in self.resolved or id(texture) in self.alike):
@@ -126,25 +151,45 @@ class Textures:
 
     def drawable_format(self) -> list[Entry]:
         """Returns the pixel format of the drawable from its layer or view."""
-        fields = [
-            field
-            for item in self.interpreter.objects.values()
-            for name in {"layer": ("pixelFormat",), "view": ("colorPixelFormat",)}.get(item.kind, ())
-            if (field := self.interpreter.field(item, name)) is not None
-        ]
+        names = {"layer": "pixelFormat", "view": "colorPixelFormat"}
+        objects = [item for item in self.interpreter.objects.values() if item.kind in names]
+        fields = [field for item in objects if (field := self.interpreter.field(item, names[item.kind])) is not None]
         return plain("pixelFormat", fields[0]) if fields and all(entry.value == fields[0].value for entry in fields) else []
 
     def view_members(self, texture: Texture, view: MetalObject) -> list[Entry]:
         """Returns what is known of a texture that MTKView creates."""
         fields = self.interpreter.snapshot(view)
-        entries: list[Entry] = []
         pixels = fields.get("colorPixelFormat" if texture.name == "multisampleColorTexture" else "depthStencilPixelFormat")
-        if pixels is not None:
-            entries.extend(plain("pixelFormat", pixels))
+        entries = plain("pixelFormat", pixels)
         count = fields.get("sampleCount")
-        if count is None:
-            return entries
-        if isinstance(count.value, Constant) and count.value.value in COUNTS and count.value.value != 1:
+        if count is not None and constant_of(count) in COUNTS[1:]:
             entries.append(("textureType", count.key, scalar("type2DMultisample", count.at)))
-            entries.append(("sampleCount", count.key, scalar(count.value.value, count.at)))
+            entries += plain("sampleCount", count)
         return entries
+
+
+def word(name: str, field: Field | None, allowed: frozenset[str]) -> list[Entry]:
+    """Returns a member that has one of some values, or nothing."""
+    value = constant_of(field)
+    return [(name, field.key, scalar(value, field.at))] if field is not None and isinstance(value, str) and value in allowed else []
+
+
+def plain(name: str, field: Field | None) -> list[Entry]:
+    """Returns a member that is a positive number, a boolean, or a word, or nothing."""
+    value = constant_of(field)
+    if field is None or not isinstance(value, (str, bool, int)):
+        return []
+    usable = value.isidentifier() if isinstance(value, str) else isinstance(value, bool) or 0 < value < 1 << 31
+    return [(name, field.key, scalar(value, field.at))] if usable else []
+
+
+def section(name: str, entries: list[Entry]) -> list[Entry]:
+    """Returns a mapping of some entries at the place of the first, or nothing without entries."""
+    return [(name, entries[0][1], mapping(entries, entries[0][1]))] if entries else []
+
+
+def _usage(field: Field | None) -> list[Entry]:
+    """Returns the stated usage, or nothing. `unknown` is 0, and alone it allows every usage."""
+    value = constant_of(field)
+    named = [word for word in dict.fromkeys(options(value) if isinstance(value, (str, tuple)) else ()) if word != "unknown"]
+    return [("usage", field.key, words(named, field.at))] if field is not None and named and _USAGES.issuperset(named) else []

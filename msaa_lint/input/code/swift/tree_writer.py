@@ -6,13 +6,11 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
 
-from .entries import COUNTS, Entry, Names, plain, word
-from .frame_state import Pass, Pipeline
-from .frames import commands
+from .frame_state import Encoded, Pass, Pipeline
 from .interpreter import Interpreter
 from .metal import pass_of, pipeline_of
-from .textures import Textures
-from .values import Constant, Field, OneOf, Symbol, Texture, Value
+from .textures import COUNTS, Entry, Names, Textures, plain, section, word
+from .values import Constant, Field, OneOf, Symbol, Texture, Value, constant_of
 
 RESOLVING = ("multisampleResolve", "storeAndMultisampleResolve")
 _LOADS = frozenset({"load", "clear", "dontCare"})
@@ -50,10 +48,9 @@ class DescriptionWriter:
                     self.textures.add(item)
                     mentioned.add(id(item))
         descriptors = {id(pipeline.descriptor) for pipeline in interpreter.pipelines.values()}
-        built = [
-            entry for entry in interpreter.objects.values() if entry.kind == "pipeline" and entry.fields and id(entry) not in descriptors
-        ]
-        pipelines = [*interpreter.pipelines.values(), *(pipeline_of(interpreter, entry, entry.at, entry.type_name) for entry in built)]
+        filled = [entry for entry in interpreter.objects.values() if entry.kind == "pipeline" and entry.fields]
+        built = [pipeline_of(interpreter, entry, entry.at, entry.type_name) for entry in filled if id(entry) not in descriptors]
+        pipelines = [*interpreter.pipelines.values(), *built]
         self.textures.names.assign([(item, item.name or "texture", item.type_name) for item in self.textures.all.values()])
         pass_names = Names()
         pass_names.assign([(entry, entry.descriptor.name or "renderPass", entry.descriptor.type_name) for entry, _ in passes])
@@ -62,16 +59,10 @@ class DescriptionWriter:
             for texture in self.textures.all.values()
             if (members := self.textures.members(texture)) or id(texture) in mentioned
         ]
-        sections: list[Entry] = []
-        for name, entries in (
-            ("textures", textures),
-            ("renderPasses", [(pass_names.of[id(entry)], entry.descriptor.at, self.render_pass(entry, used)) for entry, used in passes]),
-            ("renderPipelines", self.pipelines(pipelines, pass_names.of)),
-        ):
-            if entries:
-                place = entries[0][1]
-                sections.append((name, place, mapping(entries, place)))
-        steps = commands(interpreter, self.textures, [entry for entry, _ in passes], pass_names.of)
+        render_passes = [(pass_names.of[id(entry)], entry.descriptor.at, self.render_pass(entry, used)) for entry, used in passes]
+        sections = section("textures", textures) + section("renderPasses", render_passes)
+        sections += section("renderPipelines", self.pipelines(pipelines, pass_names.of))
+        steps = _commands(interpreter, self.textures, [entry for entry, _ in passes], pass_names.of)
         if steps is not None:
             sections.append(("commands", steps.span, steps))
         if not sections:
@@ -104,10 +95,9 @@ class DescriptionWriter:
         drawn: list[Texture] = []
         for name in sorted(render_pass.attachments):
             fields = render_pass.attachments[name]
-            texture, resolve, store = fields.get("texture"), fields.get("resolveTexture"), fields.get("storeAction")
+            texture, resolve, action = fields.get("texture"), fields.get("resolveTexture"), constant_of(fields.get("storeAction"))
             if texture is None or not isinstance(texture.value, Texture):
                 continue
-            action = store.value.value if store is not None and isinstance(store.value, Constant) else None
             if resolve is not None and not isinstance(resolve.value, (Texture, Constant)):
                 continue
             # Other code may set the resolve texture.
@@ -135,13 +125,8 @@ class DescriptionWriter:
         for name, fields in used.items():
             place = fields["texture"].key
             node = mapping(self.attachment(render_pass, name, fields), place)
-            if name.startswith("color"):
-                colors.append((name.removeprefix("color"), place, node))
-            else:
-                entries.append((name, place, node))
-        if colors:
-            entries.insert(0, ("colorAttachments", colors[0][1], mapping(colors, colors[0][1])))
-        return mapping(entries, render_pass.descriptor.at)
+            (colors if name.startswith("color") else entries).append((name.removeprefix("color"), place, node))
+        return mapping(section("colorAttachments", colors) + entries, render_pass.descriptor.at)
 
     def attachment(self, render_pass: Pass, slot: str, fields: dict[str, Field]) -> list[Entry]:
         entries: list[Entry] = []
@@ -154,16 +139,15 @@ class DescriptionWriter:
             field = fields.get(name)
             if field is not None:
                 # If some frames load the texture, its stored samples are read.
-                stores = field.value in (Constant("store"), Constant("storeAndMultisampleResolve"))
+                stores = constant_of(field) in ("store", "storeAndMultisampleResolve")
                 if not (stores and id(fields["texture"].value) in self.maybe_loaded):
                     entries.extend(word(name, field, allowed))
             elif render_pass.complete and self.defaults:
                 place = fields.get("resolveTexture", fields["texture"]).key
                 entries.append((name, place, scalar(_DEFAULTS[kind][index], place)))
         for name, allowed in _FILTERS.items():
-            field = fields.get(name)
-            if field is not None and name.startswith(kind):
-                entries.extend(word(name, field, allowed))
+            if name.startswith(kind):
+                entries += word(name, fields.get(name), allowed)
         return entries
 
     def pipelines(self, pipelines: list[Pipeline], passes: dict[int, str]) -> list[Entry]:
@@ -183,51 +167,83 @@ class DescriptionWriter:
             if field is None:
                 continue
             counted = True
-            if isinstance(field.value, Constant) and field.value.value in COUNTS:
-                entries.append((name, field.key, scalar(field.value.value, field.at)))
+            if constant_of(field) in COUNTS:
+                entries += plain(name, field)
             elif isinstance(field.value, Symbol) and field.value in self.textures.symbols:
                 entries.append((name, field.key, scalar(self.textures.symbols[field.value], field.at)))
         complete = pipeline.descriptor.complete and not pipeline.descriptor.loose
         if not counted and drawn is not None and complete and self.defaults:
             entries.append(("rasterSampleCount", pipeline.descriptor.at, scalar(1, pipeline.descriptor.at)))
         for name in ("depthAttachmentPixelFormat", "stencilAttachmentPixelFormat", *_SWITCHES):
-            if name in pipeline.fields:
-                entries.extend(plain(name, pipeline.fields[name]))
+            entries += plain(name, pipeline.fields.get(name))
         colors: list[Entry] = []
         for slot in sorted(pipeline.colors):
             fields = pipeline.colors[slot]
-            members = [entry for name in ("pixelFormat", "isBlendingEnabled") if name in fields for entry in plain(name, fields[name])]
-            if members:
-                colors.append((slot.removeprefix("color"), members[0][1], mapping(members, members[0][1])))
-        if colors:
-            entries.append(("colorAttachments", colors[0][1], mapping(colors, colors[0][1])))
-        return mapping(entries, pipeline.descriptor.at)
+            members = [entry for name in ("pixelFormat", "isBlendingEnabled") for entry in plain(name, fields.get(name))]
+            colors += section(slot.removeprefix("color"), members)
+        return mapping(entries + section("colorAttachments", colors), pipeline.descriptor.at)
 
     def device(self) -> list[Entry]:
         interpreter = self.interpreter
-        entries: list[Entry] = []
-        if interpreter.family is not None:
-            name, place = interpreter.family
-            entries.append(("family", place, scalar(name, place)))
-        else:
-            family_at = self.family()
-            if family_at is not None:
-                self.textures.assume("the GPU family", family_at, "apple3, the minimum for iOS 13")
-                entries.append(("family", family_at, scalar("apple3", family_at)))
+        family = interpreter.family
+        if family is None and (apple_at := self.apple_only()) is not None:
+            self.textures.assume("the GPU family", apple_at, "apple3, the minimum for iOS 13")
+            family = ("apple3", apple_at)
+        entries = [("family", family[1], scalar(*family))] if family is not None else []
         most = max(interpreter.offered_counts, default=0)
         if most in COUNTS and most > 4:
             place = interpreter.offered_counts[most]
             entries.append(("supportedSampleCounts", place, sequence([scalar(count, place) for count in (1, 2, 4, most)], place)))
         return entries
 
-    def family(self) -> Span | None:
+    def apple_only(self) -> Span | None:
         """Returns where the file shows that it targets Apple GPUs."""
-        place = self.interpreter.imports
-        if place is not None:
-            return place
-        for texture in self.textures.all.values():
-            for fields in texture.made:
-                mode = fields.get("storageMode")
-                if mode is not None and mode.value == Constant("memoryless"):
-                    return mode.at
+        modes = [fields["storageMode"] for texture in self.textures.all.values() for fields in texture.made if "storageMode" in fields]
+        return self.interpreter.imports or next((mode.at for mode in modes if constant_of(mode) == "memoryless"), None)
+
+
+def _commands(interpreter: Interpreter, textures: Textures, passes: list[Pass], names: dict[int, str]) -> Node | None:
+    """Returns the commands of a frame if one function encodes all passes and presents the drawable, and every step is known."""
+    encodings = [item for item in interpreter.encoded if item.kind == "pass"]
+    roots = {encoding.by for encoding in encodings}
+    if len(roots) != 1 or len(encodings) != len(passes) or roots & interpreter.incomplete:
         return None
+    steps = [item for item in interpreter.encoded if item.by in roots]
+    if not all(item.sure for item in steps) or not any(entry.kind == "present" for entry in steps):
+        return None
+    if {id(encoding.what[0]) for encoding in encodings} != set(names):
+        return None
+    attached = {id(field.value) for render_pass in passes for fields in render_pass.attachments.values() for field in fields.values()}
+    hidden = attached & interpreter.escaped or any(id(item) in attached and _read_elsewhere(item) for item in textures.all.values())
+    if hidden or len(steps) != len(interpreter.encoded):
+        return None
+    reads: dict[int, list[Encoded]] = {}
+    for step in steps:
+        if step.kind == "read":
+            if not isinstance(step.what[2], Pass):
+                return None
+            reads.setdefault(id(step.what[2]), []).append(step)
+    nodes: list[Node] = []
+    for step in steps:
+        if step.kind == "pass":
+            nodes.extend(_command(textures, item) for item in reads.get(id(step.what[0]), ()))
+            nodes.append(mapping([("renderPass", step.at, scalar(names[id(step.what[0])], step.at))], step.at))
+        elif step.kind != "read":
+            nodes.append(_command(textures, step))
+    return sequence(nodes, steps[0].at)
+
+
+def _read_elsewhere(texture: Texture) -> bool:
+    """Returns whether other files may read a texture, judging by its usage."""
+    usages = [constant_of(fields.get("usage")) for fields in texture.made]
+    return texture.open and (not usages or any(usage not in ("renderTarget", ("renderTarget",)) for usage in usages))
+
+
+def _command(textures: Textures, step: Encoded) -> Node:
+    at = step.at
+    named = [scalar(textures.name(item), at) for item in step.what if isinstance(item, Texture)]
+    if step.kind == "present":
+        return mapping([("present", at, named[0])], at)
+    if step.kind == "copy":
+        return mapping([("copy", at, mapping([("source", at, named[0]), ("destination", at, named[1])], at))], at)
+    return mapping([("readTexture", at, mapping([("texture", at, named[0]), ("stage", at, scalar(str(step.what[1]), at))], at))], at)
