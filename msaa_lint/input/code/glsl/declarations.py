@@ -84,7 +84,7 @@ class Declarations(Expressions):
             if field.type != "field_declaration":
                 continue
             type_node = field.child_by_field_name("type")
-            kind = self.kind(self.text_of(type_node)) if type_node is not None else None
+            kind = self.kind(self.text_of(type_node))
             if type_node is None or kind is None:
                 raise self.unsupported(field, "is not supported")
             words = set(_WORD.findall(self.text[field.start_byte : type_node.start_byte]))
@@ -122,14 +122,9 @@ class Declarations(Expressions):
     def qualifiers(self, node: SyntaxNode, end: int) -> tuple[set[str], dict[str, int | None]]:
         """Returns the qualifiers before a type: words, and the entries of `layout`."""
         layouts = [child for child in node.children if child.type == "layout_specification"]
-        text = self.text[node.start_byte : end]
-        for layout in reversed(layouts):
-            text = text[: layout.start_byte - node.start_byte] + " " + text[layout.end_byte - node.start_byte :]
-        entries: dict[str, int | None] = {}
-        for layout in layouts:
-            for name, value in _ENTRY.findall(self.text_of(layout).partition("(")[2]):
-                entries[name] = self.integer(value) if value else None
-        return set(_WORD.findall(text)), entries
+        texts = [self.text_of(child) for child in node.children if child.start_byte < end and child not in layouts]
+        pairs = [pair for layout in layouts for pair in _ENTRY.findall(self.text_of(layout).partition("(")[2])]
+        return set(_WORD.findall(" ".join(texts))), {name: self.integer(value) if value else None for name, value in pairs}
 
     def declaration(self, node: SyntaxNode) -> None:
         if any(child.type == "ERROR" for child in node.children):
@@ -143,12 +138,11 @@ class Declarations(Expressions):
             return
         kind = self.structure(type_node) if type_node.type == "struct_specifier" else self.kind(self.text_of(type_node))
         words, layout = self.qualifiers(node, type_node.start_byte)
-        for declarator in node.children_by_field_name("declarator"):
-            if declarator.type == "function_declarator" or kind is None:
-                continue
-            self.declared(declarator, kind, words, layout)
-        if kind is None and self.text_of(type_node) not in ("precision",):
+        if kind is None and self.text_of(type_node) != "precision":
             raise self.unsupported(node, "has an unknown type")
+        for declarator in node.children_by_field_name("declarator"):
+            if declarator.type != "function_declarator" and kind is not None:
+                self.declared(declarator, kind, words, layout)
 
     def declared(self, node: SyntaxNode, kind: Type, words: set[str], layout: dict[str, int | None]) -> None:
         """Declares a global variable."""
@@ -156,7 +150,7 @@ class Declarations(Expressions):
         if "const" in words or initializer is not None:
             self.constant(name, kind, initializer, layout, node, "const" in words)
             return
-        storage = next((_STORAGE[word] for word in ("in", "varying", "out", "uniform", "buffer", "shared") if word in words), op.PRIVATE)
+        storage = next((number for word, number in _STORAGE.items() if word in words), op.PRIVATE)
         variable = self.variable(storage, kind)
         self.scopes[0][name] = variable
         if multisampled(kind[1] if kind[0] == "array" else kind):

@@ -6,21 +6,11 @@ from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
 
-from .frame_state import CallFrame, Pass, Pipeline
 from .interpreter import OBJECTS, SHARED, Interpreter
 from .members import as_texture, drawable
-from .metal import (
-    DESCRIPTOR_METHODS,
-    change_options,
-    copy_descriptor,
-    create_texture_descriptor,
-    encode_pass,
-    make_pipeline,
-    make_texture,
-    record,
-)
-from .terms import MEMBER, NAME, Function, Term
-from .values import MAX_ITEMS, NIL, UNKNOWN, Aggregate, Code, Constant, Instance, MetalObject, Symbol, Texture, Value
+from .metal import DESCRIPTOR_METHODS, change_options, copy_descriptor, create_descriptor, encode_pass, make_pipeline, make_texture, record
+from .terms import MAX_ITEMS, MEMBER, NAME, Function, Term
+from .values import NIL, UNKNOWN, Aggregate, CallFrame, Code, Constant, Instance, MetalObject, Pass, Pipeline, Symbol, Texture, Value
 
 MAX_OVERLOADS = 20
 """Functions of one name that are compared with a call."""
@@ -180,7 +170,7 @@ def _by_member(interpreter: Interpreter, function: Term, call: Call, frame: Call
     target, name = function[1], function[2]
     descriptor = dict(call.arguments).get("descriptor")
     if name in DESCRIPTOR_METHODS:
-        return create_texture_descriptor(interpreter, call.arguments, call.terms, call.at, frame, name)
+        return create_descriptor(interpreter, call.arguments, call.terms, call.at, frame, name)
     if name == "makeTexture" and isinstance(descriptor, MetalObject):
         return make_texture(interpreter, descriptor, call.at, frame)
     if name in _ENCODERS and descriptor is not None:

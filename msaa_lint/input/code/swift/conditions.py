@@ -8,10 +8,9 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from .frame_state import CallFrame
 from .interpreter import Interpreter
 from .terms import BINARY, BIND, CALL, LITERAL, MEMBER, NAME, NOT, OTHER, SET, Term
-from .values import NIL, Constant, MetalObject, Symbol, Texture
+from .values import NIL, CallFrame, Constant, MetalObject, Symbol, Texture
 
 MAX_TERMS = 2000
 """The maximum number of terms of a branch searched for multisampling."""
@@ -43,15 +42,12 @@ def truth(interpreter: Interpreter, conditions: tuple[Term, ...], frame: CallFra
 def _bound(interpreter: Interpreter, condition: Term, frame: CallFrame) -> bool | None:
     """Binds a name. Only Metal objects are known not to be nil."""
     _, name, term, _ = condition
-    if term is None:
-        variable = frame.find(name)
-        if variable is None:
-            value = interpreter.evaluate(interpreter, (NAME, name, condition[-1]), frame)
-            interpreter.variable(frame, name, Symbol(name, frame.type_name) if value == NIL else value)
-            return True if isinstance(value, MetalObject) else None
+    variable = frame.find(name) if term is None else None
+    if variable is not None:
         return True if isinstance(variable[1], (Texture, MetalObject)) else None
-    value = interpreter.evaluate(interpreter, term, frame)
-    interpreter.variable(frame, name, Symbol(last_name(term) or name, frame.function_name) if value == NIL else value)
+    value = interpreter.evaluate(interpreter, term or (NAME, name, condition[-1]), frame)
+    unknown = Symbol(last_name(term) or name, frame.function_name) if term else Symbol(name, frame.type_name)
+    interpreter.variable(frame, name, unknown if value == NIL else value)
     return True if isinstance(value, MetalObject) else None
 
 

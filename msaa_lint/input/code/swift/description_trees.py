@@ -8,20 +8,20 @@ otherwise differences between the branches are unknown.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+from functools import partial
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.parsing import Code, Read, tree
+from msaa_lint.input.code.parsing import Code, Read, SyntaxNode, span, tree
 
-from .declarations import unit
 from .evaluate import evaluate
 from .execution import bind_parameters, call, call_closure, run_body, run_statements, with_labels
-from .frame_state import CallFrame
 from .interpreter import Interpreter
 from .syntax import Syntax
-from .terms import Function, Type
+from .terms import Function, Member, Term, Type, Unit
 from .tree_writer import DescriptionWriter
-from .values import Aggregate, Texture, Value, join
+from .values import Aggregate, CallFrame, Texture, Value, join
 
 MAX_TUPLES = 20
 """The maximum number of functions with labeled tuples for which the functions that take them are searched."""
@@ -47,14 +47,14 @@ def trees(code: Code) -> list[Read]:
 def interpret(code: Code) -> Interpreter:
     """Executes a file twice, the second time with the properties found in the first."""
     syntax = Syntax(code.text)
-    parsed = tree(code)
-    interpreter = Interpreter(code.text, unit(parsed.root_node, syntax), syntax)
+    interpreter = Interpreter(code.text, _unit(tree(code).root_node, syntax), syntax)
     interpreter.evaluate, interpreter.call, interpreter.call_closure = evaluate, call, call_closure
     apple_import = _APPLE_ONLY.search(code.text)
     if apple_import is not None and not _OTHERS_TOO.search(code.text):
         interpreter.imports = Span(apple_import.start(), apple_import.end())
     mentioned = {match[2] or match[3] for match in _CALLED.finditer(code.text) if not match[1]}
     functions = [item for type_ in interpreter.unit.types.values() for named in type_.functions.values() for item in named]
+    computed = [function for type_ in interpreter.unit.types.values() for function in type_.computed.values()]
     functions.sort(key=lambda function: (function.name != "init", function.at.start))
     for turn in range(2):
         if turn:
@@ -65,26 +65,95 @@ def interpret(code: Code) -> Interpreter:
         for function in functions:
             if function.name == "init" or not (function.at.start in called if turn else function.name in mentioned):
                 _root(interpreter, function)
-        for function in functions:
+        for function in (*functions, *computed):
             if function.at.start not in interpreter.inlined:
                 _root(interpreter, function)
-        for declaring_type in interpreter.unit.types.values():
-            for function in declaring_type.computed.values():
-                if function.at.start not in interpreter.inlined:
-                    _root(interpreter, function)
     interpreter.end()
     return interpreter
+
+
+def _unit(root: SyntaxNode, syntax: Syntax) -> Unit:
+    """Returns the declarations and global statements of a file."""
+    types: dict[str, Type] = {"": Type("", {}, {}, {}, {}, set())}
+    outside: list[SyntaxNode] = []
+    stack: list[tuple[SyntaxNode, str]] = [(root, "")]
+    while stack:
+        node, type_name = stack.pop()
+        inner: list[tuple[SyntaxNode, str]] = []
+        for child in node.named_children:
+            if child.type == "class_declaration":
+                declared = _type_declaration(child, types, syntax)
+                body = child.child_by_field_name("body")
+                if body is not None:
+                    inner.append((body, declared.name))
+            elif child.type == "ERROR":
+                inner.append((child, type_name))
+            elif child.type == "statements":
+                outside.extend(child.named_children)
+            elif type_name or child.type in ("function_declaration", "init_declaration"):
+                _member_declaration(child, types[type_name], syntax)
+            else:
+                outside.append(child)
+        stack.extend(reversed(inner))
+    outside.sort(key=lambda node: node.start_byte)
+    return Unit(types, syntax.statements(outside))
+
+
+def _type_declaration(node: SyntaxNode, types: dict[str, Type], syntax: Syntax) -> Type:
+    """Returns the type that a declaration or extension belongs to."""
+    name = node.child_by_field_name("name")
+    written = syntax.text_of(name).partition("<")[0].rpartition(".")[2] if name is not None else "?"
+    declaring_type = types.setdefault(written, Type(written, {}, {}, {}, {}, set()))
+    declaring_type.inherits.update(syntax.text_of(child)[:100] for child in node.named_children if child.type == "inheritance_specifier")
+    return declaring_type
+
+
+def _member_declaration(node: SyntaxNode, declaring_type: Type, syntax: Syntax) -> None:
+    """Adds a declaration in the body of a type."""
+    kind = node.type
+    if kind in ("function_declaration", "init_declaration"):
+        declaring_type.add(syntax.function(node, declaring_type.name))
+    elif kind == "property_declaration":
+        _property_declaration(node, declaring_type, syntax)
+    elif kind == "enum_entry":
+        name = ""
+        for index, child in enumerate(node.children):
+            field = node.field_name_for_child(index)
+            if field == "name":
+                name = syntax.text_of(child)
+                declaring_type.cases[name] = None
+            elif field == "raw_value":
+                declaring_type.cases[name] = syntax.expression(child)
+
+
+def _property_declaration(node: SyntaxNode, declaring_type: Type, syntax: Syntax) -> None:
+    terms: list[Term] = []
+    syntax.declared(node, 0, terms)
+    binding = next((syntax.text_of(child) for child in node.named_children if child.type == "value_binding_pattern"), "let")
+    modifiers = " ".join(syntax.text_of(child) for child in node.named_children if child.type == "modifiers").split()
+    open_ = "private" not in modifiers and "fileprivate" not in modifiers
+    for _, names, kind, value, _ in terms:
+        for name in names:
+            declaring_type.members.setdefault(name, Member(kind, value if len(names) == 1 else None, binding == "var", open_))
+    name = terms[0][1][0] if terms else ""
+    for child in node.named_children:
+        if child.type == "computed_property":
+            getter = next((item for item in child.named_children if item.type == "computed_getter"), child)
+            declaring_type.computed[name] = Function(name, declaring_type.name, (), (), getter, span(node))
+        elif child.type == "willset_didset_block":
+            for clause in child.named_children:
+                declaring_type.add(Function(f"{name} {clause.type}", declaring_type.name, (), (), clause, span(clause)))
 
 
 def _begin(interpreter: Interpreter) -> None:
     """Executes global statements and the initial values of properties."""
     interpreter.root += 1
     top = CallFrame("", "", 0, 0)
-    _guarded(interpreter, lambda: run_statements(interpreter, interpreter.unit.outside, top))
+    _guarded(interpreter, partial(run_statements, interpreter, interpreter.unit.outside, top))
     for name, value in list(top.locals.items()):
         interpreter.set_property("", name, value, Span(0, 0))
     for type_ in interpreter.unit.types.values():
-        _guarded(interpreter, lambda type_=type_: _members(interpreter, type_))
+        _guarded(interpreter, partial(_members, interpreter, type_))
 
 
 def _members(interpreter: Interpreter, type_: Type) -> None:
@@ -100,7 +169,7 @@ def _root(interpreter: Interpreter, function: Function) -> None:
     interpreter.root += 1
     interpreter.undecided_depth = 0
     frame = CallFrame(function.type_name, function.name, 0, function.at.start, self_value=interpreter.self_value(function.type_name))
-    _guarded(interpreter, lambda: _entered(interpreter, function, frame))
+    _guarded(interpreter, partial(_entered, interpreter, function, frame))
 
 
 def _entered(interpreter: Interpreter, function: Function, frame: CallFrame) -> None:
@@ -126,10 +195,9 @@ def _of_one_tuple(interpreter: Interpreter, function: Function) -> dict[str, Val
     return {name: tuples[0][name] for name in textures} if len(tuples) == 1 else {}
 
 
-def _guarded(interpreter: Interpreter, goes: object) -> None:
+def _guarded(interpreter: Interpreter, part: Callable[[], object]) -> None:
     """Executes part of a file; stops if it exceeds Python's recursion limit."""
-    assert callable(goes)
     try:
-        goes()
+        part()
     except RecursionError:
         interpreter.incomplete.add(interpreter.root)

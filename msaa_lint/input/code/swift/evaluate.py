@@ -1,4 +1,4 @@
-"""Evaluates Swift expressions."""
+"""Evaluates Swift expressions, and assigns their values."""
 
 from __future__ import annotations
 
@@ -7,11 +7,10 @@ from msaa_lint.input.code.operators import ARITHMETIC, COMPARISONS
 
 from .calls import evaluate_call
 from .conditions import about_samples, decide, last_name
-from .frame_state import CallFrame
 from .interpreter import Interpreter
-from .members import adopt_descriptor, drawable, index_of, member_of
-from .terms import BINARY, CALL, CHOICE, CLOSURE, INDEX, LIST, LITERAL, MEMBER, NAME, NOT, TUPLE, Term
-from .values import MAX_ITEMS, NIL, UNKNOWN, Aggregate, Code, Constant, Instance, Symbol, Texture, Value, join, options
+from .members import adopt_descriptor, drawable, index_of, member_of, set_index, set_member
+from .terms import BINARY, CALL, CHOICE, CLOSURE, INDEX, LIST, LITERAL, MAX_ITEMS, MEMBER, NAME, NOT, TUPLE, Term, name_at
+from .values import NIL, UNKNOWN, Aggregate, CallFrame, Code, Constant, Instance, Symbol, Texture, Value, join, options
 
 _LARGEST = 1 << 40
 
@@ -222,3 +221,47 @@ def cell(term: Term, frame: CallFrame) -> tuple[str, str] | None:
     if term[0] == MEMBER and term[1] is not None and term[1][:2] == (NAME, "self"):
         return frame.type_name, f"{term[2]}[]"
     return None
+
+
+def assign(interpreter: Interpreter, sign: str, target: Term, value: Term, frame: CallFrame) -> None:
+    """Executes an assignment."""
+    computed = evaluate(interpreter, value, frame)
+    new_value = computed if sign == "=" else UNKNOWN
+    kind = target[0]
+    place = value[-1]
+    if kind == NAME:
+        variable = frame.find(target[1])
+        if variable is not None:
+            interpreter.name_value(new_value, target[1], frame.function, frame.rank)
+            interpreter.undo_log.write(variable[0].locals, target[1], new_value)
+            return
+        is_declared = target[1] in interpreter.type_of(frame.type_name).members
+        if (
+            frame.self_value is not None
+            and not is_declared
+            and set_member(interpreter, frame.self_value, target[1], new_value, target[-1], place)
+        ):
+            return
+        outer = not is_declared and target[1] in interpreter.type_of("").members
+        interpreter.set_property("" if outer else frame.type_name, target[1], new_value, place)
+    elif kind == MEMBER and target[1] is not None:
+        owner = owner_of(interpreter, target[1], target[2], frame)
+        if isinstance(owner, Instance):
+            interpreter.set_property(owner.type, target[2], new_value, place)
+            return
+        if isinstance(owner, Symbol):
+            owner = adopt_descriptor(interpreter, owner, target[1], target[2], frame)
+        set_member(interpreter, owner, target[2], new_value, name_at(target), place)
+    elif kind == INDEX:
+        owner = evaluate(interpreter, target[1], frame)
+        if not set_index(interpreter, owner, evaluate(interpreter, target[2], frame), new_value, target[-1], place):
+            property_at = cell(target[1], frame)
+            if property_at is not None:
+                interpreter.set_property(property_at[0], property_at[1], new_value, place)
+    elif kind == TUPLE and isinstance(new_value, Aggregate):
+        for index, (_, item) in enumerate(target[1]):
+            element = new_value.items.get(str(index), UNKNOWN)
+            if item[0] == NAME and frame.find(item[1]) is not None:
+                interpreter.undo_log.write(frame.locals, item[1], element)
+            elif item[0] == NAME:
+                interpreter.set_property(frame.type_name, item[1], element, place)

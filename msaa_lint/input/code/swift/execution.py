@@ -2,37 +2,15 @@
 
 from __future__ import annotations
 
+from functools import partial, reduce
+
 from msaa_lint.core.text.span import Span
 
 from .conditions import about_samples, decide, note_capabilities, truth
-from .evaluate import cell, evaluate, owner_of
-from .frame_state import CallFrame
-from .interpreter import OBJECTS, Interpreter, join_all
-from .members import adopt_descriptor, set_index, set_member
-from .terms import (
-    BIND,
-    BLOCK,
-    CALL,
-    CASES,
-    CLOSURE,
-    DO,
-    FUNC,
-    GUARD,
-    IF,
-    INDEX,
-    LEAVE,
-    LET,
-    LOOP,
-    MEMBER,
-    NAME,
-    RETURN,
-    SET,
-    TUPLE,
-    Function,
-    Term,
-    name_at,
-)  # fmt: skip
-from .values import NIL, UNKNOWN, Aggregate, Code, Constant, Instance, Symbol, Value
+from .evaluate import assign, evaluate
+from .interpreter import OBJECTS, Interpreter
+from .terms import BIND, BLOCK, CALL, CASES, CLOSURE, DO, FUNC, GUARD, IF, LEAVE, LET, LOOP, MEMBER, NAME, RETURN, SET, Function, Term
+from .values import NIL, UNKNOWN, Aggregate, CallFrame, Code, Constant, Symbol, Value, join
 
 MAX_DEPTH_CALL = 3
 """The maximum depth of function calls that are executed."""
@@ -57,7 +35,7 @@ def _step(interpreter: Interpreter, term: Term, frame: CallFrame) -> bool:
     if kind == DO:
         evaluate(interpreter, term[1], frame)
     elif kind == SET:
-        _assign(interpreter, term[1], term[2], term[3], frame)
+        assign(interpreter, term[1], term[2], term[3], frame)
     elif kind == LET:
         _declare(interpreter, term, frame)
     elif kind == IF:
@@ -88,50 +66,6 @@ def _step(interpreter: Interpreter, term: Term, frame: CallFrame) -> bool:
         names = tuple(parameter.name for parameter in function.parameters)
         interpreter.undo_log.write(frame.locals, function.name, Code((CLOSURE, names, interpreter.body(function), function.at), function))
     return False
-
-
-def _assign(interpreter: Interpreter, sign: str, target: Term, value: Term, frame: CallFrame) -> None:
-    """Executes an assignment."""
-    computed = evaluate(interpreter, value, frame)
-    new_value = computed if sign == "=" else UNKNOWN
-    kind = target[0]
-    place = value[-1]
-    if kind == NAME:
-        variable = frame.find(target[1])
-        if variable is not None:
-            interpreter.name_value(new_value, target[1], frame.function, frame.rank)
-            interpreter.undo_log.write(variable[0].locals, target[1], new_value)
-            return
-        is_declared = target[1] in interpreter.type_of(frame.type_name).members
-        if (
-            frame.self_value is not None
-            and not is_declared
-            and set_member(interpreter, frame.self_value, target[1], new_value, target[-1], place)
-        ):
-            return
-        outer = not is_declared and target[1] in interpreter.type_of("").members
-        interpreter.set_property("" if outer else frame.type_name, target[1], new_value, place)
-    elif kind == MEMBER and target[1] is not None:
-        owner = owner_of(interpreter, target[1], target[2], frame)
-        if isinstance(owner, Instance):
-            interpreter.set_property(owner.type, target[2], new_value, place)
-            return
-        if isinstance(owner, Symbol):
-            owner = adopt_descriptor(interpreter, owner, target[1], target[2], frame)
-        set_member(interpreter, owner, target[2], new_value, name_at(target), place)
-    elif kind == INDEX:
-        owner = evaluate(interpreter, target[1], frame)
-        if not set_index(interpreter, owner, evaluate(interpreter, target[2], frame), new_value, target[-1], place):
-            property_at = cell(target[1], frame)
-            if property_at is not None:
-                interpreter.set_property(property_at[0], property_at[1], new_value, place)
-    elif kind == TUPLE and isinstance(new_value, Aggregate):
-        for index, (_, item) in enumerate(target[1]):
-            element = new_value.items.get(str(index), UNKNOWN)
-            if item[0] == NAME and frame.find(item[1]) is not None:
-                interpreter.undo_log.write(frame.locals, item[1], element)
-            elif item[0] == NAME:
-                interpreter.set_property(frame.type_name, item[1], element, place)
 
 
 def _declare(interpreter: Interpreter, term: Term, frame: CallFrame) -> None:
@@ -256,7 +190,7 @@ def run_body(interpreter: Interpreter, statements: tuple[Term, ...], frame: Call
     if len(statements) == 1 and statements[0][0] == DO:
         return evaluate(interpreter, statements[0][1], frame)
     run_statements(interpreter, statements, frame)
-    return join_all(frame.returned)
+    return reduce(partial(join, optional=True), frame.returned) if frame.returned else NIL
 
 
 def call_closure(

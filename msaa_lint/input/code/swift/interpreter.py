@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from functools import partial, reduce
-from typing import Any
+from typing import Any, NamedTuple
 
 from msaa_lint.core.text.span import Span
 
 from .expressions import block
-from .frame_state import CallFrame, Encoded, Pass, Pipeline
 from .syntax import Syntax
 from .terms import Function, Term, Type, Unit
-from .values import NIL, UNKNOWN, Aggregate, Code, Field, Instance, MetalObject, Symbol, Texture, UndoLog, Value, join
+from .values import UNKNOWN, Aggregate, CallFrame, Code, Field, Instance, MetalObject, Pass, Pipeline, Symbol, Texture, UndoLog, Value, join
 
 MAX_STEPS_PER_LINE = 20
 """The maximum number of statements executed for each line of the file, which bounds the cost of nested calls."""
@@ -45,6 +43,19 @@ _PLAIN = re.compile(r"^(?:any |some |inout )*([A-Za-z_][\w.]*)")
 
 def _not_followed(*_: Any) -> Value:
     return UNKNOWN
+
+
+class Encoded(NamedTuple):
+    """A step of a frame: a pass, copy, read, or presented drawable, and the function that encodes it.
+
+    `sure` is set if it is unconditional.
+    """
+
+    kind: str
+    what: tuple[object, ...]
+    at: Span
+    by: int
+    sure: bool
 
 
 class Interpreter:
@@ -250,8 +261,3 @@ def _made_for(first: Texture, second: Texture, type_name: str, name: str) -> boo
     """Returns whether two textures are the same property, created again."""
     named = all((item.name, item.type_name) == (name, type_name) for item in (first, second))
     return named and first.multisampled == second.multisampled
-
-
-def join_all(values: list[Value]) -> Value:
-    """Returns the result of a function from all its possible return values."""
-    return reduce(partial(join, optional=True), values) if values else NIL

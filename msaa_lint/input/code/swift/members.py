@@ -5,10 +5,9 @@ from __future__ import annotations
 from msaa_lint.core.text.span import Span
 
 from .conditions import last_name
-from .frame_state import CallFrame
 from .interpreter import Interpreter
 from .terms import MEMBER, NAME, Term
-from .values import NIL, UNKNOWN, Aggregate, Constant, Field, MetalObject, Symbol, Texture, Value, options
+from .values import NIL, UNKNOWN, Aggregate, CallFrame, Constant, Field, MetalObject, Symbol, Texture, Value, options
 
 ANY = "color?"
 """The color attachment with an unknown index."""

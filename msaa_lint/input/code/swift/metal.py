@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
 
-from .frame_state import CallFrame, Encoded, Pass, Pipeline
-from .interpreter import Interpreter
+from .interpreter import Encoded, Interpreter
 from .members import ANY
 from .terms import Term, name_at
-from .values import UNKNOWN, Constant, Field, MetalObject, Value, constant_of, options
+from .values import UNKNOWN, CallFrame, Constant, Field, MetalObject, Pass, Pipeline, Value, constant_of, options
 
 DESCRIPTOR_METHODS = {"texture2DDescriptor": "", "textureCubeDescriptor": "typeCube", "textureBufferDescriptor": "typeTextureBuffer"}
 """Class methods that create a texture descriptor, and the texture type that each sets."""
@@ -21,7 +20,7 @@ def record(interpreter: Interpreter, kind: str, what: tuple[object, ...], at: Sp
     interpreter.encoded.append(Encoded(kind, what, at, interpreter.root, interpreter.undecided_depth == 0))
 
 
-def create_texture_descriptor(
+def create_descriptor(
     interpreter: Interpreter, arguments: list[tuple[str, Value]], terms: tuple[tuple[str, Term], ...], at: Span, frame: CallFrame, name: str
 ) -> MetalObject:
     """Returns a texture descriptor created by a class method."""

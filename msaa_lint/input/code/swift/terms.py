@@ -41,6 +41,9 @@ Term = tuple[Any, ...]
 NAME, LITERAL, MEMBER, INDEX, LIST, TUPLE, CALL, CLOSURE, BINARY, NOT, CHOICE, OTHER, BIND = range(13)
 LET, SET, DO, RETURN, LEAVE, IF, GUARD, CASES, BLOCK, LOOP, FUNC = range(20, 31)
 
+MAX_ITEMS = 32
+"""The maximum number of items in a tuple or structure."""
+
 
 class Parameter(NamedTuple):
     """A parameter: its argument label (empty for `_`), its name, its type as written, its default."""
@@ -83,6 +86,9 @@ class Type(NamedTuple):
     functions: dict[str, list[Function]]
     cases: dict[str, Term | None]
     inherits: set[str]
+
+    def add(self, function: Function) -> None:
+        self.functions.setdefault(function.name, []).append(function)
 
 
 class Unit(NamedTuple):

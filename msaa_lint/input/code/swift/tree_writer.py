@@ -6,11 +6,10 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
 
-from .frame_state import Encoded, Pass, Pipeline
-from .interpreter import Interpreter
+from .interpreter import Encoded, Interpreter
 from .metal import pass_of, pipeline_of
 from .textures import COUNTS, Entry, Names, Textures, plain, section, word
-from .values import Constant, Field, OneOf, Symbol, Texture, Value, constant_of
+from .values import Constant, Field, OneOf, Pass, Pipeline, Symbol, Texture, Value, constant_of
 
 RESOLVING = ("multisampleResolve", "storeAndMultisampleResolve")
 _LOADS = frozenset({"load", "clear", "dontCare"})
