@@ -54,7 +54,7 @@ def compare(old: FrameCost | None, new: FrameCost | None) -> Comparison:
     """
     before, after = _named(old.passes if old else ()), _named(new.passes if new else ())
     changes = [_change(before.get(key), after.get(key)) for key in _merged(list(before), list(after))]
-    total = _total(old, new)
+    total = _between("total", "total", _amounts(old), _amounts(new))
     return Comparison(tuple(changes), total, tuple(_remarks(old, new)))
 
 
@@ -97,33 +97,27 @@ def _merged(before: Sequence[Key], after: Sequence[Key]) -> list[Key]:
 def _change(old: PassCost | None, new: PassCost | None) -> Change:
     either = new or old
     assert either is not None
-    return _made(
-        title(either),
-        either.kind,
-        old.amount if old else None,
-        new.amount if new else None,
-        (old.corrected if old else NOTHING, new.corrected if new else NOTHING),
-    )
+    return _between(title(either), either.kind, _amounts(old), _amounts(new))
 
 
-def _total(old: FrameCost | None, new: FrameCost | None) -> Change:
-    return _made(
-        "total",
-        "total",
-        old.total if old else None,
-        new.total if new else None,
-        (old.corrected if old else NOTHING, new.corrected if new else NOTHING),
-    )
+Amounts = tuple[Amount | None, Amount | None]
+"""What a pass or a frame costs by plain arithmetic, None where there is none; and as the device compresses, None where that is unknown."""
 
 
-def _made(name: str, kind: str, old: Amount | None, new: Amount | None, corrected: tuple[Amount | None, Amount | None]) -> Change:
-    more = difference(new or NOTHING, old or NOTHING)
+def _amounts(cost: PassCost | FrameCost | None) -> Amounts:
+    if cost is None:
+        return None, NOTHING
+    return cost.amount if isinstance(cost, PassCost) else cost.total, cost.corrected
+
+
+def _between(name: str, kind: str, before: Amounts, after: Amounts) -> Change:
+    (old, old_corrected), (new, new_corrected) = before, after
     if old is None or new is None:
         status = ADDED if old is None else REMOVED
     else:
         status = SAME if old == new else CHANGED
-    before, after = corrected
-    return Change(name, kind, status, old, new, more, None if before is None or after is None else difference(after, before))
+    corrected = difference(new_corrected, old_corrected) if new_corrected is not None and old_corrected is not None else None
+    return Change(name, kind, status, old, new, difference(new or NOTHING, old or NOTHING), corrected)
 
 
 def _remarks(old: FrameCost | None, new: FrameCost | None) -> Iterable[str]:

@@ -85,11 +85,8 @@ def effective_resolves(render_pass: Pass) -> list[Resolve]:
         return []
     return [
         resolve
-        for subpass in render_pass.subpasses
-        for resolve in subpass.resolves
-        if resolve.mode not in (None, "NONE")
-        and (resolve.source is not None and resolve.source.samples != 1)
-        and (resolve.target is not None or resolve.target_image is not None)
+        for resolve in render_pass.resolves
+        if resolve.is_certain and resolve.source is not None and resolve.source.samples != 1 and resolve.written_part is not None
     ]
 
 

@@ -39,8 +39,3 @@ def rates(description: Description, device: DeviceProfile | None, terms: Terms) 
     if power is None and device is not None:
         power = device.milliwatts_per_gbps
     return Rates(min(float(fps), MAX_RATE), min(float(MILLIWATTS_PER_GBPS if power is None else power), MAX_RATE))
-
-
-def budget_share(amount: Amount, terms: Terms) -> float:
-    """The share of the power budget that an amount takes; 1 is all of it. 4.5 GB/s at 100 mW per GB/s take 0.18 of 2.5 W."""
-    return amount.milliwatts / terms.budget_milliwatts

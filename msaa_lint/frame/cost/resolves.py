@@ -57,7 +57,7 @@ def _move_commands(frame: Frame) -> None:
     resolved_to: dict[int, list[ResolveEnd]] = {}
     for render_pass in frame.passes:
         for resolve in effective_resolves(render_pass):
-            resolved_to.setdefault(id(resolve.source), []).append(resolve.target or resolve.target_image)
+            resolved_to.setdefault(id(resolve.source), []).append(resolve.written_part)
     order: CommandOrder = []
     for command, begun in command_order(frame):
         if begun is not None and not is_suspended(begun):
@@ -151,7 +151,7 @@ def separate(frame: Frame) -> None:
     for render_pass in frame.passes:
         resolves = effective_resolves(render_pass)
         for resolve in resolves:
-            source, end = resolve.source, resolve.target or resolve.target_image
+            source, end = resolve.source, resolve.written_part
             assert source is not None and end is not None
             if isinstance(end, Attachment):
                 _detach(end, resolve)

@@ -54,7 +54,7 @@ def remove_multisampling(frame: Frame) -> None:
     replacements: dict[str, dict[str, Target]] = {}
     for render_pass in frame.passes:
         for resolve in reversed(effective_resolves(render_pass)):
-            source, target = resolve.source, resolve.target or resolve.target_image
+            source, target = resolve.source, resolve.written_part
             assert source is not None and target is not None
             names = [image.name for image in source.targets if image.image is not None]
             if isinstance(target, Attachment):
@@ -117,7 +117,7 @@ def _draw_to_image(subpass: PassSubpass, resolve: Resolve, target: Target) -> No
     assert source is not None
     # Depth and stencil belong to one image: the aspect that is not resolved moves along.
     moved = subpass.depth_stencil if source.depth_stencil else [source]
-    resolved = {id(each.source) for each in subpass.resolves if each.mode not in (None, "NONE")}
+    resolved = {id(each.source) for each in subpass.resolves if each.is_certain}
     for attachment in moved:
         for image in attachment.targets:
             _take_extent(target, image)

@@ -54,7 +54,7 @@ def variants(document: Document, device: DeviceProfile | None, terms: Terms, cou
 
 
 def _variants(document: Document, device: DeviceProfile | None, terms: Terms, counts: Sequence[int], written: Frame) -> Iterator[Variant]:
-    resolves = any(each.kind == "resolveImage" for each in written.commands) or any(s.resolves for p in written.passes for s in p.subpasses)
+    resolves = any(each.kind == "resolveImage" for each in written.commands) or any(render_pass.resolves for render_pass in written.passes)
     for count in counts:
         offered = _offered(written, device, count)
         if count == 1:

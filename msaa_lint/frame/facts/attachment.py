@@ -1,11 +1,12 @@
-"""Facts of attachments, of their aspects, and of the pass around them."""
+"""Facts of attachments, of their aspects, and of the pass around them with the clear values that it is begun with."""
 
 from __future__ import annotations
 
-from msaa_lint.frame.description.models import AttachmentDescription
+from msaa_lint.frame.description.models import AttachmentDescription, BeginRenderPass
 
 from .facts import Facts
-from .parts import Aspect, Attachment, Pass, Resolve
+from .frame import Frame
+from .parts import RENDER_PASS, Aspect, Attachment, Pass, Resolve
 from .readers import Readers
 from .walk import flags_of
 
@@ -19,6 +20,24 @@ def pass_facts(render_pass: Pass) -> Facts:
     facts.put("pass.custom_resolve", render_pass.custom_resolve)
     facts.put("pass.suspends", "SUSPENDING" in flags_of(render_pass))
     return facts
+
+
+def clear_value_facts(facts: Facts, render_pass: Pass, frame: Frame) -> None:
+    """Adds how many clear values a render pass is begun with, the most that any begin gives, and whether an attachment takes one.
+
+    A rendering has them in its attachments, and is begun with none.
+    """
+    facts.put("pass.attachments", len(render_pass.attachments), render_pass.record.place("attachments"))
+    if render_pass.kind != RENDER_PASS or not render_pass.begun:
+        facts.put("pass.clear_values", 0)
+        return
+    operations = {aspect.load for attachment in render_pass.attachments if attachment.used for aspect in attachment.aspects}
+    facts.put("pass.clears", True if "CLEAR" in operations else None if None in operations else False)
+    bodies = [frame.commands[position].body for position in render_pass.begun]
+    given = [(body.clearValueCount, body) for body in bodies if isinstance(body, BeginRenderPass) and body.clearValueCount is not None]
+    if given:
+        count, body = max(given, key=lambda one: one[0])
+        facts.put("pass.clear_values", count, body.place("clearValueCount"))
 
 
 def attachment_facts(attachment: Attachment, known: bool) -> Facts:
@@ -48,11 +67,10 @@ def attachment_facts(attachment: Attachment, known: bool) -> Facts:
 def resolves_at(render_pass: Pass) -> dict[int, list[Resolve]]:
     """The resolves of a pass by the attachments, by identity, that they read or write."""
     found: dict[int, list[Resolve]] = {}
-    for subpass in render_pass.subpasses:
-        for resolve in subpass.resolves:
-            for end in (resolve.source, resolve.target):
-                if end is not None:
-                    found.setdefault(id(end), []).append(resolve)
+    for resolve in render_pass.resolves:
+        for end in (resolve.source, resolve.target):
+            if end is not None:
+                found.setdefault(id(end), []).append(resolve)
     return found
 
 
@@ -71,11 +89,9 @@ def aspect_facts(render_pass: Pass, attachment: Attachment, aspect: Aspect, reso
         layout = record.stencilInitialLayout if separate else record.initialLayout
         facts.put("aspect.initial_layout", layout, record.place("stencilInitialLayout" if separate else "initialLayout"))
     from_it = [r for r in resolves if r.source is attachment and r.aspect == aspect.name]
-    modes = [resolve.mode for resolve in from_it]
-    resolved: bool | None = any(mode not in (None, "NONE") for mode in modes)
-    if not resolved and None in modes:
-        resolved = None
-    facts.put("aspect.resolved", resolved, next((r.target_at for r in from_it if r.mode not in (None, "NONE")), None))
+    certain = [resolve.target_at for resolve in from_it if resolve.is_certain]
+    resolved = True if certain else None if any(resolve.mode is None for resolve in from_it) else False
+    facts.put("aspect.resolved", resolved, certain[0] if certain else None)
     over: set[str] = set().union(*attachment.resolve.values())
     overwritten = True if aspect.name in over else None if "?" in over or (over and aspect.name is None) else False
     onto = [r for r in resolves if r.target is attachment and r.aspect == aspect.name and r.mode != "NONE"]

@@ -150,5 +150,4 @@ def _decides(event: Event) -> bool:
 
 def _likeness(target: Target) -> object:
     """What two images have alike that change places from frame to frame."""
-    extent = target.image.extent if target.image is not None else None
-    return target.format, target.samples, (extent.width, extent.height) if extent is not None else None
+    return target.format, target.samples, target.size

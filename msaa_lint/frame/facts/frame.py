@@ -23,19 +23,6 @@ from .parts import RENDER_PASS, RENDERING, Aspect, Attachment, Pass, PassSubpass
 class Frame:
     """All of a description, joined."""
 
-    __slots__ = (
-        "_columns",
-        "_named",
-        "commands",
-        "description",
-        "document",
-        "framebuffers",
-        "passes",
-        "pipelines",
-        "resolve_commands",
-        "targets",
-    )
-
     def __init__(self, document: Document) -> None:
         self.document = document
         self.description = document.description

@@ -46,7 +46,7 @@ class Bindings:
                     self.attachments.setdefault(record, []).append(attachment)
                 if render_pass.begun:
                     self.begun |= records
-            targets = [resolve.target_image for subpass in render_pass.subpasses for resolve in subpass.resolves]
+            targets = (resolve.target_image for resolve in render_pass.resolves)
             self.resolved.update(id(target.record) for target in targets if target is not None)
         passes = {render_pass.name: render_pass for render_pass in frame.passes if render_pass.kind == RENDER_PASS}
         for framebuffer in frame.description.framebuffers.values():

@@ -33,6 +33,12 @@ class Target:
         return self.record.key
 
     @property
+    def size(self) -> tuple[int | None, int | None] | None:
+        """The stated width and height; None where no extent is."""
+        extent = self.image.extent if self.image is not None else None
+        return (extent.width, extent.height) if extent is not None else None
+
+    @property
     def title(self) -> str:
         """What messages call it: its name, or the attachment that it stands for."""
         return f"attachment {self.name}" if self.image is None and self.name.isdecimal() else self.name
@@ -53,21 +59,6 @@ class Aspect(NamedTuple):
 
 class Attachment:
     """One attachment of a pass. The role sets hold the subpasses (0 in dynamic rendering) that use it so."""
-
-    __slots__ = (
-        "aspects",
-        "color",
-        "depth_stencil",
-        "format",
-        "index",
-        "input",
-        "name",
-        "preserve",
-        "record",
-        "resolve",
-        "samples",
-        "targets",
-    )
 
     def __init__(self, record: AttachmentDescription | RenderingAttachment, name: str, index: int, targets: list[Target]) -> None:
         self.record = record
@@ -112,26 +103,8 @@ class Attachment:
 class Resolve:
     """One resolve of one aspect: in a subpass, at the end of a dynamic rendering, or by vkCmdResolveImage.
 
-    `record` states it; `mode` is None where unknown; `places` are (record, member) pairs for mode, source and target.
+    `record` states it; `mode` is None where unknown; `mode_at`, `source_at` and `target_at` are where these are stated.
     """
-
-    __slots__ = (
-        "aspect",
-        "kind",
-        "mode",
-        "mode_at",
-        "pair",
-        "path",
-        "record",
-        "render_pass",
-        "source",
-        "source_at",
-        "source_image",
-        "subpass",
-        "target",
-        "target_at",
-        "target_image",
-    )  # fmt: skip
 
     def __init__(self, kind: str, aspect: str, record: Record, path: str) -> None:
         self.kind = kind
@@ -150,6 +123,26 @@ class Resolve:
         self.target_at: Span = record.head
         self.pair: Resolve | None = None
         """The resolve of the other aspect by the same structure, or of the same rendering; without a pass where it states NONE alone."""
+
+    @property
+    def read_part(self) -> Attachment | Target | None:
+        """What it reads: an attachment, an image where there is none."""
+        return self.source or self.source_image
+
+    @property
+    def written_part(self) -> Attachment | Target | None:
+        """What it writes: an attachment, an image where there is none."""
+        return self.target or self.target_image
+
+    @property
+    def is_certain(self) -> bool:
+        """Whether it is known to resolve something."""
+        return self.mode not in (None, "NONE")
+
+
+def sizes_differ(one: Target | None, other: Target | None) -> bool:
+    """Whether two images are known to differ in width or height."""
+    return one is not None and other is not None and None not in (one.size, other.size) and one.size != other.size
 
 
 class PassSubpass:
@@ -185,6 +178,11 @@ class Pass:
         self.begun: list[int] = []
         self.partial_area: bool | None = False
         """Whether some render area that it is begun with is smaller than what it renders to; None where a size is not stated."""
+
+    @property
+    def resolves(self) -> list[Resolve]:
+        """The resolves of its subpasses."""
+        return [resolve for subpass in self.subpasses for resolve in subpass.resolves]
 
     @property
     def custom_resolve(self) -> bool:

@@ -7,7 +7,7 @@ from msaa_lint.frame.devices.shares import resolve_mode_share
 from msaa_lint.frame.vulkan.formats import Format
 
 from .facts import Facts
-from .parts import Resolve, Target
+from .parts import Resolve, sizes_differ
 from .pass_begin import covers, targets_at
 from .readers import Readers
 from .timeline import Timeline
@@ -19,23 +19,22 @@ def resolve_facts(resolve: Resolve, device: DeviceProfile | None) -> Facts:
     facts.put("resolve.kind", resolve.kind, resolve.record.head)
     facts.put("resolve.aspect", resolve.aspect, resolve.record.head)
     facts.put("resolve.mode", resolve.mode, resolve.mode_at)
-    source, target = resolve.source_image, resolve.target_image
-    facts.put("resolve.has_source", resolve.source is not None or source is not None, resolve.source_at)
-    facts.put("resolve.has_target", resolve.target is not None or target is not None, resolve.target_at)
-    facts.put("resolve.source", resolve.source.title if resolve.source is not None else source.title if source is not None else None)
-    facts.put("resolve.target", resolve.target.title if resolve.target is not None else target.title if target is not None else None)
-    facts.put("resolve.source_samples", _samples(resolve, "source"), resolve.source_at)
-    facts.put("resolve.target_samples", _samples(resolve, "target"), resolve.target_at)
-    from_format, to_format = _format(resolve, "source"), _format(resolve, "target")
-    facts.put("resolve.source_format", from_format.name if from_format is not None else None, resolve.source_at)
-    facts.put("resolve.target_format", to_format.name if to_format is not None else None, resolve.target_at)
+    formats: list[Format | None] = []
+    for end, part, at in (("source", resolve.read_part, resolve.source_at), ("target", resolve.written_part, resolve.target_at)):
+        format = part.format if part is not None else None
+        formats.append(format)
+        facts.put(f"resolve.has_{end}", part is not None, at)
+        facts.put(f"resolve.{end}", part.title if part is not None else None)
+        facts.put(f"resolve.{end}_samples", part.samples if part is not None else None, at)
+        facts.put(f"resolve.{end}_format", format.name if format is not None else None, at)
+    from_format, to_format = formats
     facts.put("resolve.source_numeric", from_format.numeric if from_format is not None and "color" in from_format.aspects else None)
-    encoding = source.image.encoding if source is not None and source.image is not None else None
-    at = source.image.place("encoding") if source is not None and source.image is not None else None
-    facts.put("resolve.source_encoding", encoding, at)
-    facts.put("resolve.source_is_data", encoding == "DATA")
+    image = resolve.source_image.image if resolve.source_image is not None else None
+    if image is not None:
+        facts.put("resolve.source_encoding", image.encoding, image.place("encoding"))
+    facts.put("resolve.source_is_data", image is not None and image.encoding == "DATA")
     facts.put("resolve.formats_match", formats_match(resolve, from_format, to_format), resolve.target_at)
-    single = resolve.render_pass is not None and any(s.single_sampled for s in resolve.render_pass.subpasses if s.index == resolve.subpass)
+    single = resolve.render_pass is not None and resolve.render_pass.subpasses[resolve.subpass].single_sampled
     facts.put("resolve.single_sampled_render", single)
     _modes(facts, resolve, device)
     return facts
@@ -53,8 +52,9 @@ def command_facts(facts: Facts, resolve: Resolve, position: int, timeline: Timel
         return
     facts.put("resolve.writer", render_pass.name, render_pass.record.head)
     drawn = [a for a in render_pass.attachments if source in targets_at(frame, a, begin)]
-    modes = [r.mode for s in render_pass.subpasses for r in s.resolves if r.source in drawn and r.mode != "NONE"]
-    unknown = modes == [None] or not covers(frame, render_pass, begin, source) or _sizes_differ(source, target)
+    modes = [resolve.mode for resolve in render_pass.resolves if resolve.source in drawn and resolve.mode != "NONE"]
+    # Attachments of one pass are resolved texel for texel.
+    unknown = modes == [None] or not covers(frame, render_pass, begin, source) or sizes_differ(source, target)
     facts.put("resolve.pass_could_resolve", None if unknown else not modes)
 
 
@@ -68,36 +68,17 @@ def read_in_vain(readers: Readers) -> set[str]:
         if source is None or render_pass is None:
             continue
         drawn = [a for a in render_pass.attachments if source in targets_at(frame, a, begin)]
-        resolved = any(r.source in drawn and r.mode not in (None, "NONE") for s in render_pass.subpasses for r in s.resolves)
+        resolved = any(each.source in drawn and each.is_certain for each in render_pass.resolves)
         lost = bool(drawn) and all(aspect.store in ("DONT_CARE", "NONE") for a in drawn for aspect in a.aspects)
         if resolved or lost:
             in_vain[source.name] = in_vain.get(source.name, 0) + 1
     return {name for name, count in in_vain.items() if len(readers.reads(name)) == count}
 
 
-def _sizes_differ(source: Target, target: Target | None) -> bool:
-    """Whether two images are known to differ in width or height: attachments of one pass are resolved texel for texel."""
-    one = source.image.extent if source.image is not None else None
-    other = target.image.extent if target is not None and target.image is not None else None
-    return one is not None and other is not None and (one.width, one.height) != (other.width, other.height)
-
-
-def _samples(resolve: Resolve, end: str) -> int | None:
-    attachment = resolve.source if end == "source" else resolve.target
-    image = resolve.source_image if end == "source" else resolve.target_image
-    return attachment.samples if attachment is not None else image.samples if image is not None else None
-
-
-def _format(resolve: Resolve, end: str) -> Format | None:
-    attachment = resolve.source if end == "source" else resolve.target
-    image = resolve.source_image if end == "source" else resolve.target_image
-    return attachment.format if attachment is not None else image.format if image is not None else None
-
-
 def formats_match(resolve: Resolve, source: Format | None, target: Format | None) -> bool | None:
     """Whether Vulkan allows the two formats together.
 
-    Colour, commands and dynamic rendering want the same format; a depth-stencil resolve in a render pass wants the same bits and type of
+    Color, commands and dynamic rendering want the same format; a depth-stencil resolve in a render pass wants the same bits and type of
     each aspect that both have (VUID-VkSubpassDescriptionDepthStencilResolve-pDepthStencilResolveAttachment-03181, 03182).
     """
     if source is None or target is None:
@@ -127,10 +108,10 @@ def _modes(facts: Facts, resolve: Resolve, device: DeviceProfile | None) -> None
     pair = resolve.pair
     facts.put("resolve.first_of_pair", pair is None or pair.render_pass is None or resolve.aspect == "depth")
     modes = [resolve.mode] if pair is None else [resolve.mode, pair.mode]
-    facts.put("resolve.all_modes_none", False if any(m not in (None, "NONE") for m in modes) else None if None in modes else True)
+    facts.put("resolve.all_modes_none", False if any(mode not in (None, "NONE") for mode in modes) else None if None in modes else True)
     if resolve.aspect == "color":
         return
-    if resolve.mode is not None and resolve.mode != "NONE":
+    if resolve.mode is not None and resolve.is_certain:
         facts.put("resolve.share_of_tilers", resolve_mode_share(resolve.mode, tilers=True))
     offered = _offered(resolve, device)
     if offered is not None:

@@ -272,10 +272,8 @@ def _pair(uses: ResolveUses, since: _Since, event: Event, found: dict[int, _Repe
 
 def _fits(source: Target, target: Target) -> str:
     """Whether two images have the same format, width and height, so that a resolve can write the one in place of the other."""
-    one = source.image.extent if source.image is not None else None
-    other = target.image.extent if target.image is not None else None
-    sizes = [(extent.width, extent.height) if extent is not None else (None, None) for extent in (one, other)]
-    pairs = [(source.format, target.format), *zip(*sizes, strict=True)]
+    sizes = zip(source.size or (None, None), target.size or (None, None), strict=True)
+    pairs = [(source.format, target.format), *sizes]
     if any(a is not None and b is not None and a != b for a, b in pairs):
         return DIFFERENT
     return NOT_STATED if any(None in pair for pair in pairs) else SAME

@@ -9,8 +9,7 @@ from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import SubpassDependency
 from msaa_lint.frame.devices import DeviceProfile
 
-from .attachment import aspect_facts, attachment_facts, pass_facts, resolves_at
-from .clear_values import clear_value_facts
+from .attachment import aspect_facts, attachment_facts, clear_value_facts, pass_facts, resolves_at
 from .contents import Contents
 from .dependency import Barriers, external_dependencies, recorded_barriers
 from .event_search import EventSearch

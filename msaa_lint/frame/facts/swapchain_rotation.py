@@ -58,11 +58,10 @@ class Turns:
         """What images of one set have in common."""
         image = target.image
         assert isinstance(image, Image)
-        extent = (image.extent.width, image.extent.height) if image.extent is not None else None
         usage = frozenset(image.usage) if image.usage is not None else None
         memory = frozenset(image.memory) if image.memory is not None else None
         places = frozenset(self._columns.get(target.name, ())), frozenset(self._buffers.get(target.name, ()))
-        return target.format, target.samples, extent, usage, memory, image.arrayLayers, image.mipLevels, places
+        return target.format, target.samples, target.size, usage, memory, image.arrayLayers, image.mipLevels, places
 
     def _uses(self, count: int) -> dict[str, set[int]] | None:
         """In which of as many frames as there are presentable images each image is used: by passes and by commands; None where frames
@@ -78,12 +77,10 @@ class Turns:
                     if name is not None:
                         uses.setdefault(name, set()).update({number} if len(buffers) > 1 else every)
             if not buffers and (render_pass.begun or not self.frame.has_commands):
-                for attachment in render_pass.attachments:
-                    for target in attachment.targets:
-                        uses.setdefault(target.name, set()).update(every)
-                for resolve in (resolve for subpass in render_pass.subpasses for resolve in subpass.resolves):
-                    if resolve.target_image is not None:
-                        uses.setdefault(resolve.target_image.name, set()).update(every)
+                targets = [target for attachment in render_pass.attachments for target in attachment.targets]
+                targets += [resolve.target_image for resolve in render_pass.resolves if resolve.target_image is not None]
+                for target in targets:
+                    uses.setdefault(target.name, set()).update(every)
         # Which of a swapchain's images is presented differs from frame to frame.
         for command in (command for command in self.frame.commands if command.kind != "present"):
             for name, _ in accesses(command):

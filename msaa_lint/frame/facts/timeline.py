@@ -9,6 +9,7 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Iterator
 from functools import cached_property
+from operator import attrgetter
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
@@ -16,7 +17,7 @@ from msaa_lint.frame.description.models import BeginRenderPass, Command, ImageBa
 
 from .commands import CLEAR, COMMAND_WRITES, RESOLVE_READ, RESOLVE_WRITE, accesses
 from .frame import Frame
-from .parts import Attachment, Pass, Resolve, Target
+from .parts import Attachment, Pass, Resolve, Target, sizes_differ
 from .pass_begin import MAX_USES, covers, one_surface, targets_at, uses_at_most
 from .walk import PassRun, Walk, once_each
 
@@ -113,7 +114,7 @@ class Timeline:
         for key, event in self._all() if self.followed else ():
             found.setdefault(key, []).append(event)
         for events in found.values():
-            events.sort(key=_time)
+            events.sort(key=attrgetter("time"))
         return found
 
     @cached_property
@@ -221,9 +222,8 @@ class Timeline:
                 for index in attachment.input:
                     yield key, Event(run.starts[index], INPUT, None, whole, True, attachment, "", run, None, frames)
         if not run.suspends:
-            for subpass in run.render_pass.subpasses:
-                for resolve in subpass.resolves:
-                    yield from self._resolve_events(resolve, run)
+            for resolve in run.render_pass.resolves:
+                yield from self._resolve_events(resolve, run)
         # Store operations come after resolves.
         yield from stores
 
@@ -270,7 +270,7 @@ class Timeline:
             if access.effect == RESOLVE_READ:
                 whole = one_surface(target.image)
             elif access.effect in (CLEAR, RESOLVE_WRITE):
-                whole = self._writes_all(command, target) and not _sizes_differ(read, target)
+                whole = self._writes_all(command, target) and not sizes_differ(read, target)
             read = target
             yield name, Event(time, access.effect, None, whole, True, resolve, "", None, command)
         body = command.body
@@ -298,17 +298,6 @@ def plain(target: Target | None) -> bool:
     if target is None or not one_surface(target.image):
         return False
     return target.format is not None and len(target.format.aspects) == 1
-
-
-def _sizes_differ(source: Target | None, target: Target) -> bool:
-    """Whether an image is known to differ in size from the one that is written from it."""
-    images = [each.image for each in (source, target) if each is not None]
-    extents = [image.extent for image in images if image is not None and image.extent is not None]
-    return len(extents) == 2 and (extents[0].width, extents[0].height) != (extents[1].width, extents[1].height)
-
-
-def _time(event: Event) -> int:
-    return event.time
 
 
 def _begin(load: str | None) -> tuple[str, bool] | None:
