@@ -77,15 +77,13 @@ class Waits:
         self._every: list[Wait] = []
         for run in search.timeline.walk.runs if search.timeline.ordered else ():
             self._every += _of_run(run)
-        for position, command in enumerate(search.frame.commands):
-            if isinstance(command.body, PipelineBarrier):
-                self._every.append(Wait(2 * position, command.body))
+        self._every += (Wait(2 * position, body) for position, body in search.frame.recorded(PipelineBarrier))
         self._every.sort(key=lambda wait: wait.time)
         self._times = [wait.time for wait in self._every]
 
     def put(self, facts: Facts, resolve: Resolve) -> None:
         """Adds what is known of the waits between a resolve and the first reader of what it wrote."""
-        found = [self._between(resolve, ref) for ref in self.search.resolved_at(resolve)]
+        found = [self._between(resolve, ref) for ref in self.search.written_at(resolve)]
         known = [each for each in found if each is not None]
         facts.put("resolve.stage", "TRANSFER" if resolve.kind == "command" else "COLOR_ATTACHMENT_OUTPUT")
         between = next((each for each in known if not each.waits), known[0] if known else None)

@@ -38,12 +38,10 @@ Barriers = dict[str | None, list[Masks]]
 def recorded_barriers(frame: Frame) -> Barriers:
     """The recorded barriers that attachments may wait for."""
     found: Barriers = {}
-    for command in frame.commands:
-        body = command.body
-        if isinstance(body, PipelineBarrier):
-            images = {image.image if isinstance(image, ImageBarrier) else image for image in body.images}
-            for name in images or ({None} if not _ATTACHMENT_STAGES.isdisjoint(body.dstStageMask or ()) else set()):
-                found.setdefault(name, []).append(Masks(body.srcStageMask or (), body.srcAccessMask or ()))
+    for _, body in frame.recorded(PipelineBarrier):
+        images = {image.image if isinstance(image, ImageBarrier) else image for image in body.images}
+        for name in images or ({None} if not _ATTACHMENT_STAGES.isdisjoint(body.dstStageMask or ()) else set()):
+            found.setdefault(name, []).append(Masks(body.srcStageMask or (), body.srcAccessMask or ()))
     return found
 
 

@@ -7,7 +7,7 @@ from functools import cached_property
 
 from .commands import CLEAR, COPY_READ, PRESENT, READ, RESOLVE_READ, RESOLVE_WRITE
 from .frame import Frame
-from .parts import Resolve
+from .parts import Attachment, Resolve
 from .timeline import BEGIN, DISCARD, DRAW, ELSEWHERE, INPUT, LOAD, RESUME, STORE, Event, EventRef, Timeline
 
 _READS = frozenset({LOAD, DRAW, INPUT, RESOLVE_READ, READ, COPY_READ, PRESENT})
@@ -51,32 +51,25 @@ class EventSearch:
         """The events by image; none where their order is unknown."""
         if not self.timeline.ordered:
             return {}
-        images = self.frame.targets.keys()
-        found = {}
-        for name, events in self.timeline.of.items():
-            if name in images:
-                found[name] = [event for event in events if event.kind not in (ELSEWHERE, RESUME)]
-        return found
+        return {
+            name: [event for event in events if event.kind not in (ELSEWHERE, RESUME)]
+            for name, events in self.timeline.of.items()
+            if name in self.frame.targets
+        }
 
     @cached_property
-    def _written(self) -> tuple[dict[int, list[EventRef]], dict[tuple[int, str | None], list[EventRef]]]:
-        resolved: dict[int, list[EventRef]] = {}
-        stored: dict[tuple[int, str | None], list[EventRef]] = {}
+    def _written(self) -> dict[tuple[int, str | None], list[EventRef]]:
+        found: dict[tuple[int, str | None], list[EventRef]] = {}
         for name, events in self.of.items():
             for index, event in enumerate(events):
-                if event.kind == RESOLVE_WRITE and event.certain:
-                    resolved.setdefault(id(event.source), []).append(EventRef(name, index))
-                elif event.kind == STORE and event.certain:
-                    stored.setdefault((id(event.source), event.aspect), []).append(EventRef(name, index))
-        return resolved, stored
+                if event.kind in (STORE, RESOLVE_WRITE) and event.certain:
+                    aspect = event.aspect if event.kind == STORE else None
+                    found.setdefault((id(event.source), aspect), []).append(EventRef(name, index))
+        return found
 
-    def resolved_at(self, resolve: Resolve) -> list[EventRef]:
-        """Where a resolve writes."""
-        return self._written[0].get(id(resolve), [])
-
-    def stored_at(self, attachment: object, aspect: str | None) -> list[EventRef]:
-        """Where an aspect of an attachment is stored."""
-        return self._written[1].get((id(attachment), aspect), [])
+    def written_at(self, source: Attachment | Resolve, aspect: str | None = None) -> list[EventRef]:
+        """Where a resolve writes, or an aspect of an attachment is stored."""
+        return self._written.get((id(source), aspect), [])
 
     def event(self, ref: EventRef) -> Event:
         """The event at a place."""

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import TypeVar
+
 from msaa_lint.frame.description.document import Document, StencilApart
 from msaa_lint.frame.description.models import (
     AttachmentDescription,
@@ -18,6 +21,8 @@ from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.vulkan.formats import format_of
 
 from .parts import RENDER_PASS, RENDERING, Aspect, Attachment, Pass, PassSubpass, Resolve, Target
+
+RecordType = TypeVar("RecordType", bound=Record)
 
 
 class Frame:
@@ -55,6 +60,16 @@ class Frame:
         """Whether what is recorded is known, and in which order."""
         return self.description.commands is not None and self.document.ordered
 
+    def recorded(self, kind: type[RecordType]) -> Iterator[tuple[int, RecordType]]:
+        """The positions and the parameters of the commands that have parameters of a type."""
+        return ((position, command.body) for position, command in enumerate(self.commands) if isinstance(command.body, kind))
+
+    def framebuffers_of(self, begin: object) -> list[Framebuffer]:
+        """The framebuffers that the parameters of a vkCmdBeginRenderPass name: several where they alternate from frame to frame."""
+        names = begin.framebuffer if isinstance(begin, BeginRenderPass) else None
+        stated = self.description.framebuffers
+        return [stated[name] for name in ((names,) if isinstance(names, str) else names or ()) if name in stated]
+
     def render_pass(self, name: str | None) -> Pass | None:
         return self._named.get(name) if name is not None else None
 
@@ -82,20 +97,17 @@ class Frame:
                 made.attachments.append(self._described(name, description, index))
             named = {a.name: a for a in made.attachments}
             made.subpasses = [self._subpass(made, subpass, n, named) for n, subpass in enumerate(record.subpasses)]
-            metal = self.document.metal
+            # A slot of Metal's says which aspects it is attached for.
+            slots = self.document.metal.attachments if self.document.metal is not None else {}
             for attachment in made.attachments:
-                # A slot of Metal's says which aspects it is attached for.
-                stated = tuple(metal.attachments.get(id(attachment.record), ())) if metal is not None else ()
-                attachment.aspects = _aspects(attachment, stated)
+                attachment.aspects = _aspects(attachment, tuple(slots.get(id(attachment.record), ())))
             self.passes.append(made)
             self._named[name] = made
 
     def _described(self, render_pass: str, description: AttachmentDescription, index: int) -> Attachment:
-        targets = [t for t in (self.targets.get(n) for n in self._bound(render_pass, index)) if t is not None]
-        if not targets and description.image is not None:
-            targets = [t for t in (self.target(description.image),) if t is not None]
+        targets = [self.targets[name] for name in self._bound(render_pass, index) if name in self.targets]
         if not targets:
-            targets = [Target(description, None, description.format, description.samples)]
+            targets = [self.target(description.image) or Target(description, None, description.format, description.samples)]
         made = Attachment(description, description.key, index, targets)
         formats, counts = {t.format for t in targets}, {t.samples for t in targets}
         made.format = format_of(description.format) if description.format is not None else formats.pop() if len(formats) == 1 else None
@@ -116,20 +128,15 @@ class Frame:
 
     def _used_framebuffers(self) -> dict[str, list[Framebuffer]]:
         """By render pass: the framebuffers that the commands begin it with; where they name none, the only one for it."""
-        stated = self.description.framebuffers
         used: dict[str, list[Framebuffer]] = {}
-        for framebuffer in stated.values():
+        for framebuffer in self.description.framebuffers.values():
             used.setdefault(framebuffer.renderPass or "", []).append(framebuffer)
         used = {name: own for name, own in used.items() if len(own) == 1}
-        begun: dict[str, list[str]] = {}
-        for command in self.commands:
-            if isinstance(command.body, BeginRenderPass) and command.body.renderPass is not None and command.body.framebuffer is not None:
-                names = command.body.framebuffer
-                begun.setdefault(command.body.renderPass, []).extend([names] if isinstance(names, str) else names)
-        used.update(
-            {name: [stated[framebuffer] for framebuffer in dict.fromkeys(names) if framebuffer in stated] for name, names in begun.items()}
-        )
-        return used
+        begun: dict[str, dict[str, Framebuffer]] = {}
+        for _, body in self.recorded(BeginRenderPass):
+            if body.renderPass is not None and body.framebuffer is not None:
+                begun.setdefault(body.renderPass, {}).update((each.key, each) for each in self.framebuffers_of(body))
+        return {**used, **{name: list(framebuffers.values()) for name, framebuffers in begun.items()}}
 
     def _subpass(self, render_pass: Pass, record: Subpass, index: int, named: dict[str, Attachment]) -> PassSubpass:
         made = PassSubpass(render_pass, record, index)
@@ -146,12 +153,10 @@ class Frame:
             made.color.append(attachment)
             if attachment is not None:
                 attachment.color.add(index)
-        for reference in record.inputAttachments:
-            if (attachment := find(reference)) is not None:
-                attachment.input.add(index)
-        for reference in record.preserveAttachments:
-            if (attachment := find(reference)) is not None:
-                attachment.preserve.add(index)
+        for attachment in filter(None, map(find, record.inputAttachments)):
+            attachment.input.add(index)
+        for attachment in filter(None, map(find, record.preserveAttachments)):
+            attachment.preserve.add(index)
         depth_stencil = find(record.depthStencilAttachment)
         if depth_stencil is not None:
             made.depth_stencil.append(depth_stencil)
@@ -233,21 +238,15 @@ class Frame:
         made.resolves.append(resolve)
 
     def _renderings(self) -> None:
-        number = 0
         # One that is written as an alias of another is the same pass, begun again.
         by_anchor: dict[int, Pass] = {}
-        for position, command in enumerate(self.commands):
-            if isinstance(command.body, BeginRendering):
-                node = command.body.node
-                own = id(node.anchor if node.anchor is not None else node)
-                if own in by_anchor:
-                    by_anchor[own].begun.append(position)
-                    continue
-                made = by_anchor[own] = Pass(RENDERING, f"rendering{number}", command.body)
-                made.begun.append(position)
-                number += 1
-                self._rendering(made, command.body)
-                self.passes.append(made)
+        for position, body in self.recorded(BeginRendering):
+            anchor = id(body.node.anchor if body.node.anchor is not None else body.node)
+            if anchor not in by_anchor:
+                by_anchor[anchor] = Pass(RENDERING, f"rendering{len(by_anchor)}", body)
+                self._rendering(by_anchor[anchor], body)
+            by_anchor[anchor].begun.append(position)
+        self.passes.extend(by_anchor.values())
 
     def _rendering(self, made: Pass, record: BeginRendering) -> None:
         subpass = PassSubpass(made, record, 0)
@@ -338,16 +337,12 @@ class Frame:
         return None if any(own is not None and whole is None for own, whole in pairs) else False
 
     def _size(self, record: Record, begun: Pass) -> tuple[int | None, int | None]:
-        if isinstance(record, BeginRenderPass):
-            names = [record.framebuffer] if isinstance(record.framebuffer, str) else list(record.framebuffer or ())
-            for name in names:
-                framebuffer = self.description.framebuffers.get(name)
-                if framebuffer is not None and framebuffer.width is not None:
-                    return framebuffer.width, framebuffer.height
-        for attachment in begun.attachments:
-            for target in attachment.targets:
-                if target.image is not None and target.image.extent is not None:
-                    return target.image.extent.width, target.image.extent.height
+        for framebuffer in self.framebuffers_of(record):
+            if framebuffer.width is not None:
+                return framebuffer.width, framebuffer.height
+        for target in (target for attachment in begun.attachments for target in attachment.targets):
+            if target.size is not None:
+                return target.size
         size = self.description.frame
         return (size.width, size.height) if size is not None else (None, None)
 
@@ -362,10 +357,9 @@ def _aspects(attachment: Attachment, stated: tuple[str, ...] = ()) -> list[Aspec
         names = stated
     else:
         names = ("color",) if attachment.color or any("color" in aspects for aspects in attachment.resolve.values()) else (None,)
-    made = []
-    for name in names:
-        if name == "stencil":
-            made.append(Aspect(name, record.stencilLoadOp, record.stencilStoreOp, "stencilLoadOp", "stencilStoreOp"))
-        else:
-            made.append(Aspect(name, record.loadOp, record.storeOp, "loadOp", "storeOp"))
-    return made
+    return [
+        Aspect(name, record.stencilLoadOp, record.stencilStoreOp, "stencilLoadOp", "stencilStoreOp")
+        if name == "stencil"
+        else Aspect(name, record.loadOp, record.storeOp, "loadOp", "storeOp")
+        for name in names
+    ]

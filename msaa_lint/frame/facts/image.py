@@ -55,9 +55,9 @@ class Bindings:
                 target = frame.target(name)
                 if target is not None and target not in attachment.targets:
                     self.attachments.setdefault(id(target.record), []).append(attachment)
-        for command in frame.commands:
-            if isinstance(command.body, ReadImage) and command.body.image is not None:
-                self.reads.setdefault(command.body.image, []).append(command.body)
+        for _, body in frame.recorded(ReadImage):
+            if body.image is not None:
+                self.reads.setdefault(body.image, []).append(body)
 
 
 def image_facts(target: Target, bindings: Bindings, frame: Frame, readers: Readers, device: DeviceProfile | None) -> Facts:
@@ -191,13 +191,9 @@ def _loaded(bound: list[Attachment], frame: Frame) -> bool | None:
     if not bound and not frame.document.whole and not frame.document.pieces:
         return None
     if not bound and frame.document.pieces:
-        strangers = [
-            a
-            for render_pass in frame.passes
-            for a in render_pass.attachments
-            if a.target is not None and a.target.image is None and a.samples != 1
-        ]
-        if any(aspect.load == "LOAD" for attachment in strangers if attachment.used for aspect in attachment.aspects):
+        attachments = (attachment for render_pass in frame.passes for attachment in render_pass.attachments if attachment.used)
+        strangers = (each for each in attachments if each.target is not None and each.target.image is None and each.samples != 1)
+        if any(aspect.load == "LOAD" for attachment in strangers for aspect in attachment.aspects):
             return None
     ops = [aspect.load for attachment in bound if attachment.used for aspect in attachment.aspects]
     if "LOAD" in ops:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from msaa_lint.frame.description.models import BeginRenderPass, Framebuffer, Image
+from msaa_lint.frame.description.models import BeginRenderPass, Image
 from msaa_lint.frame.description.record import Record
 
 from .frame import Frame
@@ -15,11 +15,9 @@ MAX_USES = 500_000
 def uses_at_most(frame: Frame) -> int:
     """A bound on how often passes use images: every attachment, each time its pass is begun, with every framebuffer."""
     begins: dict[str | None, int] = {}
-    for command in frame.commands:
-        if isinstance(command.body, BeginRenderPass):
-            alternating = command.body.framebuffer
-            count = len(alternating) if isinstance(alternating, tuple) else 1
-            begins[command.body.renderPass] = begins.get(command.body.renderPass, 0) + max(count, 1)
+    for _, body in frame.recorded(BeginRenderPass):
+        count = len(body.framebuffer) if isinstance(body.framebuffer, tuple) else 1
+        begins[body.renderPass] = begins.get(body.renderPass, 0) + max(count, 1)
     return sum(
         len(render_pass.attachments) * (1 if render_pass.kind == RENDERING else begins.get(render_pass.name, 1))
         for render_pass in frame.passes
@@ -31,7 +29,7 @@ def targets_at(frame: Frame, attachment: Attachment, position: int | None) -> li
     body = _body(frame, position)
     if not isinstance(body, BeginRenderPass) or body.framebuffer is None:
         return attachment.targets
-    names = [f.attachments[attachment.index] if attachment.index < len(f.attachments) else None for f in _named(frame, body)]
+    names = [f.attachments[attachment.index] if attachment.index < len(f.attachments) else None for f in frame.framebuffers_of(body)]
     targets = [frame.targets[name] for name in dict.fromkeys(names) if name in frame.targets]
     return targets if targets and None not in names else attachment.targets
 
@@ -47,7 +45,9 @@ def covers(frame: Frame, render_pass: Pass, position: int | None, target: Target
     if image is None or (image.mipLevels or 1) > 1 or (image.extent is not None and (image.extent.depth or 1) > 1):
         return False
     record = _body(frame, position) or render_pass.record
-    framebuffers = _named(frame, record) or (frame.framebuffers.get(render_pass.name, []) if render_pass.kind == RENDER_PASS else [])
+    framebuffers = frame.framebuffers_of(record) or (
+        frame.framebuffers.get(render_pass.name, []) if render_pass.kind == RENDER_PASS else []
+    )
     if image.arrayLayers is not None and image.arrayLayers > 1:
         views = [subpass.record.viewMask.bit_count() for subpass in render_pass.subpasses if subpass.record.viewMask]
         layers: list[int | None] = [*views] or [b.layers for b in framebuffers] or [getattr(record, "layerCount", None)]
@@ -67,9 +67,3 @@ def covers(frame: Frame, render_pass: Pass, position: int | None, target: Target
 def _body(frame: Frame, position: int | None) -> Record | None:
     body = frame.commands[position].body if position is not None else None
     return body if isinstance(body, Record) else None
-
-
-def _named(frame: Frame, record: Record) -> list[Framebuffer]:
-    stated = getattr(record, "framebuffer", None)
-    names = [stated] if isinstance(stated, str) else list(stated or ())
-    return [frame.description.framebuffers[name] for name in names if name in frame.description.framebuffers]

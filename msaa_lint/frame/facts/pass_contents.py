@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.models import BeginRenderPass, ClearAttachment, ClearAttachments, Draw, Pipeline, ReadImage, Rect
+from msaa_lint.frame.description.models import ClearAttachment, ClearAttachments, Draw, Pipeline, ReadImage, Rect
 
 from .contents import Contents, is_known
 from .facts import Facts, known
@@ -41,8 +41,6 @@ class Clear(NamedTuple):
 class Instance:
     """What is recorded between one begin of a pass and its end."""
 
-    __slots__ = ("clears", "drawn", "drawn_at", "draws", "first", "full_screen", "position", "read", "reads_samples")
-
     def __init__(self, position: int) -> None:
         self.position = position
         self.draws = 0
@@ -74,10 +72,10 @@ def pass_contents(walk: Walk) -> PassContents:
     """What the commands record in passes; renderings of which a part is recorded elsewhere are left out."""
     frame = walk.frame
     found: PassContents = {}
-    for run in walk.recorded_runs:
-        if run.position is None or not _IN_PARTS.isdisjoint(flags_of(run.render_pass)):
+    for position, run in walk.recorded_runs.items():
+        if not _IN_PARTS.isdisjoint(flags_of(run.render_pass)):
             continue
-        instance = Instance(run.position)
+        instance = Instance(position)
         found.setdefault(run.render_pass.path, []).append(instance)
         for subpass, command in run.commands:
             body = command.body
@@ -89,11 +87,8 @@ def pass_contents(walk: Walk) -> PassContents:
                 instance.read.add(body.image)
                 read = frame.target(body.image)
                 instance.reads_samples = instance.reads_samples or read is None or read.samples != 1
-    return {
-        render_pass.path: found[render_pass.path]
-        for render_pass in frame.passes
-        if render_pass.path in found and _work(render_pass, found[render_pass.path]) <= MAX_USES
-    }
+    passes = (render_pass for render_pass in frame.passes if render_pass.path in found)
+    return {each.path: found[each.path] for each in passes if _work(each, found[each.path]) <= MAX_USES}
 
 
 def _work(render_pass: Pass, instances: list[Instance]) -> int:
@@ -236,9 +231,7 @@ def _is_whole(render_pass: Pass, attachment: Attachment, clear: Clear, instance:
 def _area(render_pass: Pass, attachment: Attachment, instance: Instance, frame: Frame) -> tuple[tuple[int, int, int, int] | None, int]:
     """The render area that a pass is begun with, the whole of what it renders to where none is stated; and its layers."""
     body = frame.commands[instance.position].body
-    names = body.framebuffer if isinstance(body, BeginRenderPass) else ()
-    stated = [frame.description.framebuffers.get(name) for name in ((names,) if isinstance(names, str) else names or ())]
-    buffers = [buffer for buffer in stated if buffer is not None]
+    buffers = frame.framebuffers_of(body)
     if not buffers and render_pass.kind == RENDER_PASS:
         buffers = frame.framebuffers.get(render_pass.name, [])
     layers = max([getattr(body, "layerCount", None) or 1, *(buffer.layers or 1 for buffer in buffers)])
@@ -264,20 +257,14 @@ def _covers_picture(draw: Draw, pipeline: Pipeline | None, tests: bool) -> bool 
     size = count in _FULL_SCREEN if count is not None else None
     if pipeline is None:
         return known(size, one, None)
-    dynamic, state, multisample, vertices = (
-        pipeline.dynamicState,
-        pipeline.depthStencilState,
-        pipeline.multisampleState,
-        pipeline.vertexInputState,
-    )
+    dynamic, multisample, vertices = pipeline.dynamicState, pipeline.multisampleState, pipeline.vertexInputState
     empty = None
     if vertices is not None and "VERTEX_INPUT_EXT" not in dynamic:
         empty = not (vertices.vertexBindingDescriptions or vertices.vertexAttributeDescriptions)
     untested: list[bool | None] = []
-    for member in ("depthTestEnable", "stencilTestEnable") if tests else ():
-        enabled = getattr(state, member, None)
-        name = "DEPTH_TEST_ENABLE" if member == "depthTestEnable" else "STENCIL_TEST_ENABLE"
-        untested.append(None if enabled is None or name in dynamic else not enabled)
+    for member, state in (("depthTestEnable", "DEPTH_TEST_ENABLE"), ("stencilTestEnable", "STENCIL_TEST_ENABLE")) if tests else ():
+        enabled = getattr(pipeline.depthStencilState, member, None)
+        untested.append(None if enabled is None or state in dynamic else not enabled)
     alike: list[bool | None] = [None]
     if multisample is not None:
         alike = [not on if on is not None else None for on in (multisample.sampleShadingEnable, multisample.alphaToCoverageEnable)]

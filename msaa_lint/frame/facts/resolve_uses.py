@@ -94,7 +94,7 @@ class ResolveUses:
                 return True
             aspect = next((aspect for aspect in target.aspects if aspect.name in (resolve.aspect, None)), None)
             return self.readers.read_later(render_pass, target, aspect) if aspect is not None else None
-        answers = [self._read_at(ref) for ref in self.search.resolved_at(resolve)]
+        answers = [self._read_at(ref) for ref in self.search.written_at(resolve)]
         return True if True in answers else None if not answers or None in answers else False
 
     def _read_at(self, ref: EventRef) -> bool | None:
@@ -107,7 +107,7 @@ class ResolveUses:
     # Whether it is only copied on.
 
     def _put_copied(self, facts: Facts, resolve: Resolve) -> None:
-        written = self.search.resolved_at(resolve) if resolve.aspect == "color" and self.frame.has_commands else []
+        written = self.search.written_at(resolve) if resolve.aspect == "color" and self.frame.has_commands else []
         copies = [copy for copy in map(self._copy_of, written) if copy is not None]
         facts.put("resolve.only_copied", bool(copies) and len(copies) == len(written))
         if not copies or len(copies) < len(written):
@@ -168,7 +168,7 @@ class ResolveUses:
 
     def unread(self, resolve: Resolve, taken: Event) -> bool | None:
         """Whether nothing reads what a resolve wrote, the time that it took the samples so."""
-        written = self.search.resolved_at(resolve)
+        written = self.search.written_at(resolve)
         answers = [self._unread_at(ref) for ref in written if self.search.event(ref).run is taken.run]
         return False if False in answers else None if not answers or None in answers else True
 

@@ -19,7 +19,7 @@ def samples_fetched(attachment: Attachment, aspect: Aspect, search: EventSearch)
     if attachment.input:
         return OTHER
     bodies: list[ReadImage] = []
-    for ref in search.stored_at(attachment, aspect.name):
+    for ref in search.written_at(attachment, aspect.name):
         for event, _ in search.after(ref, aspect.name):
             if is_unknown(event):
                 return None

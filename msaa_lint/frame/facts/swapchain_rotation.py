@@ -94,14 +94,10 @@ class Turns:
             return (
                 [framebuffer for framebuffer in stated.values() if framebuffer.renderPass == render_pass.name] if render_pass.name else []
             )
-        named: set[tuple[str, ...]] = set()
-        for position in render_pass.begun:
-            body = self.frame.commands[position].body
-            if isinstance(body, BeginRenderPass) and body.framebuffer is not None:
-                named.add((body.framebuffer,) if isinstance(body.framebuffer, str) else tuple(body.framebuffer))
-        if len(named) > 1:
-            return None
-        return [stated[name] for names in named for name in names if name in stated]
+        bodies = [self.frame.commands[position].body for position in render_pass.begun]
+        begins = [body for body in bodies if isinstance(body, BeginRenderPass) and body.framebuffer is not None]
+        named = {tuple(framebuffer.key for framebuffer in self.frame.framebuffers_of(body)) for body in begins}
+        return [stated[name] for names in named for name in names] if len(named) <= 1 else None
 
     @staticmethod
     def _one_each(turns: list[set[int]], count: int) -> bool:

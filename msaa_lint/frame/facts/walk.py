@@ -92,30 +92,26 @@ class Walk:
         return list(self._walk())
 
     @cached_property
-    def recorded_runs(self) -> list[PassRun]:
-        """The runs that the commands begin, in order."""
-        return [step.run for step in self.steps if step.begins and step.run is not None]
+    def recorded_runs(self) -> dict[int, PassRun]:
+        """The runs that the commands begin, in order, by the positions where they begin."""
+        return {step.position: step.run for step in self.steps if step.begins and step.run is not None}
 
     @cached_property
     def runs(self) -> list[PassRun]:
         """The runs of the passes; where no commands are stated, or their order is unknown, every pass runs once, in order."""
-        return self.recorded_runs if self.frame.has_commands else list(once_each(self.frame.passes))
+        return list(self.recorded_runs.values() if self.frame.has_commands else once_each(self.frame.passes))
 
     def runs_of(self, render_pass: Pass) -> list[PassRun]:
         """Those of `runs` that are of a pass."""
-        return self._runs_of.get(id(render_pass), [])
+        return self.recorded_runs_of(render_pass) if self.frame.has_commands else [self._only_runs[id(render_pass)]]
 
     @cached_property
-    def _runs_of(self) -> dict[int, list[PassRun]]:
-        return _by_pass(self.runs)
+    def _only_runs(self) -> dict[int, PassRun]:
+        return {id(run.render_pass): run for run in self.runs}
 
     def recorded_runs_of(self, render_pass: Pass) -> list[PassRun]:
         """Those of `recorded_runs` that are of a pass."""
-        return self._recorded_runs_of.get(id(render_pass), [])
-
-    @cached_property
-    def _recorded_runs_of(self) -> dict[int, list[PassRun]]:
-        return _by_pass(self.recorded_runs)
+        return [self.recorded_runs[position] for position in render_pass.begun]
 
     def _walk(self) -> Iterator[Step]:
         begins = {position: render_pass for render_pass in self.frame.passes for position in render_pass.begun}
@@ -152,10 +148,3 @@ def once_each(passes: list[Pass]) -> Iterator[PassRun]:
         run.starts, run.ends = [time + 1 for time in times], [time + 2 for time in times]
         yield run
         position += count + 1
-
-
-def _by_pass(runs: list[PassRun]) -> dict[int, list[PassRun]]:
-    found: dict[int, list[PassRun]] = {}
-    for run in runs:
-        found.setdefault(id(run.render_pass), []).append(run)
-    return found
