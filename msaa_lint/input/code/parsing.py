@@ -29,6 +29,9 @@ GRAMMARS = {"c": "tree_sitter_c", "cpp": "tree_sitter_cpp", "swift": "tree_sitte
 MAX_WORK = 30_000
 """The maximum number of progress callbacks of the parser: enough for 4 MB of ordinary code, or a minute of code made to parse slowly."""
 
+MAX_DECLARATORS = 120
+"""The maximum nesting of declarators."""
+
 _CHUNK = 1 << 16
 
 
@@ -72,6 +75,19 @@ def fields(node: SyntaxNode, *names: str) -> "tuple[SyntaxNode | None, ...]":
 def without_comments(node: "SyntaxNode | None") -> list[SyntaxNode]:
     """Returns the named children that are not comments."""
     return [child for child in node.named_children if child.type != "comment"] if node is not None else []
+
+
+def function_declarator(node: SyntaxNode) -> "tuple[SyntaxNode | None, SyntaxNode | None]":
+    """Returns the function declarator of a declaration and the name in it; None if there is none."""
+    declarator = node.child_by_field_name("declarator")
+    for _ in range(MAX_DECLARATORS):
+        if declarator is None or declarator.type == "function_declarator":
+            break
+        inner = declarator.child_by_field_name("declarator")
+        declarator = inner or next((child for child in declarator.named_children if child.type.endswith("declarator")), None)
+    else:
+        declarator = None
+    return declarator, declarator.child_by_field_name("declarator") if declarator is not None else None
 
 
 class SyntaxReader:

@@ -60,9 +60,8 @@ class Calls(ObjectCreation):
         if owner is None:
             if function[0] == NAME and (instance := self.construct_class(function[1], term, scope)) is not None:
                 return instance
-            kind = vulkan_struct(function[1]) if function[0] == NAME else ""
-            if kind:
-                return self.construct(kind, arguments, place, scope, function[1].startswith(("vk::", "VULKAN")))
+            if function[0] == NAME and vulkan_struct(function[1]):
+                return self.construct(function[1], [(None, item) for item in arguments], place, scope)
             if name == "to_array" and len(arguments) == 1 and arguments[0][0] == BRACES:
                 return self.list_value(function[1].partition("<")[2].rstrip(">"), arguments[0][2], place, scope)
             if name in ("make_array", "makeArray") and arguments:

@@ -8,7 +8,7 @@ from typing import Any
 from msaa_lint.core.text.span import Span
 
 from .terms import NAME
-from .values import Array, Closure, Struct, VulkanObject, inner_cells, pointee, possible_writes, sole_value
+from .values import Array, Closure, Struct, VulkanObject, inner_cells, pointee, possible_writes, structures_in
 
 MAX_DEPTH = 10
 """The maximum nesting of structures, lists, and pointers."""
@@ -31,12 +31,9 @@ def forget(value: Any) -> None:
     """Discards what is known of a structure or a list."""
     if isinstance(value, Array):
         value.complete = False
-    for struct in (
-        (value,) if isinstance(value, Struct) else (sole_value(cell.writes) for cell in value.items) if isinstance(value, Array) else ()
-    ):
-        if isinstance(struct, Struct):
-            struct.zeroed = False
-            struct.fields.clear()
+    for struct in structures_in(value):
+        struct.zeroed = False
+        struct.fields.clear()
 
 
 def forget_captures(closure: Closure) -> None:

@@ -53,8 +53,7 @@ class Evaluator(ConditionEvaluator):
         if tag == ADDRESS:
             return self.address(term[1], scope, place)
         if tag == TARGET:
-            value = self.value(term[1], scope)
-            return tuple(b for a in value for b in (a.value.cell.read(scope.guards) if isinstance(a.value, Ref) else (a,)))
+            return _targets(self.value(term[1], scope), scope)
         if tag == BINARY:
             return self.binary(term, scope)
         if tag == UNARY:
@@ -65,10 +64,8 @@ class Evaluator(ConditionEvaluator):
             return self.choice(term, scope, kind)
         if tag == CALL:
             result = self.call(term, scope)
-            if is_element_access(term):
-                # A reference stands for its target.
-                result = tuple(b for a in result for b in (a.value.cell.read(scope.guards) if isinstance(a.value, Ref) else (a,)))
-            return result
+            # A reference stands for its target.
+            return _targets(result, scope) if is_element_access(term) else result
         if tag == BRACES:
             return self.braced_value(term, scope, kind)
         if tag == LAMBDA:
@@ -123,25 +120,21 @@ class Evaluator(ConditionEvaluator):
         value = self.value(operand, scope)
         return tuple(Alternative(Ref(Cell(writes=(a,))), place, a.guards) for a in value)
 
+    def truth(self, term: Term, scope: Scope) -> Value:
+        """Returns the value of a condition."""
+        condition = self.condition(term, scope)
+        if isinstance(condition, bool):
+            return (Alternative(condition, term[-1]),)
+        return (Alternative(True, term[-1], condition), Alternative(False, term[-1], negated(condition)))
+
     def binary(self, term: Term, scope: Scope) -> Value:
         sign = term[1]
         if sign in ("&&", "||", "==", "!=", "<", ">", "<=", ">="):
-            condition = self.condition(term, scope)
-            if isinstance(condition, bool):
-                return (Alternative(condition, term[-1]),)
-            return (Alternative(True, term[-1], condition), Alternative(False, term[-1], negated(condition)))
+            return self.truth(term, scope)
         left, right = self.value(term[2], scope), self.value(term[3], scope)
         if sign == "+" and (pointer := self.offset_pointer(left, right, term[-1])) is not None:
             return pointer
-        alternatives = []
-        for a in left:
-            for b in right:
-                result = _calculated(sign, a, b, term[-1])
-                if result is not UNKNOWN and not contradicts(a.guards, b.guards):
-                    alternatives.append(Alternative(result, term[-1], a.guards | b.guards))
-                elif result is UNKNOWN:
-                    alternatives.append(Alternative(UNKNOWN, term[-1], a.guards | b.guards))
-        return tuple(alternatives) if 0 < len(alternatives) <= MAX_ALTERNATIVES else UNKNOWN_VALUE
+        return _combined(sign, left, right, term[-1])
 
     def offset_pointer(self, left: Value, right: Value, place: Span) -> Value | None:
         """Returns a pointer to an element of a list plus an offset, or None."""
@@ -155,15 +148,12 @@ class Evaluator(ConditionEvaluator):
     def unary(self, term: Term, scope: Scope) -> Value:
         sign = term[1]
         if sign == "!":
-            condition = self.condition(term, scope)
-            if isinstance(condition, bool):
-                return (Alternative(condition, term[-1]),)
-            return (Alternative(True, term[-1], condition), Alternative(False, term[-1], negated(condition)))
+            return self.truth(term, scope)
         if sign in ("++", "--", "post++", "post--"):
             cell = self.cell_of(term[2], scope)
-            before = sole_value(cell.read(scope.guards)) if cell is not None else UNKNOWN
             if cell is None:
                 return UNKNOWN_VALUE
+            before = sole_value(cell.read(scope.guards))
             if isinstance(before, Ref) and sign.endswith("++") and not scope.unknown_loops:
                 return self.next(cell, before, sign, term[-1], scope)
             if type(before) is not int or scope.unknown_loops:
@@ -222,14 +212,7 @@ class Evaluator(ConditionEvaluator):
         if isinstance(content, Ref) and not any(isinstance(a.value, Ref) or a.value is None for a in value) and not cell.kind.endswith("*"):
             cell = content.cell
         if sign != "=":
-            before = cell.read(scope.guards)
-            combined = [
-                Alternative(_calculated(sign[:-1], a, b, place), place, a.guards | b.guards)
-                for a in before
-                for b in value
-                if not contradicts(a.guards, b.guards)
-            ]
-            value = tuple(combined) if 0 < len(combined) <= MAX_ALTERNATIVES and not scope.unknown_loops else UNKNOWN_VALUE
+            value = _combined(sign[:-1], cell.read(scope.guards), value, place) if not scope.unknown_loops else UNKNOWN_VALUE
         stored = tuple(Alternative(self.stored_value(a.value, cell.kind, _name_of(target)), a.at, a.guards) for a in value)
         self.store(cell, stored, place, scope)
         return value
@@ -256,6 +239,22 @@ class Evaluator(ConditionEvaluator):
 
 def _name_of(term: Term) -> str:
     return str(term[1]).rpartition("::")[2] if term[0] == NAME else str(term[2]) if term[0] == FIELD else ""
+
+
+def _targets(value: Value, scope: Scope) -> Value:
+    """Returns a value with the targets of references in their place."""
+    return tuple(b for a in value for b in (a.value.cell.read(scope.guards) if isinstance(a.value, Ref) else (a,)))
+
+
+def _combined(sign: str, left: Value, right: Value, place: Span) -> Value:
+    """Returns the result of an operator for every combination of alternatives."""
+    alternatives = [
+        Alternative(_calculated(sign, a, b, place), place, a.guards | b.guards)
+        for a in left
+        for b in right
+        if not contradicts(a.guards, b.guards)
+    ]
+    return tuple(alternatives) if len(alternatives) <= MAX_ALTERNATIVES else UNKNOWN_VALUE
 
 
 def _bits(value: Any, place: Span) -> tuple[tuple[str, Span], ...] | None:

@@ -89,9 +89,8 @@ class ListMethods(Structures):
     def on_list(self, array: Array, cell: Cell | None, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value:
         if name in APPEND:
             kind = array.kind
-            struct_name = vulkan_struct(kind)
-            if name == "emplace_back" and struct_name and (len(arguments) != 1 or arguments[0][0] == LITERAL):
-                value = self.construct(struct_name, arguments, place, scope, kind.startswith("vk::"))
+            if name == "emplace_back" and vulkan_struct(kind) and (len(arguments) != 1 or arguments[0][0] == LITERAL):
+                value = self.construct(kind, [(None, item) for item in arguments], place, scope)
             else:
                 value = self.value(arguments[0], scope, kind) if arguments else UNKNOWN_VALUE
             if scope.unknown_loops or len(array.items) >= 64:

@@ -7,6 +7,7 @@ Members are in the order of the Vulkan registry (vk.xml); a test checks that.
 from __future__ import annotations
 
 import re
+from functools import cache
 
 from msaa_lint.frame.vulkan.enums import VALUES
 
@@ -182,13 +183,13 @@ def constant(name: str) -> int | str | bool | None:
     enum = _TABLES.get(enum, enum)
     if enum not in VALUES:
         return None
-    squashed = _squashed.get(enum)
-    if squashed is None:
-        squashed = _squashed[enum] = {value.replace("_", "").lower(): value for value in VALUES[enum]}
-    return squashed.get(match[2].lower())
+    return _squashed(enum).get(match[2].lower())
 
 
-_squashed: dict[str, dict[str, str]] = {}
+@cache
+def _squashed(enum: str) -> dict[str, str]:
+    """Returns the values of an enum by their spelling in vulkan.hpp, in lower case."""
+    return {value.replace("_", "").lower(): value for value in VALUES[enum]}
 
 
 def member(name: str) -> str:
@@ -200,5 +201,4 @@ def setter_member(method: str) -> str | None:
     """Returns the member that a setter of vulkan.hpp sets, spelled as in descriptions, or None."""
     if len(method) < 4 or not method.startswith("set") or not method[3].isupper():
         return None
-    name = method[3].lower() + method[4:]
-    return member(name)
+    return member(method[3].lower() + method[4:])

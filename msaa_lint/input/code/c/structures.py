@@ -26,8 +26,12 @@ from .values import (
     copy_value,
     pointee,
     sole_value,
+    structures_in,
 )
 from .variables import unset_element
+
+Items = Sequence[tuple[tuple[str | int, ...] | None, Term]]
+"""The items in braces: the designated members or None, and the term."""
 
 
 def member_type(kind: str, name: str) -> str:
@@ -71,19 +75,23 @@ class Structures(Evaluator):
         self.resolves.clear()
         self.follow_counts.clear()
 
-    def construct(self, kind: str, arguments: Sequence[Term], place: Span, scope: Scope, hpp: bool) -> Value:
-        """Returns a structure constructed with members in order. vulkan.hpp takes a list in place of a count and a pointer."""
-        struct = Struct(kind, place, True)
+    def construct(self, kind: str, items: Items, place: Span, scope: Scope) -> Value:
+        """Returns a Vulkan structure of a type, or a copy. vulkan.hpp takes a list in place of a count and a pointer."""
+        struct = Struct(vulkan_struct(kind), place, True)
+        hpp = kind.startswith(("vk::", "VULKAN"))
         if hpp:
             _hpp_defaults(struct)
-        if len(arguments) == 1 and arguments[0][0] in (NAME, FIELD):
-            value = pointee(sole_value(self.value(arguments[0], scope)))
-            if isinstance(value, Struct) and first_version(value.kind) == first_version(kind):
+        if len(items) == 1 and items[0][0] is None:
+            term = items[0][1]
+            value = pointee(sole_value(self.value(term, scope))) if term[0] in (NAME, FIELD) else None
+            if isinstance(value, Struct) and (not value.kind or first_version(value.kind) == first_version(struct.kind)):
                 return (Alternative(copy_value(value), place),)
-        self.initialize_positional(struct, [(None, a) for a in arguments], scope, hpp)
+            if term[:2] == (LITERAL, 0):
+                return (Alternative(struct, place),)
+        self.initialize_positional(struct, items, scope, hpp)
         return (Alternative(struct, place),)
 
-    def initialize_positional(self, struct: Struct, items: Sequence[tuple[Any, Term]], scope: Scope, hpp: bool) -> None:
+    def initialize_positional(self, struct: Struct, items: Items, scope: Scope, hpp: bool) -> None:
         names = list(MEMBERS[struct.kind])
         if not hpp and struct.kind not in WITHOUT_TYPE:
             names = ["sType", "pNext", *names]
@@ -141,27 +149,15 @@ class Structures(Evaluator):
     def braced_value(self, term: Term, scope: Scope, kind: str) -> Value:
         """Returns the value of a braced list for a target type."""
         kind, items, place = term[1] or kind, term[2], term[3]
-        struct_name = vulkan_struct(kind)
-        hpp = kind.startswith(("vk::", "VULKAN"))
-        if struct_name:
-            struct = Struct(struct_name, place, True)
-            if hpp:
-                _hpp_defaults(struct)
-            if len(items) == 1 and items[0][0] is None and items[0][1][0] in (NAME, FIELD):
-                value = pointee(sole_value(self.value(items[0][1], scope)))
-                if isinstance(value, Struct):
-                    return (Alternative(copy_value(value), place),)
-            self.initialize_positional(
-                struct, [i for i in items if i[0] is not None or i[1][:2] != (LITERAL, 0) or len(items) > 1], scope, hpp
-            )
-            return (Alternative(struct, place),)
+        if vulkan_struct(kind):
+            return self.construct(kind, items, place, scope)
         inner = element_type(kind)
         if items and all(path for path, _ in items) and isinstance(items[0][0][0], str) and inner is None:
             struct = Struct("", place, True)
             for path, item in items:
                 self.initialize_designated(struct, path, item, scope)
             return (Alternative(struct, place),)
-        if not items and kind in ("", "auto") and not struct_name:
+        if not items and kind in ("", "auto"):
             # `{}` stands for no flags.
             return (Alternative(Array("", place), place),)
         if inner is None and kind and kind != "auto":
@@ -176,7 +172,7 @@ class Structures(Evaluator):
             self.fill_array(made_list[0].value, kind, scope)
         return made_list
 
-    def list_value(self, kind: str, items: Sequence[tuple[Any, Term]], place: Span, scope: Scope) -> Value:
+    def list_value(self, kind: str, items: Items, place: Span, scope: Scope) -> Value:
         array = Array(kind, place)
         if len(items) == 1 and items[0][0] is None and items[0][1][0] == BRACES and not items[0][1][1]:
             inner = items[0][1][2]
@@ -231,7 +227,7 @@ class Structures(Evaluator):
             array.items.append(item)
         return (Alternative(array, place),)
 
-    def class_value(self, kind: str, items: Sequence[tuple[Any, Term]], place: Span, scope: Scope) -> Value:
+    def class_value(self, kind: str, items: Items, place: Span, scope: Scope) -> Value:
         """Returns an object of a class in the file, built by its constructor or from its members in order."""
         arguments = tuple(item for _, item in items)
         built = self.construct_class(kind, (CALL, (NAME, kind, place), arguments, place), scope)
@@ -268,12 +264,9 @@ class Structures(Evaluator):
                     for cell in value.items:
                         cell.writes = (Alternative(UNKNOWN, target[-1]),)
                     return UNKNOWN_VALUE
-            for element in (
-                [value] if isinstance(value, Struct) else [sole_value(c.writes) for c in value.items] if isinstance(value, Array) else []
-            ):
-                if isinstance(element, Struct):
-                    element.zeroed = True
-                    element.fields.clear()
+            for element in structures_in(value):
+                element.zeroed = True
+                element.fields.clear()
             if isinstance(value, Array) and vulkan_struct(value.kind):
                 # Elements added later are zero too.
                 value.zeroed = True

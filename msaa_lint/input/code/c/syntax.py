@@ -9,10 +9,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from msaa_lint.input.code.parsing import Code, SyntaxNode, fields, span, without_comments
+from msaa_lint.input.code.parsing import Code, SyntaxNode, fields, function_declarator, span, without_comments
 
 from .directives import Section
-from .kinds import CLASSES, MAX_DEPTH, function_declarator
+from .kinds import CLASSES, MAX_DEPTH
 from .statements import Statements
 from .terms import ASSIGN, CALL, DO, NAME, Function, Parameter, Term, Unit
 

@@ -188,6 +188,12 @@ def inner_cells(value: Any) -> list[Cell]:
     return [value.cell] if isinstance(value, Ref) else []
 
 
+def structures_in(value: Any) -> list[Struct]:
+    """Returns a structure, or the structures that a list consists of."""
+    values = [sole_value(cell.writes) for cell in value.items] if isinstance(value, Array) else [value]
+    return [item for item in values if isinstance(item, Struct)]
+
+
 MAX_DEPTH = 10
 
 

@@ -10,7 +10,7 @@ from msaa_lint.frame.vulkan.names import parse_enum
 
 from .names import array_size, constant, element_type, member, vulkan_struct
 from .scope import MAX_STEPS, MEMBER, Scope, StepLimitExceeded
-from .terms import ADDRESS, CALL, DECLARE, FIELD, INDEX, NAME, TARGET, Function, Term, Unit, at
+from .terms import CALL, DECLARE, FIELD, INDEX, NAME, TARGET, Function, Term, Unit, at
 from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Flags, Ref, Struct, Value, copy_value, pointee, sole_value
 
 
@@ -104,8 +104,6 @@ class Variables(ABC):
             if isinstance(array, Array) and array.items:
                 return array.items[0]
             return value.cell if isinstance(value, Ref) else self.cell_of(term[1], scope)
-        if kind == ADDRESS:
-            return None
         if kind == CALL:
             value = sole_value(self.call(term, scope))
             return value.cell if isinstance(value, Ref) else None

@@ -14,10 +14,8 @@ def whole(text: str) -> int | None:
     match = _NUMBER.fullmatch(text)
     if match is None or len(match[2]) > 12:
         return None
-    digits = match[2]
-    base = 16 if digits[1:2] in ("x", "X") else 2 if digits[1:2] in ("b", "B") else 8 if digits[0] == "0" and len(digits) > 1 else 10
     try:
-        number = int(digits[2:] if base in (16, 2) else digits, base)
+        number = int(match[2], 8 if match[2][0] == "0" and match[2].isdigit() else 0)
     except ValueError:
         return None
     return -number if match[1] == "-" else number

@@ -30,9 +30,13 @@ _TYPE = re.compile(r"SampleCountFlag|^(?:u?int(?:8|16|32|64)?(?:_t)?|unsigned|si
 _CASTS = frozenset({"static_cast", "reinterpret_cast", "const_cast", "bit_cast"})
 _LESSER = frozenset({"min", "MIN", "Min", "qMin", "fmin", "SDL_min", "ImMin"})
 _GREATER = frozenset({"max", "MAX", "Max", "qMax", "fmax", "SDL_max", "ImMax"})
-_FLOORS = frozenset({"bit_floor", "highestBitValue", "highest_one_bit", "prevPowerOfTwo"})
-_ZEROS = frozenset({"__builtin_clz", "__builtin_clzl", "countl_zero", "__lzcnt", "_lzcnt_u32", "clz"})
-_HIGHEST = frozenset({"findMSB", "log2", "ilog2", "log2i", "log2f", "floor"})
+_FORMS = {
+    "bit_floor": "COUNT", "highestBitValue": "COUNT", "highest_one_bit": "COUNT", "prevPowerOfTwo": "COUNT",
+    "__builtin_clz": "ZEROS", "__builtin_clzl": "ZEROS", "countl_zero": "ZEROS", "__lzcnt": "ZEROS", "_lzcnt_u32": "ZEROS", "clz": "ZEROS",
+    "findMSB": "INDEX", "log2": "INDEX", "ilog2": "INDEX", "log2i": "INDEX", "log2f": "INDEX", "bit_width": "WIDTH",
+}  # fmt: skip
+"""What functions return of the highest bit of a mask."""
+
 _POWERS = frozenset({"pow", "exp2", "ldexp"})
 
 
@@ -114,8 +118,6 @@ class Expressions(SyntaxReader):
         inner = unwrapped(node)
         if inner is not None and inner != node:
             return self.value(inner, bindings, deeper)
-        if kind == "assignment_expression":
-            return self.value(node.child_by_field_name("right"), bindings, deeper)
         if kind == "binary_expression":
             return self._binary(node, bindings, deeper)
         if kind == "unary_expression":
@@ -124,7 +126,9 @@ class Expressions(SyntaxReader):
             return self._choice(node, bindings, deeper)
         if kind == "subscript_expression":
             return self._item(node, bindings, deeper)
-        if kind in ("initializer_list", "compound_literal_expression"):
+        if kind in ("assignment_expression", "compound_literal_expression"):
+            return self.value(node.child_by_field_name("right") or node.child_by_field_name("value"), bindings, deeper)
+        if kind == "initializer_list":
             return self._list(node, bindings, deeper)
         return self._call(node, bindings, deeper) if kind == "call_expression" else None
 
@@ -146,9 +150,9 @@ class Expressions(SyntaxReader):
         return value
 
     def _binary(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
-        sign = node.child_by_field_name("operator")
+        sign, *sides = fields(node, "operator", "left", "right")
         operator = self.text_of(sign)
-        left, right = (self.value(node.child_by_field_name(side), bindings, depth) for side in ("left", "right"))
+        left, right = (self.value(side, bindings, depth) for side in sides)
         if sign is None or left is None or right is None:
             return None
         if isinstance(left, int) and isinstance(right, int):
@@ -192,11 +196,11 @@ class Expressions(SyntaxReader):
         node = unwrapped(node)
         if node is None or node.type != "binary_expression":
             return None
-        sign = node.child_by_field_name("operator")
+        sign, *sides = fields(node, "operator", "left", "right")
         operator = self.text_of(sign)
         if operator not in ("<", ">", "<=", ">="):
             return None
-        left, right = (self.value(node.child_by_field_name(side), bindings, depth + 1) for side in ("left", "right"))
+        left, right = (self.value(side, bindings, depth + 1) for side in sides)
         if not (isinstance(left, Mask) and isinstance(right, Mask)):
             return None
         return left, right, operator[0] == "<", span(node)
@@ -232,8 +236,6 @@ class Expressions(SyntaxReader):
         return None
 
     def _list(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
-        if node.type == "compound_literal_expression":
-            return self.value(node.child_by_field_name("value"), bindings, depth)
         items = without_comments(node)
         if len(items) > 64:
             return None
@@ -262,16 +264,11 @@ class Expressions(SyntaxReader):
             highest = values[-1]
             return highest._replace(form="COUNT") if isinstance(highest, Highest) and highest.form == "INDEX" else None
         first = values[0] if len(values) == 1 else None
-        if isinstance(first, Mask):
-            form = next((f for names, f in _FORMS if name in names), None)
-            if form is not None:
-                return Highest(first, form)
+        if isinstance(first, Mask) and name in _FORMS:
+            return Highest(first, _FORMS[name])
         if isinstance(first, Highest) and name == "floor":
             return first
         return self.returns.get(name) if function.type in ("identifier", "field_expression", "qualified_identifier") else None
-
-
-_FORMS = ((_FLOORS, "COUNT"), (_ZEROS, "ZEROS"), (_HIGHEST - {"floor"}, "INDEX"), (frozenset({"bit_width"}), "WIDTH"))
 
 
 def _highest_bit_arithmetic(operator: str, left: Value, right: Value) -> Value | None:

@@ -7,7 +7,7 @@ import re
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.parsing import SyntaxNode, fields, span, without_comments
+from msaa_lint.input.code.parsing import SyntaxNode, fields, function_declarator, span, without_comments
 
 from .chains import MAX_TESTS, Chain, Test, greatest
 from .loops import halving_loop, loop_iterations
@@ -33,14 +33,13 @@ class Owner(NamedTuple):
 
 
 class Choice(NamedTuple):
-    """A choice: its name and location, the mask, the tests, the highest count that it selects if known, and whether it is returned."""
+    """A choice: its name and location, the mask, the tests, and the highest count that it selects if known."""
 
     name: str
     at: Span
     mask: Mask
     tests: tuple[Test, ...]
     at_most: int | None
-    returned: bool
 
 
 class ChoiceReader:
@@ -54,23 +53,17 @@ class ChoiceReader:
 
     def function(self, node: SyntaxNode) -> None:
         """Reads a function definition."""
-        declarator = node.child_by_field_name("declarator")
-        while declarator is not None and declarator.type != "function_declarator":
-            declarator = declarator.child_by_field_name("declarator") or next(
-                (c for c in declarator.named_children if c.type.endswith("declarator")), None
-            )
-        body, of = node.child_by_field_name("body"), self.expressions.text_of
-        name = declarator.child_by_field_name("declarator") if declarator is not None else None
+        declarator, name = function_declarator(node)
+        body = node.child_by_field_name("body")
         if declarator is None or name is None or body is None:
             return
-        kind = node.child_by_field_name("type")
-        owner = Owner(self.expressions.name(name), span(name), of(kind) if kind is not None else "")
+        owner = Owner(self.expressions.name(name), span(name), self.expressions.text_of(node.child_by_field_name("type")))
         self.block(body, self.parameters(declarator), owner, 0)
 
-    def parameters(self, declarator: SyntaxNode) -> Bindings:
+    def parameters(self, declarator: SyntaxNode | None) -> Bindings:
         """Returns the parameters; those whose type is a mask are unknown masks."""
         bindings: Bindings = {}
-        list_node = declarator.child_by_field_name("parameters")
+        list_node = declarator.child_by_field_name("parameters") if declarator is not None else None
         for child in list_node.named_children if list_node is not None else ():
             kind, name = fields(child, "type", "declarator")
             if kind is not None and name is not None and name.type == "identifier":
@@ -107,34 +100,31 @@ class ChoiceReader:
         """Reads a declaration, an assignment, or a return."""
         of = self.expressions.text_of
         if node.type == "return_statement":
-            match = next(iter(without_comments(node)), None)
-            self.assign(RETURN, match, owner.returns, bindings, owner, chains)
+            self.assign(RETURN, next(iter(without_comments(node)), None), owner.returns, bindings, owner, chains)
         elif node.type == "expression_statement":
             child = node.named_children[0] if node.named_child_count else None
             if child is not None and child.type == "assignment_expression":
-                target, sign = fields(child, "left", "operator")
+                target, sign, source = fields(child, "left", "operator", "right")
                 name = self.expressions.name(target)
-                masking = sign is not None and of(sign) == "&="
-                value = self.expressions.value(child.child_by_field_name("right"), bindings)
-                if masking and name:
-                    bindings[name] = _apply_mask(bindings.get(name, self.expressions.members.get(name)), value, span(sign or child))
-                elif sign is not None and of(sign) == "=":
-                    self.assign(name, child.child_by_field_name("right"), "", bindings, owner, chains)
+                if of(sign) == "&=" and name:
+                    before = bindings.get(name, self.expressions.members.get(name))
+                    bindings[name] = _apply_mask(before, self.expressions.value(source, bindings), span(sign or child))
+                elif of(sign) == "=":
+                    self.assign(name, source, "", bindings, owner, chains)
         else:
-            kind = node.child_by_field_name("type")
-            type_node = of(kind) if kind is not None else ""
+            kind = of(node.child_by_field_name("type"))
             for child in node.children_by_field_name("declarator"):
-                value_node = child.child_by_field_name("value")
-                target = child.child_by_field_name("declarator") if child.type == "init_declarator" else child
+                target, source = fields(child, "declarator", "value")
+                target = target if child.type == "init_declarator" else child
                 while target is not None and target.type.endswith("_declarator"):
                     inner = target.child_by_field_name("declarator")
                     target = inner if inner is not None else next(iter(target.named_children), None)
                 name = self.expressions.name(target)
-                if name and value_node is not None:
+                if name and source is not None:
                     bindings[name] = None
-                    self.assign(name, value_node, type_node, bindings, owner, chains)
+                    self.assign(name, source, kind, bindings, owner, chains)
                 elif name:
-                    bindings[name] = Mask((), "NONE", span(child), known=False) if _MASK_TYPE.search(type_node) else None
+                    bindings[name] = Mask((), "NONE", span(child), known=False) if _MASK_TYPE.search(kind) else None
 
     def assign(self, target: str, node: SyntaxNode | None, typed: str, bindings: Bindings, owner: Owner, chains: dict[str, Chain]) -> None:
         """Assigns the value of an expression to a variable, or returns it."""
@@ -148,7 +138,7 @@ class ChoiceReader:
         if isinstance(value, Highest) and value.form == "COUNT":
             at = owner.at if target == RETURN and owner.at is not None else span(node) if node is not None else value.mask.at
             most = 1 << (value.mask.allowed.bit_length() - 1) if value.mask.allowed else None
-            self.choices.append(Choice(target or owner.name, at, value.mask, (), most, target == RETURN))
+            self.choices.append(Choice(target or owner.name, at, value.mask, (), most))
         elif target == RETURN and owner.name:
             returns = self.expressions.returns
             returns[owner.name] = value if isinstance(value, Mask) and returns.get(owner.name, value) == value else None
@@ -181,19 +171,18 @@ class ChoiceReader:
 
     def lambdas(self, node: SyntaxNode, bindings: Bindings, owner: Owner, depth: int) -> None:
         """Reads the lambdas in an expression."""
-        stack = [(node, "")]
+        stack = [node]
         while stack:
-            expression, name = stack.pop()
-            if expression.type == "lambda_expression":
-                body, declarator = fields(expression, "body", "declarator")
-                inner = {**bindings, **(self.parameters(declarator) if declarator is not None else {})}
-                declared = expression.parent.child_by_field_name("declarator") if expression.parent is not None else None
-                at = span(declared) if declared is not None else None
-                lambda_owner = Owner(self.expressions.name(declared), at, self.expressions.text_of(declarator))
-                if body is not None and depth < MAX_DEPTH:
-                    self.block(body, inner, lambda_owner, depth + 1)
+            expression = stack.pop()
+            if expression.type != "lambda_expression":
+                stack += expression.named_children
                 continue
-            stack += [(child, name) for child in expression.named_children]
+            body, declarator = fields(expression, "body", "declarator")
+            declared = expression.parent.child_by_field_name("declarator") if expression.parent is not None else None
+            if body is not None and depth < MAX_DEPTH:
+                at = span(declared) if declared is not None else None
+                inner = Owner(self.expressions.name(declared), at, self.expressions.text_of(declarator))
+                self.block(body, {**bindings, **self.parameters(declarator)}, inner, depth + 1)
 
     def branches(self, node: SyntaxNode, bindings: Bindings, owner: Owner, chains: dict[str, Chain], depth: int) -> None:
         """Reads an `if` chain: its tests and its blocks."""
@@ -205,14 +194,11 @@ class ChoiceReader:
 
     def comparison(self, condition: SyntaxNode | None, then: SyntaxNode, node: SyntaxNode, bindings: Bindings, owner: Owner) -> None:
         """Reads `if (a < b) counts = a; else counts = b;` and the same with returns."""
-        compared = self.expressions.comparison(condition, bindings) if condition is not None else None
-        other = node.child_by_field_name("alternative")
+        compared = self.expressions.comparison(condition, bindings)
         if compared is None:
             return
-        first, second = (
-            self.assignment_of(then),
-            self.assignment_of(other) if other is not None else self.assignment_of(node.next_named_sibling),
-        )
+        first = self.assignment_of(then)
+        second = self.assignment_of(node.child_by_field_name("alternative") or node.next_named_sibling)
         if first is None or second is None or first[0] != second[0]:
             return
         lesser = self.expressions.minimum(compared, self.expressions.value(first[1], bindings), self.expressions.value(second[1], bindings))
@@ -291,7 +277,7 @@ class ChoiceReader:
         at = owner.at if target == RETURN and owner.at is not None else tests[0].at
         # The maximum of a mask from elsewhere is the device's maximum only if the mask is the device's.
         most = greatest(tests) if chain.pure and mask.limits else None
-        self.choices.append(Choice(target or owner.name or "samples", at, mask, tuple(tests), most, target == RETURN))
+        self.choices.append(Choice(target or owner.name or "samples", at, mask, tuple(tests), most))
 
 
 def _apply_mask(value: Value | None, other: Value | None, at: Span) -> Value | None:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.frame.vulkan.enums import VALUES
 from msaa_lint.frame.vulkan.formats import format_of
-from msaa_lint.input.code.parsing import SyntaxNode, span
+from msaa_lint.input.code.parsing import SyntaxNode, fields, function_declarator, span, without_comments
 
 from .masks import COUNTS, Expressions
 
@@ -25,7 +26,9 @@ MAX_NAMES = 12
 _CAPS = frozenset({"min", "MIN", "Min", "clamp", "Clamp", "CLAMP", "qMin", "qBound", "SDL_min"})
 _NOTHING_ELSE = frozenset({"parenthesized_expression", "cast_expression", "static_cast", "initializer_list", "condition_clause"})
 _DECLARING = frozenset({"field_expression", "array_declarator", "pointer_declarator", "reference_declarator"})
-_FORMAT = "VK_FORMAT_"
+_FORMATS = {name.replace("_", "").lower(): name for name in VALUES["VkFormat"]}
+"""The formats by their spelling in vulkan.hpp, in lower case: `D24UnormS8Uint` is D24_UNORM_S8_UINT."""
+
 _SAMPLES = ("samples", "rasterizationSamples", "sampleCount")
 
 
@@ -45,11 +48,9 @@ class Uses:
             if node.type in ("identifier", "field_identifier"):
                 self._named.setdefault(expressions.text_of(node), []).append(node)
             elif node.type == "function_definition":
-                declarator = node.child_by_field_name("declarator")
-                while declarator is not None and declarator.type != "function_declarator":
-                    declarator = declarator.child_by_field_name("declarator")
-                if declarator is not None:
-                    self._functions.setdefault(expressions.name(declarator.child_by_field_name("declarator")), node)
+                _, name = function_declarator(node)
+                if name is not None:
+                    self._functions.setdefault(expressions.name(name), node)
             stack += reversed(node.named_children)
 
     def holders(self, name: str) -> list[str]:
@@ -101,18 +102,16 @@ class Uses:
         if parent is None:
             return None
         if parent.type == "argument_list" and parent.parent is not None:
-            called = self.expressions.name(parent.parent.child_by_field_name("function"))
-            if called not in _CAPS:
+            if self.expressions.name(parent.parent.child_by_field_name("function")) not in _CAPS:
                 return None
-            others = [self.expressions.value(child, {}) for child in parent.named_children if child != value and child.type != "comment"]
-            counts = [other for other in others if isinstance(other, int) and other in COUNTS]
-            return counts[0] if len(counts) == len(others) == 1 and called in _CAPS else 0
+            others = [child for child in without_comments(parent) if child != value]
+            limit = self.expressions.value(others[0], {}) if len(others) == 1 else None
+            return limit if isinstance(limit, int) and limit in COUNTS else 0
         if parent.type == "binary_expression":
-            sign = parent.child_by_field_name("operator")
-            operator = self.expressions.text_of(sign)
+            operator = self.expressions.text_of(parent.child_by_field_name("operator"))
             other = parent.child_by_field_name("right" if parent.child_by_field_name("left") == value else "left")
-            if operator in ("<", ">", "<=", ">="):
-                return None if self.expressions.value(other, {}) in (0, 1) else 0
+            if operator in ("<", ">", "<=", ">=") and self.expressions.value(other, {}) not in (0, 1):
+                return 0
         return None
 
     def formats(self, name: str) -> dict[str, Span]:
@@ -156,12 +155,17 @@ class Uses:
         for use in self._named.get(member, ())[:MAX_USES]:
             field = use.parent
             assignment = field.parent if field is not None else None
-            inside = around is not None and around.start_byte <= use.start_byte < around.end_byte
-            if inside and field is not None and assignment is not None and assignment.type == "assignment_expression":
-                of, right = field.child_by_field_name("argument"), assignment.child_by_field_name("right")
-                same = of is not None and self.expressions.text_of(of) == structure
-                if same and right is not None and assignment.child_by_field_name("left") == field:
-                    values.append(right)
+            if around is None or field is None or assignment is None or assignment.type != "assignment_expression":
+                continue
+            left, right = fields(assignment, "left", "right")
+            inside = around.start_byte <= use.start_byte < around.end_byte
+            if (
+                inside
+                and left == field
+                and right is not None
+                and self.expressions.text_of(field.child_by_field_name("argument")) == structure
+            ):
+                values.append(right)
         return values
 
     def _formats(self, node: SyntaxNode, formats: dict[str, Span], depth: int, names: set[str]) -> None:
@@ -170,7 +174,7 @@ class Uses:
         while stack and self._left > 0:
             inner = stack.pop()
             self._left -= 1
-            if inner.type == "binary_expression" or inner.type in ("case_statement", "lambda_expression"):
+            if inner.type in ("binary_expression", "case_statement", "lambda_expression"):
                 continue
             if inner.type in ("identifier", "field_identifier", "qualified_identifier"):
                 name = _format(self.expressions.text_of(inner))
@@ -241,32 +245,20 @@ def _is_cast(node: SyntaxNode) -> bool:
 def _receiver(node: SyntaxNode) -> SyntaxNode | None:
     """Returns the node that receives the value of a use, or None."""
     value, parent = _enclosing_use(node)
-    if parent is not None and parent.type == "init_declarator" and parent.child_by_field_name("value") == value:
-        return parent.child_by_field_name("declarator")
-    if parent is not None and parent.type == "assignment_expression" and parent.child_by_field_name("right") == value:
-        return parent.child_by_field_name("left")
-    if parent is not None and parent.type == "argument_list" and parent.named_child_count == 1:
+    if parent is None:
+        return None
+    source, target = ("value", "declarator") if parent.type == "init_declarator" else ("right", "left")
+    if parent.type in ("init_declarator", "assignment_expression") and parent.child_by_field_name(source) == value:
+        return parent.child_by_field_name(target)
+    around = parent.parent
+    if parent.type == "argument_list" and parent.named_child_count == 1 and around is not None and around.type == "field_initializer":
         # `samples(pick())` in a constructor.
-        around = parent.parent
-        return around.named_children[0] if around is not None and around.type == "field_initializer" else None
+        return around.named_children[0]
     return None
 
 
 def _format(text: str) -> str | None:
     """Returns the format that a name denotes, in either spelling."""
-    if text.startswith(_FORMAT):
-        return text[len(_FORMAT) :]
-    if "Format::e" not in text or len(text) > 80:
-        return None
-    name = ""
-    short = text.rpartition("Format::e")[2]
-    for n, letter in enumerate(short):
-        upper = letter.isupper() and n > 0 and (short[n - 1].islower() or short[n - 1].isdigit())
-        name += ("_" if upper and _breaks(short, n) else "") + letter.upper()
-    return name
-
-
-def _breaks(short: str, n: int) -> bool:
-    """Returns whether an underscore precedes a letter of vulkan.hpp's spelling: `D24UnormS8Uint` is D24_UNORM_S8_UINT."""
-    next_node = short[n + 1 : n + 2]
-    return next_node.islower() or (short[n - 1].islower() and next_node.isdigit()) or short[n - 1].islower()
+    if text.startswith("VK_FORMAT_"):
+        return text.removeprefix("VK_FORMAT_")
+    return _FORMATS.get(text.rpartition("Format::e")[2].lower()) if "Format::e" in text else None
