@@ -80,7 +80,7 @@ class Calls(ObjectCreation):
         if name in ("min", "max", "MIN", "MAX") and len(arguments) == 2:
             return self.extreme(name.lower(), arguments, place, scope)
         if name in ("size", "ARRAY_SIZE", "countof", "array_size", "ARRAYSIZE", "arraysize") and len(arguments) == 1:
-            return self.count_value(sole_value(self.value(arguments[0], scope)), place)
+            return self.count_value(self.sole(arguments[0], scope), place)
         values = [self.value(argument, scope) for argument in arguments]
         return self.external_call(term, name, owner, values, scope)
 
@@ -204,7 +204,7 @@ class Calls(ObjectCreation):
         return parameter_cell
 
     def extreme(self, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value:
-        left, right = (sole_value(self.value(a, scope)) for a in arguments)
+        left, right = (self.sole(a, scope) for a in arguments)
         if isinstance(left, (int, float)) and isinstance(right, (int, float)):
             return (Alternative(min(left, right) if name == "min" else max(left, right), place),)
         return UNKNOWN_VALUE

@@ -113,7 +113,7 @@ class ConditionEvaluator(Variables):
         while stack:
             subterm = stack.pop()
             if subterm[0] == NAME:
-                value = sole_value(self.value(subterm, scope))
+                value = self.sole(subterm, scope)
                 if type(value) is int:
                     names[subterm[1]] = str(value)
             else:
@@ -133,7 +133,7 @@ class ConditionEvaluator(Variables):
             self.value(term[2], scope)
             return bool(sign == "==")
         every = self.value(term[2], scope)
-        left, right = sole_value(every), sole_value(self.value(term[3], scope))
+        left, right = sole_value(every), self.sole(term[3], scope)
         if isinstance(right, (int, float)) and 1 < len(every) <= MAX_ALTERNATIVES and all(isinstance(a.value, (int, float)) for a in every):
             holds = [a for a in every if COMPARISONS[sign](a.value, right)]
             if not holds or len(holds) == len(every):

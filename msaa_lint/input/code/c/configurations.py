@@ -65,7 +65,8 @@ class Configuration:
             for alternative in value:
                 if isinstance(alternative.value, Symbol) and alternative.value.chosen:
                     self.assume_multisampled(alternative.value, alternative.guards)
-        for subpass in self.every_subpass():
+        passes = (obj for obj in self.current_objects if obj.kind == "renderPass")
+        for subpass in (subpass for obj in passes for subpass in self.subpasses(obj)):
             for write in subpass.fields["resolveAttachments"].writes if "resolveAttachments" in subpass.fields else ():
                 if isinstance(write.value, (Ref, Array)):
                     self.assume(write.guards)
@@ -74,10 +75,8 @@ class Configuration:
                 if isinstance(alternative.value, Symbol):
                     self.assume_multisampled(alternative.value, alternative.guards)
 
-    def every_subpass(self) -> Iterator[Struct]:
-        for obj in self.current_objects:
-            if obj.kind == "renderPass":
-                yield from (struct for struct in self.structs(obj.info, "subpasses") or () if struct is not None)
+    def subpasses(self, render_pass: VulkanObject) -> Iterator[Struct]:
+        return (struct for struct in self.structs(render_pass.info, "subpasses") or () if struct is not None)
 
     def assume_multisampled(self, symbol: Symbol, guards: Iterable[tuple[str, bool]]) -> None:
         if self.assume(guards):
@@ -117,15 +116,13 @@ class Configuration:
         for obj in self.current_objects:
             if obj.kind == "renderPass":
                 attachments = self.structs(obj.info, "attachments") or []
-                for subpass in self.structs(obj.info, "subpasses") or ():
-                    colors = self.structs(subpass, "colorAttachments") if subpass is not None else None
-                    targets = self.structs(subpass, "resolveAttachments") if subpass is not None else None
+                for subpass in self.subpasses(obj):
+                    colors, targets = self.structs(subpass, "colorAttachments"), self.structs(subpass, "resolveAttachments")
                     for color, target in zip(colors or (), targets or (), strict=False):
                         index = self.known_value(color, "attachment") if color is not None and target is not None else None
-                        if type(index) is int and 0 <= index < len(attachments):
-                            source = attachments[index]
-                            if source is not None and "samples" in source.fields:
-                                yield source.fields["samples"].writes
+                        source = attachments[index] if type(index) is int and 0 <= index < len(attachments) else None
+                        if source is not None and "samples" in source.fields:
+                            yield source.fields["samples"].writes
             if obj.kind == "rendering":
                 for attachment in self.structs(obj.info, "colorAttachments") or ():
                     if attachment is None or self.known_value(attachment, "resolveMode") in (None, 0, "VK_RESOLVE_MODE_NONE", "NONE"):
@@ -227,11 +224,8 @@ class Configuration:
         view = self.dereference(view)
         if isinstance(view, VulkanObject) and view.kind == "view":
             image = self.dereference(self.get(view.info, "image")[0])
-            return (
-                self.first_duplicate(image)
-                if isinstance(image, VulkanObject) and image.kind == "image" and not self.is_excluded(image)
-                else None
-            )
+            if isinstance(image, VulkanObject) and image.kind == "image" and not self.is_excluded(image):
+                return self.first_duplicate(image)
         return None
 
     def first_duplicate(self, obj: VulkanObject) -> VulkanObject:

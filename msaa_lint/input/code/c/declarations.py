@@ -19,8 +19,7 @@ class Declarations(Expressions):
         for node in list_node.named_children if list_node is not None else ():
             if node.type not in ("parameter_declaration", "optional_parameter_declaration", "variadic_parameter_declaration"):
                 continue
-            kind, declarator = fields(node, "type", "declarator")
-            default = node.child_by_field_name("default_value")
+            kind, declarator, default = fields(node, "type", "declarator", "default_value")
             name, _, by_reference = self.declarator(declarator)
             text = self.type_text(kind)
             fixed = any(c.type == "type_qualifier" and self.text_of(c) == "const" for c in node.named_children)
@@ -42,30 +41,24 @@ class Declarations(Expressions):
                 size = node.child_by_field_name("size") or node
             elif node.type in NAMES:
                 return self.text_of(node), size, indirect
-            inner = node.child_by_field_name("declarator")
-            node = inner if inner is not None else next((c for c in node.named_children if c.type != "type_qualifier"), None)
+            unqualified = (child for child in node.named_children if child.type != "type_qualifier")
+            node = node.child_by_field_name("declarator") or next(unqualified, None)
         return "", size, indirect
 
     def declared(self, node: SyntaxNode, depth: int = 0) -> list[Term]:
         """Returns the variables of a declaration as terms."""
-        kind = node.child_by_field_name("type")
-        text = self.type_text(kind)
+        text = self.type_text(node.child_by_field_name("type"))
         fixed = any(c.type == "type_qualifier" and self.text_of(c) in ("const", "constexpr") for c in node.named_children)
         terms: list[Term] = []
-        children = node.children
-        for n, child in enumerate(children):
+        for n, child in enumerate(node.children):
             field = node.field_name_for_child(n)
             if field == "default_value" and terms:
                 terms[-1] = (*terms[-1][:3], self.value(child, terms[-1][1], depth), *terms[-1][4:])
             if field != "declarator":
                 continue
             value: Term | None = None
-            target: SyntaxNode | None = child
-            value_node: SyntaxNode | None = None
-            if child.type == "init_declarator":
-                target = child.child_by_field_name("declarator")
-                value_node = child.child_by_field_name("value")
-            elif child.type == "function_declarator":
+            target, value_node = fields(child, "declarator", "value") if child.type == "init_declarator" else (child, None)
+            if child.type == "function_declarator":
                 if node.type != "declaration" or not self.is_construction(child):
                     continue
                 target = child.child_by_field_name("declarator")
@@ -73,13 +66,12 @@ class Declarations(Expressions):
                 at = span(child)
                 names = [self.expression(c.named_children[0], depth) for c in (list_node.named_children if list_node is not None else ())]
                 value = (CALL, (NAME, text, at), tuple(names), at)
-            if target is not None and target.type in ("structured_binding_declarator",):
+            if target is None or target.type == "structured_binding_declarator":
                 continue
             name, size, indirect = self.declarator(target)
             if not name:
                 continue
-            name_node = target if target is not None else child
-            at = span(name_node)
+            at = span(target)
             extent = BLANKS.sub("", self.text_of(size)) if size is not None and size.type in ("number_literal", "identifier") else ""
             full_type = f"{text}[{extent}]" if size is not None else text
             value = self.value(value_node, full_type, depth) if value_node is not None else value
@@ -124,9 +116,7 @@ class Declarations(Expressions):
             if child.type != "enumerator" or name is None:
                 continue
             at = span(name)
-            term: Term = (LITERAL, next_node, at)
-            if value_node is not None:
-                term = self.expression(value_node, 0)
+            term: Term = self.expression(value_node, 0) if value_node is not None else (LITERAL, next_node, at)
             next_node = term[1] + 1 if term[0] == LITERAL and isinstance(term[1], int) else -(2**31)
             prefixes = ("", f"{self.text_of(owner)}::") if owner is not None else ("",)
             terms += [(DECLARE, "int", prefix + self.text_of(name), term, False, True, at) for prefix in prefixes]

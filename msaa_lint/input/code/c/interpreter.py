@@ -32,7 +32,6 @@ from .values import (
     Symbol,
     Value,
     VulkanObject,
-    pointee,
     sole_value,
 )
 from .variables import is_element_access
@@ -74,14 +73,13 @@ class Interpreter(Calls):
             f.name for f in self.unit.functions if f.class_name.rpartition("::")[2] == f.name and f.parameters and f.name in types
         }
         entry_points = [f for f in self.unit.functions if f.name not in self.unit.called and f.name not in constructors]
-        return [*entry_points, Function("", "", "", (), self.unit.outside, Span(0, 0))] if self.fragments else entry_points
+        return [*entry_points, Function("", "", "", (), tuple(self.unit.outside), Span(0, 0))] if self.fragments else entry_points
 
     def run_entry_point(self, function: Function) -> None:
         scope = Scope(function.class_name, function.namespace)
         for parameter in function.parameters:
-            cell = Cell(parameter.type, parameter.name, (), f"{function.name}({parameter.name})")
             if parameter.name:
-                scope.scopes[-1][parameter.name] = cell
+                scope.scopes[-1][parameter.name] = Cell(parameter.type, parameter.name, (), f"{function.name}({parameter.name})")
         self.block(function.body, scope)
         for alternative in scope.return_values:
             mark_escaped(alternative.value)
@@ -177,7 +175,7 @@ class Interpreter(Calls):
             return None
         if test[0] != BINARY or test[1] not in ("<", "!=", "<=") or test[2][:2] != (NAME, name):
             return None
-        first, last = sole_value(self.value(start, scope)), sole_value(self.value(test[3], scope))
+        first, last = self.sole(start, scope), self.sole(test[3], scope)
         if type(first) is not int or type(last) is not int:
             return None
         last += test[1] == "<="
@@ -187,7 +185,7 @@ class Interpreter(Calls):
 
     def range_elements(self, declared: Sequence[Term], over: Term, scope: Scope) -> list[Cell] | None:
         """Returns the elements of a list if they are known and few, otherwise None."""
-        value = pointee(sole_value(self.value(over, scope)))
+        value = self.target(over, scope)
         known = isinstance(value, Array) and value.complete and declared and len(value.items) <= MAX_TURNS
         return value.items if known else None
 

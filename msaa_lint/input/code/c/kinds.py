@@ -23,6 +23,10 @@ NAMES = frozenset({
 
 CLASSES = frozenset({"class_specifier", "struct_specifier", "union_specifier"})
 
+BLOCKS = frozenset({
+    "compound_statement", "try_statement", "catch_clause", "labeled_statement", "else_clause", "ERROR", "preproc_else", "init_statement",
+})  # fmt: skip
+
 CHAIN_TESTS = frozenset({"preproc_if", "preproc_ifdef", "preproc_elif", "preproc_elifdef"})
 
 

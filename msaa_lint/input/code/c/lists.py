@@ -107,7 +107,7 @@ class ListMethods(Structures):
         if name in ("back", "front") and array.items:
             return (Alternative(Ref(array.items[-1 if name == "back" else 0]), place),)
         if name == "at" and len(arguments) == 1:
-            index = sole_value(self.value(arguments[0], scope))
+            index = self.sole(arguments[0], scope)
             if type(index) is int and 0 <= index < len(array.items):
                 return (Alternative(Ref(array.items[index]), place),)
         if name in ("at", "rbegin", "rend"):
@@ -121,7 +121,7 @@ class ListMethods(Structures):
         if name in ("resize", "fill", "assign", "insert", "pop_back", "erase", "swap", "emplace"):
             array.complete = array.complete and name == "resize" and not array.items
             if array.complete and arguments:
-                count = sole_value(self.value(arguments[0], scope))
+                count = self.sole(arguments[0], scope)
                 array.complete = type(count) is int and 0 <= count <= 64
                 array.items += [unset_element(array.kind, place, True) for _ in range(count if array.complete else 0)]
         return UNKNOWN_VALUE

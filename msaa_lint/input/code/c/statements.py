@@ -6,7 +6,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.parsing import SyntaxNode, fields, span, without_comments
 
 from .declarations import Declarations
-from .kinds import CHAIN_TESTS, MAX_DEPTH
+from .kinds import BLOCKS, CHAIN_TESTS, MAX_DEPTH
 from .terms import BINARY, BLOCK, DECLARE, DO, IF, LEAVE, LOOP, RETURN, SOME, UNPARSED, Term
 
 
@@ -36,33 +36,20 @@ class Statements(Declarations):
         if kind == "if_statement":
             return self.if_chain(node, depth)
         if kind in ("for_statement", "while_statement", "do_statement"):
-            first = node.child_by_field_name("initializer")
-            body = node.child_by_field_name("body")
-            test = node.child_by_field_name("condition")
+            first, test, update, body = fields(node, "initializer", "condition", "update", "body")
             terms = self.declared(first, depth) if first is not None and first.type == "declaration" else []
             nested = self.nested_statements(body, depth)
-            update = node.child_by_field_name("update")
             if update is not None:
                 nested.append((DO, self.expression(update, depth), at))
             if test is not None:
-                nested = [(DO, self.expression(test, depth), at), *nested]
-            if kind == "do_statement":
-                return nested
-            return [(LOOP, tuple(terms), None, tuple(nested), at)]
+                nested.insert(0, (DO, self.expression(test, depth), at))
+            return nested if kind == "do_statement" else [(LOOP, tuple(terms), None, tuple(nested), at)]
         if kind == "for_range_loop":
-            over, body = fields(node, "right", "body")
-            name, _, indirect = self.declarator(node.child_by_field_name("declarator"))
-            type_node = node.child_by_field_name("type")
+            over, body, type_node, declarator = fields(node, "right", "body", "type", "declarator")
+            name, _, indirect = self.declarator(declarator)
             terms = [(DECLARE, self.type_text(type_node), name, None, indirect, False, at)] if name else []
-            return [
-                (
-                    LOOP,
-                    tuple(terms),
-                    self.expression(over, depth) if over is not None else None,
-                    tuple(self.nested_statements(body, depth)),
-                    at,
-                )
-            ]
+            elements = self.expression(over, depth) if over is not None else None
+            return [(LOOP, tuple(terms), elements, tuple(self.nested_statements(body, depth)), at)]
         if kind in CHAIN_TESTS:
             return self.preprocessor_block(node, depth)
         if kind == "switch_statement":
@@ -73,16 +60,7 @@ class Statements(Declarations):
             # Inside a function, this is the result of a macro or a misparsed lambda.
             body = node.child_by_field_name("body")
             return self.block(body, depth) if body is not None and depth < MAX_DEPTH else []
-        if kind in (
-            "compound_statement",
-            "try_statement",
-            "catch_clause",
-            "labeled_statement",
-            "else_clause",
-            "ERROR",
-            "preproc_else",
-            "init_statement",
-        ):
+        if kind in BLOCKS:
             return [(BLOCK, tuple(self.block(node, depth)), at)]
         return []
 
@@ -124,29 +102,24 @@ class Statements(Declarations):
         for child in node.named_children:
             if depth < MAX_DEPTH and child not in (test, other):
                 then += self.statement(child, depth + 1)
-        otherwise = self.nested_statements(other, depth) if other is not None else []
-        at = span(node)
-        text = "#" + (self.text_of(test).strip() if test is not None else "")
+        otherwise = self.nested_statements(other, depth)
         if negated:
             then, otherwise = otherwise, then
-        return [(SOME, text, tuple(then), tuple(otherwise), at)]
+        return [(SOME, "#" + self.text_of(test).strip(), tuple(then), tuple(otherwise), span(node))]
 
     def switch_cases(self, node: SyntaxNode, depth: int) -> list[Term]:
         """Returns a switch as one `if` for each case."""
         test, body = fields(node, "condition", "body")
-        value = self.expression(test, depth) if test is not None else (UNPARSED, "", Span(0, 0))
+        value = self.expression(test, depth)
         terms: list[Term] = []
         for child in body.named_children if body is not None and depth < MAX_DEPTH else ():
             if child.type != "case_statement":
                 continue
             at = span(child)
             value_node = child.child_by_field_name("value")
-            condition: Term = (
-                (BINARY, "==", value, self.expression(value_node, depth), at) if value_node is not None else (UNPARSED, "default", at)
-            )
-            terms_inside: list[Term] = []
-            for inner in child.named_children:
-                if inner != value_node and inner.type != "break_statement":
-                    terms_inside += self.statement(inner, depth + 1)
-            terms.append((IF, condition, tuple(terms_inside), (), at))
+            condition: Term = (UNPARSED, "default", at)
+            if value_node is not None:
+                condition = (BINARY, "==", value, self.expression(value_node, depth), at)
+            inner = (item for item in child.named_children if item != value_node and item.type != "break_statement")
+            terms.append((IF, condition, tuple(term for item in inner for term in self.statement(item, depth + 1)), (), at))
         return terms

@@ -83,7 +83,7 @@ class Structures(Evaluator):
             _hpp_defaults(struct)
         if len(items) == 1 and items[0][0] is None:
             term = items[0][1]
-            value = pointee(sole_value(self.value(term, scope))) if term[0] in (NAME, FIELD) else None
+            value = self.target(term, scope) if term[0] in (NAME, FIELD) else None
             if isinstance(value, Struct) and (not value.kind or first_version(value.kind) == first_version(struct.kind)):
                 return (Alternative(copy_value(value), place),)
             if term[:2] == (LITERAL, 0):
@@ -213,10 +213,10 @@ class Structures(Evaluator):
     def sized_list(self, kind: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value:
         """Returns `std::vector<T> list(3)` or `list(3, value)`."""
         array = Array(kind, place)
-        count = sole_value(self.value(arguments[0], scope)) if arguments else 0
+        count = self.sole(arguments[0], scope) if arguments else 0
         if type(count) is not int or not 0 <= count <= 64 or len(arguments) > 2:
             value = pointee(count)
-            if isinstance(value, Array) and all(value is pointee(sole_value(self.value(a, scope))) for a in arguments[1:]):
+            if isinstance(value, Array) and all(value is self.target(a, scope) for a in arguments[1:]):
                 return (Alternative(copy_value(value), place),)
             array.complete = False
             return (Alternative(array, place),)
@@ -244,7 +244,7 @@ class Structures(Evaluator):
     def has_kind(self, term: Term, kind: str, scope: Scope) -> bool:
         if term[0] == BRACES:
             return True
-        value = pointee(sole_value(self.value(term, scope)))
+        value = self.target(term, scope)
         return isinstance(value, Struct) and first_version(value.kind) == first_version(vulkan_struct(kind))
 
     def count_value(self, value: Any, place: Span) -> Value:
@@ -253,8 +253,8 @@ class Structures(Evaluator):
 
     def zero_memory(self, arguments: Sequence[Term], scope: Scope) -> Value:
         """Executes `memset(&x, 0, sizeof x)`."""
-        if sole_value(self.value(arguments[1], scope)) == 0:
-            value = pointee(sole_value(self.value(arguments[0], scope)))
+        if self.sole(arguments[1], scope) == 0:
+            value = self.target(arguments[0], scope)
             target = arguments[0]
             if isinstance(value, Array) and target[0] == ADDRESS and target[1][0] == INDEX:
                 size = arguments[2][1] if arguments[2][0] == UNPARSED else ""

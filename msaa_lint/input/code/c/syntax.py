@@ -59,10 +59,7 @@ class _Reader(Statements):
     def unit(self, root: SyntaxNode) -> Unit:
         self.read_declarations(root)
         functions = [self.function(node, namespace, class_name) for namespace, class_name, node in self.relevant_functions()]
-        members = {name: tuple(terms) for name, terms in self.members.items()}
-        return Unit(
-            tuple(f for f in functions if f is not None), members, tuple(self.outside), self.prototypes, frozenset(self.called_names)
-        )
+        return Unit([f for f in functions if f is not None], self.members, self.outside, self.prototypes, self.called_names)
 
     def read_declarations(self, root: SyntaxNode) -> None:
         """Reads everything that can contain functions: namespaces, classes, and preprocessor blocks."""
@@ -101,12 +98,10 @@ class _Reader(Statements):
                 self.note_prototype(node)
             elif kind == "preproc_def":
                 parent = node.parent
-                name_node = parent.child_by_field_name("name") if parent is not None and parent.type == "preproc_ifdef" else None
-                macro = node.child_by_field_name("name")
-                if name_node is not None and macro is not None and self.text_of(name_node) == self.text_of(macro):
-                    # The build may define another value.
-                    continue
-                self.outside += self.macro_constant(node)
+                tested = parent.child_by_field_name("name") if parent is not None and parent.type == "preproc_ifdef" else None
+                # In `#ifndef N`, `#define N 4`, the build may define another value.
+                if tested is None or self.text_of(tested) != self.text_of(node.child_by_field_name("name")):
+                    self.outside += self.macro_constant(node)
             elif kind == "type_definition":
                 self.queue_class(node, stack, namespace, class_name, depth)
                 self.typedef(node)
@@ -187,21 +182,18 @@ class _Reader(Statements):
         kind = self.type_text(node.child_by_field_name("type"))
         if kind in ("auto", ""):
             trailing = next((c for c in declarator.named_children if c.type == "trailing_return_type"), None)
-            kind = self.type_text(trailing).removeprefix("->") if trailing is not None else kind
-        list_node = declarator.child_by_field_name("parameters")
+            kind = self.type_text(trailing).removeprefix("->") or kind
         owner = class_name or (namespace + qualifier if qualifier else "")
         self.current = short
         statements = tuple(self.initializer(node)) + tuple(self.block(body, 0))
-        at = span(name)
-        parameters = self.parameters(list_node)
+        parameters = self.parameters(declarator.child_by_field_name("parameters"))
         declared = self.prototypes.get(short, ())
         if len(declared) == len(parameters):
             parameters = tuple(
                 item._replace(default=item.default or entry.default) for item, entry in zip(parameters, declared, strict=True)
             )
-        head = self.text[node.start_byte : body.start_byte]
-        overridden = VIRTUAL.search(head) is not None or short in self.virtual
-        return Function(short, owner, kind, parameters, statements, at, namespace, overridden)
+        overridden = VIRTUAL.search(self.text, node.start_byte, body.start_byte) is not None or short in self.virtual
+        return Function(short, owner, kind, parameters, statements, span(name), namespace, overridden)
 
     def initializer(self, node: SyntaxNode) -> Iterator[Term]:
         """Yields the assignments of a constructor's initializer list."""

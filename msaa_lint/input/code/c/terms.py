@@ -27,6 +27,7 @@ Statements:
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence, Set
 from typing import Any, NamedTuple
 
 from msaa_lint.core.text.span import Span
@@ -67,11 +68,11 @@ class Unit(NamedTuple):
     """The contents of a file: its functions in order, the members of each class, global declarations, the parameters of declared
     functions by name, and the names of functions that others call."""
 
-    functions: tuple[Function, ...]
-    members: dict[str, tuple[Term, ...]]
-    outside: tuple[Term, ...]
-    prototypes: dict[str, tuple[Parameter, ...]]
-    called: frozenset[str]
+    functions: Sequence[Function]
+    members: Mapping[str, Sequence[Term]]
+    outside: Sequence[Term]
+    prototypes: Mapping[str, tuple[Parameter, ...]]
+    called: Set[str]
 
 
 def at(term: Term) -> Span:

@@ -67,6 +67,14 @@ class Variables(ABC):
     def value(self, term: Term, scope: Scope, kind: str = "") -> Value:
         """Returns the possible values of an expression. `kind` is the target type, which braces need."""
 
+    def sole(self, term: Term, scope: Scope) -> Any:
+        """Returns the value of an expression if there is only one, otherwise UNKNOWN."""
+        return sole_value(self.value(term, scope))
+
+    def target(self, term: Term, scope: Scope) -> Any:
+        """Returns the sole value of an expression; for a pointer, that of its target."""
+        return pointee(self.sole(term, scope))
+
     @abstractmethod
     def call(self, term: Term, scope: Scope) -> Value:
         """Returns the value of a call."""
@@ -99,7 +107,7 @@ class Variables(ABC):
         if kind == INDEX:
             return self.indexed(term, scope)
         if kind == TARGET:
-            value = sole_value(self.value(term[1], scope))
+            value = self.sole(term[1], scope)
             array = pointee(value)
             if isinstance(array, Array) and array.items:
                 return array.items[0]
@@ -209,7 +217,7 @@ class Variables(ABC):
             return self.member_cell(self.member_key(name, scope))
         cell = self.cell_of(operand, scope)
         if cell is None:
-            value = pointee(sole_value(self.value(operand, scope)))
+            value = self.target(operand, scope)
             return value.cell(name) if isinstance(value, Struct) else None
         value = pointee(sole_value(cell.read(scope.guards)))
         if isinstance(value, Array) and value.items:
@@ -253,7 +261,7 @@ class Variables(ABC):
 
     def indexed(self, term: Term, scope: Scope) -> Cell | None:
         cell = self.cell_of(term[1], scope)
-        index = sole_value(self.value(term[2], scope))
+        index = self.sole(term[2], scope)
         if cell is None:
             return None
         value = pointee(sole_value(cell.read(scope.guards)))
@@ -275,7 +283,7 @@ class Variables(ABC):
         size = array_size(kind)
         if not size:
             return
-        count = int(size) if size.isdecimal() else sole_value(self.value((NAME, size, array.at), scope))
+        count = int(size) if size.isdecimal() else self.sole((NAME, size, array.at), scope)
         if type(count) is not int or not 0 <= count <= 64:
             array.complete = False
             return

@@ -158,13 +158,9 @@ class Uses:
             if around is None or field is None or assignment is None or assignment.type != "assignment_expression":
                 continue
             left, right = fields(assignment, "left", "right")
-            inside = around.start_byte <= use.start_byte < around.end_byte
-            if (
-                inside
-                and left == field
-                and right is not None
-                and self.expressions.text_of(field.child_by_field_name("argument")) == structure
-            ):
+            if left != field or right is None or not around.start_byte <= use.start_byte < around.end_byte:
+                continue
+            if self.expressions.text_of(field.child_by_field_name("argument")) == structure:
                 values.append(right)
         return values
 
