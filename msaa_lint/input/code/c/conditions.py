@@ -138,16 +138,13 @@ class ConditionEvaluator(Variables):
             holds = [a for a in every if COMPARISONS[sign](a.value, right)]
             if not holds or len(holds) == len(every):
                 return bool(holds)
-            if len(holds) == 1 and holds[0].guards - scope.guards:
-                return holds[0].guards - scope.guards
+            if len(holds) == 1 and (guards := holds[0].guards - scope.guards):
+                return guards
             fails = [a for a in every if a not in holds]
-            if len(fails) == 1 and fails[0].guards - scope.guards:
-                return negated(fails[0].guards - scope.guards)
-        if (
-            isinstance(left, (int, float, str))
-            and isinstance(right, type(left))
-            and (isinstance(left, str) is False or sign in ("==", "!="))
-        ):
+            if len(fails) == 1 and (guards := fails[0].guards - scope.guards):
+                return negated(guards)
+        comparable = (int, float, str) if sign in ("==", "!=") else (int, float)
+        if isinstance(left, comparable) and isinstance(right, type(left)):
             return bool(COMPARISONS[sign](left, right))
         if isinstance(left, (int, bool)) and not isinstance(right, int):
             left, right, sign = right, left, {"<": ">", ">": "<", "<=": ">=", ">=": "<="}.get(sign, sign)

@@ -18,7 +18,7 @@ from .escapes import forget, forget_captures, mark_escaped, mark_used, settled_u
 from .lists import ListMethods
 from .names import first_version, vulkan_struct
 from .scope import Scope, name_objects
-from .terms import ADDRESS, CALL, FIELD, INDEX, NAME, Function, Term
+from .terms import ADDRESS, CALL, FIELD, INDEX, NAME, Function, Parameter, Term
 from .values import (
     UNKNOWN,
     UNKNOWN_VALUE,
@@ -119,9 +119,9 @@ class ObjectCreation(ListMethods):
                 if isinstance(content, Struct):
                     # Functions that only query Vulkan fill the structure.
                     is_input = name.startswith(("vk", "vma")) and not name.startswith(("vkGet", "vkEnumerate"))
-                    if not is_input and not self.takes_const(name, argument, term):
-                        content.zeroed = False
-                        content.fields.clear()
+                    parameter = self.declared_parameter(name, argument, term)
+                    if not is_input and (parameter is None or not parameter.fixed):
+                        forget(content)
                 elif cell is not None and not isinstance(content, (Array, VulkanObject)):
                     # The function assigns an unknown value.
                     cell.write((Alternative(UNKNOWN, place),), place, scope.guards)
@@ -138,29 +138,22 @@ class ObjectCreation(ListMethods):
             return helper_value
         return (Alternative(Symbol(canonical_text(term), name, bool(COUNTS.search(name))), place),)
 
-    def takes_const(self, name: str, argument: Term, term: Term) -> bool:
-        """Returns whether a function is declared to take a pointer to const."""
+    def declared_parameter(self, name: str, argument: Term, term: Term) -> Parameter | None:
+        """Returns the parameter that an argument is passed to, if the file declares the function."""
         parameters = self.unit.prototypes.get(name, ())
         position = term[2].index(argument)
-        return bool(position < len(parameters) and parameters[position].fixed)
+        return parameters[position] if position < len(parameters) else None
 
     def escape_argument(self, name: str, argument: Term, term: Term, scope: Scope) -> None:
         """Handles a list or a structure that is passed to an external function, which may change it through a reference."""
-        for alternative_value in [item.value for item in self.value(argument, scope)]:
-            if isinstance(alternative_value, Closure):
-                forget_captures(alternative_value)
-                continue
-            value = pointee(alternative_value)
-            if not isinstance(value, (Array, Struct)) or self.takes_const(name, argument, term):
-                continue
-            parameters = self.unit.prototypes.get(name, ())
-            position = term[2].index(argument)
-            if isinstance(alternative_value, Struct) and name not in _MOVES:
-                # In C++, any argument may be passed by reference; a macro may do anything.
-                by_reference = parameters[position].by_reference if position < len(parameters) else self.is_cpp or name.isupper()
-                if not by_reference:
-                    continue
-            forget(value)
+        parameter = self.declared_parameter(name, argument, term)
+        # In C++, any argument may be passed by reference; a macro may do anything.
+        by_reference = parameter.by_reference if parameter is not None else self.is_cpp or name.isupper()
+        for value in [item.value for item in self.value(argument, scope)]:
+            if isinstance(value, Closure):
+                forget_captures(value)
+            elif (parameter is None or not parameter.fixed) and (by_reference or name in _MOVES or not isinstance(value, Struct)):
+                forget(pointee(value))
 
     def initializer(self, term: Term, name: str, values: Sequence[Value], place: Span) -> Value | None:
         """Returns the structure made by a helper of Sascha Willems's examples, which many samples use: named after it, zeroed except for
@@ -248,9 +241,7 @@ class ObjectCreation(ListMethods):
             info = next((v for v in (pointee(sole_value(value)) for value in values) if isinstance(v, Struct)), None)
             if info is not None:
                 self.resolves[place] = (info.cell("srcImage").writes, info.cell("dstImage").writes)
-            return
-        ends = values[1:] if name.startswith("vk") else values
-        if len(ends) >= 3:
+        elif len(ends := values[1:] if name.startswith("vk") else values) >= 3:
             self.resolves[place] = (ends[0], ends[2])
 
     def create_unused(self, scope: Scope) -> None:

@@ -172,12 +172,8 @@ class Evaluator(ConditionEvaluator):
 
     def next(self, cell: Cell, before: Ref, sign: str, place: Span, scope: Scope) -> Value:
         """Increments a pointer to an element of a list."""
-        array = pointee(before)
-        after: Any = UNKNOWN
-        if isinstance(array, Array) and len(array.items) > 1:
-            rest = Array(array.kind, array.at, array.complete)
-            rest.items = array.items[1:]
-            after = Ref(Cell(writes=(Alternative(rest, place),)))
+        rest = self.offset_pointer((Alternative(before, place),), (Alternative(1, place),), place)
+        after = Ref(Cell(writes=rest)) if rest is not None else UNKNOWN
         cell.write((Alternative(after, place),), place, scope.guards)
         return (Alternative(before if sign.startswith("post") else after, place),)
 

@@ -16,7 +16,6 @@ MEMBERS: dict[str, tuple[str, ...]] = {
         "flags", "format", "samples", "loadOp", "storeOp", "stencilLoadOp", "stencilStoreOp", "initialLayout", "finalLayout",
     ),
     "AttachmentReference": ("attachment", "layout"),
-    "AttachmentReference2": ("attachment", "layout", "aspectMask"),
     "SubpassDescription": (
         "flags", "pipelineBindPoint", "inputAttachmentCount", "pInputAttachments", "colorAttachmentCount", "pColorAttachments",
         "pResolveAttachments", "pDepthStencilAttachment", "preserveAttachmentCount", "pPreserveAttachments",
@@ -29,15 +28,8 @@ MEMBERS: dict[str, tuple[str, ...]] = {
     "SubpassDependency": (
         "srcSubpass", "dstSubpass", "srcStageMask", "dstStageMask", "srcAccessMask", "dstAccessMask", "dependencyFlags",
     ),
-    "SubpassDependency2": (
-        "srcSubpass", "dstSubpass", "srcStageMask", "dstStageMask", "srcAccessMask", "dstAccessMask", "dependencyFlags", "viewOffset",
-    ),
     "RenderPassCreateInfo": (
         "flags", "attachmentCount", "pAttachments", "subpassCount", "pSubpasses", "dependencyCount", "pDependencies",
-    ),
-    "RenderPassCreateInfo2": (
-        "flags", "attachmentCount", "pAttachments", "subpassCount", "pSubpasses", "dependencyCount", "pDependencies",
-        "correlatedViewMaskCount", "pCorrelatedViewMasks",
     ),
     "FramebufferCreateInfo": ("flags", "renderPass", "attachmentCount", "pAttachments", "width", "height", "layers"),
     "ImageCreateInfo": (
@@ -105,6 +97,9 @@ VERSIONED = {
 """The first version of each second-version structure; rules treat them alike."""
 
 MEMBERS["AttachmentDescription2"] = MEMBERS["AttachmentDescription"]
+MEMBERS["AttachmentReference2"] = (*MEMBERS["AttachmentReference"], "aspectMask")
+MEMBERS["SubpassDependency2"] = (*MEMBERS["SubpassDependency"], "viewOffset")
+MEMBERS["RenderPassCreateInfo2"] = (*MEMBERS["RenderPassCreateInfo"], "correlatedViewMaskCount", "pCorrelatedViewMasks")
 
 _SCALAR = re.compile(r"(?:FlagBits2?|Flags2?|Format|Layout|Op|Mode|Bool32|Tiling|Type|DeviceSize)(?:KHR|EXT)?$")
 _SUFFIX = re.compile(r"(?:KHR|EXT)$")

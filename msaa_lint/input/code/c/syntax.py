@@ -104,7 +104,7 @@ class _Reader(Statements):
                     self.outside += self.macro_constant(node)
             elif kind == "type_definition":
                 self.queue_class(node, stack, namespace, class_name, depth)
-                self.typedef(node)
+                self.alias(node)
             elif kind in ("namespace_alias_definition", "alias_declaration"):
                 self.alias(node)
             elif kind == "enum_specifier":
@@ -150,19 +150,14 @@ class _Reader(Statements):
                 self.virtual.add(self.text_of(name))
 
     def alias(self, node: SyntaxNode) -> None:
-        name = node.child_by_field_name("name")
+        """Records a namespace alias, a `using`, or a `typedef` of one type name."""
+        name = node.child_by_field_name("name") or node.child_by_field_name("declarator")
         stands = node.child_by_field_name("type") or (node.named_children[-1] if node.named_child_count > 1 else None)
-        if name is not None and stands is not None and stands.end_byte - stands.start_byte < 100 and len(self.aliases) < 200:
-            text = self.type_text(stands)
-            if text.startswith(("vk", "Vk", "VULKAN")):
-                self.aliases[self.text_of(name)] = text
-
-    def typedef(self, node: SyntaxNode) -> None:
-        stands, name = fields(node, "type", "declarator")
-        if stands is not None and name is not None and name.type == "type_identifier" and stands.type == "type_identifier":
-            text = self.text_of(stands)
-            if text.startswith(("vk", "Vk")) and len(self.aliases) < 200:
-                self.aliases[self.text_of(name)] = text
+        if name is None or stands is None or stands.end_byte - stands.start_byte >= 100 or len(self.aliases) >= 200:
+            return
+        text = self.type_text(stands)
+        if text.startswith(("vk", "Vk", "VULKAN")) and (node.type != "type_definition" or name.type == stands.type == "type_identifier"):
+            self.aliases[self.text_of(name)] = text
 
     def note_prototype(self, node: SyntaxNode) -> None:
         declarator, name = function_declarator(node)

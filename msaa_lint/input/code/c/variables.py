@@ -227,18 +227,15 @@ class Variables(ABC):
             return value.cell(name)
         if cell.kind == MEMBER:
             return self.member_cell(f"{self.pointed_class(cell.name) or cell.name + '.'}{name}")
-        if not cell.writes:
-            if cell.key or cell.kind.endswith("*"):
-                if vulkan_struct(cell.kind):
-                    struct = Struct(vulkan_struct(cell.kind), Span(0, 0), False, cell.name)
-                    cell.writes = (Alternative(struct, struct.at),)
-                    return struct.cell(name)
-                kind = cell.kind.rstrip("*&")
-                return self.member_cell(f"{self.class_of(kind, scope.namespace) or kind}::{name}")
-            struct = Struct(vulkan_struct(cell.kind), at(operand), False, cell.name)
-            cell.writes = (Alternative(struct, struct.at),)
-            return struct.cell(name)
-        return None
+        if cell.writes:
+            return None
+        elsewhere = bool(cell.key) or cell.kind.endswith("*")
+        if elsewhere and not vulkan_struct(cell.kind):
+            kind = cell.kind.rstrip("*&")
+            return self.member_cell(f"{self.class_of(kind, scope.namespace) or kind}::{name}")
+        struct = Struct(vulkan_struct(cell.kind), Span(0, 0) if elsewhere else at(operand), False, cell.name)
+        cell.writes = (Alternative(struct, struct.at),)
+        return struct.cell(name)
 
     def class_of(self, kind: str, namespace: str) -> str | None:
         """Returns the class in the file that a type refers to, or None."""

@@ -52,7 +52,8 @@ def choices(root: SyntaxNode, code: Code) -> list[tuple[str, Span, Node]]:
     uses = Uses(root, reading.expressions) if reading.choices else None
     entries = [(item.name, item.at, _entry(item, uses)) for item in reading.choices if uses is not None]
     covered = {item.mask.at for item in reading.choices}
-    entries += [(name, mask.at, _alone(mask)) for at, (name, mask) in reading.combined.items() if at not in covered]
+    # From these masks, no count is selected.
+    entries += [(name, mask.at, mapping(_of_mask(mask), mask.at)) for at, (name, mask) in reading.combined.items() if at not in covered]
     return _named(entries)
 
 
@@ -100,11 +101,6 @@ def _of_mask(mask: Mask) -> Iterator[tuple[str, Span, Node]]:
         at = mask.limits[0][1] if mask.limits else mask.at
         yield "limits", at, sequence([scalar(name, span) for name, span in mask.limits], at)
         yield "combined", mask.at, scalar(mask.combined, mask.at)
-
-
-def _alone(mask: Mask) -> Node:
-    """Returns the entry of combined masks from which no count is selected."""
-    return mapping(list(_of_mask(mask)), mask.at)
 
 
 def _named(entries: list[tuple[str, Span, Node]]) -> list[tuple[str, Span, Node]]:

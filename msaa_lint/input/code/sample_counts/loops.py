@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.parsing import SyntaxNode, fields, span, without_comments
 
+from .arithmetic import arithmetic
 from .masks import Bindings, Expressions, Mask, Order, Value
 
 MAX_ROUNDS = 16
@@ -53,13 +54,12 @@ def halving_loop(node: SyntaxNode, expressions: Expressions, bindings: Bindings)
         if not isinstance(value, int):
             return None
         inner = {**bindings, name: value}
-        tests_bit = False
+        count = len(tests)
         for part in _conjuncts(condition):
             negated = _negated(part, expressions)
             mask = expressions.value(negated, inner)
             if isinstance(mask, Mask) and mask.bit is not None and negated is not None:
                 tests.append((mask, value, span(negated)))
-                tests_bit = True
                 continue
             holds = expressions.value(part, inner)
             if holds == 0:
@@ -67,10 +67,8 @@ def halving_loop(node: SyntaxNode, expressions: Expressions, bindings: Bindings)
             if not isinstance(holds, int):
                 return None
         step = _loop_step(update, expressions, inner)
-        if not tests_bit or step is None or step[0] != name:
+        if len(tests) == count or step is None or step[0] != name or step[1] < 1:
             break
-        if step[1] < 1:
-            return name, tests
         value = step[1]
     return (name, tests) if tests else None
 
@@ -101,8 +99,7 @@ def _loop_step(node: SyntaxNode, expressions: Expressions, bindings: Bindings) -
     """Returns the variable that a step changes, and its new value."""
     name = expressions.name(_target(node))
     value = bindings.get(name)
-    sign = node.child_by_field_name("operator")
-    operator = expressions.text_of(sign)
+    operator = expressions.text_of(node.child_by_field_name("operator"))
     if not isinstance(value, int):
         return None
     if node.type == "update_expression":
@@ -112,9 +109,7 @@ def _loop_step(node: SyntaxNode, expressions: Expressions, bindings: Bindings) -
         return None
     if operator == "=":
         return name, step
-    after = {">>=": value >> min(step, 32) if step >= 0 else None, "/=": value // step if step else None, "-=": value - step}
-    after |= {"<<=": value << min(step, 32) if step >= 0 else None, "*=": value * step, "+=": value + step}
-    number = after.get(operator)
+    number = arithmetic(operator.removesuffix("="), value, step)
     return (name, number) if number is not None and number < 1 << 16 else None
 
 

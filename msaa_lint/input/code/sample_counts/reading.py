@@ -160,9 +160,7 @@ class ChoiceReader:
             mask, count = self.expressions.value(test, bindings), self.expressions.value(then, bindings)
             if test is None or not isinstance(mask, Mask) or mask.bit is None or not isinstance(count, int) or count not in COUNTS:
                 break
-            tests.append(
-                Test(mask, mask.bit, count, span(test), 0, True, _SPELLED.search(self.expressions.text_of(node)[:4000]) is not None)
-            )
+            tests.append(Test(mask, mask.bit, count, span(test), 0, True, self.spells_count(node)))
             node = node.child_by_field_name("alternative")
         if tests and (node is None or node.type != "conditional_expression"):
             chain = chains.setdefault(target, Chain())
@@ -216,8 +214,11 @@ class ChoiceReader:
                 return self.expressions.name(inner.child_by_field_name("left")), value
         return None
 
-    def read_tests(self, node: SyntaxNode, bindings: Bindings, chains: dict[str, Chain]) -> bool:
-        """Reads the tests of an `if`. Returns whether it selects a count."""
+    def spells_count(self, node: SyntaxNode) -> bool:
+        return _SPELLED.search(self.expressions.text_of(node)[:4000]) is not None
+
+    def read_tests(self, node: SyntaxNode, bindings: Bindings, chains: dict[str, Chain], spelled: bool | None = None) -> bool:
+        """Reads the tests of an `if`. Returns whether it selects a count. `spelled` is whether a loop around it names a count."""
         gave = False
         touched: set[str] = set()
         for condition, then in links(node):
@@ -237,9 +238,10 @@ class ChoiceReader:
                     chain.groups += 1
                 touched.add(target)
                 leaves = target == RETURN or any(c.type in ("break_statement", "return_statement") for c in statements(then))
-                spelled = _SPELLED.search(self.expressions.text_of(then)[:4000]) is not None
                 at = span(unwrapped(condition) or condition)
-                chain.tests.append(Test(mask, mask.bit, count, at, chain.groups, leaves, spelled))
+                chain.tests.append(
+                    Test(mask, mask.bit, count, at, chain.groups, leaves, self.spells_count(then) if spelled is None else spelled)
+                )
             elif count > 1:
                 chain.pure = False
         return gave
@@ -255,22 +257,18 @@ class ChoiceReader:
             chain.tests += [Test(mask, mask.bit or 1, count, at, chain.groups, True, True) for mask, count, at in tests]
             return True
         body = node.child_by_field_name("body")
-        spelled = _SPELLED.search(self.expressions.text_of(node)[:4000]) is not None
+        spelled = self.spells_count(node)
         for inner in loop_iterations(node, self.expressions, bindings):
             for child in statements(body) if body is not None else ():
-                before = {name: len(chain.tests) for name, chain in chains.items()}
-                is_loop |= child.type == "if_statement" and self.read_tests(child, inner, chains)
-                for name, chain in chains.items():
-                    new = chain.tests[before.get(name, 0) :]
-                    chain.tests[before.get(name, 0) :] = [test._replace(spelled=spelled) for test in new]
+                is_loop |= child.type == "if_statement" and self.read_tests(child, inner, chains, spelled)
         return is_loop
 
     def finish(self, target: str, chain: Chain, owner: Owner) -> None:
         """Adds the choice of a chain at the end of its block."""
         tests = chain.ordered()
-        if not tests or not (tests[0].mask.known or all(test.spelled for test in tests)):
+        mask = tests[0].mask if tests else None
+        if mask is None or not (mask.known or all(test.spelled for test in tests)):
             return
-        mask = tests[0].mask
         if len({(tuple(name for name, _ in test.mask.limits), test.mask.combined) for test in tests}) > 1:
             # The variable was assigned another mask in between.
             return
