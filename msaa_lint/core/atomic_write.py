@@ -8,20 +8,12 @@ from __future__ import annotations
 import os
 import stat
 from contextlib import suppress
-from typing import NamedTuple
 
 _NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
 
 
 class NotWritten(Exception):
     """Why a file was left unchanged."""
-
-
-class _Stamp(NamedTuple):
-    device: int
-    inode: int
-    size: int
-    modified: int
 
 
 def write_file(path: str, data: bytes) -> None:
@@ -48,7 +40,7 @@ def replace(path: str, before: bytes, after: bytes) -> None:
     temporary = ""
     try:
         target = os.path.realpath(path)
-        status, stamp = _check_unchanged(target, before)
+        status = _check_unchanged(target, before)
         if not status.st_mode & (stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH) or not os.access(target, os.W_OK):
             raise NotWritten("the file is read-only")
         temporary = _temporary(target)
@@ -59,7 +51,7 @@ def replace(path: str, before: bytes, after: bytes) -> None:
             os.fsync(descriptor)
         finally:
             os.close(descriptor)
-        if _check_unchanged(target, before)[1] != stamp:
+        if _identity(_check_unchanged(target, before)) != _identity(status):
             raise NotWritten("the file changed since it was read")
         os.replace(temporary, target)
         _sync_folder(os.path.dirname(target))
@@ -74,14 +66,18 @@ def _temporary(path: str) -> str:
     return os.path.join(os.path.dirname(path), f".msaa-lint-{os.getpid()}-{os.urandom(6).hex()}.tmp")
 
 
-def _check_unchanged(target: str, before: bytes) -> tuple[os.stat_result, _Stamp]:
+def _check_unchanged(target: str, before: bytes) -> os.stat_result:
     with open(target, "rb") as file:
         status = os.fstat(file.fileno())
         if not stat.S_ISREG(status.st_mode):
             raise NotWritten("it is not a regular file")
         if status.st_size != len(before) or file.read(len(before) + 1) != before:
             raise NotWritten("the file changed since it was read")
-    return status, _Stamp(status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns)
+    return status
+
+
+def _identity(status: os.stat_result) -> tuple[int, ...]:
+    return status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns
 
 
 def _write_all(descriptor: int, data: bytes) -> None:

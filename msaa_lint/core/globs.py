@@ -11,6 +11,7 @@ import os
 import re
 from collections.abc import Sequence
 from functools import lru_cache
+from itertools import groupby
 from typing import NamedTuple
 
 MAX_LENGTH = 256
@@ -56,13 +57,9 @@ def compiled(pattern: str) -> Compiled:
         parts.insert(0, "**")
     # Each run of names between two `**` matches at the first position where it fits. A later position cannot do better, so the group is
     # atomic and never backtracks, which keeps the time linear.
-    runs: list[list[str]] = [[]]
-    for part in parts:
-        if part == "**":
-            runs.append([])
-        else:
-            runs[-1].append(_name(part))
-    runs = [runs[0], *(run for run in runs[1:] if run)]
+    runs = [[_name(part) for part in run] for is_any, run in groupby(parts, key="**".__eq__) if not is_any]
+    if parts[0] == "**":
+        runs.insert(0, [])
     out = "".join(name + "/" for name in runs[0]) if len(runs) > 1 else "/".join(runs[0])
     for run in runs[1:-1]:
         out += "(?>(?:[^/]+/)*?" + "".join(name + "/" for name in run) + ")"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from itertools import islice
 
 MAX_LENGTH = 128
@@ -65,6 +65,12 @@ def did_you_mean(name: str, candidates: Iterable[str], separator: str = "; ") ->
 def question(candidate: str | None, separator: str = "; ") -> str:
     """The end of a message that suggests a name; nothing for None."""
     return f"{separator}did you mean `{candidate}`?" if candidate is not None else ""
+
+
+def near_or_all(name: str, words: Sequence[str]) -> str:
+    """What to write for an unknown word: the one that was most likely meant, or else all words."""
+    close = nearest(name, words)
+    return f"did you mean `{close}`?" if close else f"expected one of {', '.join(words)}"
 
 
 class Suggestions:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import NamedTuple
 
 from msaa_lint.core.finding import Result
@@ -67,7 +68,13 @@ def _valid_documents(result: FileResult) -> list[DocumentResult]:
 
 def _with_fixes(result: FileResult, document: DocumentResult, terms: Terms) -> FrameCost | None:
     """The cost of a document's frame with all fixes of its findings, including those that are never applied; None if there are none."""
+    from .fixes.changes import NoFix
     from .fixes.document_fixes import DocumentFixes
-    from .prices import cost_with_fixes
+    from .prices import Prices, merge_changes
 
-    return cost_with_fixes(DocumentFixes(document, editable=not result.is_code), result.findings, terms)
+    fixes = DocumentFixes(document, editable=not result.is_code)
+    plans = []
+    for finding in filter(fixes.covers, result.findings):
+        with suppress(NoFix):
+            plans.append(fixes.changes(finding))
+    return Prices(fixes, terms).cost_with(merge_changes(plans), None) if plans else None

@@ -16,7 +16,7 @@ from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.profiles import Problem, device_for
 
 from .results import CombinedPrice, DocumentResult, FileResult, Severity, location_order
-from .rules.registry import Registry, load
+from .rules.registry import Registry, info, load
 from .rules.rule_file import Rule
 from .rules.rule_runner import RuleRunner, Verdicts, distinct
 
@@ -211,8 +211,6 @@ def load_rules(paths: Sequence[str] = ()) -> Registry:
 
 def rule_infos(registry: Registry, severity: Severity, full: bool) -> list[RuleInfo]:
     """The enabled rules by code, as reports describe them; `full` includes their pages."""
-    from .rules.registry import info
-
     severities = [(rule, severity(rule, rule.severity, None)) for rule in registry.rules]
     return [info(rule, level, full) for rule, level in severities if level is not None]
 

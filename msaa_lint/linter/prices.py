@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.finding import Finding, Price
@@ -12,7 +12,6 @@ from msaa_lint.frame.cost.power import ASSUMED_FPS
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import BeginRenderPass, Command, Description, RenderPass
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.facts.commands import named_images
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.parts import Pass
@@ -21,9 +20,6 @@ from .fixes.changes import Change, NoFix, StructuralChange, apply_temporarily
 from .fixes.document_fixes import DocumentFixes
 from .results import CombinedPrice
 from .rules.rule_runner import Key, finding_key
-
-Reread = Callable[[Sequence[Change]], Document | None]
-"""Makes changes in a document's text and reads it again; None if the changes cannot be written."""
 
 MAX_TRIALS = 16
 """How many structural fixes are tried one by one if they cannot all be made together."""
@@ -42,12 +38,11 @@ class Part(NamedTuple):
 class Prices:
     """The prices of one document's findings. Costs that several findings have in common are computed once."""
 
-    def __init__(self, document: Document, device: DeviceProfile | None, terms: Terms | None, reread: Reread) -> None:
-        self.document = document
-        self.device = device
+    def __init__(self, fixes: DocumentFixes, terms: Terms | None = None) -> None:
+        self.document = fixes.result.document
         self.terms = terms
-        self._reread = reread
-        self._owners = dict(_owners(Frame(document)))
+        self._fixes = fixes
+        self._owners = dict(_owners(Frame(self.document)))
         self._costs: dict[Part | None, FrameCost] = {}
         self._images: dict[Part, set[str]] = {}
 
@@ -102,7 +97,7 @@ class Prices:
             with apply_temporarily(changes):
                 return self._cost(self.document, part)
         except StructuralChange:
-            document = self._reread(changes)
+            document = self._fixes.reread(changes)
             # New passes and images belong to no part of the original frame.
             return None if document is None else self._cost(document, None)
 
@@ -112,7 +107,7 @@ class Prices:
             # An image takes its memory even if a change leaves it without a use.
             self._images.setdefault(part, images)
             document = document._replace(description=description)
-        return frame_cost(Frame(document), self.device, self.terms)
+        return frame_cost(Frame(document), self._fixes.result.device, self.terms)
 
     def _part(self, changes: Sequence[Change]) -> Part | None:
         """The part whose cost changes may alter. None, for the whole frame, if one of them concerns neither a pass nor an image."""
@@ -208,11 +203,9 @@ def _difference(before: FrameCost, after: FrameCost) -> Price | None:
     return None if not any(price) and (before.unknown or after.unknown) else price
 
 
-def price_findings(
-    documents: Sequence[DocumentFixes], findings: Sequence[Finding], terms: Terms | None = None
-) -> tuple[list[Finding], CombinedPrice]:
+def price_findings(documents: Sequence[DocumentFixes], findings: Sequence[Finding]) -> tuple[list[Finding], CombinedPrice]:
     """The findings of an input with their prices, and a function for the price of several of them together."""
-    prices = [Prices(fixes.result.document, fixes.result.device, terms, fixes.reread) for fixes in documents]
+    prices = list(map(Prices, documents))
     changes_of: dict[Key, tuple[int, tuple[Change, ...]]] = {}
     priced_findings = []
     for finding in findings:
@@ -238,16 +231,3 @@ def price_findings(
         return Price(*(sum(column) for column in zip(*sums, strict=True))) if sums else None
 
     return priced_findings, combined
-
-
-def cost_with_fixes(fixes: DocumentFixes, findings: Iterable[Finding], terms: Terms) -> FrameCost | None:
-    """The cost of a document's frame with all fixes of its findings, also those that are only shown; None if there are no fixes."""
-    plans: list[tuple[Change, ...]] = []
-    for finding in findings:
-        if fixes.covers(finding):
-            try:
-                plans.append(fixes.changes(finding))
-            except NoFix:
-                continue
-    result = fixes.result
-    return Prices(result.document, result.device, terms, fixes.reread).cost_with(merge_changes(plans), None) if plans else None

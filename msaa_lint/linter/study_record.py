@@ -6,7 +6,7 @@ validated.
 
 import math
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.quote import quoted
@@ -196,7 +196,8 @@ def _counts(node: "Node", device: str, size: tuple[int, int]) -> dict[int, Measu
         rmse, time, justified, reason = _members(value, ("rmse", "time_ms", "justified", "reason"))
         if not isinstance(justified.value, bool):
             raise Unusable("`justified` must be true or false", justified)
-        found[known[key]] = _Count(_number(rmse), None if _is_null(time) else _number(time), justified.value, _text(reason))
+        time_ms = None if time.value is None else _number(time)
+        found[known[key]] = _Count(_number(rmse), time_ms, justified.value, _text(reason))
     return {count: Measured(found[count].justified, _says(count, found, device, size)) for count in sorted(found)}
 
 
@@ -217,9 +218,8 @@ def _says(count: int, found: dict[int, _Count], device: str, size: tuple[int, in
     return f"{error} for {measured.time_ms / reference.time_ms:.2g} times its time {where}"
 
 
-def _members(node: "Node", names: Iterable[str]) -> "list[Node]":
+def _members(node: "Node", expected: tuple[str, ...]) -> "list[Node]":
     """The members of an object, which must have these names and no others."""
-    expected = tuple(names)
     if node.kind != "mapping":
         raise Unusable(f"expected an object with {', '.join(expected)}", node)
     for key in node.value:
@@ -229,10 +229,6 @@ def _members(node: "Node", names: Iterable[str]) -> "list[Node]":
     if missing:
         raise Unusable(f"missing {', '.join(missing)}", node)
     return [node.value[name] for name in expected]
-
-
-def _is_null(node: "Node") -> bool:
-    return node.kind == "scalar" and node.value is None
 
 
 def _text(node: "Node") -> str:

@@ -17,9 +17,10 @@ _BEFORE = re.compile(r"(?:[ \t\r\n]|(?<=[ \t\r\n])#[^\r\n]*|&[^\s,\[\]{}]+)*")
 _TAG = re.compile(r"!<[^>\s]*>|![^\s,\[\]{}]*")
 
 
-def has_bare_tag(node: Node, text: str) -> bool:
-    """Whether an unquoted scalar has the tag `!`, which makes it a string; parsers do not report that tag."""
-    return _tag_place(node, text) is not None
+def apply_bare_tag(node: Node, text: str) -> None:
+    """Makes an unquoted scalar with the tag `!` a string; parsers do not report that tag."""
+    if _tag_place(node, text) is not None:
+        node.value, node.plain = node.text, False
 
 
 def apply_tag(node: Node, tag: str, text: str) -> Problem | None:

@@ -124,7 +124,9 @@ class _Reading:
                     if start == tail:
                         tail = _place_empty(node, key, text)
                     elif maybe_tags and event.tag is None and text[start] in "!&":
-                        self._apply_bare_tag(node)
+                        from .tags import apply_bare_tag
+
+                        apply_bare_tag(node, text)
                 if event.tag is not None:
                     self._apply_tag(node, event.tag)
                 if event.anchor is not None:
@@ -226,12 +228,6 @@ class _Reading:
         problem = apply_tag(node, tag, self.text)
         if problem is not None:
             self._report(problem)
-
-    def _apply_bare_tag(self, node: Node) -> None:
-        from .tags import has_bare_tag
-
-        if has_bare_tag(node, self.text):
-            node.value, node.plain = node.text, False
 
 
 def _block_end(text: str, start: int, end: int, content: str) -> int:

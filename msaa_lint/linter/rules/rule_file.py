@@ -238,11 +238,9 @@ class _PageReader:
         )
 
     def unknown(self, key: Node, known: tuple[str, ...]) -> None:
-        from msaa_lint.core.suggestions import nearest
+        from msaa_lint.core.suggestions import near_or_all
 
-        close = nearest(key.text, known)
-        hint = f"did you mean `{close}`?" if close else f"expected one of {', '.join(known)}"
-        self.problem(key.span, f"unknown key {quoted(key.text)}: {hint}")
+        self.problem(key.span, f"unknown key {quoted(key.text)}: {near_or_all(key.text, known)}")
 
     def text(self, node: Node) -> str:
         if node.kind != "scalar" or node.value is None:
@@ -337,11 +335,9 @@ class _PageReader:
 
         fact = FACTS.get(key.text)
         if fact is None:
-            from msaa_lint.core.suggestions import nearest
+            from msaa_lint.core.suggestions import did_you_mean
 
-            close = nearest(key.text, FACTS)
-            hint = f": did you mean `{close}`?" if close else ""
-            self.problem(key.span, f"unknown fact {quoted(key.text)}{hint}")
+            self.problem(key.span, f"unknown fact {quoted(key.text)}{did_you_mean(key.text, FACTS, ': ')}")
         elif (fact.type == "LIST") != (action != "set"):
             self.problem(
                 key.span, f"{fact.name} is {'a list' if fact.type == 'LIST' else 'not a list'}: it cannot be changed with `{action}`"

@@ -11,6 +11,7 @@ from typing import Any
 from msaa_lint.core.finding import CONFIDENCES, SEVERITIES, Finding
 from msaa_lint.core.globs import Glob
 from msaa_lint.core.quote import quoted
+from msaa_lint.core.suggestions import near_or_all
 from msaa_lint.core.text.tree import Limits
 
 from .settings import OUTPUT_FORMATS, Origin
@@ -69,7 +70,7 @@ class TableReader:
         """Adds a finding about a key that the table at `where` does not have."""
         if len(self.findings) >= MAX_FINDINGS:
             return
-        hint = _suggestion(path[-1], known)
+        hint = near_or_all(path[-1], known)
         if path == ("tool",) and not self.origin.table:
             hint = "in this file the keys are at the top level, without [tool.msaa-lint]"
         self.findings.append(self.origin.finding(path, f"unknown key {quoted(path[-1])} in {where}: {hint}", at_key=True))
@@ -117,7 +118,7 @@ class TableReader:
             return None
         if value in words:
             return str(value)
-        self.problem(path, f"unknown value {quoted(value)}", _suggestion(value, words))
+        self.problem(path, f"unknown value {quoted(value)}", near_or_all(value, words))
         return None
 
     def selectors(self, path: Path, value: Any) -> tuple[str, ...] | None:
@@ -270,10 +271,3 @@ KEYS: dict[str, Callable[[TableReader, Path, Any], Any]] = {
     "output": TableReader.outputs,
 }
 """The method that reads each key; None from it leaves the key unset."""
-
-
-def _suggestion(word: str, words: Sequence[str]) -> str:
-    from msaa_lint.core.suggestions import nearest
-
-    close = nearest(word, words)
-    return f"did you mean `{close}`?" if close else f"expected one of {', '.join(words)}"
