@@ -15,10 +15,10 @@ from msaa_lint.frame.description.models import ShaderStage
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.profiles import Problem, device_for
 
-from .results import CombinedPrice, DocumentResult, FileResult, Severity, location_order
+from .results import CombinedPrice, DocumentResult, FileResult, location_order
 from .rules.registry import Registry, info, load
 from .rules.rule_file import Rule
-from .rules.rule_runner import RuleRunner, Verdicts, distinct
+from .rules.rule_runner import RuleRunner, Severity, Verdicts, distinct
 
 if TYPE_CHECKING:
     from msaa_lint.core.text.comments import Comment

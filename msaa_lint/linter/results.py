@@ -8,11 +8,7 @@ from msaa_lint.core.text.source import Source
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.devices import DeviceProfile
 
-from .rules.rule_file import Rule
 from .rules.rule_runner import FixSpecs
-
-Severity = Callable[[Rule, str, str | None], str | None]
-"""`severity(rule, suggested, vendor)`: the severity of a rule's finding in one file; None where the rule is off."""
 
 CombinedPrice = Callable[[Sequence[Finding]], Price | None]
 """The price of several findings of one input together; None if none of them has a price."""

@@ -342,17 +342,13 @@ class _PageReader:
             self.problem(
                 key.span, f"{fact.name} is {'a list' if fact.type == 'LIST' else 'not a list'}: it cannot be changed with `{action}`"
             )
-        elif value.kind != "scalar" or not (_names_fact(value) or _is_of(value.value, fact.type)):
+        elif value.kind != "scalar" or not (_names_fact(value) or type(value.value) in _TYPES.get(fact.type, ())):
             self.problem(value.span, f"expected a value of {fact.name} ({fact.type}), found {_kind(value)}")
         return Setting(key.text, value.value if value.kind == "scalar" else "", value.span)
 
 
 _TYPES = {"BOOL": (bool,), "INT": (int,), "DOUBLE": (int, float), "STRING": (str,), "LIST": (str,)}
-
-
-def _is_of(value: object, type_name: str) -> bool:
-    """Whether a value has a fact's type, or that of its elements."""
-    return type(value) in _TYPES.get(type_name, ())
+"""The types of a fact's value, or of its elements."""
 
 
 def _names_fact(node: Node) -> bool:

@@ -25,6 +25,9 @@ FixSpecs = dict[Key, list[tuple[FixSpec, Subject]]]
 
 Rules = list[tuple[Rule, Condition]]
 
+Severity = Callable[[Rule, str, str | None], str | None]
+"""`severity(rule, suggested, vendor)`: the severity of a rule's finding in one file; None where the rule is off."""
+
 RuleResult = tuple[Rule, "bool | ArithmeticError | None", tuple[str, ...]]
 """A rule, the value of its condition, and the facts that were missing if that is None."""
 
@@ -59,17 +62,8 @@ class RuleRunner:
         self._enabled: dict[str, dict[str, Rules]] = {}
         """The rules that the last `severity` enables, by API, then by kind of subject."""
 
-    def run(
-        self,
-        subjects: Iterable[Subject],
-        file: str,
-        severity: Callable[[Rule, str, str | None], str | None],
-        api: str = "VULKAN",
-    ) -> Verdicts:
-        """The findings and undecided rules for the subjects of a document, from the rules for its API.
-
-        `severity(rule, suggested, vendor)` gives the severity of a finding, or None if the rule is off for the file.
-        """
+    def run(self, subjects: Iterable[Subject], file: str, severity: Severity, api: str = "VULKAN") -> Verdicts:
+        """The findings and undecided rules for the subjects of a document, from the rules for its API."""
         findings: list[Finding] = []
         undecided: list[Undecided] = []
         fix_specs: FixSpecs = {}
@@ -107,13 +101,12 @@ class RuleRunner:
                     fix_specs.setdefault(finding_key(found), []).append((fixes[found.code], subject))
         return Verdicts(distinct(findings), undecided, fix_specs)
 
-    def _rules(self, kind: str, api: str, severity: Callable[[Rule, str, str | None], str | None]) -> Rules:
+    def _rules(self, kind: str, api: str, severity: Severity) -> Rules:
         by_kind = self._enabled.setdefault(api, {})
-        rules = by_kind.get(kind)
-        if rules is None:
+        if kind not in by_kind:
             enabled = [rule for rule in self._by_subject.get(api, {}).get(kind, ()) if severity(rule, rule.severity, None) is not None]
-            rules = by_kind[kind] = [(rule, self._condition(rule.when)) for rule in enabled]
-        return rules
+            by_kind[kind] = [(rule, self._condition(rule.when)) for rule in enabled]
+        return by_kind[kind]
 
     def _condition(self, text: str) -> Condition:
         if text not in self._conditions:
