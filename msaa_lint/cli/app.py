@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import inspect
-from typing import Annotated, Any, Literal
+from importlib import import_module
+from typing import Annotated, Any, Literal, NoReturn
 
 import typer
 
@@ -11,6 +12,7 @@ from msaa_lint.core.package import VERSION
 from msaa_lint.input.file_types import LANGUAGES
 from msaa_lint.input.readers import CAPTURES
 
+from .common import run_command
 from .options import COMMANDS, Command, Option, run
 
 app = typer.Typer(
@@ -75,6 +77,11 @@ for _name, _command in COMMANDS.items():
     _add_command(_name, _command)
 
 
+def _exit_with(module: str, function: str, *values: Any) -> NoReturn:
+    """Runs the function of a command's module, which is imported only now, and exits with the code that it returns."""
+    raise typer.Exit(run_command(lambda _: getattr(import_module(f".{module}", __package__), function)(*values), {}))
+
+
 @app.command()
 def rule(
     name: Annotated[str | None, typer.Argument(help="A rule's name or code.")] = None,
@@ -83,9 +90,9 @@ def rule(
     rules: Annotated[list[str] | None, typer.Option("--rules", metavar="PATH", help="Page or folder of custom rules.")] = None,
 ) -> None:
     """Explain a rule, or list all rules."""
-    from .rule import explain_rule, list_rules
-
-    raise typer.Exit(list_rules(rules or [], output) if all_rules or name is None else explain_rule(name, rules or [], output))
+    if all_rules or name is None:
+        _exit_with("rule", "list_rules", rules or [], output)
+    _exit_with("rule", "explain_rule", name, rules or [], output)
 
 
 @app.command()
@@ -98,9 +105,7 @@ def device(
     listing: Annotated[bool, typer.Option("--list", help="List the built-in devices.")] = False,
 ) -> None:
     """Show what a device supports for multisampling."""
-    from .device import device as show
-
-    raise typer.Exit(show(names or [], output, listing))
+    _exit_with("device", "device", names or [], output, listing)
 
 
 @app.command()
@@ -110,9 +115,9 @@ def facts(
     profile: Annotated[str | None, typer.Option("--profile", metavar="NAME", help="Device to assume for an input that names none.")] = None,
 ) -> None:
     """List facts that rules can use, or their values in an input."""
-    from .facts import print_facts, print_reference
-
-    raise typer.Exit(print_reference(output) if path is None else print_facts(path, output, profile))
+    if path is None:
+        _exit_with("facts", "print_reference", output)
+    _exit_with("facts", "print_facts", path, output, profile)
 
 
 @app.command()
@@ -131,9 +136,7 @@ def convert(
 
     Exits with 0, or with 2 if the input has mistakes or a capture is truncated; the part that can be read is still written.
     """
-    from .convert import convert as write
-
-    raise typer.Exit(write(path, output, input_format, force))
+    _exit_with("convert", "convert", path, output, input_format, force)
 
 
 @app.command()
@@ -144,9 +147,7 @@ def schema(
     ] = "description",
 ) -> None:
     """Print a JSON Schema."""
-    from .schema import schema as print_schema
-
-    raise typer.Exit(print_schema(which))
+    _exit_with("schema", "schema", which)
 
 
 @app.command()
@@ -158,9 +159,7 @@ def baseline(
     isolated: Annotated[bool, typer.Option("--isolated", help="Ignore configuration files.")] = False,
 ) -> None:
     """Record the current findings, so that only new ones are reported."""
-    from .baseline import baseline as write
-
-    raise typer.Exit(write(paths, file, prune, config, isolated))
+    _exit_with("baseline", "baseline", paths, file, prune, config, isolated)
 
 
 @app.command()
@@ -168,6 +167,4 @@ def init(
     folder: Annotated[str, typer.Argument(help="Folder to write to.")] = ".",
 ) -> None:
     """Write a commented configuration and a first description."""
-    from .init import init as write
-
-    raise typer.Exit(write(folder))
+    _exit_with("init", "init", folder)

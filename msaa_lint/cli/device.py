@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Literal, TypeVar
 
 from rich.console import Console
@@ -21,7 +22,7 @@ from msaa_lint.frame.devices.reports import EXPECTED, MAX_BYTES, NotAReport, pic
 from msaa_lint.frame.devices.reports.members import Report
 from msaa_lint.frame.profiles import Problem, parsed, profile_of, reports
 
-from .common import UsageError, run_command, set_utf_8, warn
+from .common import UsageError, set_utf_8, warn
 from .report.escape import display
 
 Answer = TypeVar("Answer")
@@ -36,10 +37,8 @@ MAX_SECONDS = 30.0
 
 def device(stated: Sequence[str], output: Output = "text", listing: bool = False) -> int:
     """Prints what devices support; returns 0, or 2 if one is unknown or cannot be read."""
-    return run_command(lambda _: _list(output) if listing else _show(stated, output), {})
-
-
-def _show(stated: Sequence[str], output: Output) -> int:
+    if listing:
+        return _list(output)
     offers: list[Offer] = []
     failed = False
     for name in stated or (None,):
@@ -120,16 +119,13 @@ def _list(output: Output) -> int:
     table = Table("name", "device", "source", box=None, pad_edge=False)
     for key, profile in profiles.items():
         table.add_row(key, profile.name, profile.source)
-    console = _console()
-    with console.capture() as capture:
+    with _console() as console:
         console.print(table)
-    _write(capture.get())
     return 0
 
 
 def _print(offers: Sequence[Offer]) -> None:
-    console = _console()
-    with console.capture() as capture:
+    with _console() as console:
         for number, offer in enumerate(offers):
             console.print(*([""] if number else []), display(words.title(offer)), sep="\n", style="bold")
             counts = words.table(offer)
@@ -143,15 +139,14 @@ def _print(offers: Sequence[Offer]) -> None:
             for fact in words.rows(offer):
                 facts.add_row(display(fact.label), display(fact.text))
             console.print(facts)
-    _write(capture.get())
 
 
-def _write(text: str) -> None:
-    """Prints a layout without the spaces that pad its lines."""
-    sys.stdout.write("".join(line.rstrip() + "\n" for line in text.splitlines()))
-    sys.stdout.flush()
-
-
-def _console() -> Console:
+@contextmanager
+def _console() -> Iterator[Console]:
+    """A console whose output is printed at the end, without the spaces that pad its lines."""
     set_utf_8(sys.stdout)
-    return Console(markup=False, highlight=False, emoji=False, width=None if sys.stdout.isatty() else WIDTH)
+    console = Console(markup=False, highlight=False, emoji=False, width=None if sys.stdout.isatty() else WIDTH)
+    with console.capture() as capture:
+        yield console
+    sys.stdout.write("".join(line.rstrip() + "\n" for line in capture.get().splitlines()))
+    sys.stdout.flush()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -125,3 +126,29 @@ def test_both_ways_to_read_arguments_agree(arguments: list[str]) -> None:
         patch.setattr(check, "check", lambda given: seen.append(dict(given)) or 0)
         get_command(app).main(["check", *arguments], prog_name="msaa-lint", standalone_mode=False)
     assert seen == [{**given_fast, "paths": given_fast["paths"]}]
+
+
+@pytest.mark.parametrize(
+    ("words", "function"),
+    [
+        (["rule", "--all"], "list_rules"),
+        (["rule", "x"], "explain_rule"),
+        (["device", "x"], "device"),
+        (["facts"], "print_reference"),
+        (["facts", "a.yaml"], "print_facts"),
+        (["convert", "a.yaml"], "convert"),
+        (["schema"], "schema"),
+        (["baseline", "a.yaml"], "baseline"),
+        (["init"], "init"),
+    ],
+)
+def test_internal_errors_of_commands_without_a_table_are_one_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: list[str], function: str
+) -> None:
+    def fail(*values: object) -> int:
+        raise ZeroDivisionError("division by zero")
+
+    monkeypatch.setattr(import_module(f"msaa_lint.cli.{words[0]}"), function, fail)
+    done = run(tmp_path, *words)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == "msaa-lint: internal error: ZeroDivisionError: division by zero\n"

@@ -9,10 +9,13 @@ from . import Options, Write
 from .data import Json, head, text, write_object
 from .escape import escape_surrogates
 from .paths import relative
-from .place import place
+from .place import Place, place
 from .summary import tally, together, usable_price
 
 SCHEMA = "msaa-lint/json-v1"
+_COUNTS = (
+    "findings", "errors", "warnings", "notes", "fixable", "suppressed", "files", "files_with_findings", "undecided", "undecided_rules",
+)  # fmt: skip
 
 
 def render(result: Result, out: Write, options: Options) -> None:
@@ -66,24 +69,13 @@ def _undecided(entry: Undecided, options: Options) -> Json:
 
 def _place(result: Result, file: str, span: Span | None) -> Json:
     at = place(result, file, span)
-    if at is None:
-        return {"line": None, "column": None, "end_line": None, "end_column": None}
-    return {"line": at.line, "column": at.column, "end_line": at.end_line, "end_column": at.end_column}
+    return at._asdict() if at is not None else dict.fromkeys(Place._fields)
 
 
 def _summary(result: Result) -> Json:
     count, price = tally(result), together(result)
     return {
-        "findings": count.findings,
-        "errors": count.errors,
-        "warnings": count.warnings,
-        "notes": count.notes,
-        "fixable": count.safe_fixes + count.unsafe_fixes,
-        "suppressed": count.suppressed,
-        "files": count.files,
-        "files_with_findings": count.files_with_findings,
-        "undecided": count.undecided,
-        "undecided_rules": count.undecided_rules,
+        **{name: getattr(count, name) for name in _COUNTS},
         "missing": {text(fact): rules for fact, rules in count.missing},
         "price": price._asdict() if price else None,
     }

@@ -27,6 +27,10 @@ class Tally(NamedTuple):
     def findings(self) -> int:
         return self.errors + self.warnings + self.notes
 
+    @property
+    def fixable(self) -> int:
+        return self.safe_fixes + self.unsafe_fixes
+
 
 def tally(result: Result) -> Tally:
     """The counts of a run."""
@@ -97,7 +101,7 @@ def fixable(result: Result) -> str:
         return f"{safe} fixable with --fix" if safe else ""
     if not safe:
         return f"{unsafe} fixable with --fix --unsafe-fixes"
-    return f"{safe + unsafe} fixable: {safe} with --fix, {unsafe} more with --unsafe-fixes"
+    return f"{count.fixable} fixable: {safe} with --fix, {unsafe} more with --unsafe-fixes"
 
 
 def total_price(result: Result) -> str:
