@@ -3,6 +3,7 @@
 import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
+from importlib import import_module
 from typing import IO, Any, NamedTuple, TypeVar
 
 from msaa_lint.core.package import VERSION
@@ -195,6 +196,11 @@ def report_options(arguments: Arguments, out: IO[str], *, color: bool = True, wi
 
         width = shutil.get_terminal_size().columns or width
     return Options(color=color and use_color(arguments.get("color", "auto"), terminal), width=width, version=VERSION)
+
+
+def report_module(command: str, format: str) -> Any:
+    """The module that prints a command's result in a format. It is imported only if it prints: tables take rich."""
+    return import_module(f".report.{command}_{format}", __package__)
 
 
 def use_color(mode: str, terminal: bool) -> bool:

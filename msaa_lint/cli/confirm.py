@@ -21,6 +21,7 @@ from .common import (
     overrides,
     parse_outputs,
     parse_size,
+    report_module,
     report_options,
     run_command,
     warn,
@@ -34,19 +35,13 @@ COUNTS = (1, 2, 4, 8, 16, 32, 64)
 
 
 class ConfirmOptions(NamedTuple):
-    """The options, parsed. `time` is None if the device decides."""
+    """The options, parsed; `trial` are members of `TrialOptions`."""
 
     targets: list[Target]
     devices: list[str | None]
     limits: Limits
     layer: bool
-    gate: bool
-    image: str | None
-    time: bool | None
-    repeats: int
-    size: tuple[int, int] | None
-    samples: int | None
-    resolves: bool
+    trial: dict[str, Any]
 
 
 def confirm(arguments: Arguments) -> int:
@@ -78,13 +73,12 @@ def parse_options(arguments: Arguments) -> ConfirmOptions:
         list(dict.fromkeys(arguments.get("device", ()))) or [None],
         Limits(seconds=_parse_seconds(arguments["timeout"])) if "timeout" in arguments else Limits(),
         not arguments.get("no_layer"),
-        not arguments.get("no_gate"),
-        arguments.get("image"),
-        True if arguments.get("time") else False if arguments.get("no_time") else None,
-        arguments.get("repeats", 15),
-        parse_size(arguments["size"], MAX_RENDER_SIDE) if "size" in arguments else None,
-        samples,
-        bool(arguments.get("resolves")),
+        {
+            **{name: arguments[name] for name in ("image", "repeats", "samples", "resolves") if name in arguments},
+            "gate": not arguments.get("no_gate"),
+            "time": True if arguments.get("time") else False if arguments.get("no_time") else None,
+            "size": parse_size(arguments["size"], MAX_RENDER_SIDE) if "size" in arguments else None,
+        },
     )
 
 
@@ -107,10 +101,7 @@ def _run(arguments: Arguments, options: ConfirmOptions, session: Session) -> int
     from msaa_lint.experiments.confirm.trial import TrialOptions, trial
     from msaa_lint.linter.workspace import Request
 
-    several = len(options.devices) > 1
-    terms = TrialOptions(
-        options.gate, options.image, options.time, options.repeats, options.size, options.samples, several, options.resolves
-    )  # fmt: skip
+    terms = TrialOptions(**options.trial, several=len(options.devices) > 1)
     read: list[Inputs] = []
 
     def documents() -> Any:
@@ -147,15 +138,8 @@ def _import_rich() -> None:
 
 
 def _render(format: str, runs: Sequence[DeviceRun], errors: Sequence[Any], arguments: Arguments, out: IO[str]) -> None:
-    options = report_options(arguments, out)
-    if format == "json":
-        from .report import confirm_json
-
-        confirm_json.render(runs, errors, out.write, options)
-    else:
-        from .report import confirm_text
-
-        confirm_text.render(runs, out.write, options, verbose=bool(arguments.get("verbose")))
+    options = report_options(arguments, out)._replace(verbose=bool(arguments.get("verbose")))
+    report_module("confirm", format).render(runs, errors, out.write, options)
 
 
 def _list_devices(options: ConfirmOptions) -> int:

@@ -6,7 +6,6 @@ import math
 import os
 import sys
 from functools import partial
-from importlib import import_module
 from typing import IO
 
 from msaa_lint.core.finding import Result
@@ -26,6 +25,7 @@ from .common import (
     parse_list,
     parse_outputs,
     parse_size,
+    report_module,
     report_options,
     run_command,
     set_utf_8,
@@ -128,8 +128,7 @@ def _print_errors(errors: Result, arguments: Arguments) -> None:
 
 def _render(format: str, result: CostResult, comparison: CostComparison | None, arguments: Arguments, out: IO[str]) -> None:
     options = report_options(arguments, out, color=format == "full", width=0)
-    # Each report is imported only if it is printed: tables take rich.
-    report = import_module(f".report.cost_{format}", __package__)
+    report = report_module("cost", format)
     if comparison is not None:
         report.render_comparison(comparison, result.errors, out.write, options)
     else:

@@ -8,6 +8,7 @@ import os
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
+from importlib.util import find_spec
 from typing import IO, Any, NamedTuple
 
 from msaa_lint.core.finding import Finding
@@ -27,6 +28,7 @@ from .common import (
     parse_list,
     parse_outputs,
     parse_size,
+    report_module,
     report_options,
     run_command,
     warn,
@@ -85,8 +87,8 @@ def parse_options(arguments: Arguments) -> StudyOptions:
         raise UsageError("--samples and --techniques leave nothing to measure: sample shading needs a count above 1")
     if "plot" in arguments:
         chart_format(arguments["plot"], "--plot")
-    if arguments.get("ssim"):
-        _require_scikit_image()
+    if arguments.get("ssim") and find_spec("skimage") is None:
+        raise UsageError("--ssim needs scikit-image, which is not installed: pip install 'msaa-lint[ssim]'")
     return StudyOptions(
         parse_outputs(arguments.get("output", ()), FORMATS, "json=study.json") or [Target("full", None)],
         chosen,
@@ -96,14 +98,6 @@ def parse_options(arguments: Arguments) -> StudyOptions:
         arguments.get("jobs") or (-1 if arguments.get("backend") in ("dask", "ray") else _cores()),
         arguments.get("backend"),
     )
-
-
-def _require_scikit_image() -> None:
-    """UsageError if it is not installed, before anything is measured."""
-    from importlib.util import find_spec
-
-    if find_spec("skimage") is None:
-        raise UsageError("--ssim needs scikit-image, which is not installed: pip install 'msaa-lint[ssim]'")
 
 
 def _cores() -> int:
@@ -285,12 +279,4 @@ def _write_records(studied: Sequence[Subject], outcome: Study) -> list[str]:
 
 
 def _render(format: str, outcome: Study, arguments: Arguments, out: IO[str]) -> None:
-    options = report_options(arguments, out, width=160)
-    if format == "json":
-        from .report import study_json
-
-        study_json.render(outcome, out.write, options)
-    else:
-        from .report import study_text
-
-        study_text.render(outcome, out.write, options)
+    report_module("study", format).render(outcome, out.write, report_options(arguments, out, width=160))

@@ -18,9 +18,9 @@ class Options(NamedTuple):
     """How to print.
 
     `root` is the folder that paths are shown relative to (empty: as given). `width` is in terminal cells (0: lines are never cut).
-    `max_undecided` is the number of missing facts that a summary names. `sarif_category` distinguishes several runs on one commit.
-    `step_summary` is the file that the GitHub output appends a table to: None uses GITHUB_STEP_SUMMARY, empty writes none.
-    `fail_confidence` is the confidence that findings need to fail the run; summaries count those below it.
+    `max_undecided` is the number of missing facts that a summary names. `step_summary` is the file that the GitHub output appends a table
+    to: None uses GITHUB_STEP_SUMMARY, empty writes none. `fail_confidence` is the confidence that findings need to fail the run; summaries
+    count those below it. `verbose` adds to the text of `confirm` what only msaa-lint reports, and noise of the layer.
     """
 
     color: bool = False
@@ -31,9 +31,9 @@ class Options(NamedTuple):
     show_suppressed: bool = False
     statistics: bool = False
     max_undecided: int = 5
-    sarif_category: str = ""
     step_summary: str | None = None
     fail_confidence: str = "low"
+    verbose: bool = False
 
 
 def render(name: str, result: Result, out: Write, options: Options) -> None:

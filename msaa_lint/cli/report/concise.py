@@ -21,15 +21,19 @@ def render(result: Result, out: Write, options: Options) -> None:
 
 
 def line(finding: Finding, result: Result, options: Options) -> str:
-    """A finding on one line. For an input without text, its subject takes the place of line and column."""
-    where = display_path(finding.file, options.root)
-    at = place(result, finding.file, finding.span)
-    if at:
-        where += f":{at.line}:{at.column}"
-    elif finding.subject:
-        where += f": {display(finding.subject)}"
+    """A finding on one line."""
+    where = location(finding, result, options)
     kind = paint(f"{finding.severity}[{display(finding.rule)}]", SEVERITY[finding.severity], options.color)
     return f"{paint(where, BOLD, options.color)}: {kind} {display(finding.message)} ({display(finding.code)})"
+
+
+def location(finding: Finding, result: Result, options: Options) -> str:
+    """The path of a finding with its line and column, or for an input without text, with its subject."""
+    path = display_path(finding.file, options.root)
+    at = place(result, finding.file, finding.span)
+    if at:
+        return f"{path}:{at.line}:{at.column}"
+    return f"{path}: {display(finding.subject)}" if finding.subject else path
 
 
 def render_end(result: Result, out: Write, options: Options) -> None:

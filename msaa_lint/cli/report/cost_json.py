@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from msaa_lint.core.finding import Finding, Result
+from msaa_lint.core.finding import Result
 from msaa_lint.frame.cost.amounts import Amount, FrameCost, Line, PassCost, Shading
 from msaa_lint.frame.cost.compare import Change, title
 from msaa_lint.frame.cost.input_cost import CostComparison, CostedFrame
@@ -80,10 +80,7 @@ def _frame(frame: CostedFrame, errors: Result, options: Options) -> Json:
             {"samples": variant.samples, "resolve": variant.resolve, "offered": variant.offered, **_total(variant.cost)}
             for variant in frame.variants
         ],
-        "images": [
-            {"name": text(image.name), "bytes": image.bytes, "committed": image.committed, "committed_by_use": image.committed_by_use}
-            for image in cost.images
-        ],
+        "images": [{**image._asdict(), "name": text(image.name)} for image in cost.images],
         "assumed": list(map(text, cost.assumed)),
         "unknown": list(map(text, cost.unknown)),
     }
@@ -164,15 +161,14 @@ def _rounded(value: float | None) -> float | None:
 
 
 def _errors(errors: Result, options: Options) -> list[Json]:
-    return [_error(finding, errors, options) for finding in errors.findings]
-
-
-def _error(finding: Finding, errors: Result, options: Options) -> Json:
-    return {
-        "rule": text(finding.rule),
-        "code": text(finding.code),
-        "message": text(finding.message),
-        "file": escape_surrogates(relative(finding.file, options.root)),
-        **start(errors, finding.file, finding.span),
-        "help": text(finding.help),
-    }
+    return [
+        {
+            "rule": text(finding.rule),
+            "code": text(finding.code),
+            "message": text(finding.message),
+            "file": escape_surrogates(relative(finding.file, options.root)),
+            **start(errors, finding.file, finding.span),
+            "help": text(finding.help),
+        }
+        for finding in errors.findings
+    ]

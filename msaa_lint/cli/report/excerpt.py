@@ -1,6 +1,8 @@
 """Source lines with underlined marks, in the style of rustc."""
 
 from collections.abc import Sequence
+from itertools import groupby
+from operator import itemgetter
 from typing import NamedTuple
 
 from msaa_lint.core.text.source import Source
@@ -165,11 +167,6 @@ def _bars(margin: Sequence[str]) -> _Row:
 def _joined(row: _Row, color: bool) -> str:
     while row and not row[-1][0].rstrip():
         row = row[:-1]
-    joined: _Row = []
     row[-1] = (row[-1][0].rstrip(), row[-1][1])
-    for piece, style in row:
-        if joined and joined[-1][1] == style:
-            joined[-1] = (joined[-1][0] + piece, style)
-        else:
-            joined.append((piece, style))
-    return "".join(paint(piece, style, color) for piece, style in joined)
+    groups = groupby(row, key=itemgetter(1))
+    return "".join(paint("".join(piece for piece, _ in pieces), style, color) for style, pieces in groups)

@@ -8,11 +8,9 @@ from msaa_lint.core.finding import CaptureLocation, Finding, Result
 
 from . import Options, Write
 from .color import BOLD, SECONDARY, SEVERITY, paint
-from .concise import render_end
+from .concise import location, render_end
 from .escape import display
 from .excerpt import MAX_MARKS, Mark, excerpt
-from .paths import display_path
-from .place import place
 from .summary import price_text
 
 
@@ -28,22 +26,16 @@ def paragraph(finding: Finding, result: Result, options: Options, rules: Set[str
     """One finding, without a line end after its last line. `rules` are the names that `msaa-lint rule` knows."""
     kind = paint(f"{finding.severity}[{display(finding.rule)}]", SEVERITY[finding.severity], options.color)
     head = f"{kind}{paint(': ' + display(finding.message), BOLD, options.color)}"
-    where = display_path(finding.file, options.root)
-    at = place(result, finding.file, finding.span)
     digits, lines = 1, list[str]()
-    if at:
-        where += f":{at.line}:{at.column}"
     source = result.sources.get(finding.file)
-    if finding.span is not None and source is not None and (at or source.origins is not None):
+    if finding.span is not None and source is not None:
         digits, lines = excerpt(source, marks(finding), options.width, options.color)
-    if not at and finding.subject:
-        where += f": {display(finding.subject)}"
     indent = " " * digits
     bar = paint(f"{indent} |", SECONDARY, options.color)
     equals = paint(f"{indent} =", SECONDARY, options.color)
     notes = [f"{equals} {paint(f'{word}:', BOLD, options.color)} {text}" for word, text in remarks(finding, rules)]
     arrow = paint(f"{indent}-->", SECONDARY, options.color)
-    return "\n".join([head, f"{arrow} {where}", *lines, bar, *notes])
+    return "\n".join([head, f"{arrow} {location(finding, result, options)}", *lines, bar, *notes])
 
 
 def marks(finding: Finding) -> list[Mark]:

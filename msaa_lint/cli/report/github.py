@@ -65,12 +65,9 @@ def _region(source: Source, start: int, end: int) -> dict[str, str | int]:
     text = source.text
     start = min(start, len(text))
     end = max(start, min(end, len(text)))
-    while end > start and text[end - 1] in "\r\n \t":
-        end -= 1
+    end = start + len(text[start:end].rstrip("\r\n \t"))
     if start == end and not text[start : start + 1].strip():
-        while start and text[start - 1 : start] in "\r\n \t":
-            start -= 1
-        end = start
+        start = end = len(text[:start].rstrip("\r\n \t"))
     line, column = source.position(start)
     end_line, end_column = source.position(end)
     if line == end_line:

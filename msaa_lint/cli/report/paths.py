@@ -50,9 +50,9 @@ def _without_dot(path: str) -> str:
 
 
 def _percent(path: str) -> str:
+    from urllib.parse import quote
+
     try:
-        raw = path.encode("utf-8", "surrogateescape")
+        return quote(path, errors="surrogateescape")
     except UnicodeEncodeError:
-        raw = path.encode("utf-8", "surrogatepass")
-    plain = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/"
-    return "".join(chr(byte) if byte in plain else f"%{byte:02X}" for byte in raw)
+        return quote(path, errors="surrogatepass")

@@ -59,8 +59,6 @@ def render(result: Result, out: Write, options: Options) -> None:
     out(f'"tool": {{"driver": {{{dump(driver)[1:-1]}, "rules": ')
     write_list(map(_descriptor, rules), out)
     out("}},\n")
-    if options.sarif_category:
-        out(f'"automationDetails": {dump({"id": f"msaa-lint/{escape_surrogates(options.sarif_category)}/"})},\n')
     out('"columnKind": "unicodeCodePoints",\n')
     out(f'"invocations": [{dump(_invocation(result, options, len(numbered) - len(results)))}],\n"results": ')
     write_list((_result(finding, entry, name, index, result, options) for (finding, entry), name in results), out)
@@ -84,8 +82,7 @@ def _rules(result: Result, findings: Sequence[Finding]) -> list[RuleInfo]:
     """The enabled rules and the diagnostics (9xx) among the findings, by code."""
     rules = {rule.code: rule for rule in result.rules}
     for finding in findings:
-        if finding.code not in rules:
-            rules[finding.code] = RuleInfo(finding.code, finding.rule, finding.severity, finding.confidence, "")
+        rules.setdefault(finding.code, RuleInfo(finding.code, finding.rule, finding.severity, finding.confidence, ""))
     return [rules[code] for code in sorted(rules)]
 
 

@@ -14,6 +14,8 @@ from . import Options, Write
 from .data import Json, head, text, write_object
 
 SCHEMA = "msaa-lint/study-v1"
+_ERRORS = ("rmse", "rmse_all", "max_error", "bias", "psnr_db", "psnr_display_db", "ssim")
+_COSTS = ("ratio", "bytes_per_frame", "milliwatts", "memory_mib")
 
 
 def render(study: Study, out: Write, options: Options) -> None:
@@ -55,19 +57,10 @@ def _point(point: Point) -> Json:
         "samples": technique.samples,
         "shaded": technique.shaded,
         "name": technique.name,
-        "rmse": _number(point.rmse),
-        "rmse_all": _number(point.rmse_all),
-        "max_error": _number(point.max_error),
-        "bias": _number(point.bias),
-        "psnr_db": _number(point.psnr_db),
-        "psnr_display_db": _number(point.psnr_display_db),
-        "ssim": _number(point.ssim),
+        **{name: _number(getattr(point, name)) for name in _ERRORS},
         "time_ms": _number(point.time_ms),
         "time_from": text(point.time_from),
-        "ratio": _number(point.ratio),
-        "bytes_per_frame": _number(point.bytes_per_frame),
-        "milliwatts": _number(point.milliwatts),
-        "memory_mib": _number(point.memory_mib),
+        **{name: _number(getattr(point, name)) for name in _COSTS},
         "effects": list(point.effects),
         "best": point.best,
     }

@@ -102,10 +102,6 @@ def test_suppressed_only_when_asked_for() -> None:
     ]
 
 
-def test_category() -> None:
-    assert run_of(frame(), sarif_category="mobile")["automationDetails"] == {"id": "msaa-lint/mobile/"}
-
-
 def test_least_severe_results_are_left_out_first(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sarif, "MAX_RESULTS", 3)
     severities = ["note", "error", "warning", "note", "error"]

@@ -13,8 +13,8 @@ import jsonschema
 import pytest
 
 from msaa_lint.cli.report import Options
+from msaa_lint.cli.report.confirm_full import render as as_text
 from msaa_lint.cli.report.confirm_json import render as as_json
-from msaa_lint.cli.report.confirm_text import render as as_text
 from msaa_lint.experiments.confirm.child import Limits
 from msaa_lint.experiments.confirm.inputs import Input, inputs
 from msaa_lint.experiments.confirm.outcome import AgreementRow, DeviceRun, exit_code
@@ -88,7 +88,7 @@ def shown(run: DeviceRun) -> tuple[dict[str, Any], str]:
     as_json([run], [], printed.write, Options(version="1.2.3"))
     data = json.loads(printed.getvalue())
     jsonschema.Draft202012Validator(SCHEMA).validate(data)
-    as_text([run], text.write, Options(width=200))
+    as_text([run], [], text.write, Options(width=200))
     return data, text.getvalue()
 
 
@@ -199,7 +199,7 @@ def test_several_devices_stand_side_by_side(tmp_path: Path) -> None:
     data = json.loads(printed.getvalue())
     jsonschema.Draft202012Validator(SCHEMA).validate(data)
     assert [each["device"]["name"] for each in data["devices"]] == ["one", "other"]
-    as_text(runs, text.write, Options(width=200))
+    as_text(runs, [], text.write, Options(width=200))
     lines = text.getvalue().splitlines()
     assert lines[0].split() == ["file", "pass", "one", "other"] and lines[2].split()[-2:] == ["confirmed", "confirmed"]
 

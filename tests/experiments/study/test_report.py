@@ -15,9 +15,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.cli.report import Options
+from msaa_lint.cli.report.study_full import render as as_text
 from msaa_lint.cli.report.study_json import render as as_json
 from msaa_lint.cli.report.study_plot import place, plot, plotted
-from msaa_lint.cli.report.study_text import render as as_text
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.experiments.confirm.png import Picture, png
 from msaa_lint.experiments.study.advice import Advice, advice

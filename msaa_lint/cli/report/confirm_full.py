@@ -8,6 +8,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from msaa_lint.core.finding import Finding
 from msaa_lint.experiments.confirm.outcome import STATUSES, WRONG, AgreementRow, DeviceRun, Verdict
 from msaa_lint.experiments.confirm.timing import Timing
 
@@ -21,10 +22,10 @@ _WORDS = {"both": "both", "ours": "only msaa-lint", "theirs": "only the layer", 
 """Who reports a mistake, by the verdict on it."""
 
 
-def render(runs: Sequence[DeviceRun], out: Write, options: Options, verbose: bool = False) -> None:
+def render(runs: Sequence[DeviceRun], errors: Sequence[Finding], out: Write, options: Options) -> None:
     """Prints a table per device and the details below it; for several devices, a table of all of them first.
 
-    `verbose` adds what only msaa-lint reports, and noise of the layer.
+    `errors` go to the standard error stream instead.
     """
     console = open_console(out, options)
     usable = [run for run in runs if not run.unusable]
@@ -34,7 +35,7 @@ def render(runs: Sequence[DeviceRun], out: Write, options: Options, verbose: boo
     for number, run in enumerate(runs):
         if number:
             console.print()
-        _device(run, console, verbose)
+        _device(run, console, options.verbose)
 
 
 def _device(run: DeviceRun, console: Console, verbose: bool) -> None:
