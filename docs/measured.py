@@ -19,15 +19,17 @@ from msaa_lint.cli.report.study_plot import plot
 from msaa_lint.experiments.confirm.child import Limits
 from msaa_lint.experiments.confirm.session import Session, environment
 from msaa_lint.experiments.confirm.vulkan_errors import Unusable
-from msaa_lint.experiments.study import coverage, fragments, locations, snap
-from msaa_lint.experiments.study.device_coverage import clip, covered
+from msaa_lint.experiments.study import coverage, locations, snap
 from msaa_lint.experiments.study.measure import difference, errors, truth
 from msaa_lint.experiments.study.outcome import SceneSummary, Study
 from msaa_lint.experiments.study.pareto import mark_best
 from msaa_lint.experiments.study.points import SSAA, Point, Technique, techniques
+from msaa_lint.experiments.study.scene_timing import clip
 from msaa_lint.experiments.study.scenes import scene
 from msaa_lint.experiments.study.scenes.scene import Scene
 from msaa_lint.experiments.study.times import DeviceClock
+from tests.experiments.study.device import covered, viewport
+from tests.experiments.study.spans import masks
 
 
 @dataclasses.dataclass
@@ -51,8 +53,8 @@ class Measured:
 
 def simulate(corners: np.ndarray, width: int, height: int, samples: int, fused: bool) -> np.ndarray:
     """The samples that triangles cover in the simulation."""
-    triangles = snap.snapped(snap.viewport(corners[..., :2], width, height, fused))
-    return fragments.masks(coverage.rows(triangles, width, height, locations.standard(samples)), width, height, samples)
+    triangles = snap.snapped(viewport(corners[..., :2], width, height, fused))
+    return masks(coverage.rows(triangles, width, height, locations.standard(samples)), width, height, samples)
 
 
 def measured(made: Scene, technique: Technique, session: Session, clock: DeviceClock) -> Measured:

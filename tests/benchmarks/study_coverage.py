@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from msaa_lint.experiments.study.coverage import rows
 from msaa_lint.experiments.study.exact_area import areas, areas_of
-from msaa_lint.experiments.study.fragments import fragments, masks
+from msaa_lint.experiments.study.fragments import fragments
 from msaa_lint.experiments.study.locations import SUBPIXELS, standard
 from msaa_lint.frame.vulkan.sample_locations import STANDARD
 
@@ -37,10 +37,6 @@ def spans(triangles: NDArray[np.int64], samples: int) -> Any:
     return rows(triangles, WIDTH, HEIGHT, standard(samples))
 
 
-def with_masks(triangles: NDArray[np.int64], samples: int) -> Any:
-    return masks(spans(triangles, samples), WIDTH, HEIGHT, samples)
-
-
 def with_fragments(triangles: NDArray[np.int64], samples: int) -> Any:
     return fragments(spans(triangles, samples), samples)
 
@@ -51,12 +47,9 @@ def main() -> int:
     many = small()
     tasks: dict[str, tuple[Callable[[], Any], float | None]] = {}
     for samples in STANDARD:
-        goals = (1.0, 15.0) if samples == 4 else (None, None)
-        tasks[f"one large triangle, {samples}x: spans"] = partial(spans, LARGE, samples), goals[0]
-        tasks[f"one large triangle, {samples}x: spans and masks"] = partial(with_masks, LARGE, samples), goals[1]
+        tasks[f"one large triangle, {samples}x: spans"] = partial(spans, LARGE, samples), 1.0 if samples == 4 else None
         tasks[f"one large triangle, {samples}x: spans and fragments"] = partial(with_fragments, LARGE, samples), None
     tasks["20,000 small triangles, 4x: spans"] = partial(spans, many, 4), None
-    tasks["20,000 small triangles, 4x: spans and masks"] = partial(with_masks, many, 4), 1500.0
     tasks["20,000 small triangles, 4x: spans and fragments"] = partial(with_fragments, many, 4), 1500.0
     tasks["one large triangle: exact areas"] = partial(areas, LARGE[0] / SUBPIXELS, WIDTH, HEIGHT), None
     tasks["20,000 small triangles: exact areas"] = partial(areas_of, many / SUBPIXELS, WIDTH, HEIGHT), None

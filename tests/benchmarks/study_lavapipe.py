@@ -15,19 +15,19 @@ import numpy as np
 from study_coverage import HEIGHT, LARGE, WIDTH, small
 
 from msaa_lint.experiments.study.coverage import rows
-from msaa_lint.experiments.study.device_coverage import clip
-from msaa_lint.experiments.study.fragments import masks
+from msaa_lint.experiments.study.fragments import fragments
 from msaa_lint.experiments.study.locations import SUBPIXELS, standard
 from msaa_lint.experiments.study.points import MSAA, Technique
+from msaa_lint.experiments.study.scene_timing import clip
 from msaa_lint.experiments.study.times import DeviceClock
 
 
 def simulate(triangles: np.ndarray, samples: int, rounds: int) -> float:
-    """Milliseconds of spans and masks, the least of the rounds."""
+    """Milliseconds of spans and fragments, the least of the rounds."""
     found = []
     for _ in range(rounds):
         start = time.perf_counter()
-        masks(rows(triangles, WIDTH, HEIGHT, standard(samples)), WIDTH, HEIGHT, samples)
+        fragments(rows(triangles, WIDTH, HEIGHT, standard(samples)), samples)
         found.append(time.perf_counter() - start)
     return 1000 * min(found)
 

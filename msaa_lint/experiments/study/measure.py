@@ -93,27 +93,14 @@ def truth(scene: Scene, technique: Technique = ONE, bits: int = 8) -> Truth:
     for cached_scene, grid, cached_bits, cached in _CACHE:
         if cached_scene is scene and (grid, cached_bits) == (technique.grid, bits):
             return cached
-    exact = truth_of(scene, snapped_triangles(scene, technique, bits) / (SUBPIXELS * technique.grid))
+    triangles = snapped_triangles(scene, technique, bits) / (SUBPIXELS * technique.grid)
+    image = scene.exact(triangles)
+    exact = Truth(image, scene.edge_pixels(triangles) if scene.edge_pixels is not None else partly_covered(image[..., 3]))
     _CACHE.append((scene, technique.grid, bits, exact))
     return exact
 
 
 _CACHE: deque[tuple[Scene, int, int, Truth]] = deque(maxlen=4)
-
-
-def truth_of(scene: Scene, triangles: Floats) -> Truth:
-    """The exact picture of triangles (T, 3, 2) in pixels instead of the scene's own."""
-    image = scene.exact(triangles)
-    return Truth(image, scene.edge_pixels(triangles) if scene.edge_pixels is not None else partly_covered(image[..., 3]))
-
-
-def snapping_error(scene: Scene, technique: Technique = ONE, bits: int = 8) -> float:
-    """The root mean square error of snapping alone: the exact picture of snapped triangles against that of the scene's own triangles, over
-    the pixels that an edge of either crosses."""
-    unsnapped, snapped = truth_of(scene, scene.triangles), truth(scene, technique, bits)
-    pixels = unsnapped.edge_pixels | snapped.edge_pixels
-    channels = slice(3, 4) if scene.coverage_matter else slice(0, 3)
-    return errors(difference(snapped.image[pixels][:, channels], unsnapped.image[pixels][:, channels])).rmse
 
 
 def point(scene: Scene, technique: Technique, bits: int = 8, ssim: bool = False) -> Point:

@@ -14,6 +14,9 @@ from .times import Cost, CostModel, DeviceClock
 if TYPE_CHECKING:
     from typing import Self
 
+    import numpy as np
+    from numpy.typing import NDArray
+
 
 class SceneClock:
     """A device clock (study/times.py) for the triangles of a scene: `with SceneClock(clock, scene, model) as source:`.
@@ -48,8 +51,14 @@ class SceneClock:
 
 def vertices(scene: Any) -> bytes:
     """The triangles of a scene in the vertex shader's input format (confirm/scene.py)."""
+    return clip(scene.triangles, scene.width, scene.height).tobytes()
+
+
+def clip(triangles: NDArray[np.float64], width: int, height: int) -> NDArray[np.float32]:
+    """Corners (..., 3, 2) in pixels as x, y and depth (..., 3, 3) in clip coordinates, rounded to single precision."""
     import numpy as np
 
-    from .device_coverage import clip
-
-    return bytes(np.ascontiguousarray(clip(scene.triangles, scene.width, scene.height), dtype=np.float32).tobytes())
+    scaled = triangles * (2.0 / np.array([width, height])) - 1.0
+    depths = np.full((*triangles.shape[:-1], 1), 0.5)
+    corners: NDArray[np.float32] = np.concatenate([scaled, depths], axis=-1).astype(np.float32)
+    return corners

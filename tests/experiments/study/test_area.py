@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from msaa_lint.experiments.study.coverage import rows
 from msaa_lint.experiments.study.exact_area import ACCURACY, areas, areas_of
-from msaa_lint.experiments.study.fragments import hits
-from msaa_lint.experiments.study.locations import SUBPIXELS, grid, standard
+from msaa_lint.experiments.study.locations import SUBPIXELS, standard
 from tests.experiments.study.rational import exact_area, shoelace
+from tests.experiments.study.spans import grid, hits
 from tests.strength import examples
 
 SIDE = 6

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from msaa_lint.experiments.study import coverage, exact_area, fragments, locations, measure, snap
+from msaa_lint.experiments.study import coverage, exact_area, locations, measure, snap
 from msaa_lint.experiments.study.points import COUNTS, MSAA, SAMPLE_SHADING, SSAA, Technique
 from msaa_lint.experiments.study.scenes import scene
+from tests.experiments.study import spans
 
 FINE = 4096
 SIDES = (2, 3, 4, 6, 8)
@@ -27,7 +28,7 @@ def slope(samples: Callable[[int, int], NDArray[np.int64]], seeds: int) -> float
         squares = []
         for seed in range(seeds):
             places = samples(side, seed)
-            hits = fragments.hits(coverage.rows(triangles, 96, 96, places, FINE), 96, 96)
+            hits = spans.hits(coverage.rows(triangles, 96, 96, places, FINE), 96, 96)
             squares.append(np.mean((hits / len(places) - area)[crossed] ** 2))
         sizes.append(np.log(side * side))
         found.append(np.log(np.mean(squares)) / 2)
@@ -36,11 +37,11 @@ def slope(samples: Callable[[int, int], NDArray[np.int64]], seeds: int) -> float
 
 def test_jittered_samples_converge_with_three_quarters() -> None:
     """Mitchell 1996: the variance at edges falls with N^-3/2."""
-    assert slope(lambda side, seed: locations.jittered(side, seed, FINE), 12) == pytest.approx(-0.75, abs=0.04)
+    assert slope(lambda side, seed: spans.jittered(side, seed, FINE), 12) == pytest.approx(-0.75, abs=0.04)
 
 
 def test_random_samples_converge_with_a_half() -> None:
-    assert slope(lambda side, seed: locations.random(side * side, seed, FINE), 24) == pytest.approx(-0.5, abs=0.04)
+    assert slope(lambda side, seed: spans.random(side * side, seed, FINE), 24) == pytest.approx(-0.5, abs=0.04)
 
 
 @pytest.mark.parametrize("name", ["edge-fan", "near-horizontal", "wires", "siemens-star", "intersecting", "portal", "silhouette", "mesh"])

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from msaa_lint.experiments.study import coverage
 from msaa_lint.experiments.study.coverage import Rows, rows
-from msaa_lint.experiments.study.fragments import masks
-from msaa_lint.experiments.study.locations import SUBPIXELS, grid, jittered, random, standard
+from msaa_lint.experiments.study.locations import SUBPIXELS, standard
 from msaa_lint.frame.vulkan.sample_locations import STANDARD
 from tests.experiments.study.rational import covered
+from tests.experiments.study.spans import grid, jittered, masks, random
 from tests.strength import examples
 
 WIDTH, HEIGHT = 5, 4
@@ -258,9 +258,3 @@ def test_random_samples_are_even_and_a_seed_s_own() -> None:
     assert places.max() == SUBPIXELS - 1
     # Eight standard deviations of the mean of as many.
     assert abs(places.mean() - 127.5) < 8 * 256 / np.sqrt(12 * 200_000)
-
-
-@pytest.mark.parametrize("make", [lambda: grid(0), lambda: jittered(0, 1), lambda: random(0, 1)])
-def test_no_samples_at_all_are_refused(make: Any) -> None:
-    with pytest.raises(ValueError, match="at least 1"):
-        make()

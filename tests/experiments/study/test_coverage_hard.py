@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from msaa_lint.experiments.study.coverage import rows
-from msaa_lint.experiments.study.fragments import hits, masks
 from msaa_lint.experiments.study.locations import SUBPIXELS, standard
 from msaa_lint.frame.vulkan.sample_locations import STANDARD
 from tests.experiments.study.rational import covered, covers, edge, hit, naive
+from tests.experiments.study.spans import hits, masks
 from tests.strength import examples
 
 SIDE = 8

@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from msaa_lint.experiments.study.snap import snapped, viewport
+from msaa_lint.experiments.study.snap import snapped
+from tests.experiments.study.device import viewport
 from tests.strength import examples
 
 

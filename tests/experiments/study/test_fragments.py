@@ -8,9 +8,10 @@ from hypothesis import given
 from numpy.typing import NDArray
 
 from msaa_lint.experiments.study.coverage import rows
-from msaa_lint.experiments.study.fragments import fragments, hits, masks
-from msaa_lint.experiments.study.locations import SUBPIXELS, grid, jittered, standard
+from msaa_lint.experiments.study.fragments import fragments
+from msaa_lint.experiments.study.locations import SUBPIXELS, standard
 from tests.experiments.study.rational import covered
+from tests.experiments.study.spans import grid, hits, jittered, masks
 from tests.experiments.study.test_coverage import COUNTS, HEIGHT, WIDTH, triangles
 from tests.strength import examples
 
@@ -76,19 +77,6 @@ def test_masks_and_hits_take_any_count_of_samples(side: int) -> None:
         assert np.array_equal(hits(found, 4, 4), exact.sum(axis=(0, 3)))
 
 
-@pytest.mark.parametrize("samples", [1, 2, 4, 8, 16])
-def test_masks_are_one_block_that_may_be_written_to(samples: int) -> None:
-    """The quick way, where one triangle alone covers, gives what the other gives."""
-    for corners in ([PIXEL], [PIXEL, PIXEL]):
-        found = masks(rows(np.array(corners), 3, 2, standard(samples)), 3, 2, samples)
-        assert found.shape == (2, 3, samples)
-        assert found.dtype == np.bool_
-        assert found.flags.c_contiguous
-        assert found.view(np.uint8).max() == 1
-        found ^= True
-        assert np.array_equal(found, ~covered(np.array(PIXEL), 3, 2, standard(samples)))
-
-
 def test_nothing_covered_is_no_fragments_and_an_empty_picture() -> None:
     none = rows(np.zeros((0, 3, 2), dtype=np.int64), 3, 2, standard(4))
     assert [len(part) for part in fragments(none, 4)] == [0, 0, 0, 0]
@@ -98,9 +86,8 @@ def test_nothing_covered_is_no_fragments_and_an_empty_picture() -> None:
 
 def test_spans_of_another_count_and_more_samples_than_a_mask_holds_are_refused() -> None:
     spans = rows(np.array([PIXEL]), 3, 2, standard(4))
-    for refused in (lambda: fragments(spans, 8), lambda: masks(spans, 3, 2, 2)):
-        with pytest.raises(ValueError, match=r"spans of \d samples, found 4"):
-            refused()
+    with pytest.raises(ValueError, match=r"spans of 8 samples, found 4"):
+        fragments(spans, 8)
     many = rows(np.array([PIXEL]), 3, 2, jittered(5, 1))
     with pytest.raises(ValueError, match="a mask holds at most 16 samples, found 25"):
         fragments(many, 25)

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 from msaa_lint.experiments.confirm.session import Session, environment
 from msaa_lint.experiments.study.coverage import rows
-from msaa_lint.experiments.study.device_coverage import clip, covered
-from msaa_lint.experiments.study.fragments import masks
 from msaa_lint.experiments.study.locations import standard
-from msaa_lint.experiments.study.snap import snapped, viewport
+from msaa_lint.experiments.study.scene_timing import clip
+from msaa_lint.experiments.study.snap import snapped
+from tests.experiments.study.device import covered, viewport
+from tests.experiments.study.spans import masks
 
 SIDE = 1024
 """A power of two: then positions in clip coordinates are exact whatever way the viewport is applied."""

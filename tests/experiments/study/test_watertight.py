@@ -7,9 +7,9 @@ import pytest
 from numpy.typing import NDArray
 
 from msaa_lint.experiments.study.coverage import Rows, rows
-from msaa_lint.experiments.study.fragments import hits
 from msaa_lint.experiments.study.locations import SUBPIXELS, standard
 from tests.experiments.study.rational import naive
+from tests.experiments.study.spans import hits
 from tests.experiments.study.test_coverage_hard import SIDE, near_ties
 
 ACROSS, DOWN = 200, 170
