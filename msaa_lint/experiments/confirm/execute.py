@@ -12,7 +12,7 @@ from .draw import Recorder
 from .opening import Emit, Session
 from .parts import SAMPLED, SUSPENDING, TRANSFER_SOURCE, TRANSIENT, Plan, Step, from_json
 from .readback import bring_back, bring_samples
-from .resample import pictured
+from .resample import pictured, resized
 from .submit import Submitter
 from .vulkan_errors import VulkanError
 
@@ -93,8 +93,6 @@ def run(session: Session, plan: Plan, passes: Sequence[int] | None, want: RunOpt
 
 
 def _sized(plan: Plan, want: RunOptions) -> Plan:
-    from .resample import resized
-
     if want.size is not None:
         return resized(plan, (want.size[0], want.size[1]))
     return plan if want.repeats else pictured(plan)

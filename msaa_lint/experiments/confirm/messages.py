@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from functools import cache
 from typing import NamedTuple
 
 from .explanations import NOISE, Noise
@@ -16,14 +14,10 @@ class Message(NamedTuple):
 
     id: str
     text: str
-    severity: str = "warning"
     number: int | None = None
 
 
-VENDORS = {"arm": "arm", "amd": "amd", "img": "img", "nvidia": "nvidia"}
-"""The parts of ids and texts that name a vendor's checks."""
-
-_OWN = re.compile(r"^(?:UNASSIGNED-)?BestPractices-(?:(?P<vendor>Arm|AMD|IMG|NVIDIA)-)?", re.IGNORECASE)
+_OWN = re.compile(r"^(?:UNASSIGNED-)?BestPractices-(?:(?:Arm|AMD|IMG|NVIDIA)-)?", re.IGNORECASE)
 _VUID = re.compile(r"^(?:UNASSIGNED-)?VUID-(?P<of>\w+)-(?P<rest>.+)$")
 _NUMBER = re.compile(r"-(\d{5})$")
 _PREAMBLE = re.compile(r"^[\w ]+:\s*\[.*?\].*?\|\s*MessageID\s*=\s*0x[0-9a-fA-F]+\s*\|\s*", re.DOTALL)
@@ -36,8 +30,8 @@ _VENDORS_SAID = re.compile(r"^(?:\[(?:Arm|AMD|IMG|NVIDIA)\]\s*)+", re.IGNORECASE
 def classify(id: str, text: str = "") -> Family | Noise | None:
     """The family of a message, or the kind of noise it is. None for neither: no rule corresponds to it."""
     name = bare(id)
-    for candidate in _candidates():
-        if any(_has(name, id_part) for id_part in candidate.ids):
+    for candidate in (*FAMILIES, *NOISE):
+        if any(f"-{id_part}-" in f"-{name}-" for id_part in candidate.ids):
             return candidate
     vuid = _VUID.match(id)
     if vuid is None or _NUMBER.search(id) is None:
@@ -59,30 +53,7 @@ def bare(id: str) -> str:
     return _OWN.sub("", id).removeprefix("VUID-")
 
 
-def vendors(id: str, text: str = "") -> frozenset[str]:
-    """The vendors whose checks report a message; none for messages that do not depend on a vendor."""
-    names = {match["vendor"].lower() for match in (_OWN.match(id),) if match is not None and match["vendor"]}
-    prefix = _VENDORS_SAID.match(_PREAMBLE.sub("", text))
-    if prefix is not None:
-        names.update(word.lower() for word in re.findall(r"\w+", prefix[0]))
-    return frozenset(names)
-
-
 def sentence(text: str) -> str:
     """The text of a message without the preamble and the quotation of the specification; handles, which differ in every run, are elided."""
     message = _QUOTED.sub("", _VENDORS_SAID.sub("", _PREAMBLE.sub("", text)))
     return " ".join(_HANDLE.sub("...", _NAMED.sub(r"`\1`", message)).split())
-
-
-@cache
-def _candidates() -> tuple[Family | Noise, ...]:
-    return (*FAMILIES, *NOISE)
-
-
-def _has(name: str, id_part: str) -> bool:
-    return f"-{id_part}-" in f"-{name}-"
-
-
-def numbers() -> Iterator[str]:
-    """The VUID numbers of all families."""
-    return (id_part for family in FAMILIES for id_part in family.ids if id_part.isdecimal())

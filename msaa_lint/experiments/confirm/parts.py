@@ -1,10 +1,10 @@
 """The parts of a plan: what is created and recorded, in Vulkan's integers, as sent to the child process.
 
-A plan consists of nested named tuples of numbers and texts; `to_json` and `from_json` carry it over a pipe. An index of -1 means none.
+A plan consists of nested named tuples of numbers and texts, which JSON turns into lists and `from_json` restores. An index of -1 means
+none.
 """
 
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 NONE = -1
 
@@ -258,36 +258,14 @@ class Plan(NamedTuple):
     vertices: str = ""
 
 
-def to_json(plan: Any) -> Any:
-    """A plan, or a part of one, as JSON values."""
-    if hasattr(plan, "_asdict"):
-        return {name: to_json(value) for name, value in plan._asdict().items()}
-    return [to_json(each) for each in plan] if isinstance(plan, tuple) else plan
+def from_json(data: Any) -> Plan:
+    """A plan from its JSON. TypeError or ValueError for data that is not a plan."""
+    plan: Plan = _part(Plan, data)
+    return plan
 
 
-def from_json(data: Mapping[str, Any]) -> Plan:
-    """The inverse of `to_json`. KeyError, TypeError or ValueError for data that is not a plan."""
-    made: Plan = _read(Plan, data)
-    return made
-
-
-_WITHIN: dict[str, type] = {
-    "images": Image, "passes": Pass, "steps": Step, "attachments": Attachment, "subpasses": Subpass, "dependencies": Dependency,
-    "rendered": RenderTarget, "framebuffers": Framebuffer, "pipelines": Pipeline, "inputs": Reference, "colors": Reference,
-    "resolves": Reference, "depth_stencil": Reference, "depth_resolve": Reference, "blends": Blend, "stages": Stage, "inner": PassCommand,
-}  # fmt: skip
-"""The types of elements, by the name of the member."""
-
-
-def _read(kind: Any, data: Mapping[str, Any]) -> Any:
-    members = {}
-    for name, value in data.items():
-        if isinstance(value, list):
-            part = _WITHIN.get(name)
-            value = tuple(_read(part, each) if part is not None and isinstance(each, dict) else _tuple(each) for each in value)
-        members[name] = value
-    return kind(**members)
-
-
-def _tuple(value: Any) -> Any:
-    return tuple(_tuple(each) for each in value) if isinstance(value, list) else value
+def _part(kind: Any, value: Any) -> Any:
+    if hasattr(kind, "_fields"):
+        return kind(*(_part(member, each) for member, each in zip(kind.__annotations__.values(), value, strict=True)))
+    elements = get_args(kind)
+    return tuple(_part(elements[0], each) for each in value) if elements else value

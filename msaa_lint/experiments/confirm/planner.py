@@ -9,42 +9,21 @@ from msaa_lint.frame.facts.frame import Frame
 
 from . import gate, plan, resolve_check
 from .agreement import agreement
+from .frame_results import FrameRun
 from .inputs import Input
 from .layer_scope import layer_scope, pass_kind
 from .messages import Message
 from .outcome import AgreementRow
-from .parts import Plan, to_json
-from .protocol import Event
+from .parts import RENDER_PASS, Pass, Plan
 from .session import Session
 
 
-class PlannedPass(NamedTuple):
-    """A pass of a plan. `refused` says why no device can run it, empty where one can. `kind` is `renderPass`, `renderPass2` or `rendering`,
-    by the call that creates it."""
-
-    name: str
-    path: str
-    refused: str = ""
-    kind: str = ""
-
-
 class PlannedFrame(NamedTuple):
-    """A frame's plan, in the form that the child process takes (`data`); its passes; and the defaults that were assumed, in words."""
+    """A frame's plan, its passes, and the defaults that were assumed, in words."""
 
-    data: Mapping[str, Any]
     plan: Plan
-    passes: Sequence[PlannedPass]
+    passes: Sequence[Pass]
     defaults: Sequence[str] = ()
-
-
-class LayerReport(NamedTuple):
-    """The layer's messages about the passes of a frame that ran, the layer, and the device that it ran on."""
-
-    numbers: Sequence[int]
-    messages: Sequence[Event]
-    layer: Mapping[str, Any]
-    vendors: Sequence[str]
-    device: Mapping[str, Any]
 
 
 class Planner:
@@ -57,11 +36,7 @@ class Planner:
     def plan(self, frame: Frame, file: str, size: tuple[int, int] | None, samples: int | None) -> PlannedFrame:
         """The plan of a frame. It never raises for what the frame contains."""
         frame_plan = plan.plan(frame, file=file, size=size, samples=samples, api=self.api)
-        passes = [
-            PlannedPass(frame_pass.name, frame_pass.path, frame_pass.refused, pass_kind(frame_pass.api, frame_pass.kind != "renderPass"))
-            for frame_pass in frame_plan.passes
-        ]
-        return PlannedFrame(to_json(frame_plan), frame_plan, passes, (*_metal_notes(frame), *frame_plan.defaults))
+        return PlannedFrame(frame_plan, frame_plan.passes, (*_metal_notes(frame), *frame_plan.defaults))
 
     def gate(self, planned: PlannedFrame, device: Mapping[str, Any]) -> dict[int, str]:
         """The passes that a device does not support, by number, and why."""
@@ -73,14 +48,14 @@ class Planner:
         numbers = range(len(planned.passes)) if found else ()
         return {number: [deviation.text for deviation in resolve_check.of_pass(planned.plan, number, found)] for number in numbers}
 
-    def agreement(self, source: Input, planned: PlannedFrame, report: LayerReport) -> Mapping[int, Sequence[AgreementRow]]:
-        """How the layer and the rules agree about each pass that ran."""
-        kinds = {number: planned.passes[number].kind for number in report.numbers}
-        names = {number: planned.passes[number].name for number in report.numbers}
-        messages = [
-            Message(event["id"], event["text"], str(event.get("severity", "warning")), event.get("pass")) for event in report.messages
-        ]
-        scope = layer_scope(report.layer, report.device, kinds, report.vendors)
+    def agreement(self, source: Input, planned: PlannedFrame, run: FrameRun, session: Session) -> Mapping[int, Sequence[AgreementRow]]:
+        """How the layer of a session and the rules agree about each pass that ran."""
+        passes = {number: planned.passes[number] for number in run.passes}
+        kinds = {number: pass_kind(ran.api, ran.kind != RENDER_PASS) for number, ran in passes.items()}
+        names = {number: ran.name for number, ran in passes.items()}
+        events = [*run.messages, *(event for outcome in run.passes.values() for event in outcome.messages)]
+        messages = [Message(event["id"], event["text"], event.get("pass")) for event in events]
+        scope = layer_scope(session.layer, session.device, kinds, session.vendors)
         findings, undecided = source.by_vulkan or ([*source.findings, *source.silenced], source.undecided)
         return agreement(source.frame, names, findings, messages, scope, undecided, source.device)
 

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 
 from .frame_results import SAMPLES_OF, FrameRun
 from .gate import gate
-from .parts import COLOR, DEPTH, RENDER_PASS, STENCIL, Plan, to_json
+from .parts import COLOR, DEPTH, RENDER_PASS, STENCIL, Plan
 from .protocol import Event
 from .resolve_expected import AVERAGE, ENCODED_AVERAGE, GREATEST, LEAST, ZERO, Component, Expected, components, due, likeness, stored, value
 from .resolve_probe import COMMAND, SAMPLES, Probe, Resolve, probe, resolves
@@ -99,9 +99,9 @@ def _probed(session: Session, probe_frame: Probe, device: Mapping[str, Any]) -> 
     deviations_found = []
     for multisampled in probe_frame.seen if runnable else ():
         folder = session.folder("probe")
-        want = {"pixels": folder, "repeats": 0, "warmups": 0, "size": None, "samples_of": multisampled}
+        want = {"pixels": folder, "samples_of": multisampled}
         try:
-            run = session.run(to_json(probe_frame.plan), runnable, want)
+            run = session.run(probe_frame.plan, runnable, want)
             for number, (resolve, at) in enumerate(probe_frame.resolves):
                 if at in runnable and run.passes[at].created:
                     deviations_found += [(resolve, deviation) for deviation in _judged(resolve, number, multisampled, run, folder)]

@@ -119,7 +119,7 @@ class Session:
         os.makedirs(path, exist_ok=True)
         return path
 
-    def run(self, plan: Mapping[str, Any], passes: Sequence[int], want: Mapping[str, Any]) -> FrameRun:
+    def run(self, plan: Any, passes: Sequence[int], want: Mapping[str, Any]) -> FrameRun:
         """Runs passes of a plan in order. The result says how the driver behaved. Unusable if the device cannot be opened any more."""
         done: dict[int, PassOutcome] = {}
         left = list(passes)
@@ -145,7 +145,7 @@ class Session:
             return FrameRun(done, tuple(collected.messages), collected.images if whole else {}, whole, collected.failed)
         return FrameRun(done, whole=False)
 
-    def _alone(self, plan: Mapping[str, Any], number: int, want: Mapping[str, Any], ended: ChildExit) -> PassOutcome:
+    def _alone(self, plan: Any, number: int, want: Mapping[str, Any], ended: ChildExit) -> PassOutcome:
         """Runs a pass during which the child died, alone in a fresh child. A pass that timed out is not repeated."""
         if ended.how == "timed-out":
             return PassOutcome(number, end="timed-out", reason=str(ended))
@@ -161,7 +161,7 @@ class Session:
         ran = collected.outcome(number)
         return ran._replace(end="died", signal=ended.signal, reason=f"{ended} (only together with other passes, not alone)")
 
-    def _collect(self, plan: Mapping[str, Any], passes: Sequence[int], want: Mapping[str, Any], into: RunCollector) -> None:
+    def _collect(self, plan: Any, passes: Sequence[int], want: Mapping[str, Any], into: RunCollector) -> None:
         self.open()
         assert self._child is not None
         request = {"do": "run", "plan": plan, "passes": list(passes), "want": dict(want)}

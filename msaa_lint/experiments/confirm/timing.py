@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from statistics import median
 from typing import Any, NamedTuple
 
 CONFIDENCE = 0.95
@@ -34,15 +35,6 @@ class Timing(NamedTuple):
         """The JSON of reports: milliseconds, rounded to nanoseconds."""
         rounded = {name: round(getattr(self, name), 6) for name in ("median", "low", "high")}
         return {**rounded, "n": self.n, "confidence": round(self.confidence, 4), "source": self.source}
-
-
-def median(values: Sequence[float]) -> float:
-    """The middle value, or the mean of the two middle values. ValueError without values."""
-    if not values:
-        raise ValueError("no values to take the median of")
-    ordered = sorted(values)
-    half = len(ordered) // 2
-    return ordered[half] if len(ordered) % 2 else (ordered[half - 1] + ordered[half]) / 2
 
 
 def ranks(count: int, confidence: float = CONFIDENCE) -> tuple[int, int, float]:

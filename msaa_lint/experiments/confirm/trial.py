@@ -11,11 +11,12 @@ from msaa_lint.core.finding import Finding
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.parts import Pass
 
+from . import parts
 from .frame_results import FrameRun
 from .inputs import Input, of_pass
 from .outcome import REFUSED, SKIPPED, AgreementRow, DeviceInfo, DeviceRun, Verdict, about, pixels_equal
 from .pixels import ImageComparison, RawImage, compare, read
-from .planner import LayerReport, PlannedPass, Planner
+from .planner import Planner
 from .png import PictureFolder, file_name, show
 from .protocol import Event
 from .session import Session
@@ -144,9 +145,8 @@ class _Trial:
         if not runnable:
             return Version(planned, refused, FrameRun({}), {})
         folder = self.session.folder("pixels")
-        options = {"pixels": folder, "repeats": 0, "warmups": 0, "size": None, "samples_of": None}
         try:
-            run = self.session.run(planned.data, runnable, options)
+            run = self.session.run(planned.plan, runnable, {"pixels": folder})
             return Version(planned, refused, run, dict(_raw_images(run.images, folder)))
         finally:
             shutil.rmtree(folder, ignore_errors=True)
@@ -182,12 +182,9 @@ class _Trial:
 
     def _agreement(self, source: Input, before: Version) -> Mapping[int, Sequence[AgreementRow]]:
         """How the layer and the rules agree, by pass."""
-        layer, run = self.session.layer, before.run
-        if layer is None or not run.passes:
+        if self.session.layer is None or not before.run.passes:
             return {}
-        messages = [*run.messages, *(message for outcome in run.passes.values() for message in outcome.messages)]
-        report = LayerReport(list(run.passes), messages, layer, self.session.vendors, self.device)
-        return self.planner.agreement(source, before.planned, report)
+        return self.planner.agreement(source, before.planned, before.run, self.session)
 
     def _verdict(self, source: Input, before: Version, number: int) -> Verdict:
         """What is known about a pass before it is judged."""
@@ -200,14 +197,14 @@ class _Trial:
         return Verdict(source.file, planned.name, source.prefix + planned.path, "", findings=codes, notes=tuple(notes))
 
 
-def _findings(source: Input, planned: PlannedPass) -> list[Finding]:
+def _findings(source: Input, planned: parts.Pass) -> list[Finding]:
     """All findings about a pass, suppressed ones included."""
     described = next((frame_pass for frame_pass in source.frame.passes if frame_pass.name == planned.name), None)
     findings = [*source.findings, *source.silenced]
     return of_pass(source.frame, described, findings) if described is not None else findings
 
 
-def _concerns(image: str, planned: PlannedPass, frame: Frame, passes: int) -> bool:
+def _concerns(image: str, planned: parts.Pass, frame: Frame, passes: int) -> bool:
     """Whether an image is reported with a pass that renders or resolves to it; images of no pass are reported with every pass."""
     owners = [described.name for described in frame.passes if _writes(described, image)]
     return passes == 1 or not owners or planned.name in owners

@@ -41,14 +41,14 @@ def measure_times(session: Session, versions: Mapping[str, Version], repeats: in
             if process != previous:
                 timed_session.close()
             previous = process
-            options = {"pixels": None, "repeats": count, "warmups": WARMUPS, "size": None, "samples_of": None}
+            options = {"repeats": count, "warmups": WARMUPS}
             for name in order:
                 version = versions.get(name)
                 passes = version.run.passes.items() if version is not None else ()
                 runnable = [number for number, outcome in passes if outcome.end == "" and outcome.created is not False]
                 if version is None or not runnable:
                     continue
-                for number, outcome in timed_session.run(version.planned.data, runnable, options).passes.items():
+                for number, outcome in timed_session.run(version.planned.plan, runnable, options).passes.items():
                     values[name].setdefault(number, []).extend(outcome.times)
                     source = outcome.source or source
     times = {}

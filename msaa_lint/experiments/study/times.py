@@ -91,7 +91,6 @@ class DeviceClock:
     def of(self, technique: Technique, width: int, height: int, vertices: str = "") -> Cost:
         """The device's time and the model's bytes. `vertices` is a file of triangles to draw (confirm/parts.py)."""
         from msaa_lint.experiments.confirm import gate, plan
-        from msaa_lint.experiments.confirm.parts import to_json
         from msaa_lint.experiments.confirm.timing import timing
 
         cost = self.model.of(technique, width, height)
@@ -102,8 +101,7 @@ class DeviceClock:
             return cost._replace(reason=next(iter(refused.values())))
         # An idle GPU takes a while to raise its clock rate.
         warmups = 3 if self.software else 100
-        options = {"pixels": None, "repeats": self.repeats, "warmups": warmups, "size": None, "samples_of": None}
-        run = self.session.run(to_json(frame_plan), [0], options)
+        run = self.session.run(frame_plan, [0], {"repeats": self.repeats, "warmups": warmups})
         outcome = run.passes[0]
         if run.failed or outcome.end or not outcome.times:
             return cost._replace(reason=run.failed or outcome.reason or outcome.error or "no time was measured")

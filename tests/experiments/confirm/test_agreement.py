@@ -18,7 +18,7 @@ from msaa_lint.experiments.confirm.explanations import CONSEQUENCES, EXPLANATION
 from msaa_lint.experiments.confirm.explanations import NOISE as LEFT_OUT
 from msaa_lint.experiments.confirm.families import FAMILIES, RENDER_PASS, RENDER_PASS_2, RENDERING, Family
 from msaa_lint.experiments.confirm.layer_scope import LayerScope, layer_scope, pass_kind
-from msaa_lint.experiments.confirm.messages import Message, bare, classify, sentence, vendors
+from msaa_lint.experiments.confirm.messages import Message, bare, classify, sentence
 from msaa_lint.experiments.confirm.outcome import AgreementRow
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.linter.engine import Engine, LintOptions
@@ -194,9 +194,6 @@ def test_a_sentence_is_what_the_layer_says_without_its_surroundings() -> None:
     )
     assert sentence(text) == "vkCreateImage(): VkImage 0x2000[color_ms] is large, ... of format 0x00000005 too."
     assert sentence(text.replace("0x2000[", "0x200000002[")).startswith("vkCreateImage(): VkImage `color_ms` is large")
-    assert vendors("UNASSIGNED-BestPractices-vkCreateImage-x", text) == {"arm", "img"}
-    assert vendors("BestPractices-AMD-vkImage-x") == {"amd"}
-    assert vendors("VUID-VkImageCreateInfo-usage-00963", "[1] is wrong") == frozenset()
     assert bare("UNASSIGNED-BestPractices-Arm-x") == "x"
 
 
@@ -248,7 +245,7 @@ def rows(text: str, *messages: Message, at: LayerScope = EVERYTHING) -> dict[int
 
 
 def said(id: str, number: int | None = 0, text: str = "It is so.") -> Message:
-    return Message(id, text, "warning", number)
+    return Message(id, text, number)
 
 
 def only(found: Mapping[int, Sequence[AgreementRow]], verdict: str, number: int = 0) -> list[AgreementRow]:
@@ -428,7 +425,6 @@ def _names() -> tuple[str, ...]:
             Message,
             st.sampled_from([of + id for id in _names() for of in ("BestPractices-", "VUID-VkX-y-")]) | st.text(min_size=1, max_size=30),
             st.text(max_size=40),
-            st.just("warning"),
             st.sampled_from([None, 0, 1, 7]),
         ),
         max_size=8,

@@ -15,7 +15,7 @@ import pytest
 from msaa_lint.experiments.confirm.explanations import Noise
 from msaa_lint.experiments.confirm.frame_results import FrameRun, RunCollector
 from msaa_lint.experiments.confirm.messages import classify
-from msaa_lint.experiments.confirm.parts import Plan, Stage, to_json
+from msaa_lint.experiments.confirm.parts import Plan, Stage
 from msaa_lint.experiments.confirm.protocol import Event
 from msaa_lint.experiments.confirm.session import Session, environment
 from msaa_lint.experiments.confirm.texels import Texels, format_of, texels
@@ -71,7 +71,7 @@ def done(session: Session, plan: Plan, **wanted: Any) -> Done:
 
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr("msaa_lint.experiments.confirm.session.RunCollector", Recorded)
-        run = session.run(to_json(plan), range(len(plan.passes)), want)
+        run = session.run(plan, range(len(plan.passes)), want)
     images = {}
     for name, event in run.images.items():
         form = format_of(next(short for short, number in VALUES["VkFormat"].items() if number == event["format"]))
@@ -159,7 +159,7 @@ def test_events_of_several_passes_are_told_pass_by_pass(plain: Session) -> None:
 def test_passes_that_are_not_asked_for_are_not_touched(plain: Session) -> None:
     plan = planned(TWO_PASSES)
     want = {"pixels": None, "repeats": 0, "warmups": 0, "size": None, "samples_of": None}
-    run = plain.run(to_json(plan), [1], want)
+    run = plain.run(plan, [1], want)
     assert list(run.passes) == [1] and run.passes[1].created
 
 
@@ -543,7 +543,7 @@ def leaks(tmp_path: Path, turns: int, *more: str) -> dict[str, Any]:
     plans.append(plans[0]._replace(passes=(broken,)))
     made = subprocess.run(
         [sys.executable, "-c", LEAKS, str(turns), *more],
-        input=json.dumps([to_json(each) for each in plans]),
+        input=json.dumps(plans),
         capture_output=True,
         text=True,
         check=True,

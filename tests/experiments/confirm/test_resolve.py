@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from msaa_lint.experiments.confirm import resolve_check as resolving
 from msaa_lint.experiments.confirm.frame_results import FrameRun, PassOutcome
-from msaa_lint.experiments.confirm.parts import COLOR, DEPTH, RENDER_PASS, RENDERING, STENCIL, Plan, to_json
+from msaa_lint.experiments.confirm.parts import COLOR, DEPTH, RENDER_PASS, RENDERING, STENCIL, Plan
 from msaa_lint.experiments.confirm.resolve_check import Deviation, deviations, judged, of_pass, witnessed
 from msaa_lint.experiments.confirm.resolve_expected import AVERAGE, GREATEST, LEAST, ZERO, beside, components, decoded, due, encoded, stored
 from msaa_lint.experiments.confirm.resolve_probe import COMMAND, Resolve, probe, resolves
@@ -88,7 +88,7 @@ renderPasses:
 def drawn(session: Session, plan: Plan, seen: str) -> tuple[Pixels, dict[str, Texels]]:
     """The samples of an image of a frame, and all its single-sampled images."""
     want = {"pixels": session.folder("drawn"), "repeats": 0, "warmups": 0, "size": None, "samples_of": seen}
-    run = session.run(to_json(plan), range(len(plan.passes)), want)
+    run = session.run(plan, range(len(plan.passes)), want)
     assert run.whole and all(ran.created for ran in run.passes.values()), run
     event = run.images[f"{seen}:samples"]
     count = event["samples"]

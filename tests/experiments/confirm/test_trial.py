@@ -16,9 +16,11 @@ from msaa_lint.cli.report import Options
 from msaa_lint.cli.report.confirm_full import render as as_text
 from msaa_lint.cli.report.confirm_json import render as as_json
 from msaa_lint.experiments.confirm.child import Limits
+from msaa_lint.experiments.confirm.frame_results import FrameRun
 from msaa_lint.experiments.confirm.inputs import Input, inputs
 from msaa_lint.experiments.confirm.outcome import AgreementRow, DeviceRun, exit_code
-from msaa_lint.experiments.confirm.planner import LayerReport, PlannedFrame, PlannedPass
+from msaa_lint.experiments.confirm.parts import Pass
+from msaa_lint.experiments.confirm.planner import PlannedFrame
 from msaa_lint.experiments.confirm.session import Session
 from msaa_lint.experiments.confirm.trial import TrialOptions, trial
 from msaa_lint.frame.facts.frame import Frame
@@ -59,7 +61,7 @@ class Fake:
         written = any(a.store == "STORE" for p in frame.passes for t in p.attachments[:1] for a in t.aspects)
         deeds = [each.name if written else self.fixed.get(each.name, each.name) for each in frame.passes]
         data = {"passes": deeds, "pixel": 0 if written else self.pixel}
-        return PlannedFrame(data, None, [PlannedPass(each.name, each.path) for each in frame.passes], ["256 x 256 pixels are taken"])
+        return PlannedFrame(data, [Pass(each.name, each.path, "", 0) for each in frame.passes], ["256 x 256 pixels are taken"])
 
     def gate(self, planned: PlannedFrame, device: Mapping[str, Any]) -> dict[int, str]:
         return {n: "8 samples are not offered" for n, each in enumerate(planned.passes) if each.name in self.gated}
@@ -67,8 +69,8 @@ class Fake:
     def deviations(self, session: Session, planned: PlannedFrame, device: Mapping[str, Any], color: bool) -> dict[int, list[str]]:
         return {}
 
-    def agreement(self, source: Input, planned: PlannedFrame, report: LayerReport) -> dict[int, tuple[AgreementRow, ...]]:
-        return dict.fromkeys(report.numbers, self.rows)
+    def agreement(self, source: Input, planned: PlannedFrame, run: FrameRun, session: Session) -> dict[int, tuple[AgreementRow, ...]]:
+        return dict.fromkeys(run.passes, self.rows)
 
 
 def tried(

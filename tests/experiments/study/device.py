@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from msaa_lint.experiments.confirm import gate, plan
 from msaa_lint.experiments.confirm.frame_results import SAMPLES_OF
-from msaa_lint.experiments.confirm.parts import Plan, to_json
+from msaa_lint.experiments.confirm.parts import Plan
 from msaa_lint.experiments.confirm.scene import CLEARED
 from msaa_lint.experiments.confirm.session import Session
 from msaa_lint.experiments.confirm.vulkan_errors import Unusable
@@ -45,7 +45,7 @@ def _covered(session: Session, frame_plan: Plan, samples: int, folder: str) -> N
     name = "color" if samples > 1 else "picture"
     size = [frame_plan.images[0].width, frame_plan.images[0].height]
     options = {"pixels": folder, "size": size, "samples_of": name if samples > 1 else None}
-    run = session.run(to_json(frame_plan), [0], options)
+    run = session.run(frame_plan, [0], options)
     event = run.images.get(name + SAMPLES_OF if samples > 1 else name)
     if run.failed or event is None:
         raise Unusable(run.failed or run.passes[0].reason or "the device returned no samples")

@@ -26,8 +26,8 @@ def layers(*polygons: tuple[list[shapes.Point], RGBA, float], names: tuple[str, 
     made = [shapes.triangles([polygon]) for polygon, _, _ in polygons]
     colors = np.concatenate([shapes.uniform_colors(len(own), color) for own, (_, color, _) in zip(made, polygons, strict=True)])
     depths = np.concatenate([np.full((len(own), 3), depth) for own, (_, _, depth) in zip(made, polygons, strict=True)])
-    scene = Scene("layers", "", SIZE, SIZE, np.concatenate(made), colors, depths, behind, names, {}, lambda each: np.zeros((SIZE, SIZE, 4)))
-    return scene._replace(**given)  # type: ignore[arg-type]
+    scene = Scene(SIZE, SIZE, np.concatenate(made), colors, lambda each: np.zeros((SIZE, SIZE, 4)), depths=depths)
+    return scene._replace(name="layers", effects=names, background=behind, **given)  # type: ignore[arg-type]
 
 
 ALL = shapes.rectangle(0, 0, SIZE, SIZE)

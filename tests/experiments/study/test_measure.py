@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from msaa_lint.experiments.study import measure, shade, simulate
 from msaa_lint.experiments.study.points import COUNTS, MSAA, SAMPLE_SHADING, SSAA, Technique
 from msaa_lint.experiments.study.scenes import area, scene, shapes
-from msaa_lint.experiments.study.scenes.scene import BLACK, WHITE, Scene
+from msaa_lint.experiments.study.scenes.scene import WHITE, Scene
 
 LENGTH = 2048
 """Pixels in which an edge moves by one pixel: it is everywhere within a pixel, evenly."""
@@ -24,8 +24,8 @@ def drawn(polygons: Sequence[Sequence[shapes.Point]], width: int, height: int, *
     """White polygons that do not overlap, on black."""
     made = shapes.triangles(polygons)
     colors = shapes.uniform_colors(len(made), WHITE)
-    exact = area.disjoint(colors, BLACK, width, height)
-    return Scene("polygons", "", width, height, made, colors, None, BLACK, (), {}, exact)._replace(**changed)  # type: ignore[arg-type]
+    exact = area.disjoint(colors, width, height)
+    return Scene(width, height, made, colors, exact, name="polygons")._replace(**changed)  # type: ignore[arg-type]
 
 
 def edge(upright: bool, turned: bool = False) -> Scene:

@@ -10,16 +10,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from msaa_lint.experiments.study import coverage, fragments, locations, measure, scenes, snap
+from msaa_lint.experiments.study import coverage, locations, measure, scenes, snap
 from msaa_lint.experiments.study.effects import BY_NAME
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Technique
 from msaa_lint.experiments.study.scenes import depth, detail, edges, visible
 from msaa_lint.experiments.study.scenes import mesh as own
 from msaa_lint.experiments.study.scenes.description import from_description
 from msaa_lint.experiments.study.scenes.mesh import from_mesh
-from msaa_lint.experiments.study.scenes.scene import BLACK, Scene
+from msaa_lint.experiments.study.scenes.scene import Scene
 from msaa_lint.experiments.study.simulate import simulate
 from tests.experiments.confirm.frames import frame
+from tests.experiments.study import spans
 from tests.strength import examples
 
 MANY = Technique(SSAA, 256, grid=16)
@@ -123,7 +124,7 @@ def test_the_mesh_is_watertight() -> None:
     made = scenes.scene("mesh", 150, 90)
     triangles = snap.snapped(made.triangles)
     for count in (1, 4, 16):
-        assert (fragments.hits(coverage.rows(triangles, 150, 90, locations.standard(count)), 150, 90) == count).all()
+        assert (spans.hits(coverage.rows(triangles, 150, 90, locations.standard(count)), 150, 90) == count).all()
     uses: dict[tuple[tuple[int, int], ...], list[int]] = {}
     for number, triangle in enumerate(triangles.tolist()):
         for a, b in ((0, 1), (1, 2), (2, 0)):
@@ -184,7 +185,7 @@ def squares(depths: tuple[list[float], list[float]], look: visible.Visibility) -
     corners = [[[0, 0], [4, 0], [4, 4]], [[0, 0], [4, 4], [0, 4]], [[2, 0], [6, 0], [6, 4]], [[2, 0], [6, 4], [2, 4]]]
     colors = np.array([[1, 0, 0, 0.5]] * 2 + [[0, 1, 0, 0.5]] * 2)
     given = np.array([[a, b, c] for own in depths for a, b, c in ([own[0], own[1], own[2]], [own[0], own[2], own[3]])])
-    exact, crossed = visible.overlapping(colors, given if look.depth else None, BLACK, 8, 4, look)
+    exact, crossed = visible.overlapping(colors, given if look.depth else None, 8, 4, look)
     triangles = np.array(corners, np.float64)
     return exact(triangles), crossed(triangles)
 
@@ -227,7 +228,7 @@ def test_pieces_of_any_triangles_fill_the_picture_once(corners: list[tuple[int, 
     draws = np.random.default_rng(seed)
     colors = np.concatenate([draws.random((len(triangles), 3)), np.ones((len(triangles), 1))], axis=1)
     depths = draws.random((len(triangles), 3))
-    found = visible.tiles(triangles, colors, depths, BLACK, (20, 18), visible.Visibility(depth=True))
+    found = visible.tiles(triangles, colors, depths, (20, 18), visible.Visibility(depth=True))
     assert sum(abs(visible.signed_area(piece.polygon)) for _, _, pieces in found for piece in pieces) == pytest.approx(20 * 18, abs=1e-6)
 
 

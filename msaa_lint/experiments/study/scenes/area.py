@@ -9,24 +9,20 @@ from numpy.typing import NDArray
 
 from msaa_lint.experiments.study.exact_area import areas_of
 
-from .scene import RGBA
-
 Floats = NDArray[np.float64]
 
 TOLERANCE = 1e-9
 """Areas below this, in pixels, are rounding errors of double precision."""
 
 
-def disjoint(colors: Floats, background: RGBA, width: int, height: int) -> Callable[[Floats], Floats]:
-    """A function from triangles that do not overlap, each in its color, to their exact picture (H, W, 4)."""
-    behind = np.asarray(background, np.float64)
+def disjoint(colors: Floats, width: int, height: int) -> Callable[[Floats], Floats]:
+    """A function from triangles that do not overlap, each in its color, to their exact picture (H, W, 4) on black."""
     distinct, index = _distinct(colors)
 
     def exact(triangles: Floats) -> Floats:
-        picture = np.empty((height, width, 4))
-        picture[:] = behind
+        picture = np.zeros((height, width, 4))
         for number, color in enumerate(distinct):
-            picture += areas_of(triangles[index == number], width, height)[..., None] * (color - behind)
+            picture += areas_of(triangles[index == number], width, height)[..., None] * color
         return picture
 
     return exact

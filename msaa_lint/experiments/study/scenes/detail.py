@@ -11,7 +11,7 @@ from msaa_lint.experiments.study.exact_area import areas_of
 
 from . import shapes
 from .light import Display
-from .scene import BLACK, WHITE, Scene
+from .scene import WHITE, Scene
 
 Floats = NDArray[np.float64]
 
@@ -51,8 +51,7 @@ def zone_plate(width: int, height: int, display: Display | None = None) -> Scene
         return np.ones((height, width), bool)
 
     colors = shapes.uniform_colors(len(triangles), WHITE)
-    image = exact if display is None else displayed
-    return Scene("", "", width, height, triangles, colors, None, BLACK, (), {}, image, False, shade, edge_pixels)
+    return Scene(width, height, triangles, colors, exact if display is None else displayed, edge_pixels, False, shade=shade)
 
 
 def _wave(k: float, center: float, count: int) -> NDArray[np.complex128]:
@@ -110,9 +109,8 @@ def _foliage(width: int, height: int, effect: str, why: str, settings: dict[str,
         return np.repeat(areas_of(shapes.triangles(leaves), width, height)[..., None], 4, axis=2)
 
     colors = shapes.uniform_colors(len(card_triangles), WHITE)
-    return Scene(
-        "", "", width, height, card_triangles, colors, None, BLACK, (effect,), {effect: why}, exact, True, shade, settings=settings
-    )
+    scene = Scene(width, height, card_triangles, colors, exact, shade=shade)
+    return scene._replace(effects=(effect,), why={effect: why}, settings=settings)
 
 
 def foliage(width: int, height: int) -> Scene:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from msaa_lint.experiments.study.resolve import TONE_MAPPING
 
 from . import area, shapes, visible
-from .scene import BLACK, RGBA, Scene
+from .scene import RGBA, Scene
 
 Floats = NDArray[np.float64]
 Display = Callable[[Floats], Floats]
@@ -50,12 +50,9 @@ def _emitter(width: int, height: int, place: str) -> Scene:
         }[place],
     }
     displayed_colors = display(colors)
-    exact = area.disjoint(displayed_colors, BLACK, width, height)
+    exact = area.disjoint(displayed_colors, width, height)
     edge_pixels = area.edges_between(displayed_colors, width, height)
-    effects = ("hdr", "tone-mapping")
-    return Scene(
-        "", "", width, height, triangles, colors, None, BLACK, effects, why, exact, False, None, edge_pixels, {"tone-mapping": place}
-    )
+    return Scene(width, height, triangles, colors, exact, edge_pixels, False, None, tuple(why), why, {"tone-mapping": place})
 
 
 def emitter(width: int, height: int) -> Scene:
@@ -87,7 +84,6 @@ def glass(width: int, height: int, display: Display | None = None) -> Scene:
         alpha = 0.25 + 0.5 * shapes.spread(number, 0.8)
         tints += [(shapes.spread(number, 0.9), shapes.spread(number, 0.2), shapes.spread(number, 0.6), alpha)] * 3
     triangles, colors = shapes.triangles(panes), np.array(tints)
-    visibility = visible.Visibility(blended=True)
-    exact, edge_pixels = visible.overlapping(colors, None, BLACK, width, height, visibility, display)
+    pictures = visible.overlapping(colors, None, width, height, visible.Visibility(blended=True), display)
     why = {"blending": "the panes are transparent"}
-    return Scene("", "", width, height, triangles, colors, None, BLACK, ("blending",), why, exact, False, None, edge_pixels)
+    return Scene(width, height, triangles, colors, *pictures, False, None, ("blending",), why)

@@ -16,7 +16,7 @@ from msaa_lint.experiments.study.exact_area import areas_of
 from msaa_lint.experiments.study.resolve import from_srgb
 
 from . import area, shapes, visible
-from .scene import BLACK, WHITE, Scene, check_size
+from .scene import WHITE, Scene, check_size
 
 Floats = NDArray[np.float64]
 
@@ -49,18 +49,15 @@ def from_mesh(path: str, width: int, height: int) -> Scene:
     name, description = os.path.basename(path), f"{len(triangles)} triangles from a file"
     if flat and mesh_colors is None and areas_of(triangles, width, height).max() <= 1 + area.TOLERANCE:
         colors = shapes.uniform_colors(len(triangles), WHITE)
-        return Scene(name, description, width, height, triangles, colors, None, BLACK, (), {}, area.disjoint(colors, BLACK, width, height))
+        return Scene(width, height, triangles, colors, area.disjoint(colors, width, height), name=name, description=description)
     colors = mesh_colors if mesh_colors is not None else _grays(corners)
+    depths = 0.01 + 0.98 * (high[2] - corners[..., 2]) / size[2] if not flat else None
+    pictures = visible.overlapping(colors, depths, width, height, visible.Visibility(depth=not flat))
+    scene = Scene(width, height, triangles, colors, *pictures, False, depths, name=name, description=description)
     if flat:
-        exact, edge_pixels = visible.overlapping(colors, None, BLACK, width, height, visible.Visibility())
-        return Scene(name, description, width, height, triangles, colors, None, BLACK, (), {}, exact, False, None, edge_pixels)
-    depths = 0.01 + 0.98 * (high[2] - corners[..., 2]) / size[2]
-    exact, edge_pixels = visible.overlapping(colors, depths, BLACK, width, height, visible.Visibility(depth=True))
+        return scene
     why = {"depth-test": "the mesh has triangles at different depths"}
-    settings: dict[str, object] = {"depth-test": "LESS"}
-    return Scene(
-        name, description, width, height, triangles, colors, depths, BLACK, ("depth-test",), why, exact, False, None, edge_pixels, settings
-    )
+    return scene._replace(effects=("depth-test",), why=why, settings={"depth-test": "LESS"})
 
 
 def _read(path: str) -> tuple[Floats, Floats | None]:

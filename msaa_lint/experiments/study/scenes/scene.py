@@ -37,21 +37,21 @@ class Scene(NamedTuple):
     pixels that an edge crosses, by default those with a coverage between 0 and 1.
     """
 
-    name: str
-    description: str
     width: int
     height: int
     triangles: Floats
     colors: Floats
-    depths: Floats | None
-    background: RGBA
-    effects: tuple[str, ...]
-    why: Mapping[str, str]
     exact: Exact
-    coverage_matter: bool = True
-    shade: Shade | None = None
     edge_pixels: EdgePixels | None = None
+    coverage_matter: bool = True
+    depths: Floats | None = None
+    effects: tuple[str, ...] = ()
+    why: Mapping[str, str] = {}
     settings: Mapping[str, object] = {}
+    shade: Shade | None = None
+    background: RGBA = BLACK
+    name: str = ""
+    description: str = ""
 
 
 def check_size(width: int, height: int) -> None:

@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .area import partly_covered
-from .scene import BLACK, RGBA, Scene
+from .scene import Scene
 
 Floats = NDArray[np.float64]
 
 
 def side_by_side(parts: Sequence[Scene], width: int, height: int) -> Scene:
-    """One scene of several, from the left, with background in what remains at the right; each part is `height` pixels high.
+    """One scene of several, from the left, with black in what remains at the right; each part is `height` pixels high.
 
     The effects and settings are those of all parts. With a depth test, a part without depths gets some with which triangles drawn later are
     nearer.
@@ -38,7 +38,10 @@ def side_by_side(parts: Sequence[Scene], width: int, height: int) -> Scene:
         return [(part, whole[firsts[n] : firsts[n + 1]] - (lefts[n], 0)) for n, part in enumerate(parts)]
 
     def exact(whole: Floats) -> Floats:
-        return _joined([part.exact(triangles) for part, triangles in split(whole)], BLACK, width)
+        picture = np.zeros((height, width, 4))
+        for (part, triangles), left in zip(split(whole), lefts, strict=False):
+            picture[:, left : left + part.width] = part.exact(triangles)
+        return picture
 
     def edge_pixels(whole: Floats) -> NDArray[np.bool_]:
         edges = np.zeros((height, width), bool)
@@ -56,7 +59,7 @@ def side_by_side(parts: Sequence[Scene], width: int, height: int) -> Scene:
 
     shader = shade if any(part.shade is not None for part in parts) else None
     coverage = all(part.coverage_matter for part in parts)
-    return Scene("", "", width, height, triangles, colors, depths, BLACK, effects, why, exact, coverage, shader, edge_pixels, settings)
+    return Scene(width, height, triangles, colors, exact, edge_pixels, coverage, depths, effects, why, settings, shader)
 
 
 def _depths_in_order(part: Scene, greater: bool) -> Floats:
@@ -67,10 +70,3 @@ def _depths_in_order(part: Scene, greater: bool) -> Floats:
 
 def _edge_pixels(part: Scene, triangles: Floats) -> NDArray[np.bool_]:
     return part.edge_pixels(triangles) if part.edge_pixels is not None else partly_covered(part.exact(triangles)[..., 3])
-
-
-def _joined(pictures: list[Floats], background: RGBA, width: int) -> Floats:
-    joined = np.concatenate(pictures, axis=1)
-    rest = np.empty((joined.shape[0], width - joined.shape[1], 4))
-    rest[:] = background
-    return np.concatenate([joined, rest], axis=1)

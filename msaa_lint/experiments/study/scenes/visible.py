@@ -1,6 +1,6 @@
 """The exact picture of triangles that overlap, intersect in depth or are blended: the picture is divided into convex regions of one color.
 
-A tile of the picture starts as one region of the background. Each triangle, in order, divides the regions that it overlaps into the part
+A tile of the picture starts as one black region. Each triangle, in order, divides the regions that it overlaps into the part
 inside it and the rest. Inside, a depth test divides the part once more along the line where the two surfaces intersect; what is in front
 (or drawn last, without depth) determines the color. The areas of regions within each pixel are exact, in double precision.
 """
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from msaa_lint.experiments.study.exact_area import areas_of
 
 from .area import TOLERANCE
-from .scene import RGBA
+from .scene import BLACK
 from .shapes import Point, depth_planes, fan
 
 Floats = NDArray[np.float64]
@@ -128,7 +128,7 @@ def _blend(color: Color, behind: Color) -> Color:
 
 
 def tiles(
-    triangles: Floats, colors: Floats, depths: Floats | None, background: RGBA, size: tuple[int, int], visibility: Visibility
+    triangles: Floats, colors: Floats, depths: Floats | None, size: tuple[int, int], visibility: Visibility
 ) -> Iterator[tuple[int, int, list[Region]]]:
     """The tiles of a picture of `size` (width, height): the left, top and regions of each."""
     width, height = size
@@ -143,7 +143,7 @@ def tiles(
         for left in range(0, width, TILE):
             right = min(left + TILE, width)
             corners = [(float(left), float(top)), (float(right), float(top)), (float(right), float(bottom)), (float(left), float(bottom))]
-            regions = [Region(corners, background, (0.0, 0.0, clear))]
+            regions = [Region(corners, BLACK, (0.0, 0.0, clear))]
             for number in in_row[(low[in_row, 0] < right) & (high[in_row, 0] > left)]:
                 if edges[number]:
                     regions = _draw(regions, edges[number], surfaces[number], visibility)
@@ -178,7 +178,6 @@ def _areas(parts: list[_ColorArea]) -> Floats:
 def overlapping(
     colors: Floats,
     depths: Floats | None,
-    background: RGBA,
     width: int,
     height: int,
     visibility: Visibility,
@@ -193,7 +192,7 @@ def overlapping(
     def render(triangles: Floats) -> tuple[Floats, NDArray[np.bool_]]:
         picture, whole = np.zeros((height, width, 4)), np.zeros((height, width), bool)
         parts: list[_ColorArea] = []
-        for left, top, regions in tiles(triangles, colors, depths, background, (width, height), visibility):
+        for left, top, regions in tiles(triangles, colors, depths, (width, height), visibility):
             by_color: dict[Color, list[list[Point]]] = {}
             for region in regions:
                 by_color.setdefault(region.color, []).extend(fan(region.polygon))
