@@ -136,8 +136,8 @@ def _print(offers: Sequence[Offer]) -> None:
             for line in counts.legend:
                 console.print(line, style="dim")
             facts = Table("", "", box=None, pad_edge=False, show_header=False)
-            for fact in words.rows(offer):
-                facts.add_row(display(fact.label), display(fact.text))
+            for label, text in words.rows(offer):
+                facts.add_row(display(label), display(text))
             console.print(facts)
 
 

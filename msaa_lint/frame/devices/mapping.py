@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable
-
 from . import DeviceProfile, builtin
 from .msaa_features import EXTENSIONS, FEATURES
 from .offer import Offer, tile_model
@@ -24,42 +21,46 @@ def description(offer: Offer) -> str:
     if profile.minimum:
         named = offer.key is not None and (builtin(offer.key) is not None or is_path(offer.key))
         return head + (f"device: {_text(offer.key or '')}\n" if named else "# Name a class of devices by the path of its report.\n")
-    members = [(key, value) for key, value in _members(profile) if value]
-    return head + "device:\n" + "".join(_line(key, value) for key, value in members)
+    return head + "device:\n" + "".join(_line(key, value) for key, value in _members(profile).items() if value is not None)
 
 
-def _members(profile: DeviceProfile) -> list[tuple[str, str]]:
-    samples = profile.color_samples, profile.depth_samples, profile.stencil_samples, profile.integer_samples
-    counts = zip(("color", "depth", "stencil", "integer"), samples, strict=True)
-    stated = ", ".join(f"{aspect}: {_flow(map(str, found))}" for aspect, found in counts if found is not None)
-    types = profile.memory_types
-    modes = profile.depth_resolve_modes, profile.stencil_resolve_modes
-    return [
-        ("name", _text(profile.name)),
-        ("vendor", profile.vendor or ""),
-        ("tiler", _boolean(profile.tiler)),
-        ("sampleCounts", f"{{{stated}}}" if stated else ""),
-        ("memoryTypes", _flow(_flow(flags) for flags in types) if types is not None else ""),
-        ("depthResolveModes", _flow(modes[0]) if modes[0] is not None else ""),
-        ("stencilResolveModes", _flow(modes[1]) if modes[1] is not None else ""),
-        ("independentResolve", _boolean(profile.independent_resolve)),
-        ("independentResolveNone", _boolean(profile.independent_resolve_none)),
-        ("features", _flow(name for name in profile.features if name in FEATURES) if profile.features is not None else ""),
-        ("extensions", _flow(name for name in profile.extensions if name in EXTENSIONS) if profile.extensions is not None else ""),
-        ("apiVersion", f'"{profile.api_version}"' if profile.api_version is not None else ""),
-        ("maxEfficientSamples", str(profile.max_efficient_samples or "")),
-        ("tile", _tile(profile)),
-        ("compression", _compression(profile.compression)),
-        ("milliwattsPerGBps", f"{profile.milliwatts_per_gbps:g}" if profile.milliwatts_per_gbps is not None else ""),
-    ]
+def _members(profile: DeviceProfile) -> dict[str, object]:
+    counts = {
+        "color": profile.color_samples,
+        "depth": profile.depth_samples,
+        "stencil": profile.stencil_samples,
+        "integer": profile.integer_samples,
+    }
+    compression = (profile.compression or {}).items()
+    ratios = {f"{count} {way}": ratio for count, pair in compression for way, ratio in zip(("read", "write"), pair, strict=True)}
+    features, extensions = profile.features, profile.extensions
+    return {
+        "name": _text(profile.name),
+        "vendor": profile.vendor or None,
+        "tiler": profile.tiler,
+        "sampleCounts": {aspect: samples for aspect, samples in counts.items() if samples is not None} or None,
+        "memoryTypes": profile.memory_types,
+        "depthResolveModes": profile.depth_resolve_modes,
+        "stencilResolveModes": profile.stencil_resolve_modes,
+        "independentResolve": profile.independent_resolve,
+        "independentResolveNone": profile.independent_resolve_none,
+        "features": tuple(name for name in features if name in FEATURES) if features is not None else None,
+        "extensions": tuple(name for name in extensions if name in EXTENSIONS) if extensions is not None else None,
+        "apiVersion": f'"{profile.api_version}"' if profile.api_version is not None else None,
+        "maxEfficientSamples": profile.max_efficient_samples or None,
+        "tile": _tile(profile),
+        "compression": ratios or None,
+        "milliwattsPerGBps": profile.milliwatts_per_gbps,
+    }
 
 
-def _line(key: str, value: str) -> str:
+def _line(key: str, value: object) -> str:
     """A member; a long list takes several lines."""
-    if len(value) + len(key) + 4 <= WIDTH or not value.startswith("["):
-        return f"  {key}: {value}\n"
+    text = _flow(value)
+    if len(text) + len(key) + 4 <= WIDTH or not isinstance(value, tuple):
+        return f"  {key}: {text}\n"
     lines, line = [], "   "
-    for item in re.findall(r"\[[^]]*\]|[^, ][^,]*", value[1:-1]):
+    for item in map(_flow, value):
         if len(line) + len(item) + 2 > WIDTH:
             lines.append(line)
             line = "   "
@@ -67,32 +68,28 @@ def _line(key: str, value: str) -> str:
     return f"  {key}: [\n" + "\n".join([*lines, line[:-1]]) + "\n  ]\n"
 
 
-def _flow(items: Iterable[str]) -> str:
-    return f"[{', '.join(items)}]"
+def _flow(value: object) -> str:
+    """A value in YAML's flow style. A text is written as it is."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, tuple):
+        return f"[{', '.join(map(_flow, value))}]"
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key}: {_flow(item)}" for key, item in value.items()) + "}"
+    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def _boolean(value: bool | None) -> str:
-    return "" if value is None else str(value).lower()
-
-
-def _tile(profile: DeviceProfile) -> str:
+def _tile(profile: DeviceProfile) -> dict[str, object] | None:
     model = profile.tile
     if model is None:
-        return ""
+        return None
     name = tile_model(profile)
     if name is not None:
-        return f"{{model: {name}}}"
+        return {"model": name}
     if model.kind == "adreno":
-        return f"{{kind: adreno, gmemBytes: {model.color_bytes}}}"
-    numbers = f"colorBytes: {model.color_bytes}, depthBytes: {model.depth_bytes}, maxPixels: {model.max_pixels}"
-    return f"{{kind: mali, {numbers}, limitBytes: {model.limit_bytes}}}"
-
-
-def _compression(compression: dict[int, tuple[float, float]] | None) -> str:
-    if not compression:
-        return ""
-    pairs = (f"{count} read: {read:g}, {count} write: {write:g}" for count, (read, write) in compression.items())
-    return f"{{{', '.join(pairs)}}}"
+        return {"kind": "adreno", "gmemBytes": model.color_bytes}
+    sizes = {"colorBytes": model.color_bytes, "depthBytes": model.depth_bytes, "maxPixels": model.max_pixels}
+    return {"kind": "mali", **sizes, "limitBytes": model.limit_bytes}
 
 
 def _text(text: str) -> str:

@@ -73,11 +73,13 @@ class Misstated(NamedTuple):
     help: str
 
 
-def stated_tile(mapping: Mapping[str, float | str | None]) -> TileModel | Misstated:
-    """The tile model that a device mapping's `tile` states: `{model: mali-g76}`, or a kind and its numbers.
+def stated_tile(mapping: Mapping[str, float | str | None] | None) -> TileModel | Misstated | None:
+    """The tile model that a device mapping's `tile` states: `{model: mali-g76}`, or a kind and its numbers. None without a mapping.
 
     `{kind: mali, colorBytes: 8192, depthBytes: 4096, maxPixels: 256}` or `{kind: adreno, gmemBytes: 1048576}`.
     """
+    if mapping is None:
+        return None
     if "model" in mapping:
         extra = next((key for key in mapping if key != "model"), None)
         if extra is not None:
@@ -115,11 +117,13 @@ _COUNTS = ("1", "2", "4", "8", "16", "32", "64")
 MAX_RATIO = 16
 
 
-def stated_compression(mapping: Mapping[str, float | None]) -> Compression | Misstated:
+def stated_compression(mapping: Mapping[str, float | None] | None) -> Compression | Misstated | None:
     """The compression that a device mapping's `compression` states: by sample count, one ratio or separate ratios for reads and writes.
 
     `{1: 0.5, 4: 1.0}`, or `{1 read: 0.48, 1 write: 0.46, 4: 1.0}`.
     """
+    if mapping is None:
+        return None
     found: dict[int, list[float | None]] = {}
     for key, value in mapping.items():
         text, _, direction = key.partition(" ")
@@ -140,15 +144,3 @@ def stated_compression(mapping: Mapping[str, float | None]) -> Compression | Mis
             stated, lacking = ("write", "read") if read is None else ("read", "write")
             return Misstated(f"{count} {stated}", f"`{count} {stated}` needs `{count} {lacking}`; state both, or the count alone", "")
     return {count: (read, write) for count, (read, write) in found.items() if read is not None and write is not None}
-
-
-def known_tile(mapping: Mapping[str, float | str | None] | None) -> TileModel | None:
-    """The tile model that a mapping states; None if it states none or is invalid."""
-    found = stated_tile(mapping) if mapping is not None else None
-    return found if isinstance(found, TileModel) else None
-
-
-def known_compression(mapping: Mapping[str, float | None] | None) -> Compression | None:
-    """The compression that a mapping states; None if it states none or is invalid."""
-    found = stated_compression(mapping) if mapping is not None else None
-    return found if isinstance(found, dict) else None

@@ -30,19 +30,16 @@ PRINCIPAL_EXTENSIONS = ("VK_KHR_depth_stencil_resolve", "VK_EXT_sample_locations
 """Features and extensions whose absence is shown."""
 
 
+Row = tuple[str, str]
+"""A fact about a device: its label and its text."""
+
+
 class Table(NamedTuple):
     """A row for each sample count, and the meaning of the marks."""
 
     heads: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     legend: tuple[str, ...]
-
-
-class Row(NamedTuple):
-    """A fact about a device: its label and its text."""
-
-    label: str
-    text: str
 
 
 def title(offer: Offer) -> str:
@@ -85,37 +82,37 @@ def _mark(counts: tuple[int, ...] | None, count: int) -> str:
 
 def rows(offer: Offer) -> list[Row]:
     """The facts other than the sample counts."""
-    return [row for row in _rows(offer) if row.text]
+    return [(label, text) for label, text in _rows(offer) if text]
 
 
 def _rows(offer: Offer) -> Iterator[Row]:
     profile, details = offer.profile, offer.details
-    yield Row("depth resolve", _modes(profile, profile.depth_resolve_modes, True))
-    yield Row("stencil resolve", _modes(profile, profile.stencil_resolve_modes, False))
-    yield Row("independent resolve", _independent(profile))
-    yield Row("lazily allocated", _lazily(profile))
+    yield "depth resolve", _modes(profile, profile.depth_resolve_modes, True)
+    yield "stencil resolve", _modes(profile, profile.stencil_resolve_modes, False)
+    yield "independent resolve", _independent(profile)
+    yield "lazily allocated", _lazily(profile)
     types = profile.memory_types
-    yield Row("memory types", "; ".join(" | ".join(flags) or "(none)" for flags in types) if types is not None else "")
+    yield "memory types", "; ".join(" | ".join(flags) or "(none)" for flags in types) if types is not None else ""
     heaps = details.heaps or ()
-    yield Row("memory heaps", "; ".join(f"{size / 2**20:,.0f} MiB{' device-local' if local else ''}" for size, local in heaps))
-    yield Row("efficient samples", _efficient(profile))
-    yield Row("sample locations", _locations(offer))
+    yield "memory heaps", "; ".join(f"{size / 2**20:,.0f} MiB{' device-local' if local else ''}" for size, local in heaps)
+    yield "efficient samples", _efficient(profile)
+    yield "sample locations", _locations(offer)
     if details.max_framebuffer is not None:
-        yield Row("largest framebuffer", "{} x {} pixels".format(*details.max_framebuffer))
+        yield "largest framebuffer", "{} x {} pixels".format(*details.max_framebuffer)
     for name, meaning in FEATURES.items():
         if offered(offer, name):
-            yield Row(name, meaning)
+            yield name, meaning
     for name, meaning in EXTENSIONS.items():
         if offered(offer, name, extension=True):
-            yield Row(name, meaning)
+            yield name, meaning
     yield from _lacking(offer)
     if profile.tile is not None:
-        yield Row("tiles", f"source: {profile.tile.source}")
+        yield "tiles", f"source: {profile.tile.source}"
     if profile.compression is not None:
-        yield Row("compression", _compression(profile.compression))
-    yield Row("source", profile.source)
+        yield "compression", _compression(profile.compression)
+    yield "source", profile.source
     for note in offer.report.notes:
-        yield Row("note", note)
+        yield "note", note
 
 
 def _modes(profile: DeviceProfile, modes: tuple[str, ...] | None, depth: bool) -> str:
@@ -168,9 +165,9 @@ def _locations(offer: Offer) -> str:
 
 def _lacking(offer: Offer) -> Iterator[Row]:
     states = [(name, offered(offer, name)) for name in PRINCIPAL] + [(name, offered(offer, name, True)) for name in PRINCIPAL_EXTENSIONS]
-    yield Row("not supported", ", ".join(name for name, state in states if state is False))
+    yield "not supported", ", ".join(name for name, state in states if state is False)
     unknown = "not guaranteed" if offer.profile.minimum else "not known"
-    yield Row(unknown, ", ".join(name for name, state in states if state is None))
+    yield unknown, ", ".join(name for name, state in states if state is None)
 
 
 def _compression(compression: dict[int, tuple[float, float]]) -> str:

@@ -39,9 +39,11 @@ def described(device: Device) -> DeviceProfile:
     counts = device.sampleCounts
     tile, compression = None, None
     if device.tile is not None or device.compression is not None:
-        from msaa_lint.frame.devices.tile_models import known_compression, known_tile
+        from msaa_lint.frame.devices.tile_models import Misstated, stated_compression, stated_tile
 
-        tile, compression = known_tile(device.tile), known_compression(device.compression)
+        stated = stated_tile(device.tile), stated_compression(device.compression)
+        tile = None if isinstance(stated[0], Misstated) else stated[0]
+        compression = None if isinstance(stated[1], Misstated) else stated[1]
     return DeviceProfile(
         name=device.name or "the described device",
         vendor=device.vendor,

@@ -13,6 +13,8 @@ from msaa_lint.core.suggestions import nearest
 
 from .formats import PIXEL_FORMATS
 
+_FAMILIES = {"apple": range(1, 11), "mac": range(1, 3), "macCatalyst": range(1, 3), "common": range(1, 4), "metal": range(3, 5)}
+
 ENUMS: dict[str, tuple[str, ...]] = {
     "MTLPixelFormat": tuple(PIXEL_FORMATS),
     "MTLTextureType": (
@@ -33,18 +35,7 @@ ENUMS: dict[str, tuple[str, ...]] = {
     "MTLStoreAction": ("dontCare", "store", "multisampleResolve", "storeAndMultisampleResolve", "unknown", "customSampleDepthStore"),
     "MTLMultisampleDepthResolveFilter": ("sample0", "min", "max"),
     "MTLMultisampleStencilResolveFilter": ("sample0", "depthResolvedSample"),
-    "MTLGPUFamily": (
-        *(f"apple{number}" for number in range(1, 11)),
-        "mac1",
-        "mac2",
-        "macCatalyst1",
-        "macCatalyst2",
-        "common1",
-        "common2",
-        "common3",
-        "metal3",
-        "metal4",
-    ),
+    "MTLGPUFamily": tuple(f"{family}{number}" for family, numbers in _FAMILIES.items() for number in numbers),
 }
 """The enumerants of each enum. In an option set, those without bits (`unknown`) come first."""
 

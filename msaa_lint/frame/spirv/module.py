@@ -83,8 +83,7 @@ class Module:
                     raise SpirvError("not SPIR-V: an instruction is too short")
                 within, parameters = (words[at + 2], at + length), []
             elif number in _READ:
-                least = _READ[number]
-                if length < least:
+                if length < _READ[number]:
                     raise SpirvError("not SPIR-V: an instruction is too short")
                 self._declare(number, at, at + length)
             at += length
@@ -136,8 +135,7 @@ class Module:
         if not self.entries:
             raise SpirvError("it has no entry point")
         found = [each for each in self.entries if name is None or each.name == name]
-        if len(found) > 1:
-            found = [each for each in found if each.model == op.FRAGMENT] or found
+        found = [each for each in found if each.model == op.FRAGMENT] or found
         if len(found) == 1:
             return found[0]
         names = ", ".join(dict.fromkeys(f"`{each.name[:40]}`" for each in self.entries[:8]))

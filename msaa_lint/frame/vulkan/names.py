@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from functools import cache
 
 from msaa_lint.core.suggestions import MAX_LENGTH, letters_and_digits, nearest
 
 from .enums import ALIASES, BITLESS, PREFIXES, VALUES
+
+_NUMBER = re.compile(r"0[xX][0-9a-fA-F]{1,18}|[1-9][0-9]{0,19}|0{1,20}")
 
 VENDORS = ("AMD", "ANDROID", "ARM", "EXT", "HUAWEI", "IMG", "INTEL", "KHR", "NV", "NVX", "QCOM", "VALVE")
 
@@ -97,14 +100,7 @@ def parse_flags(enum: str, text: str) -> list[str]:
 
 def _mask(word: str) -> int | None:
     """A decimal or hexadecimal number below 2^64; None for another word, also with a leading zero, which is octal in C."""
-    if len(word) > 20 or not word.isascii() or not word.isalnum():
-        return None
-    if not word.isdigit() and word[:2] not in ("0x", "0X"):
-        return None
-    try:
-        value = int(word, 0)
-    except ValueError:
-        return None
+    value = int(word, 0) if _NUMBER.fullmatch(word) is not None else 1 << 64
     return value if value < 1 << 64 else None
 
 

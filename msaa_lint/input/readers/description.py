@@ -112,9 +112,7 @@ def _cost_model(binder: Binder, device: Device) -> None:
         return
     from msaa_lint.frame.devices.tile_models import Misstated, stated_compression, stated_tile
 
-    tile = stated_tile(device.tile) if device.tile is not None else None
-    compression = stated_compression(device.compression) if device.compression is not None else None
-    for member, found in (("tile", tile), ("compression", compression)):
+    for member, found in (("tile", stated_tile(device.tile)), ("compression", stated_compression(device.compression))):
         if isinstance(found, Misstated):
             stated = device.spelled[member][1]
             at = stated.value[found.key].span if found.key in stated.value else device.place(member)

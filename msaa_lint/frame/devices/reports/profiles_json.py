@@ -6,6 +6,7 @@ alternative has is what is guaranteed. What a profile calls optional is not.
 
 from __future__ import annotations
 
+import itertools
 import operator
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial, reduce
@@ -36,13 +37,11 @@ def claims(root: Mapping[str, Any]) -> bool:
 
 def read(root: Mapping[str, Any]) -> list[Found]:
     """A device for each profile of a file."""
-    made = []
-    for name, profile in list(root["profiles"].items())[:MAX_PROFILES]:
-        if not isinstance(profile, dict):
-            continue
-        exported = name.startswith(EXPORTED) or _names_a_device(root, profile)
-        made.append(_device(root, profile) if exported else _minimum(root, name, profile))
-    return made
+    return [
+        _device(root, profile) if name.startswith(EXPORTED) or _names_a_device(root, profile) else _minimum(root, name, profile)
+        for name, profile in itertools.islice(root["profiles"].items(), MAX_PROFILES)
+        if isinstance(profile, dict)
+    ]
 
 
 def _names_a_device(root: Mapping[str, Any], profile: Mapping[str, Any]) -> bool:
@@ -61,15 +60,16 @@ def _blocks(root: Mapping[str, Any], listed: object) -> Iterator[Mapping[str, An
 
 def _device(root: Mapping[str, Any], profile: Mapping[str, Any]) -> Found:
     blocks = list(_blocks(root, profile.get("capabilities")))
+    members = gathered(*(block.get("properties") for block in blocks))
     features: dict[object, object] = {}
-    for name, value in (pair for block in blocks for pair in _features(block)):
+    for name, value in itertools.chain.from_iterable(map(_features, blocks)):
         features[name] = features.get(name) is True or value
     extensions = [block["extensions"] for block in blocks if isinstance(block.get("extensions"), dict)]
     return Found(
-        gathered(*(block.get("properties") for block in blocks)),
+        members,
         features if any("features" in block for block in blocks) else None,
         [name for listed in extensions for name in listed] if extensions else None,
-        name="" if "deviceName" in gathered(*(block.get("properties") for block in blocks)) else values.text(profile.get("label")) or "",
+        name="" if "deviceName" in members else values.text(profile.get("label")) or "",
         what="vulkaninfo --json",
         notes=("memory types are not in it: the text of `vulkaninfo` has them",),
     )

@@ -42,12 +42,11 @@ class _Gpu:
     def __init__(self) -> None:
         self.members: dict[str, list[object]] = {}
         self.features: dict[object, object] = {}
-        self.extensions: list[object] = []
+        self.extensions: list[object] | None = None
         self.types: list[object] = []
         self.heaps: list[list[object]] = []
         self.section = ""
         self.listed: tuple[int, list[object]] | None = None
-        self.has_features = self.has_extensions = False
         self.entry = ""
 
     def section_begins(self, line: str) -> None:
@@ -56,11 +55,12 @@ class _Gpu:
             self.section = line.partition(":")[0].strip()
             self.listed = None
             self.entry = ""
-            self.has_extensions = self.has_extensions or self.section.startswith("Device Extensions")
+            if self.section.startswith("Device Extensions"):
+                self.extensions = self.extensions or []
 
     def line(self, line: str) -> None:
         """A line within a structure."""
-        if self.section.startswith("Device Extensions"):
+        if self.extensions is not None and self.section.startswith("Device Extensions"):
             found = _EXTENSION.match(line)
             self.extensions += [found.group(1)] if found is not None else []
         elif self.section.startswith(("memoryHeaps", "memoryTypes", "VkPhysicalDeviceMemoryProperties")):
@@ -68,7 +68,6 @@ class _Gpu:
         elif self.section.startswith("VkPhysicalDevice") and "Features" in self.section:
             member = _MEMBER.match(line)
             if member is not None:
-                self.has_features = True
                 name, value = member.groups()
                 self.features[name] = "true" if self.features.get(name) in ("true", "1") else value
         else:
@@ -110,8 +109,8 @@ class _Gpu:
     def found(self) -> Found:
         return Found(
             self.members,
-            self.features if self.has_features else None,
-            self.extensions if self.has_extensions else None,
+            self.features or None,
+            self.extensions,
             self.types or None,
             [(size, flags) for size, flags in self.heaps] or None,
             what="vulkaninfo",
