@@ -109,8 +109,7 @@ def read(source: "Source", language: str) -> Program:
     from .documents import bound
 
     by_code = [(code, list(_readings(code))) for code in codes_found]
-    shaders = [code for code, _ in by_code if code.language == "glsl"]
-    if shaders and len(by_code) > 1:
+    if len(by_code) > 1 and any(code.language == "glsl" for code, _ in by_code):
         from .glsl.description_trees import with_page_counts
 
         by_code = with_page_counts(by_code)

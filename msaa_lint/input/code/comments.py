@@ -98,17 +98,15 @@ def spans(code: Code) -> Iterator[tuple[int, int]]:
 
 def _block_end(text: str, at: int, nested: bool) -> int:
     """Returns the end of a block comment, which can nest in Swift."""
-    deep = 1
-    while deep:
-        edge = _EDGE.search(text, at) if nested else None
-        if not nested:
-            end = text.find("*/", at)
-            return end + 2 if end >= 0 else len(text)
-        if edge is None:
-            return len(text)
-        deep += 1 if edge[0] == "/*" else -1
-        at = edge.end()
-    return at
+    if not nested:
+        end = text.find("*/", at)
+        return end + 2 if end >= 0 else len(text)
+    depth = 1
+    for edge in _EDGE.finditer(text, at):
+        depth += 1 if edge[0] == "/*" else -1
+        if not depth:
+            return edge.end()
+    return len(text)
 
 
 def _lines(text: str, start: int, end: int) -> Iterator[Comment]:

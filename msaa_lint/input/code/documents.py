@@ -10,7 +10,6 @@ from msaa_lint.core.text.source import Source
 from msaa_lint.frame.description.bind import Binder
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import Description
-from msaa_lint.frame.description.problems import Problem
 from msaa_lint.input.readers import description
 
 MAX_ROUNDS = 4
@@ -23,7 +22,7 @@ def bound(source: Source, tree: Node, pieces: bool = False) -> Document:
         document = _read(source, tree)
         if not document.problems:
             break
-        tree = _without(tree, document.problems)
+        tree, _ = _without(tree, "", {problem.path for problem in document.problems}, 0)
     else:
         document = _read(source, mapping([], tree.span))
     # Swift code that creates one encoder after another states their order.
@@ -44,24 +43,19 @@ MAX_DEEP = 60
 """The maximum nesting of a tree; trees from source code have few levels."""
 
 
-def _without(tree: Node, problems: tuple[Problem, ...]) -> Node:
-    """Returns a tree without its invalid members; a list with an invalid element is removed."""
-    return _copy(tree, "", {problem.path for problem in problems}, 0)[0]
-
-
-def _copy(node: Node, path: str, wrong: set[str], depth: int) -> tuple[Node, bool]:
-    """Returns a node without its invalid members, and whether the node itself is invalid."""
+def _without(node: Node, path: str, wrong: set[str], depth: int) -> tuple[Node, bool]:
+    """Returns a node without its invalid members, and whether the node itself is invalid. A list with an invalid element is."""
     if (path and path in wrong) or depth > MAX_DEEP:
         return node, True
     if node.kind == "sequence":
-        items = [_copy(item, f"{path}[{n}]", wrong, depth + 1) for n, item in enumerate(node.value)]
+        items = [_without(item, f"{path}[{n}]", wrong, depth + 1) for n, item in enumerate(node.value)]
         copied = Node(node.kind, node.start, node.end, [item for item, _ in items], node.keys)
         return copied, any(bad for _, bad in items)
     if node.kind != "mapping":
         return node, False
     members = []
     for key, value in node.value.items():
-        inner, bad = _copy(value, f"{path}.{shortened(key)}" if path else shortened(key), wrong, depth + 1)
+        inner, bad = _without(value, f"{path}.{shortened(key)}" if path else shortened(key), wrong, depth + 1)
         if not bad:
             members.append((key, node.keys[key].span, inner))
     return mapping(members, node.span), False

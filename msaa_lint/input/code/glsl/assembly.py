@@ -20,7 +20,7 @@ class Assembly:
     """A module. `code` is the current function, and `variables` are the declarations at the start of its first block."""
 
     def __init__(self) -> None:
-        self.with_binding = 1
+        self.bound = 1
         self.capabilities: set[int] = set()
         self.modes: list[int] = []
         self.decorations: list[int] = []
@@ -34,9 +34,8 @@ class Assembly:
         self.extended = self.id()
 
     def id(self) -> int:
-        """Returns a new id."""
-        self.with_binding += 1
-        return self.with_binding - 1
+        self.bound += 1
+        return self.bound - 1
 
     def declare(self, number: int, *operands: int) -> None:
         """Adds an instruction outside of functions."""
@@ -126,7 +125,6 @@ class Assembly:
         return variable_id
 
     def begin(self) -> None:
-        """Starts the body of a function."""
         self.code, self.variables = [], []
 
     def end(self, identity: int, returns: Type, parameters: Sequence[tuple[int, int]]) -> None:
@@ -137,13 +135,12 @@ class Assembly:
             self.functions += (3 << 16 | op.FUNCTION_PARAMETER, kind, parameter)
         self.functions += (2 << 16 | op.LABEL, self.id(), *self.variables, *self.code, 1 << 16 | op.FUNCTION_END)
 
-    def module(self, model: int, main: int, name: str) -> bytes:
+    def module(self, model: int, main: int) -> bytes:
         """Returns the module, which has one entry point."""
-        text = name.encode() + b"\0" * (4 - len(name) % 4)
-        named = struct.unpack(f"<{len(text) // 4}I", text)
-        words = [_MAGIC, _VERSION, 0, self.with_binding, 0]
-        for capabilitie in sorted(self.capabilities):
-            words += (2 << 16 | op.CAPABILITY, capabilitie)
+        named = struct.unpack("<2I", b"main\0\0\0\0")
+        words = [_MAGIC, _VERSION, 0, self.bound, 0]
+        for capability in sorted(self.capabilities):
+            words += (2 << 16 | op.CAPABILITY, capability)
         library = struct.unpack("<4I", b"GLSL.std.450\0\0\0\0")
         words += (6 << 16 | op.EXT_INST_IMPORT, self.extended, *library)
         words += (3 + len(named) + len(self.interface) << 16 | op.ENTRY_POINT, model, main, *named, *self.interface)

@@ -45,10 +45,8 @@ class Declarations(Expressions):
         self.outputs_without_location: list[int] = []
         self.integer_constants: dict[int, int] = {}
         """The values of integer constants by id."""
-        self.specialized = False
 
     def global_declaration(self, node: SyntaxNode, depth: int = 0) -> None:
-        """Lowers a global declaration."""
         kind = node.type
         if kind == "function_definition":
             self.function_header(node)
@@ -64,12 +62,12 @@ class Declarations(Expressions):
         if name is None or body is None:
             return None
         members = tuple((member, kind) for member, kind, _ in self.members(body))
-        self.weights[self.text_of(name)] = sum(map(self.weight, (kind for _, kind in members)), 1)
-        if self.weights[self.text_of(name)] > MAX_PARTS:
+        written = self.text_of(name)
+        self.weights[written] = 1 + sum(self.weight(kind) for _, kind in members)
+        if self.weights[written] > MAX_PARTS:
             raise self.unsupported(name, "has too many parts")
-        struct_type = ("struct", self.text_of(name), members)
-        self.structs[self.text_of(name)] = struct_type
-        return struct_type
+        self.structs[written] = ("struct", written, members)
+        return self.structs[written]
 
     def weight(self, kind: Type) -> int:
         """Returns the number of types in a type."""
@@ -151,8 +149,7 @@ class Declarations(Expressions):
             self.constant(name, kind, initializer, layout, node, "const" in words)
             return
         storage = next((number for word, number in _STORAGE.items() if word in words), op.PRIVATE)
-        variable = self.variable(storage, kind)
-        self.scopes[0][name] = variable
+        self.scopes[0][name] = variable = self.variable(storage, kind)
         if multisampled(kind[1] if kind[0] == "array" else kind):
             layout = self.with_binding(name, layout)
             self.images[name] = (node.start_byte, node.end_byte)
@@ -215,13 +212,11 @@ class Declarations(Expressions):
             if kind in (INT, UINT) and number is not None:
                 self.integer_constants[constant_id] = number
                 self.counts.setdefault(number, (literal.start_byte, literal.end_byte))
-            self.specialized = self.specialized or special is not None
             return
         if special is not None:
             raise self.unsupported(node, "is not supported")
-        made_place = self.variable(op.PRIVATE, kind)
-        self.scopes[0][name] = made_place
-        self.starts.append((made_place, initializer))
+        self.scopes[0][name] = variable = self.variable(op.PRIVATE, kind)
+        self.starts.append((variable, initializer))
 
     def block(self, node: SyntaxNode, body: SyntaxNode) -> None:
         """Declares a block of inputs, outputs, uniforms, or a buffer."""
@@ -237,9 +232,9 @@ class Declarations(Expressions):
         instance = next((child for child in children[at + 1 :] if child.type in ("identifier", "array_declarator")), None)
         name, whole_kind = self.declarator(instance, kind) if instance is not None else ("", kind)
         variable = self.variable(storage, whole_kind)
-        self.decorate_layout(
-            variable.pointer, {key: value for key, value in layout.items() if key != "location" or storage == op.INPUT}, storage
-        )
+        if storage != op.INPUT:
+            layout.pop("location", None)
+        self.decorate_layout(variable.pointer, layout, storage)
         type_id = self.out.type(kind)
         for n, (member, _, qualifiers) in enumerate(members):
             if "sample" in qualifiers | words and storage == op.INPUT:
@@ -272,13 +267,13 @@ class Declarations(Expressions):
         declarator, type_node = fields(node, "declarator", "type")
         name = declarator.child_by_field_name("declarator") if declarator is not None else None
         list_node = declarator.child_by_field_name("parameters") if declarator is not None else None
-        returns = self.kind(self.text_of(type_node)) if type_node is not None else None
+        returns = self.kind(self.text_of(type_node))
         if name is None or list_node is None or returns is None:
             raise self.unsupported(node, "is not supported")
         parameters: list[tuple[Type, bool, str]] = []
         for child in list_node.named_children:
             parameter_type, target = fields(child, "type", "declarator")
-            kind = self.kind(self.text_of(parameter_type)) if parameter_type is not None else None
+            kind = self.kind(self.text_of(parameter_type))
             if child.type != "parameter_declaration" or parameter_type is None or kind is None:
                 raise self.unsupported(child, "is not supported")
             if kind == VOID:

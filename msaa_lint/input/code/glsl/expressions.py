@@ -26,7 +26,6 @@ class Expressions(Values):
     """Evaluates a call."""
 
     def value(self, node: SyntaxNode, depth: int = 0) -> Value:
-        """Returns the value of an expression."""
         if depth > MAX_DEPTH:
             raise UnsupportedShader("expressions nest too deeply")
         kind, deeper = node.type, depth + 1
@@ -170,11 +169,9 @@ class Expressions(Values):
         place = self.place(left, depth)
         if place is None:
             raise self.unsupported(left, "cannot be assigned to")
-        kind = vector(scalar_of(place.type), len(place.parts)) if place.parts else place.type
         if operator != "=":
             value = self.arithmetic(operator[:-1], self.load(place), value)
-        if value.type != kind:
-            value = self.as_type(value, kind)
+        value = self.as_type(value, vector(scalar_of(place.type), len(place.parts)) if place.parts else place.type)
         self.store(place, value)
         return value
 
@@ -186,7 +183,8 @@ class Expressions(Values):
             if place is None:
                 raise self.unsupported(node, "is not supported")
             before = self.load(place)
-            one = Value(self.out.number(scalar_of(before.type), literal_of(scalar_of(before.type), 1)), scalar_of(before.type))
+            scalar = scalar_of(before.type)
+            one = self.constant_value(scalar, literal_of(scalar, 1))
             after = self.arithmetic(operator[0], before, one)
             self.store(place, after)
             return after if sign.start_byte < inner.start_byte else before
@@ -211,7 +209,6 @@ class Expressions(Values):
         return self.constant_value(kind, self.real(node))
 
     def real(self, node: SyntaxNode) -> float:
-        """Returns the number in a literal."""
         text = self.text_of(node)
         match = _REAL.match(text)
         if match is None or text[match.end() :] not in ("", "f", "F", "lf", "LF", "hf", "HF", "u", "U"):

@@ -37,7 +37,7 @@ class Shader(NamedTuple):
     """A shader: its module, its stage, the name of its entry point, and its sample fetches.
 
     `images` are the locations of its multisampled images, `bindings` their descriptor sets and bindings, `constants` the locations of
-    constants by value. `specialized` is set if it has specialization constants.
+    constants by value.
     """
 
     code: bytes
@@ -47,7 +47,6 @@ class Shader(NamedTuple):
     images: dict[str, tuple[int, int]]
     bindings: dict[str, tuple[int, int | None]]
     constants: dict[int, tuple[int, int]]
-    specialized: bool
 
 
 def shader(text: str, part: bool = False) -> Shader:
@@ -66,10 +65,6 @@ class _ShaderLowering(Declarations):
         self.jump_targets: list[tuple[int, int]] = []
         """The targets of `break` and `continue` in the enclosing loops and switches."""
         self.returns: Type = VOID
-
-    @property
-    def compute(self) -> bool:
-        return "local_size_x" in " ".join(self.source.layouts)
 
     def shader(self, part: bool) -> Shader:
         for node in self.root.named_children:
@@ -104,11 +99,11 @@ class _ShaderLowering(Declarations):
             self.out.modes += (_MODES[word] for word in _WORD.findall(layout) if word in _MODES)
         at = self.source.place
         fetches = tuple(Fetch(image, at(start), at(end - 1) + 1) for image, start, end in self.fetches)
-        code = self.out.module(_COMPUTE if self.compute else _FRAGMENT, main, "main")
+        compute = any("local_size_x" in layout for layout in self.source.layouts)
+        code = self.out.module(_COMPUTE if compute else _FRAGMENT, main)
         images = {image: (at(start), at(end - 1) + 1) for image, (start, end) in self.images.items()}
         constants = {count: (at(start), at(end - 1) + 1) for count, (start, end) in self.counts.items()}
-        stage = "COMPUTE" if self.compute else "FRAGMENT"
-        return Shader(code, stage, name, fetches, images, self.bindings, constants, self.specialized)
+        return Shader(code, "COMPUTE" if compute else "FRAGMENT", name, fetches, images, self.bindings, constants)
 
     def call_uncalled_functions(self) -> str:
         """Calls the uncalled functions of a shader without `main`, passing images and values of their own.
@@ -142,7 +137,6 @@ class _ShaderLowering(Declarations):
         return first_name
 
     def function(self, function: Function) -> None:
-        """Lowers the body of a function."""
         body = function.node.child_by_field_name("body")
         if body is None:
             raise self.unsupported(function.node, "has no body")
@@ -197,11 +191,11 @@ class _ShaderLowering(Declarations):
         elif kind == "expression_statement":
             self.expression(node)
         elif kind == "return_statement":
-            match = next(iter(without_comments(node)), None)
-            if match is None:
+            returned = next(iter(without_comments(node)), None)
+            if returned is None:
                 self.terminate(op.RETURN)
             else:
-                value = self.value(match)
+                value = self.value(returned)
                 value = self.as_type(value, self.returns) if size_of(self.returns) else value
                 self.terminate(op.RETURN_VALUE, value.id)
         elif kind == "if_statement":
@@ -231,8 +225,7 @@ class _ShaderLowering(Declarations):
 
     def local(self, node: SyntaxNode) -> None:
         """Declares the variables of a function."""
-        type_node = node.child_by_field_name("type")
-        kind = self.kind(self.text_of(type_node)) if type_node is not None else None
+        kind = self.kind(self.text_of(node.child_by_field_name("type")))
         if kind is None or kind[0] == "opaque":
             raise self.unsupported(node, "has an unknown type")
         for declarator in node.children_by_field_name("declarator"):
@@ -246,7 +239,6 @@ class _ShaderLowering(Declarations):
                 raise self.unsupported(initializer, "is not supported")
 
     def condition_id(self, node: SyntaxNode | None) -> int:
-        """Returns the id of a condition."""
         if node is None:
             return self.out.number(BOOL, True)
         value = self.value(node)
@@ -255,7 +247,7 @@ class _ShaderLowering(Declarations):
         return value.id
 
     def conditional(self, node: SyntaxNode, depth: int) -> None:
-        then, other = fields(node, "consequence", "alternative")
+        condition, then, other = fields(node, "condition", "consequence", "alternative")
         inner = next(iter(without_comments(other)), None) if other is not None else None
 
         def consequence() -> None:
@@ -266,8 +258,7 @@ class _ShaderLowering(Declarations):
             if other is not None and inner is not None:
                 self.statements(inner if other.type == "else_clause" else other, depth)
 
-        condition = self.condition_id(node.child_by_field_name("condition"))
-        self.branch(condition, consequence, alternative if other is not None else None)
+        self.branch(self.condition_id(condition), consequence, alternative if other is not None else None)
 
     def loop(self, node: SyntaxNode, depth: int) -> None:
         out = self.out
@@ -299,8 +290,7 @@ class _ShaderLowering(Declarations):
             self.value(update)
         if after:
             self.terminate(op.BRANCH_CONDITIONAL, self.condition_id(condition), header, merge)
-        else:
-            self.terminate(op.BRANCH, header)
+        self.terminate(op.BRANCH, header)
         self.label(merge)
         self.scopes.pop()
 

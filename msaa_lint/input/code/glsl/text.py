@@ -98,7 +98,6 @@ def preprocess(text: str) -> PreprocessedText:
 
 
 def _apply_directive(name: str, rest: str, macros: dict[str, Macro], branches: list[tuple[bool, bool]]) -> None:
-    """Applies a directive."""
     live = all(item for item, _ in branches)
     if name in ("ifdef", "ifndef"):
         word = rest.split()[0] if rest.split() else ""

@@ -89,7 +89,6 @@ class Values(SyntaxReader):
         return Value(self.out.number(kind, number), kind)
 
     def variable(self, storage: int, kind: Type) -> Place:
-        """Returns a new variable."""
         return Place(self.out.variable(storage, kind), kind, storage)
 
     def temporary(self, kind: Type) -> Place:
@@ -97,7 +96,6 @@ class Values(SyntaxReader):
         return self.variable(op.FUNCTION_LOCAL, kind)
 
     def kind(self, name: str) -> Type | None:
-        """Returns the type with a name."""
         return self.structs.get(name) or named(name)
 
     def lookup(self, name: str) -> Named | None:
@@ -122,12 +120,9 @@ class Values(SyntaxReader):
             target = self.lookup(self.text_of(node))
             if target is None:
                 raise self.unsupported(node, "is not declared")
-            if isinstance(target, Place):
-                return target
-            if isinstance(target, Value):
-                return None
-            block, index = target
-            return self.member(block, index)
+            if isinstance(target, (Place, Value)):
+                return target if isinstance(target, Place) else None
+            return self.member(*target)
         if node.type not in ("field_expression", "subscript_expression"):
             return None
         argument = node.child_by_field_name("argument")
@@ -195,15 +190,12 @@ class Values(SyntaxReader):
             return
         scalar = scalar_of(place.type)
         value = self.as_type(value, vector(scalar, len(place.parts)))
-        if len(place.parts) == 1 and size_of(place.type) > 1:
-            part = self.access_chain(place, scalar, out.number(INT, place.parts[0]))
-            out.emit(op.STORE, part.pointer, value.id)
-            return
-        if size_of(place.type) == 1:
-            out.emit(op.STORE, place.pointer, value.id)
+        size = size_of(place.type)
+        if size == 1 or len(place.parts) == 1:
+            target = place if size == 1 else self.access_chain(place, scalar, out.number(INT, place.parts[0]))
+            out.emit(op.STORE, target.pointer, value.id)
             return
         before = self.load(place._replace(parts=()))
-        size = size_of(place.type)
         order = [size + place.parts.index(n) if n in place.parts else n for n in range(size)]
         out.emit(op.STORE, place.pointer, out.instruction(op.VECTOR_SHUFFLE, place.type, before.id, value.id, *order))
 
@@ -262,7 +254,6 @@ class Values(SyntaxReader):
         return self.result(op.EXT_INST, kind, self.out.extended, number, *(item.id for item in values))
 
     def arithmetic(self, sign: str, one: Value, other: Value) -> Value:
-        """Returns the result of an operator."""
         if "mat" in (one.type[0], other.type[0]):
             return self.opaque(sign, _of_matrix(sign, one.type, other.type), (one, other))
         if not size_of(one.type) or not size_of(other.type):
@@ -270,12 +261,10 @@ class Values(SyntaxReader):
                 return self.opaque(sign, BOOL, (one, other))
             raise UnsupportedShader(f"`{sign}` of a {type_text(one.type)} is not supported")
         kinds = [scalar_of(item.type) for item in (one, other)]
-        scalar: Type = next((kind for kind in (DOUBLE, FLOAT, UINT, INT) if kind in kinds), BOOL)
         size = max(size_of(one.type), size_of(other.type))
         if BOOL in kinds and sign not in ("==", "!="):
             raise UnsupportedShader(f"`{sign}` of a bool is not supported")
-        if sign in ("<<", ">>"):
-            scalar = kinds[0]
+        scalar = kinds[0] if sign in ("<<", ">>") else _promoted(kinds)
         one, other = (self.as_type(item, vector(scalar, size_of(item.type))) for item in (one, other))
         if sign == "*" and scalar == FLOAT and size_of(one.type) != size_of(other.type):
             wide, narrow = (one, other) if size_of(one.type) > 1 else (other, one)
@@ -294,10 +283,14 @@ class Values(SyntaxReader):
         """Converts two values to a common type."""
         if one.type == other.type or not size_of(one.type):
             return one, other
-        kinds = [scalar_of(item.type) for item in (one, other)]
-        scalar = next((kind for kind in (DOUBLE, FLOAT, UINT, INT) if kind in kinds), BOOL)
+        scalar = _promoted([scalar_of(one.type), scalar_of(other.type)])
         first, second = (self.as_type(item, vector(scalar, size_of(item.type))) for item in (one, other))
         return first, second
+
+
+def _promoted(scalars: list[Type]) -> Type:
+    """Returns the type to which operands are converted implicitly."""
+    return next((kind for kind in (DOUBLE, FLOAT, UINT, INT) if kind in scalars), BOOL)
 
 
 def column(scalar: Type) -> int:
@@ -322,5 +315,4 @@ def _of_matrix(sign: str, one: Type, other: Type) -> Type:
 
 
 def type_text(kind: Type) -> str:
-    """Returns the text of a type."""
     return f"{kind[1][0] if isinstance(kind[1], tuple) else kind[1]} {kind[0]}" if len(kind) > 1 else str(kind[0])

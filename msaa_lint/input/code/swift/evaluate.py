@@ -189,16 +189,13 @@ def _binary(interpreter: Interpreter, term: Term, frame: CallFrame) -> Value:
 def _list(interpreter: Interpreter, term: Term, frame: CallFrame) -> Value:
     """Returns an option set if every item is an option."""
     names: list[str] = []
-    whole = True
     for item in term[1]:
         value = evaluate(interpreter, item, frame)
         if isinstance(value, Constant) and isinstance(value.value, str) and item[0] == MEMBER:
             names.append(value.value)
-        else:
-            whole = False
-            if isinstance(value, Texture):
-                interpreter.escaped.add(id(value))
-    return Constant(tuple(names)) if whole else UNKNOWN
+        elif isinstance(value, Texture):
+            interpreter.escaped.add(id(value))
+    return Constant(tuple(names)) if len(names) == len(term[1]) else UNKNOWN
 
 
 def _index(interpreter: Interpreter, term: Term, frame: CallFrame) -> Value:
@@ -236,11 +233,8 @@ def assign(interpreter: Interpreter, sign: str, target: Term, value: Term, frame
             interpreter.undo_log.write(variable[0].locals, target[1], new_value)
             return
         is_declared = target[1] in interpreter.type_of(frame.type_name).members
-        if (
-            frame.self_value is not None
-            and not is_declared
-            and set_member(interpreter, frame.self_value, target[1], new_value, target[-1], place)
-        ):
+        owner = None if is_declared else frame.self_value
+        if owner is not None and set_member(interpreter, owner, target[1], new_value, target[-1], place):
             return
         outer = not is_declared and target[1] in interpreter.type_of("").members
         interpreter.set_property("" if outer else frame.type_name, target[1], new_value, place)

@@ -96,11 +96,10 @@ def _branch(interpreter: Interpreter, term: Term, frame: CallFrame) -> bool:
     """Executes the branch of an `if` that is taken, or both. The names that it binds go out of scope."""
     bound = [(condition[1], frame.locals.get(condition[1])) for condition in term[1] if condition[0] == BIND]
     goes = decide(interpreter, term[1], term[2], term[3], frame)
-    left = (
-        run_statements(interpreter, term[2] if goes else term[3], frame)
-        if goes is not None
-        else _both(interpreter, term[2], term[3], frame)
-    )
+    if goes is None:
+        left = _both(interpreter, term[2], term[3], frame)
+    else:
+        left = run_statements(interpreter, term[2] if goes else term[3], frame)
     for name, value in bound:
         interpreter.undo_log.write(frame.locals, name, value)
     return left
@@ -172,7 +171,6 @@ def with_labels(interpreter: Interpreter, function: Function, result: Value) -> 
 
 
 def bind_parameters(interpreter: Interpreter, function: Function, arguments: dict[str, Value], frame: CallFrame) -> None:
-    """Binds the parameters of a function."""
     for parameter in function.parameters:
         value = arguments.get(parameter.name)
         if value is None or value is UNKNOWN:

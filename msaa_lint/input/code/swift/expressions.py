@@ -30,7 +30,6 @@ class Expressions(SyntaxReader):
         return OTHER, self.text_of(node)[:200], span(node)
 
     def expression(self, node: SyntaxNode | None, depth: int = 0) -> Term:
-        """Returns the term of an expression."""
         if node is None:
             return OTHER, "", Span(0, 0)
         kind = node.type
@@ -50,19 +49,16 @@ class Expressions(SyntaxReader):
         if kind in _BINARY:
             return self.binary(node, depth)
         if kind == "nil_coalescing_expression":
-            parts = [self.expression(node.child_by_field_name(field), depth + 1) for field in ("value", "if_nil")]
-            return BINARY, "??", parts[0], parts[1], span(node)
+            left, right = (self.expression(part, depth + 1) for part in fields(node, "value", "if_nil"))
+            return BINARY, "??", left, right, span(node)
         if kind == "ternary_expression":
-            parts = [self.expression(node.child_by_field_name(field), depth + 1) for field in ("condition", "if_true", "if_false")]
-            return CHOICE, (parts[0],), parts[1], parts[2], span(node)
+            condition, then, other = (self.expression(part, depth + 1) for part in fields(node, "condition", "if_true", "if_false"))
+            return CHOICE, (condition,), then, other, span(node)
         if kind == "tuple_expression":
             return self.grouped(node, depth)
         if kind == "array_literal":
-            return (
-                LIST,
-                tuple(self.expression(child, depth + 1) for child in node.named_children if "comment" not in child.type),
-                span(node),
-            )
+            items = [child for child in node.named_children if "comment" not in child.type]
+            return LIST, tuple(self.expression(item, depth + 1) for item in items), span(node)
         if kind == "lambda_literal":
             return self.closure(node, depth)
         if kind == "if_statement":
@@ -92,12 +88,8 @@ class Expressions(SyntaxReader):
         name = suffix.child_by_field_name("suffix") if suffix is not None else None
         if name is None:
             return self.other(node)
-        return (
-            MEMBER,
-            self.expression(node.child_by_field_name("target"), depth + 1),
-            self.text_of(name),
-            Span(node.start_byte, name.end_byte),
-        )
+        target = self.expression(node.child_by_field_name("target"), depth + 1)
+        return MEMBER, target, self.text_of(name), Span(node.start_byte, name.end_byte)
 
     def prefixed(self, node: SyntaxNode, depth: int) -> Term:
         sign, target = fields(node, "operation", "target")
@@ -154,13 +146,9 @@ class Expressions(SyntaxReader):
         return TUPLE, tuple(items), span(node)
 
     def closure(self, node: SyntaxNode, depth: int) -> Term:
-        names: list[str] = []
         kind = node.child_by_field_name("type")
-        if kind is not None:
-            for parameters in kind.named_children:
-                for child in parameters.named_children if parameters.type == "lambda_function_type_parameters" else ():
-                    name = child.child_by_field_name("name")
-                    names.append(self.text_of(name))
+        groups = [child for child in kind.named_children if child.type == "lambda_function_type_parameters"] if kind is not None else []
+        names = [self.text_of(child.child_by_field_name("name")) for group in groups for child in group.named_children]
         return CLOSURE, tuple(names), self.statements(block(node), depth + 1), span(node)
 
     def choice(self, node: SyntaxNode, depth: int) -> Term:

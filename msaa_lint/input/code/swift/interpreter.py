@@ -172,7 +172,6 @@ class Interpreter:
         return self.object_at(kind, kind, Span(0, 0), type_name, False) if kind in SHARED else None
 
     def set_field(self, item: MetalObject, name: str, value: Value, key: Span, at: Span) -> None:
-        """Sets a member of an object."""
         self.undo_log.write(item.fields, name, Field(value, key, at, self.root))
         place = (id(item), name)
         before = self.new_member_values.get(place)
@@ -222,7 +221,6 @@ class Interpreter:
         return self.property_values.get((type_name, name), field.value if field is not None else None)
 
     def variable(self, frame: CallFrame, name: str, value: Value) -> None:
-        """Declares a variable."""
         if not name or name == "_":
             return
         if value is UNKNOWN:

@@ -149,7 +149,8 @@ def adopt_descriptor(interpreter: Interpreter, symbol: Symbol, term: Term, membe
     """Returns the descriptor that a symbol stands for, identified by its name and the member that is set."""
     if term[0] != NAME and not (term[0] == MEMBER and term[1] is not None and term[1][:2] == (NAME, "self")):
         return symbol
-    low = last_name(term).lower()
+    name = last_name(term)
+    low = name.lower()
     kind = "texture" if member in _TEXTURE_MEMBERS and "desc" in low else ""
     if member in ("sampleCount", "depthStencilPixelFormat", "colorPixelFormat") and "view" in low:
         kind = "view"
@@ -159,18 +160,13 @@ def adopt_descriptor(interpreter: Interpreter, symbol: Symbol, term: Term, membe
         kind = "pipeline" if "pipeline" in low or "pso" in low else "pass"
     if not kind:
         return symbol
-    metal_object = interpreter.object_at(kind, last_name(term), term[-1], symbol, False)
-    interpreter.name_value(metal_object, last_name(term), frame.function_name, frame.rank)
-    _hold(interpreter, term, metal_object, frame)
-    return metal_object
-
-
-def _hold(interpreter: Interpreter, term: Term, metal_object: MetalObject, frame: CallFrame) -> None:
-    name = last_name(term)
+    metal_object = interpreter.object_at(kind, name, term[-1], symbol, False)
+    interpreter.name_value(metal_object, name, frame.function_name, frame.rank)
     if term[0] == NAME and frame.find(name) is not None:
         interpreter.undo_log.write(frame.locals, name, metal_object)
     else:
         interpreter.set_property(frame.type_name, name, metal_object, term[-1])
+    return metal_object
 
 
 def drawable(interpreter: Interpreter, at: Span) -> Texture:

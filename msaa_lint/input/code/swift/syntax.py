@@ -53,7 +53,6 @@ class Syntax(Expressions):
         return terms
 
     def statement(self, node: SyntaxNode, depth: int, terms: list[Term]) -> None:
-        """Adds the terms of a statement."""
         kind = node.type
         if kind == "property_declaration":
             self.declared(node, depth, terms)
@@ -117,31 +116,25 @@ class Syntax(Expressions):
         name: SyntaxNode | None = None
         for index, child in enumerate(node.children):
             kind = child.type
+            if name is not None and kind in ("{", ",", "else"):
+                terms.append(self.binding(name, None, depth))
+                name = None
             if kind == "{":
                 bodies.append(())
-                self._bind(terms, name, None, depth)
-                name = None
             elif kind == "statements" and bodies:
                 bodies[-1] = self.statements(child.named_children, depth + 1)
             elif not bodies:
                 field = node.field_name_for_child(index)
                 if field == "bound_identifier":
                     name = child
-                elif kind in (",", "else"):
-                    self._bind(terms, name, None, depth)
-                    name = None
                 elif field == "condition" and child.is_named and kind != "value_binding_pattern":
-                    if name is not None:
-                        self._bind(terms, name, child, depth)
-                        name = None
-                    else:
-                        terms.append(self.expression(child, depth))
+                    terms.append(self.binding(name, child, depth) if name is not None else self.expression(child, depth))
+                    name = None
         return tuple(terms), bodies
 
-    def _bind(self, terms: list[Term], name: SyntaxNode | None, value: SyntaxNode | None, depth: int) -> None:
-        if name is not None:
-            place = Span(name.start_byte, value.end_byte if value is not None else name.end_byte)
-            terms.append((BIND, self.text_of(name), self.expression(value, depth) if value is not None else None, place))
+    def binding(self, name: SyntaxNode, value: SyntaxNode | None, depth: int) -> Term:
+        term = self.expression(value, depth) if value is not None else None
+        return BIND, self.text_of(name), term, Span(name.start_byte, (value or name).end_byte)
 
     def declared(self, node: SyntaxNode, depth: int, terms: list[Term]) -> None:
         """Adds the names declared by `let` or `var`."""
@@ -176,14 +169,11 @@ class Syntax(Expressions):
         children = node.children
         for index, child in enumerate(children):
             if child.type == "parameter":
-                next_node = children[index + 2] if index + 2 < len(children) else None
-                default = next_node if next_node is not None and node.field_name_for_child(index + 2) == "default_value" else None
-                parameters.append(self.parameter(child, default))
+                has_default = index + 2 < len(children) and node.field_name_for_child(index + 2) == "default_value"
+                parameters.append(self.parameter(child, children[index + 2] if has_default else None))
             elif child.type == "tuple_type":
                 gives = tuple(_LABELS.findall(self.text_of(child)[:2000]))
-        return Function(
-            self.text_of(name) if name else "", type_name, tuple(parameters), gives, node.child_by_field_name("body"), span(node)
-        )
+        return Function(self.text_of(name), type_name, tuple(parameters), gives, node.child_by_field_name("body"), span(node))
 
     def parameter(self, node: SyntaxNode, default: SyntaxNode | None) -> Parameter:
         label, name = fields(node, "external_name", "name")
