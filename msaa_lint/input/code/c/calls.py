@@ -194,20 +194,14 @@ class Calls(ObjectCreation):
             if cell is not None and not isinstance(sole_value(cell.writes), Ref):
                 return cell
         value = self.value(term, scope, parameter.type)
-        parameter_cell = Cell(parameter.type, parameter.name, key=f"argument({parameter.name})")
-        if parameter.by_reference:
-            parameter_cell.writes = value
-        else:
-            parameter_cell.writes = copy_alternatives(value)
-        if not value:
-            parameter_cell.writes = (Alternative(UNKNOWN, term[-1]),)
-        return parameter_cell
+        writes = value if parameter.by_reference else copy_alternatives(value)
+        return Cell(parameter.type, parameter.name, writes or (Alternative(UNKNOWN, term[-1]),), f"argument({parameter.name})")
 
     def extreme(self, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value:
-        left, right = (self.sole(a, scope) for a in arguments)
-        if isinstance(left, (int, float)) and isinstance(right, (int, float)):
-            return (Alternative(min(left, right) if name == "min" else max(left, right), place),)
-        return UNKNOWN_VALUE
+        values = [self.sole(argument, scope) for argument in arguments]
+        if not all(isinstance(value, (int, float)) for value in values):
+            return UNKNOWN_VALUE
+        return (Alternative(min(values) if name == "min" else max(values), place),)
 
 
 def _callee(function: Term) -> tuple[str, Term | None]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from itertools import chain
 from typing import Any
 
 from msaa_lint.core.text.node import Node
@@ -61,19 +62,17 @@ class Configuration:
             multisampled = [item for item in value if type(item.value) is int and item.value > 1]
             for alternative in sorted(multisampled, key=lambda a: (a.value != ASSUMED, a.value)):
                 self.assume(alternative.guards)
-        for value in slots:
-            for alternative in value:
-                if isinstance(alternative.value, Symbol) and alternative.value.chosen:
-                    self.assume_multisampled(alternative.value, alternative.guards)
+        for alternative in chain.from_iterable(slots):
+            if isinstance(alternative.value, Symbol) and alternative.value.chosen:
+                self.assume_multisampled(alternative.value, alternative.guards)
         passes = (obj for obj in self.current_objects if obj.kind == "renderPass")
         for subpass in (subpass for obj in passes for subpass in self.subpasses(obj)):
             for write in subpass.fields["resolveAttachments"].writes if "resolveAttachments" in subpass.fields else ():
                 if isinstance(write.value, (Ref, Array)):
                     self.assume(write.guards)
-        for value in self.resolved_slots():
-            for alternative in value:
-                if isinstance(alternative.value, Symbol):
-                    self.assume_multisampled(alternative.value, alternative.guards)
+        for alternative in chain.from_iterable(self.resolved_slots()):
+            if isinstance(alternative.value, Symbol):
+                self.assume_multisampled(alternative.value, alternative.guards)
 
     def subpasses(self, render_pass: VulkanObject) -> Iterator[Struct]:
         return (struct for struct in self.structs(render_pass.info, "subpasses") or () if struct is not None)
@@ -100,9 +99,7 @@ class Configuration:
 
     def sample_slots(self) -> Iterator[Value]:
         for obj in self.current_objects:
-            for name in ("samples", "rasterizationSamples"):
-                if name in obj.info.fields:
-                    yield obj.info.fields[name].writes
+            yield from (obj.info.fields[name].writes for name in ("samples", "rasterizationSamples") if name in obj.info.fields)
             if obj.kind == "renderPass" and "attachments" in obj.info.fields:
                 for attachment in _inner(obj.info.fields["attachments"], 0):
                     if "samples" in attachment.fields:

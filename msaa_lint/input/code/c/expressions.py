@@ -59,15 +59,12 @@ class Expressions(SyntaxReader, ABC):
         if node is None:
             return ""
         if node.type in CLASSES or node.type == "enum_specifier":
-            name = node.child_by_field_name("name")
-            return self.text_of(name)
+            return self.text_of(node.child_by_field_name("name"))
         return self.resolve_aliases(BLANKS.sub("", re.sub(r"\b(?:const|struct|typename|class)\b", " ", self.text_of(node))))
 
     def resolve_aliases(self, name: str) -> str:
         """Returns a name with aliases resolved: those of `namespace v = vk;` and `using Samples = ...;`."""
-        if not self.aliases:
-            return name
-        return WORD.sub(lambda match: self.aliases.get(match[0], match[0]), name)
+        return WORD.sub(lambda match: self.aliases.get(match[0], match[0]), name) if self.aliases else name
 
     def expression(self, node: SyntaxNode | None, depth: int) -> Term:
         """Returns the term of an expression."""
@@ -94,15 +91,13 @@ class Expressions(SyntaxReader, ABC):
             return (BRACES, "", tuple(self.items(node, deeper)), at)
         if kind == "compound_literal_expression":
             type_node, value_node = fields(node, "type", "value")
-            items = tuple(self.items(value_node, deeper)) if value_node is not None else ()
-            return (BRACES, self.type_text(type_node), items, at)
+            return (BRACES, self.type_text(type_node), tuple(self.items(value_node, deeper)) if value_node is not None else (), at)
         if kind in WRAPPERS:
             inner = node.child_by_field_name("value") or (node.named_children[-1] if node.named_child_count else None)
             term = self.expression(inner, deeper)
             type_node = node.child_by_field_name("type")
-            if kind == "cast_expression" and term[0] == BRACES and type_node is not None:
-                return (BRACES, self.type_text(type_node), *term[2:])
-            return term
+            typed = kind == "cast_expression" and term[0] == BRACES and type_node is not None
+            return (BRACES, self.type_text(type_node), *term[2:]) if typed else term
         sign = node.child_by_field_name("operator")
         operator = self.text_of(sign)
         if kind == "binary_expression":

@@ -52,9 +52,7 @@ class Interpreter(Calls):
                     self.run_entry_point(function)
                     for key, cell in self.overlay.items():
                         before = {id(write) for write in self.initial.get(key, ())}
-                        for write in cell.writes:
-                            if id(write) in before:
-                                continue
+                        for write in (write for write in cell.writes if id(write) not in before):
                             if write.value is UNKNOWN:
                                 write = Alternative(Symbol(key, key.rpartition("::")[2]), write.at, write.guards)
                             writes_by_key.setdefault(key, {}).setdefault(_mark(write), write)
@@ -137,13 +135,10 @@ class Interpreter(Calls):
             return
         against = negated(condition)
         left = self.run_block(then, scope, condition, scoped)
-        leaves = self.run_block(otherwise, scope, against, scoped) if otherwise else False
-        if left and leaves:
-            scope.unreachable = True
-        elif left:
-            scope.guards |= against
-        elif leaves:
-            scope.guards |= condition
+        leaves = self.run_block(otherwise, scope, against, scoped)
+        scope.unreachable = left and leaves
+        if left is not leaves:
+            scope.guards |= against if left else condition
 
     def loop(self, term: Term, scope: Scope) -> None:
         declared, over, body = term[1], term[2], term[3]

@@ -188,10 +188,9 @@ def _distinct_nodes(nodes: Sequence[Node]) -> list[Node]:
 
 
 def _signature(node: Node) -> str:
+    inner = node.text
     if node.kind == "mapping":
         inner = ",".join(f"{key}:{_signature(value)}" for key, value in node.value.items())
     elif node.kind == "sequence":
-        inner = ",".join(_signature(value) for value in node.value)
-    else:
-        inner = node.text
+        inner = ",".join(map(_signature, node.value))
     return f"{node.start}-{node.end}({inner})"

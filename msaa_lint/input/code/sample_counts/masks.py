@@ -227,10 +227,10 @@ class Expressions(SyntaxReader):
         return both._replace(allowed=then.allowed | other.allowed)
 
     def _item(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
-        list_node = node.child_by_field_name("indices") or node.child_by_field_name("index")
-        if list_node is not None and list_node.type == "subscript_argument_list":
-            list_node = list_node.named_children[0] if list_node.named_child_count else None
-        order, index = self.value(node.child_by_field_name("argument"), bindings, depth), self.value(list_node, bindings, depth)
+        operand, index_node, list_node = fields(node, "argument", "index", "indices")
+        if list_node is not None:
+            index_node = next(iter(list_node.named_children), None)
+        order, index = self.value(operand, bindings, depth), self.value(index_node, bindings, depth)
         if isinstance(order, Order) and isinstance(index, int) and 0 <= index < len(order.counts):
             return order.counts[index]
         return None
