@@ -9,6 +9,7 @@ from typing import NamedTuple
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding, Undecided
 from msaa_lint.frame.devices import DeviceProfile
+from msaa_lint.frame.facts.commands import accesses
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.global_facts import profile
 from msaa_lint.frame.facts.parts import Pass
@@ -177,15 +178,11 @@ def _owners(frame: Frame) -> _Owners:
 
 def _paths(frame: Frame, described: Pass) -> set[str]:
     images = {target.name for attachment in described.attachments for target in attachment.targets if target.image is not None}
-    for subpass in described.subpasses:
-        images.update(r.target_image.name for r in subpass.resolves if r.target_image is not None and r.target_image.image is not None)
+    images.update(r.target_image.name for r in described.resolves if r.target_image is not None and r.target_image.image is not None)
     paths = {described.path, *(frame.targets[name].path for name in images if name in frame.targets)}
     paths.update(pipeline.path for pipeline, of in frame.pipelines if of is described or of is None)
     paths.update(framebuffer.path for framebuffer in frame.framebuffers.get(described.name, ()))
     for position in described.begun:
         paths.add(frame.commands[position].path)
-    for command in frame.commands:
-        images_named = {getattr(command.body, member, None) for member in ("image", "srcImage", "dstImage")}
-        if images_named & images:
-            paths.add(command.path)
+    paths.update(command.path for command in frame.commands if any(name in images for name, _ in accesses(command)))
     return paths

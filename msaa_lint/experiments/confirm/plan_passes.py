@@ -9,6 +9,7 @@ from msaa_lint.frame.description.models import (
     AttachmentReference,
     BeginRendering,
     DepthStencilResolve,
+    ReadImage,
     RenderingAttachment,
     RenderPass,
     SubpassDependency,
@@ -44,7 +45,7 @@ class Passes:
         self.images = images
         self.notes = images.notes
         self.api = api
-        self.read = {command.body.image for command in frame.commands if command.kind == "readImage" and command.body is not None}  # type: ignore[attr-defined]
+        self.read = {body.image for _, body in frame.recorded(ReadImage)}
 
     def plan_pass(self, described: DescribedPass) -> parts.Pass:
         """A pass, with the reason if no device can run it."""

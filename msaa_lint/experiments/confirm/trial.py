@@ -212,15 +212,14 @@ def _concerns(image: str, planned: parts.Pass, frame: Frame, passes: int) -> boo
 
 def _writes(described: Pass, image: str) -> bool:
     targets = {target.name for attachment in described.attachments for target in attachment.targets}
-    resolves = (resolve for subpass in described.subpasses for resolve in subpass.resolves)
-    targets.update(resolve.target_image.name for resolve in resolves if resolve.target_image is not None)
+    targets.update(resolve.target_image.name for resolve in described.resolves if resolve.target_image is not None)
     return image.partition(":")[0] in targets
 
 
 def _averages(frame: Frame) -> dict[str, set[str]]:
     """By image that samples are averaged into: whether in a pass or by a command."""
     kinds: dict[str, set[str]] = {}
-    resolves = [resolve for described in frame.passes for subpass in described.subpasses for resolve in subpass.resolves]
+    resolves = [resolve for described in frame.passes for resolve in described.resolves]
     for resolve in (*resolves, *(resolve for _, resolve in frame.resolve_commands)):
         if resolve.target_image is not None and resolve.mode == "AVERAGE":
             kinds.setdefault(resolve.target_image.name, set()).add("command" if resolve.kind == "command" else "pass")

@@ -13,7 +13,6 @@ from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.commands import accesses
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.parts import Attachment, Pass, Resolve, Target
-from msaa_lint.frame.facts.walk import flags_of
 
 RecordType = TypeVar("RecordType", bound=Record)
 CommandOrder = list[tuple[Command, Pass | None]]
@@ -74,14 +73,9 @@ def own_image(target: Target) -> Image | None:
     return target.image
 
 
-def is_suspended(render_pass: Pass) -> bool:
-    """Whether another rendering continues a rendering, which then stores and resolves nothing."""
-    return "SUSPENDING" in flags_of(render_pass)
-
-
 def effective_resolves(render_pass: Pass) -> list[Resolve]:
     """The resolves of a pass that certainly take effect: with a stated mode, of more than one sample and with a target."""
-    if is_suspended(render_pass):
+    if render_pass.suspends:
         return []
     return [
         resolve

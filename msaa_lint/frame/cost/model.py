@@ -44,13 +44,13 @@ def frame_cost(frame: Frame, device: DeviceProfile | None, terms: Terms | None =
             name,
             path,
             kind,
-            area.times if area is not None else 1,
-            area.width if area is not None else None,
-            area.height if area is not None else None,
+            area.times,
+            area.width,
+            area.height,
             tuple(lines.found),
             frame_rates.amount(reads, writes, memory),
             None if measured is None else frame_rates.amount(*measured, memory),
-            pass_shading(each, area, frame) if each is not None and area is not None else None,
+            pass_shading(each, area, frame) if each is not None else None,
             _tile(each, device) if each is not None else None,
             tuple(lines.unknown),
         )
@@ -75,7 +75,10 @@ def frame_cost(frame: Frame, device: DeviceProfile | None, terms: Terms | None =
     )
 
 
-Entry = tuple[str, str, str, Pass | None, Area | None, Lines]
+Entry = tuple[str, str, str, Pass | None, Area, Lines]
+
+_NO_AREA = Area(1, 0, 0, None, None, True, ())
+"""A command outside of passes runs once and renders nothing."""
 
 
 def _entries(frame: Frame, device: DeviceProfile | None, sizes: Sizes, frame_rates: Rates) -> tuple[list[Entry], list[str]]:
@@ -95,7 +98,7 @@ def _entries(frame: Frame, device: DeviceProfile | None, sizes: Sizes, frame_rat
             continue
         elif render_pass is None:
             lines = Lines(device)
-            entries[id(command)] = (command.kind, command.path, "command", None, None, lines)
+            entries[id(command)] = (command.kind, command.path, "command", None, _NO_AREA, lines)
             command_lines(lines, command, frame, sizes)
         elif getattr(command.body, "image", None) not in attached[id(render_pass)]:
             # What a pass has attached it reads on the tile.

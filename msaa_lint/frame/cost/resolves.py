@@ -18,7 +18,6 @@ from .frame_edits import (
     copy_record,
     effective_resolves,
     images_of_commands,
-    is_suspended,
     make_command,
     own_image,
     set_commands,
@@ -60,7 +59,7 @@ def _move_commands(frame: Frame) -> None:
             resolved_to.setdefault(id(resolve.source), []).append(resolve.written_part)
     order: CommandOrder = []
     for command, begun in command_order(frame):
-        if begun is not None and not is_suspended(begun):
+        if begun is not None and not begun.suspends:
             for attachment in begun.attachments:
                 drawn.update((target.name, (begun, attachment)) for target in attachment.targets if attachment.drawn)
         if command.kind != "resolveImage" or not _move_into_pass(frame, command, drawn, resolved_to):

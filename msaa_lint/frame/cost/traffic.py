@@ -8,7 +8,7 @@ moves nothing, whatever its operations (VkAttachmentDescription).
 from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.models import BeginRendering, Command, ReadImage
+from msaa_lint.frame.description.models import Command, ReadImage
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.facts.commands import (
     CLEAR,
@@ -26,7 +26,6 @@ from msaa_lint.frame.facts.parts import RENDERING, Attachment, Pass, Target
 from msaa_lint.frame.vulkan.formats import Format
 
 from .amounts import Line
-from .compression import ratio
 from .sizes import Area, Sizes, views_of
 
 _ACTIONS = {
@@ -66,9 +65,13 @@ class Lines:
     def add(
         self, attachment: str, image: str, aspect: str, samples: int, kept: int, action: str, direction: str, size: int, place: Span | None
     ) -> None:
-        """A line; `kept` is how many samples a texel the image has, which decides how it is compressed."""
-        factor = ratio(self.device, kept, direction)
-        corrected = None if factor is None else size * factor
+        """A line; `kept` is how many samples a texel the image has, which decides how it is compressed.
+
+        A device's compression is an average over pictures: 1 means that nothing is compressed, above 1 that more moves than the texels.
+        """
+        compression = self.device.compression if self.device is not None else None
+        ratios = compression.get(kept) if compression is not None else None
+        corrected = size * ratios[direction == "write"] if ratios is not None else None
         self.found.append(Line(attachment, image, aspect, samples, action, direction, size, corrected, place))
 
     def missing(self, text: str) -> None:
@@ -83,17 +86,15 @@ def pass_lines(render_pass: Pass, area: Area, device: DeviceProfile | None) -> L
         lines.missing("its size: no framebuffer, image or frame states it")
     if area.times == 0 or area.width is None:
         return lines
-    flags = render_pass.record.flags if isinstance(render_pass.record, BeginRendering) else ()
-    suspends = "SUSPENDING" in flags
     for attachment in render_pass.attachments:
         if attachment.used:
-            _attachment(lines, render_pass, attachment, area, suspends)
-    if render_pass.kind == RENDERING and not suspends:
+            _attachment(lines, render_pass, attachment, area)
+    if render_pass.kind == RENDERING and not render_pass.suspends:
         _rendering_resolves(lines, render_pass, area)
     return lines
 
 
-def _attachment(lines: Lines, render_pass: Pass, attachment: Attachment, area: Area, suspends: bool) -> None:
+def _attachment(lines: Lines, render_pass: Pass, attachment: Attachment, area: Area) -> None:
     target = attachment.targets[0] if attachment.targets else None
     image = target.name if target is not None and target.image is not None else ""
     pixels = _pixels(render_pass, attachment, area)
@@ -106,7 +107,7 @@ def _attachment(lines: Lines, render_pass: Pass, attachment: Attachment, area: A
             causes.append(("load", "read", record.place(aspect.load_member)))
         elif aspect.load is None:
             lines.missing(f"whether `{attachment.title}` is loaded: {aspect.load_member} is not stated")
-        if aspect.store == "STORE" and not suspends:
+        if aspect.store == "STORE" and not render_pass.suspends:
             causes.append(("resolve" if name in over else "store", "write", record.place(aspect.store_member)))
         elif aspect.store is None:
             lines.missing(f"whether `{attachment.title}` is stored: {aspect.store_member} is not stated")

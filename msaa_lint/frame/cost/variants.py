@@ -11,7 +11,7 @@ from typing import NamedTuple
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.facts.frame import Frame
-from msaa_lint.frame.facts.parts import Target
+from msaa_lint.frame.facts.image import counts_by_aspect
 
 from .amounts import FrameCost, Terms
 from .model import frame_cost
@@ -78,23 +78,11 @@ def _offered(frame: Frame, device: DeviceProfile | None, count: int) -> bool | N
         return True if count == 1 else None
     known = True
     for target in frame.all_targets:
-        for counts in _counts(device, target) if target.samples not in (None, 1) else ():
+        if target.samples in (None, 1):
+            continue
+        for counts in counts_by_aspect(target.format, device) if target.format is not None else [None]:
             if counts is None:
                 known = False
             elif count not in counts:
                 return None if device.minimum else False
     return True if known else None
-
-
-def _counts(device: DeviceProfile, target: Target) -> Iterator[tuple[int, ...] | None]:
-    """The counts that a device offers for each aspect of an image."""
-    if target.format is None:
-        yield None
-        return
-    for aspect in target.format.aspects:
-        if aspect == "depth":
-            yield device.depth_samples
-        elif aspect == "stencil":
-            yield device.stencil_samples
-        else:
-            yield device.integer_samples if target.format.is_integer else device.color_samples

@@ -8,7 +8,6 @@ from .facts import Facts
 from .frame import Frame
 from .parts import RENDER_PASS, Aspect, Attachment, Pass, Resolve
 from .readers import Readers
-from .walk import flags_of
 
 
 def pass_facts(render_pass: Pass) -> Facts:
@@ -18,7 +17,7 @@ def pass_facts(render_pass: Pass) -> Facts:
     facts.put("pass.name", render_pass.name)
     facts.put("pass.partial_area", render_pass.partial_area)
     facts.put("pass.custom_resolve", render_pass.custom_resolve)
-    facts.put("pass.suspends", "SUSPENDING" in flags_of(render_pass))
+    facts.put("pass.suspends", render_pass.suspends)
     return facts
 
 

@@ -6,6 +6,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.models import Image, ReadImage
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.devices.shares import sample_count_share
+from msaa_lint.frame.vulkan.formats import Format
 
 from .facts import Facts
 from .frame import Frame
@@ -133,16 +134,18 @@ def supported_samples(target: Target, device: DeviceProfile | None) -> tuple[tup
     format = target.format
     if device is None or format is None:
         return None, False
-    lists = []
-    for aspect in format.aspects:
-        if aspect == "color":
-            lists.append(device.integer_samples if format.is_integer else device.color_samples)
-        else:
-            lists.append(device.depth_samples if aspect == "depth" else device.stencil_samples)
+    lists = counts_by_aspect(format, device)
     known = [counts for counts in lists if counts is not None]
     if not known:
         return None, False
     return tuple(count for count in known[0] if all(count in counts for counts in known)), len(known) == len(lists)
+
+
+def counts_by_aspect(format: Format, device: DeviceProfile) -> list[tuple[int, ...] | None]:
+    """The counts that a device offers for each aspect of a format; None where they are not known."""
+    color = device.integer_samples if format.is_integer else device.color_samples
+    offered = {"color": color, "depth": device.depth_samples, "stencil": device.stencil_samples}
+    return [offered[aspect] for aspect in format.aspects]
 
 
 def _rendered(target: Target, bound: list[Attachment], bindings: Bindings) -> bool:

@@ -13,7 +13,6 @@ from .facts import Facts
 from .parts import Aspect, Attachment, Pass, Target
 from .readers import READING_USAGES
 from .timeline import BEGIN, DISCARD, LOAD, STORE, Event, plain
-from .walk import flags_of
 
 _WRITING_USAGES = frozenset({"TRANSFER_DST", "STORAGE"})
 
@@ -36,7 +35,7 @@ def lifetime_facts(facts: Facts, render_pass: Pass, attachment: Attachment, aspe
 
 def _put_store(facts: Facts, render_pass: Pass, attachment: Attachment, aspect: Aspect, bound: Bound, contents: Contents) -> None:
     """Whether anything reads what the pass stores, before it is overwritten or the frame comes round."""
-    if aspect.store in ("DONT_CARE", "NONE") or "SUSPENDING" in flags_of(render_pass):
+    if aspect.store in ("DONT_CARE", "NONE") or render_pass.suspends:
         facts.put("aspect.store_wasted", False)
         return
     wasted: list[bool | None] = []

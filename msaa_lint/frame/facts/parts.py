@@ -180,6 +180,16 @@ class Pass:
         """Whether some render area that it is begun with is smaller than what it renders to; None where a size is not stated."""
 
     @property
+    def suspends(self) -> bool:
+        """Whether it is a rendering that goes on in another one, which stores and resolves."""
+        return isinstance(self.record, BeginRendering) and "SUSPENDING" in self.record.flags
+
+    @property
+    def resumes(self) -> bool:
+        """Whether it is a rendering that goes on from another one, which loaded."""
+        return isinstance(self.record, BeginRendering) and "RESUMING" in self.record.flags
+
+    @property
     def resolves(self) -> list[Resolve]:
         """The resolves of its subpasses."""
         return [resolve for subpass in self.subpasses for resolve in subpass.resolves]

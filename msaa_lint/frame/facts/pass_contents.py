@@ -16,7 +16,7 @@ from .frame import Frame
 from .parts import RENDER_PASS, Aspect, Attachment, Pass, PassSubpass
 from .pass_begin import MAX_USES, targets_at
 from .timeline import LOAD
-from .walk import Walk, flags_of
+from .walk import Walk
 
 _DYNAMIC_MASKS = frozenset({"COLOR_WRITE_MASK_EXT", "COLOR_WRITE_ENABLE_EXT"})
 _DYNAMIC_SAMPLES = frozenset({"SAMPLE_MASK_EXT", "ALPHA_TO_COVERAGE_ENABLE_EXT"})
@@ -24,7 +24,6 @@ _FETCHING = frozenset(
     {"VK_EXT_shader_tile_image", "VK_ARM_rasterization_order_attachment_access", "VK_EXT_rasterization_order_attachment_access"}
 )
 """What lets shaders read attachments of which no state tells."""
-_IN_PARTS = frozenset({"SUSPENDING", "RESUMING"})
 _FULL_SCREEN = (3, 6)
 """Vertices of one triangle that covers the picture, or of two."""
 
@@ -73,7 +72,7 @@ def pass_contents(walk: Walk) -> PassContents:
     frame = walk.frame
     found: PassContents = {}
     for position, run in walk.recorded_runs.items():
-        if not _IN_PARTS.isdisjoint(flags_of(run.render_pass)):
+        if run.render_pass.suspends or run.render_pass.resumes:
             continue
         instance = Instance(position)
         found.setdefault(run.render_pass.path, []).append(instance)

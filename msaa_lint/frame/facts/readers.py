@@ -18,7 +18,7 @@ from .frame import Frame
 from .parts import RENDERING, Aspect, Attachment, Pass, Resolve, Target
 from .pass_begin import targets_at
 from .timeline import BEGIN, DISCARD, ELSEWHERE, LOAD, RESUME, STORE, Event, Timeline, key_of
-from .walk import PassRun, flags_of
+from .walk import PassRun
 
 READS = "reads"
 OVERWRITES = "overwrites"
@@ -57,7 +57,7 @@ class Readers:
     def read_later(self, render_pass: Pass, attachment: Attachment, aspect: Aspect) -> bool | None:
         """Whether anything reads what a pass stored of an aspect; None where the description does not say."""
         runs = self.timeline.walk.runs_of(render_pass)
-        if attachment.input or "SUSPENDING" in flags_of(render_pass):
+        if attachment.input or render_pass.suspends:
             # What a suspended rendering draws is stored by the one that resumes and ends it.
             return True
         if not self.timeline.followed:
@@ -127,7 +127,7 @@ class Readers:
     def stored_before(self, render_pass: Pass, attachment: Attachment, aspect: Aspect) -> Store | None:
         """Which pass stored what an attachment loads, round the loop; None where none did, or where that differs from time to time."""
         runs = self.timeline.walk.runs_of(render_pass)
-        if aspect.load != "LOAD" or len(runs) != 1 or attachment.target is None or runs[0].resumes:
+        if aspect.load != "LOAD" or len(runs) != 1 or attachment.target is None or render_pass.resumes:
             return None
         stores = [event for event in self._stores.get(key_of(attachment.target), ()) if same_aspect(event.aspect, aspect.name)]
         before = [event for event in stores if event.time < runs[0].begin_time]

@@ -181,8 +181,8 @@ class Timeline:
 
     def _seams(self, before: PassRun | None, run: PassRun | None, time: int) -> Iterator[tuple[str, Event]]:
         """What is not described between two runs: where a rendering suspends and none resumes, or one resumes and none suspended."""
-        suspended = before if before is not None and before.suspends and self.frame.has_commands else None
-        resumes = run is not None and run.resumes and self.frame.has_commands
+        suspended = before if before is not None and before.render_pass.suspends and self.frame.has_commands else None
+        resumes = run is not None and run.render_pass.resumes and self.frame.has_commands
         if resumes == (suspended is not None):
             return
         unseen = suspended or run
@@ -205,7 +205,7 @@ class Timeline:
                     covered[key] = covers(self.frame, run.render_pass, run.position, target)
                 whole = covered[key] and frames is not SOME_FRAMES
                 for aspect in attachment.aspects:
-                    begin = (RESUME, True) if run.resumes else _begin(aspect.load)
+                    begin = (RESUME, True) if run.render_pass.resumes else _BEGINS.get(aspect.load)
                     if begin is not None:
                         kind, certain = begin
                         yield (
@@ -214,14 +214,14 @@ class Timeline:
                         )
                     for index in attachment.color | attachment.depth_stencil:
                         yield key, Event(run.starts[index], DRAW, aspect.name, whole, True, attachment, "", run, None, frames)
-                    end = None if run.suspends else _end(attachment, aspect.load, aspect.store)
+                    end = None if run.render_pass.suspends else _end(attachment, aspect.load, aspect.store)
                     if end is not None:
                         kind, certain = end
                         event = Event(run.end_time, kind, aspect.name, whole, certain, attachment, aspect.store_member, run, None, frames)
                         stores.append((key, event))
                 for index in attachment.input:
                     yield key, Event(run.starts[index], INPUT, None, whole, True, attachment, "", run, None, frames)
-        if not run.suspends:
+        if not run.render_pass.suspends:
             for resolve in run.render_pass.resolves:
                 yield from self._resolve_events(resolve, run)
         # Store operations come after resolves.
@@ -300,11 +300,8 @@ def plain(target: Target | None) -> bool:
     return target.format is not None and len(target.format.aspects) == 1
 
 
-def _begin(load: str | None) -> tuple[str, bool] | None:
-    """What a load operation does to what was there, and whether that is certain; None where it does nothing."""
-    if load is None:
-        return LOAD, False
-    return {"LOAD": (LOAD, True), "CLEAR": (BEGIN, True), "DONT_CARE": (BEGIN, True)}.get(load)
+_BEGINS = {None: (LOAD, False), "LOAD": (LOAD, True), "CLEAR": (BEGIN, True), "DONT_CARE": (BEGIN, True)}
+"""What a load operation does to what was there, and whether that is certain; others do nothing."""
 
 
 def _end(attachment: Attachment, load: str | None, store: str | None) -> tuple[str, bool] | None:

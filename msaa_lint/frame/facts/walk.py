@@ -6,16 +6,11 @@ from collections.abc import Iterator
 from functools import cached_property
 from typing import NamedTuple
 
-from msaa_lint.frame.description.models import BeginRendering, Command
+from msaa_lint.frame.description.models import Command
 
 from .commands import END_COMMANDS
 from .frame import Frame
 from .parts import Pass
-
-
-def flags_of(render_pass: Pass) -> tuple[str, ...]:
-    """The flags of a rendering; none of a render pass."""
-    return render_pass.record.flags if isinstance(render_pass.record, BeginRendering) else ()
 
 
 class PassRun:
@@ -43,16 +38,6 @@ class PassRun:
     def end_time(self) -> int:
         """When store operations run."""
         return self.ends[-1]
-
-    @property
-    def suspends(self) -> bool:
-        """Whether the rendering goes on in another one, which stores and resolves."""
-        return "SUSPENDING" in flags_of(self.render_pass)
-
-    @property
-    def resumes(self) -> bool:
-        """Whether the rendering goes on from another one, which loaded."""
-        return "RESUMING" in flags_of(self.render_pass)
 
     def finish(self, time: int) -> None:
         """Ends the run, with as many subpasses as its pass has."""

@@ -70,7 +70,7 @@ class FixContext:
     def waits(self) -> dict[Span, list[Wait]]:
         """The subpass dependencies and barriers by the place of their source stages."""
         waits: list[Wait] = [wait for record in self.document.description.renderPasses.values() for wait in record.dependencies]
-        waits += (command.body for command in self.frame.commands if isinstance(command.body, PipelineBarrier))
+        waits += (body for _, body in self.frame.recorded(PipelineBarrier))
         by_place: dict[Span, list[Wait]] = {}
         for wait in waits:
             if wait.states("srcStageMask"):
