@@ -4,7 +4,6 @@ A name is a built-in device's, a class of devices', a vendor's, or the path of a
 `phone.json#Mali-G715` pick one of several devices in a report. Of reports nothing is imported before one is named.
 """
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 import os
 from typing import TYPE_CHECKING, NamedTuple
 

@@ -4,7 +4,6 @@ Every figure is given twice: by plain arithmetic, `width * height * bytes * samp
 compression.
 """
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span

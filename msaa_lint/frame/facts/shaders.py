@@ -1,6 +1,5 @@
 """What fragment shaders say: facts of pipelines from their modules, and the images that shaders read."""
 
-# No `from __future__ import annotations`: a NamedTuple then compiles the text of every annotation, which takes four times as long.
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 

@@ -239,7 +239,7 @@ def test_the_message_says_what_is_never_given() -> None:
     linted = lint(function(chain([(8, 8), (8, 4), (8, 2)])), language="cpp")
     (found,) = [each for each in linted.findings if each.code == "MSAA853"]
     assert "4, 2 is never returned" in found.message
-    assert [label.text for label in found.labels] == ["the same bit is tested here"]
+    assert [label.text for label in found.labels] == ["the same bit is tested here first"]
 
 
 DEPTH_FORMAT = """
