@@ -6,8 +6,7 @@ from typing import Any
 
 from . import parts, pipelines
 from .binding import chain
-from .device_objects import DeviceObjects
-from .opening import OpenDevice
+from .opening import DeviceObjects, OpenDevice
 from .parts import NONE, Framebuffer, Pass, Plan, Reference
 from .scene import VERTEX_BYTES
 

@@ -42,8 +42,10 @@ class Recorder:
             self.contents.begin(frame_pass, step)
         elif step.kind == "barrier":
             self._barrier(buffer, step)
-        elif step.kind in _TRANSFERS:
-            _TRANSFERS[step.kind](self, buffer, step)
+        else:
+            # Copies from and to buffers, which nothing else uses, and presenting, for which there is no screen, are not recorded.
+            if step.kind in _TRANSFERS:
+                _TRANSFERS[step.kind](self, buffer, step)
             self.contents.transfer(step)
 
     def _read(self, step: Step) -> list[int]:
@@ -292,19 +294,15 @@ class Recorder:
         aspects = self.plan.images[step.source].aspects & self.plan.images[step.target].aspects
         return self.built.image(step.source), self.built.image(step.target), aspects
 
-    def _resolve(self, buffer: Any, step: Step) -> None:
-        source, target, aspects = self._between(buffer, step)
-        region = self.vk.VkImageResolve(
-            srcSubresource=self._layers(step.source, aspects), dstSubresource=self._layers(step.target, aspects), extent=self._extent(step)
-        )
-        self.vk.vkCmdResolveImage(buffer, source, SOURCE_LAYOUT, target, TARGET_LAYOUT, 1, [region])
-
     def _copy(self, buffer: Any, step: Step) -> None:
+        """Copies an image, or resolves it."""
+        vk = self.vk
         source, target, aspects = self._between(buffer, step)
-        region = self.vk.VkImageCopy(
+        structure, command = (vk.VkImageResolve, vk.vkCmdResolveImage) if step.kind == "resolve" else (vk.VkImageCopy, vk.vkCmdCopyImage)
+        region = structure(
             srcSubresource=self._layers(step.source, aspects), dstSubresource=self._layers(step.target, aspects), extent=self._extent(step)
         )
-        self.vk.vkCmdCopyImage(buffer, source, SOURCE_LAYOUT, target, TARGET_LAYOUT, 1, [region])
+        command(buffer, source, SOURCE_LAYOUT, target, TARGET_LAYOUT, 1, [region])
 
     def _blit(self, buffer: Any, step: Step) -> None:
         vk = self.vk
@@ -331,11 +329,5 @@ class Recorder:
             clear = self._clear_depth()
             vk.vkCmdClearDepthStencilImage(buffer, self.built.image(step.target), TARGET_LAYOUT, clear, 1, [whole])
 
-    def _nothing(self, buffer: Any, step: Step) -> None:
-        """Ignores copies from and to buffers, which nothing else uses, and presenting, for which there is no screen."""
 
-
-_TRANSFERS = {
-    "resolve": Recorder._resolve, "copy": Recorder._copy, "blit": Recorder._blit, "clear": Recorder._clear_image,
-    "copyOut": Recorder._nothing, "copyIn": Recorder._nothing, "present": Recorder._nothing,
-}  # fmt: skip
+_TRANSFERS = {"resolve": Recorder._copy, "copy": Recorder._copy, "blit": Recorder._blit, "clear": Recorder._clear_image}

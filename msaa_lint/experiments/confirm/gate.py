@@ -17,7 +17,6 @@ from .texels import format_name
 
 SINGLE_SAMPLED = "VK_EXT_multisampled_render_to_single_sampled"
 MIXED = ("VK_AMD_mixed_attachment_samples", "VK_NV_framebuffer_mixed_samples")
-DYNAMIC_STATE_3 = "VkPhysicalDeviceExtendedDynamicState3FeaturesEXT"
 
 BLEND_FEATURE = 0x100
 """VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT."""
@@ -50,7 +49,7 @@ def gate(plan: Plan, device: Mapping[str, Any]) -> dict[int, str]:
     offered = DeviceSupport(device)
     refused = {}
     for number, frame_pass in enumerate(plan.passes):
-        reason = "" if frame_pass.refused else next(_reasons(plan, frame_pass, offered), "")
+        reason = "" if frame_pass.refused else next((why for check in _CHECKS for why in check(plan, frame_pass, offered)), "")
         if reason:
             refused[number] = reason
     return refused
@@ -91,11 +90,6 @@ class DeviceSupport:
             if name in self.device.get(structure, {}):
                 return int(self.device[structure][name])
         return None
-
-
-def _reasons(plan: Plan, frame_pass: Pass, offered: DeviceSupport) -> Iterator[str]:
-    for check in _CHECKS:
-        yield from check(plan, frame_pass, offered)
 
 
 def _way(plan: Plan, frame_pass: Pass, offered: DeviceSupport) -> Iterator[str]:

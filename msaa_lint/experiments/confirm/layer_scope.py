@@ -44,16 +44,9 @@ def pass_kind(api: object, rendering: bool) -> str:
 
 
 def _version(layer: Mapping[str, Any]) -> Version | None:
-    """The Vulkan version of a layer, from text, a number or a list."""
-    for name in ("specVersion", "spec_version", "version", "api_version"):
-        value = layer.get(name)
-        if isinstance(value, str) and (match := re.match(r"(\d+)\.(\d+)\.(\d+)", value)):
-            return int(match[1]), int(match[2]), int(match[3])
-        if isinstance(value, int) and value >= 1 << 22:
-            return value >> 22 & 0x7F, value >> 12 & 0x3FF, value & 0xFFF
-        if isinstance(value, (list, tuple)) and len(value) == 3 and all(isinstance(part, int) for part in value):
-            return value[0], value[1], value[2]
-    return None
+    """The Vulkan version of a layer; None if unknown."""
+    match = re.match(r"(\d+)\.(\d+)\.(\d+)", str(layer.get("version")))
+    return (int(match[1]), int(match[2]), int(match[3])) if match else None
 
 
 def _has_lazy_memory(device: Mapping[str, Any]) -> bool | None:

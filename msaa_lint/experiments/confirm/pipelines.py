@@ -7,7 +7,7 @@ from typing import Any
 
 from . import parts
 from .binding import chain
-from .device_objects import DeviceObjects
+from .opening import DeviceObjects
 from .parts import MASK_DYNAMIC, Blend, Pass, Pipeline
 from .scene import DRAWN_STENCIL, VERTEX_BYTES
 

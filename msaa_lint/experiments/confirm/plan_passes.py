@@ -28,7 +28,6 @@ from .plan_integers import layout, mask, number
 MAX_PARTS = 256
 """Maximum number of attachments, subpasses and dependencies of a pass: no device supports more."""
 
-CUSTOM = ("CUSTOM_RESOLVE", "SHADER_RESOLVE")
 DEPTH_ALONE = {"DEPTH_ATTACHMENT_OPTIMAL", "DEPTH_READ_ONLY_OPTIMAL"}
 """The layouts that leave the layout of stencil open."""
 
@@ -140,15 +139,11 @@ class Passes:
             load = member.endswith("oadOp")
             if value is None and aspect_present:
                 self.notes.append(
-                    f"{member} of {self._title(described)} is not stated: {'DONT_CARE' if load or default else 'STORE'} is assumed"
+                    f"{member} of {described.record.path} is not stated: {'DONT_CARE' if load or default else 'STORE'} is assumed"
                 )
             enum = "VkAttachmentLoadOp" if load else "VkAttachmentStoreOp"
             operations.append(number(enum, value) if value is not None else default)
         return operations[0], operations[1], operations[2], operations[3]
-
-    @staticmethod
-    def _title(described: Attachment) -> str:
-        return described.record.path
 
     def _reference(self, stated: AttachmentReference | None, indices: dict[str, int], usual: int) -> Reference:
         if stated is None or stated.attachment is None:

@@ -48,29 +48,23 @@ def _number(value: object) -> bool:
     return isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 1 << 31
 
 
-def _any(_: Event) -> bool:
-    return True
-
-
 def _numbered(found: Event) -> bool:
     return _number(found.get("pass"))
 
 
+def _image(found: Event, *numbers: str) -> bool:
+    return all(isinstance(found.get(name), str) for name in ("image", "path")) and all(_number(found.get(name)) for name in numbers)
+
+
 _WELL_FORMED: dict[str, Callable[[Event], bool]] = {
-    **dict.fromkeys(EVENTS, _any),
+    "done": lambda _: True,
     "pass": _numbered,
     "created": lambda found: _numbered(found) and isinstance(found.get("ok"), bool),
     "message": lambda found: (
         (found.get("pass") is None or _numbered(found)) and isinstance(found.get("id"), str) and isinstance(found.get("text"), str)
     ),
-    "pixels": lambda found: (
-        all(isinstance(found.get(name), str) for name in ("image", "path"))
-        and all(_number(found.get(name)) for name in ("format", "width", "height"))
-    ),
-    "sample": lambda found: (
-        all(isinstance(found.get(name), str) for name in ("image", "path"))
-        and all(_number(found.get(name)) for name in ("format", "width", "height", "samples"))
-    ),
+    "pixels": lambda found: _image(found, "format", "width", "height"),
+    "sample": lambda found: _image(found, "format", "width", "height", "samples"),
     "time": lambda found: _numbered(found) and isinstance(found.get("ms"), (int, float)) and 0 <= found["ms"] < 1e9,
     "failed": lambda found: isinstance(found.get("reason"), str),
     "opened": lambda found: isinstance(found.get("device"), dict),

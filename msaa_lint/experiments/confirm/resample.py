@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .parts import NONE, STORE, Framebuffer, Image, Pass, Pipeline, Plan, Reference, Step, Subpass
+from .parts import NONE, STORE, Framebuffer, Image, Pass, Plan, Reference, Step, Subpass
 
 CUBE_COMPATIBLE = 0x10
 """VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT."""
@@ -76,7 +76,7 @@ def resampled(plan: Plan, samples: int) -> Plan:
     def made(each: Pass) -> Pass:
         each = each._replace(
             attachments=tuple(a._replace(samples=count(a.samples)) for a in each.attachments),
-            pipelines=tuple(_counted(p, samples) for p in each.pipelines),
+            pipelines=tuple(p._replace(samples=count(p.samples)) for p in each.pipelines),
             single_sampled=single(each.single_sampled),
             subpasses=tuple(s._replace(single_sampled=single(s.single_sampled)) for s in each.subpasses),
         )
@@ -88,16 +88,8 @@ def resampled(plan: Plan, samples: int) -> Plan:
     )
     if samples == 1:
         steps = tuple(step._replace(kind="copy") if step.kind == "resolve" else step for step in steps)
-    images = tuple(_image(each, samples) for each in plan.images)
+    images = tuple(each._replace(samples=count(each.samples)) for each in plan.images)
     return plan._replace(images=images, passes=tuple(map(made, plan.passes)), steps=steps)
-
-
-def _image(each: Image, samples: int) -> Image:
-    return each._replace(samples=samples) if each.samples > 1 else each
-
-
-def _counted(each: Pipeline, samples: int) -> Pipeline:
-    return each._replace(samples=samples) if each.samples > 1 else each
 
 
 def _unresolved(each: Pass) -> Pass:

@@ -15,9 +15,6 @@ from .points import MSAA, Point, Technique
 from .tasks import FailedPoint, StudyInput, Task, Unusable
 from .times import Cost, CostSource
 
-BACKENDS = ("loky", "threading", "dask", "ray")
-"""joblib's: processes and threads of this machine, a Dask cluster (DASK_SCHEDULER_ADDRESS), a Ray cluster (RAY_ADDRESS)."""
-
 Measure = Callable[[Task], Point]
 Progress = Callable[[int, int, str], None]
 """Called with the number of finished points, the number of all points, and the last finished point."""

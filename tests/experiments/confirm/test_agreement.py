@@ -445,9 +445,9 @@ def test_what_the_layer_looks_at_is_read_from_what_the_child_says() -> None:
     device = {"properties": {"deviceName": "llvmpipe"}, "memory": {"memoryTypes": [{"propertyFlags": 15}, {"propertyFlags": 17}]}}
     layer = {"name": "VK_LAYER_KHRONOS_validation", "version": "1.3.239", "vendors": ["arm"]}
     assert layer_scope(layer, device, {0: RENDERING}) == LayerScope((1, 3, 239), frozenset({"arm"}), {0: RENDERING}, True, "llvmpipe")
-    newer = layer_scope({"specVersion": 1 << 22 | 4 << 12 | 309}, {}, {}, ["img"])
+    newer = layer_scope({"version": "1.4.309"}, {}, {}, ["img"])
     assert newer == LayerScope((1, 4, 309), frozenset({"img"}), {}, None, "unnamed device")
-    desktop = layer_scope({"version": [1, 3, 250]}, {"memory": {"memoryTypes": [{"propertyFlags": 15}]}}, {})
+    desktop = layer_scope({"version": "1.3.250"}, {"memory": {"memoryTypes": [{"propertyFlags": 15}]}}, {})
     assert (desktop.version, desktop.lazy_memory) == ((1, 3, 250), False)
     assert layer_scope({"version": "?", "vendors": 7}, {"memory": 7}, {}).version is None
     assert layer_scope(None, {}, {}).vendors == frozenset()
