@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import os
+import re
 import sys
 from typing import TYPE_CHECKING, BinaryIO
 
@@ -19,6 +20,9 @@ from .readers import CAPTURES, FORMATS, capture_format
 if TYPE_CHECKING:
     from .capture_input import CaptureInput
     from .source_file import SourceFile
+
+_WORDS = (b'"vkFunc"', b'"apiCalls"', b'"gfxrecon-version"', b"<rdc>")
+_COMPRESSED = ((b"\x1f\x8b", "gzip -d"), (b"\x28\xb5\x2f\xfd", "zstd -d"), (b"\xfd7zXZ\0", "xz -d"), (b"\x04\x22\x4d\x18", "lz4 -d"))
 
 
 class UnsupportedFormat(Unreadable):
@@ -71,9 +75,10 @@ def _load(
             stream.seek(0)
             return read_capture(stream, capture, name, path)
         return read_capture(io.BufferedReader(_Rejoined(head, stream), HEAD_BYTES), capture, name, path)
-    hint = _hint(head) if format is None and language is None else None
-    if hint is not None:
-        raise UnsupportedFormat(hint)
+    unusual = b"vk" in head or b"\0" in head[:512] or not head[:1].isascii()
+    form = hint(head) if unusual and format is None and language is None else None
+    if form is not None:
+        raise UnsupportedFormat(form)
     data = head if size is None else head + stream.read(max(min(size, limits.bytes) + 1 - len(head), 0))
     if len(data) > (size or 0):
         # Standard input, a file that grows, or one of a virtual file system.
@@ -108,13 +113,30 @@ def _source_file(data: bytes, name: str, language: str) -> SourceFile:
         raise MissingExtra(str(error)) from None
 
 
-def _hint(head: bytes) -> str | None:
+def hint(head: bytes) -> str | None:
     """What an unsupported file is and how to convert it, from its first bytes; None for any other file."""
-    if not head or (head[:1].isascii() and b"\0" not in head[:512] and b"vk" not in head):
-        return None
-    from .captures.unsupported import hint
+    if head.startswith(b"GFXR"):
+        return (
+            "a binary gfxreconstruct capture: convert it with `gfxrecon-convert --format jsonl FILE.gfxr`, "
+            "or `gfxrecon-convert FILE.gfxr` for version 0.9"
+        )
+    if head.startswith(b"RDOC"):
+        return "a binary RenderDoc capture: convert it with `renderdoccmd convert -f FILE.rdc -o FILE.xml -c xml`"
+    beginning = head[:4096].lower()
+    if beginning.lstrip().startswith(b"<!doctype html") and b"<title>vulkan api dump" in beginning:
+        return _dump("HTML")
+    if re.match(rb"\s*(?:Thread \d+, Frame \d+|vk[A-Z]\w{1,80}\([\w, ]{0,500}\) returns )", head[:4096]):
+        return _dump("text")
+    for magic, command in _COMPRESSED:
+        if head.startswith(magic):
+            return f"a compressed file: decompress it with `{command} FILE`"
+    if head.startswith((b"\xff\xfe", b"\xfe\xff")) and any(word in head.replace(b"\0", b"") for word in _WORDS):
+        return "UTF-16 text, as written by PowerShell's `>`: let the tool write the file itself (`--output FILE`), or convert it to UTF-8"
+    return None
 
-    return hint(head)
+
+def _dump(form: str) -> str:
+    return f"api_dump output in {form} format: run the program again with VK_APIDUMP_OUTPUT_FORMAT=json in its environment"
 
 
 class _Rejoined(io.RawIOBase):

@@ -73,21 +73,16 @@ def _drop_dangling_references(tree: Tree) -> None:
 
 def pipeline_of(info: dict[str, Any], modules: Mapping[int, bytes]) -> tuple[Tree, dict[str, bytes]]:
     """A pipeline's tree, and the code of the shader modules by the names that the tree uses."""
-    structure = dict(info)
+    structure = {key: item for key, item in info.items() if key not in ("pDynamicState", "renderPass", "pStages", "stages")}
     # A description lists the dynamic states directly.
     dynamic = values.record(info.get("pDynamicState") or info.get("dynamicState"))
     structure["dynamicState"] = dynamic.get("pDynamicStates", dynamic.get("dynamicState")) or []
-    structure.pop("pDynamicState", None)
-    structure.pop("renderPass", None)
-    stages = values.items(info.get("pStages") or info.get("stages"))
-    structure["pStages"] = None
-    structure.pop("stages", None)
     tree = to_tree(Pipeline, structure)
     if not values.handle(info.get("renderPass")):
         tree.pop("subpass", None)
-    made, code = _stages(stages, modules)
-    if made:
-        tree["stages"] = made
+    stages, code = _stages(values.items(info.get("pStages") or info.get("stages")), modules)
+    if stages:
+        tree["stages"] = stages
     return tree, code
 
 

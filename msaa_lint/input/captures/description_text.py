@@ -90,10 +90,8 @@ class _Writer:
         if kind is not None and kind.count < self.total:
             rate = float(f"{DEFAULT_FPS * kind.count / self.total:.4g}")
             lines.line(f"frame: {{fps: {rate!r}}}  # {kind.count} of {self.total} frames, at {DEFAULT_FPS} frames per second")
-        device = self.tracker.device()
-        if device:
-            for line in device.splitlines():
-                lines.line(line)
+        for line in self.tracker.device().splitlines():
+            lines.line(line)
         enabled = self.tracker.enabled()
         if enabled:
             lines.member(0, "enabled", enabled, None)
@@ -113,18 +111,15 @@ class _Writer:
         if passes:
             self.lines.line("renderPasses:")
         for render_pass in passes:
-            origin = self.origin(render_pass)
-            self.lines.line(f"  {self.names.of('render_pass', render_pass)}:  # {origin_comment(render_pass)}", origin)
-            if not render_pass.tree:
-                self.lines.text[-1] = self.lines.text[-1].replace(":  #", ": {}  #", 1)
-            for member in ("flags", "attachments", "subpasses", "dependencies"):
-                if member not in render_pass.tree:
-                    continue
-                if member == "flags":
-                    self.lines.member(4, member, render_pass.tree[member], origin)
-                    continue
-                self.lines.line(f"    {member}:", origin)
-                for item in render_pass.tree[member]:
+            tree, origin = render_pass.tree, self.origin(render_pass)
+            value = "" if tree else " {}"
+            self.lines.line(f"  {self.names.of('render_pass', render_pass)}:{value}  # {origin_comment(render_pass)}", origin)
+            if "flags" in tree:
+                self.lines.member(4, "flags", tree["flags"], origin)
+            for member in ("attachments", "subpasses", "dependencies"):
+                if member in tree:
+                    self.lines.line(f"    {member}:", origin)
+                for item in tree.get(member, ()):
                     self.lines.item(6, item, origin)
 
     def _framebuffers(self, kind: FrameKind) -> dict[Hashable, str]:

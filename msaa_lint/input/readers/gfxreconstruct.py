@@ -61,29 +61,25 @@ def calls(stream: BinaryIO, wanted: frozenset[str], name: str | None) -> Iterato
     return _elements(Cursor(peeked), reader) if is_array else _lines(Blocks(peeked), reader)
 
 
-class Folder:
-    """The folder of a capture, the only one whose files are read; a stream without a name has none."""
-
-    def __init__(self, name: str | None) -> None:
-        self.path = os.path.realpath(os.path.dirname(os.path.abspath(name))) if name else None
-
-    def read(self, path: str) -> bytes | None:
-        """The contents of a regular file at a relative path; None if it is outside the folder, unreadable, or larger than 16 MiB."""
-        if self.path is None or not 0 < len(path) <= MAX_PATH:
+def _file_beside(capture: str | None, path: str) -> bytes | None:
+    """The contents of a regular file at a path relative to a capture; None if it is outside the capture's folder, unreadable, or larger
+    than 16 MiB."""
+    if not capture or not 0 < len(path) <= MAX_PATH:
+        return None
+    try:
+        folder = os.path.realpath(os.path.dirname(os.path.abspath(capture)))
+        # A converter on Windows writes backslashes.
+        target = os.path.realpath(os.path.join(folder, path.replace("\\", "/")), strict=True)
+        if os.path.commonpath((folder, target)) != folder:
             return None
-        try:
-            # A converter on Windows writes backslashes.
-            target = os.path.realpath(os.path.join(self.path, path.replace("\\", "/")), strict=True)
-            if os.path.commonpath((self.path, target)) != self.path:
-                return None
-            status = os.stat(target)
-            if not stat.S_ISREG(status.st_mode) or status.st_size > MAX_FILE:
-                return None
-            with open(target, "rb") as file:
-                content = file.read(MAX_FILE + 1)
-        except (OSError, ValueError):
+        status = os.stat(target)
+        if not stat.S_ISREG(status.st_mode) or status.st_size > MAX_FILE:
             return None
-        return content if len(content) <= MAX_FILE else None
+        with open(target, "rb") as file:
+            content = file.read(MAX_FILE + 1)
+    except (OSError, ValueError):
+        return None
+    return content if len(content) <= MAX_FILE else None
 
 
 CachedLine = tuple[bytes, int, str, Any, str | None]
@@ -111,7 +107,7 @@ class Reader:
 
     def __init__(self, wanted: frozenset[str], name: str | None) -> None:
         self.wanted = wanted
-        self.folder = Folder(name)
+        self.file = name
         self.vulkan = False
         self.direct3d = False
         self.trimmed = False
@@ -187,7 +183,7 @@ class Reader:
             for structure in (info, *items(record(info).get("pStages"))):
                 for holder in (holder for holder in chain(structure) if "pCode" in holder):
                     path = holder.pop("pCode")
-                    code = self.folder.read(path) if isinstance(path, str) and not path.startswith(("[", "0x")) else None
+                    code = _file_beside(self.file, path) if isinstance(path, str) and not path.startswith(("[", "0x")) else None
                     if code is not None:
                         holder["pCode"] = code
 

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from msaa_lint.input.captures import json_stream
 from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place
-from msaa_lint.input.captures.unsupported import hint
+from msaa_lint.input.opening import hint
 from msaa_lint.input.readers import api_dump, gfxreconstruct
 from tests.input.readers.dialects import api_dump as dumped
 from tests.input.readers.dialects import common, lined, new_array, new_lines, new_objects, old_lines
