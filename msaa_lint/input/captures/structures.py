@@ -31,7 +31,7 @@ def to_tree(kind: type[Record], structure: object, depth: int = 0) -> Tree:
             value = _value(shape, given_value, depth)
             if value is not None and not (value in ([], ()) and getattr(kind, member) is not None):
                 tree[member] = value
-    if depth <= MAX_DEPTH:
+    if members.get("pNext") and depth <= MAX_DEPTH:
         for chained in values.chain(members.get("pNext")):
             _add_chained(kind, tree, chained, depth)
     return tree
