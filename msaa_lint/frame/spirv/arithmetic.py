@@ -47,7 +47,8 @@ class Arithmetic(State):
         if not width or None in parts:
             self._escape(*operands)
             return Opaque()
-        return tuple(operation(self._kind(kind[1]), *scalars) for scalars in zip(*parts, strict=True))
+        inner = self._kind(kind[1])
+        return tuple([operation(inner, *scalars) for scalars in zip(*parts, strict=True)])
 
     def _arithmetic(self, at: int, end: int) -> Value:
         words = self.words

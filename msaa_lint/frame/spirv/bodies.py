@@ -53,9 +53,11 @@ class Body:
 
     def fetching(self, start: int, end: int) -> bool:
         """Whether samples are fetched, directly or by a call, between two places."""
-        first = bisect_left(self.fetches, start)
-        return first < len(self.fetches) and self.fetches[first] < end
+        return bisect_left(self.fetches, start) < bisect_left(self.fetches, end)
 
+
+MAX_WORDS = 0xFFFF
+"""Words of an instruction."""
 
 _LEAST = {
     op.EXT_INST: 5, op.FUNCTION_CALL: 4, op.VARIABLE: 4, op.IMAGE_TEXEL_POINTER: 6, op.LOAD: 4, op.STORE: 3, op.COPY_MEMORY: 3,
@@ -68,15 +70,18 @@ _LEAST = {
 """The minimum number of words of instructions in functions."""
 
 _USED = {
-    op.LOAD: slice(3, 4), op.STORE: slice(1, 3), op.FUNCTION_CALL: slice(4, None), op.EXT_INST: slice(5, None),
-    op.COPY_OBJECT: slice(3, 4), op.COPY_MEMORY: slice(1, 3), op.IMAGE_TEXEL_POINTER: slice(3, 4),
+    op.LOAD: (3, 4), op.STORE: (1, 3), op.FUNCTION_CALL: (4, MAX_WORDS), op.EXT_INST: (5, MAX_WORDS), op.COPY_OBJECT: (3, 4),
+    op.COPY_MEMORY: (1, 3), op.IMAGE_TEXEL_POINTER: (3, 4),
 }  # fmt: skip
-"""The words of instructions that may be pointers to variables that are used as a whole."""
+"""The words (first and end) of instructions that may be pointers to variables that are used as a whole."""
 
 _CHAINS = (op.ACCESS_CHAIN, op.IN_BOUNDS_ACCESS_CHAIN, op.PTR_ACCESS_CHAIN)
 
-_NOTED = frozenset({*_USED, *_CHAINS, *op.FETCHES, *op.DISCARDS, op.LABEL, op.SELECTION_MERGE, op.LOOP_MERGE, op.VARIABLE})
-"""The instructions that the analysis of bodies records."""
+_NOTED = frozenset({
+    op.LABEL, op.STORE, op.SELECTION_MERGE, op.LOOP_MERGE, op.FUNCTION_CALL, op.VARIABLE, op.EXT_INST, op.COPY_OBJECT, op.COPY_MEMORY,
+    *_CHAINS, *op.FETCHES, *op.DISCARDS,
+})  # fmt: skip
+"""The instructions that the analysis of bodies records beyond such uses."""
 
 
 def reached(module: Module, start: int) -> dict[int, Body]:
@@ -123,6 +128,10 @@ def _body(module: Module, function: Function, lengths: dict[int, int]) -> Body:
         after = at + length
         if length > 2 and words[at + 1] in lengths:
             body.vectors[words[at + 2]] = lengths[words[at + 1]]
+        if number in _USED:
+            begin, limit = _USED[number]
+            for pointer in words[at + begin : min(at + limit, after)]:
+                body.uses.setdefault(pointer, set()).add(None)
         if number not in _NOTED:
             at = after
             continue
@@ -160,8 +169,6 @@ def _body(module: Module, function: Function, lengths: dict[int, int]) -> Body:
                 body.writes.append((at, roots.get(root, root)))
         elif number == op.COPY_OBJECT:
             roots[words[at + 2]] = roots.get(words[at + 3], words[at + 3])
-        for pointer in words[at:after][_USED[number]] if number in _USED else ():
-            body.uses.setdefault(pointer, set()).add(None)
         at = after
     if label:
         body.blocks[label] = Block(start, merge, continues)

@@ -295,8 +295,8 @@ class Follower(Instructions):
                     if own is not value:
                         memory[root] = met(own, value)
         self.memory = memory
-        for phis in zip(*(exit.phis for exit in exits), strict=True):
-            self._assign(phis[0][0], reduce(met, (value for _, value in phis)))
+        for n, (identity, value) in enumerate(exits[0].phis):
+            self._assign(identity, reduce(met, (exit.phis[n][1] for exit in exits[1:]), value))
 
     def _execute(self, at: int, end: int) -> int:
         """The instructions of a block from a place up to the one that ends it."""
@@ -304,12 +304,17 @@ class Follower(Instructions):
         while at < end:
             first = words[at]
             number, after = first & 0xFFFF, at + (first >> 16)
-            self._take(1)
-            if number in _ENDS:
+            self.steps -= 1
+            if self.steps < 0:
+                raise GivenUp
+            value: Value = None
+            if number in known:
+                value = known[number](at, after)
+            elif number in _ENDS:
                 return at
-            if number not in _SILENT:
-                value = known[number](at, after) if number in known else self._other(number, at, after)
-                if value is not None:
-                    self._assign(words[at + 2], value)
+            elif number not in _SILENT:
+                value = self._other(number, at, after)
+            if value is not None:
+                self._assign(words[at + 2], value)
             at = after
         raise GivenUp

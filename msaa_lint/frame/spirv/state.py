@@ -90,15 +90,18 @@ class State:
         self.assigned.append(identity)
 
     def _value(self, identity: int) -> Value:
-        for values in (self.values, self.constants.values):
-            if identity in values:
-                return values[identity]
+        if identity in self.values:
+            return self.values[identity]
+        if identity in self.constants.values:
+            return self.constants.values[identity]
         return Pointer(identity, ()) if identity in self.module.variables else self._same_as("id", identity)
 
     def _same_as(self, *origin: object) -> Opaque:
         """An unknown value that is equal whenever it is created from the same origin."""
-        value = self._known.setdefault(origin, Opaque())
-        value.origin = origin
+        value = self._known.get(origin)
+        if value is None:
+            value = self._known[origin] = Opaque()
+            value.origin = origin
         return value
 
     def _kind(self, type_id: int) -> tuple[int, ...]:

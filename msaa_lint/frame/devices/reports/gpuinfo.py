@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from . import values
@@ -52,10 +52,9 @@ def memory(stated: object) -> tuple[list[object] | None, list[tuple[object, obje
     if not isinstance(stated, dict):
         return None, None
     types, heaps = stated.get("memoryTypes"), stated.get("memoryHeaps")
-    count = values.number(stated.get("memoryTypeCount"))
-    heap_count = values.number(stated.get("memoryHeapCount"))
+    type_count, heap_count = (values.number(stated.get(name)) for name in ("memoryTypeCount", "memoryHeapCount"))
     return (
-        [entry.get("propertyFlags") for entry in _entries(types)][:count] if isinstance(types, list) else None,
+        [entry.get("propertyFlags") for entry in _entries(types)][:type_count] if isinstance(types, list) else None,
         [(entry.get("size"), entry.get("flags")) for entry in _entries(heaps)][:heap_count] if isinstance(heaps, list) else None,
     )
 
@@ -64,7 +63,6 @@ def _object(value: object) -> Mapping[str, Any]:
     return value if isinstance(value, dict) else {}
 
 
-def _entries(listed: object) -> Iterator[Mapping[str, Any]]:
+def _entries(listed: object) -> list[Mapping[str, Any]]:
     """The objects of a list."""
-    for entry in listed if isinstance(listed, list) else ():
-        yield _object(entry)
+    return list(map(_object, listed)) if isinstance(listed, list) else []
