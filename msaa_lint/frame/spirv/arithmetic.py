@@ -56,7 +56,9 @@ class Arithmetic(State):
         one, other = self._value(words[at + 3]), self._value(words[at + 4])
         if number == 142:
             number, other = 133, (other,) * width
-        if width == 1 or telling(one) or telling(other) or (_has_numbers(one) and _has_numbers(other)):
+        if width == 1:
+            return self._scalar(number, self._kind(type_id), one, other)
+        if telling(one) or telling(other) or (_has_numbers(one) and _has_numbers(other)):
             return self._by_component(type_id, partial(self._scalar, number), one, other)
         return self._unknown((number, type_id), one, other)
 

@@ -81,7 +81,9 @@ def plain(value: Value) -> bool:
 
 def telling(value: Value) -> bool:
     """Whether a value, or a component of it, contains samples."""
-    return any(type(part) is Sum or type(part) is Extreme for part in (value if type(value) is tuple else (value,)))
+    if type(value) is tuple:
+        return any(type(part) is Sum or type(part) is Extreme for part in value)
+    return type(value) is Sum or type(value) is Extreme
 
 
 def small(value: Value) -> bool:
