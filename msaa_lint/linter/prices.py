@@ -52,8 +52,10 @@ class Prices:
         Only the passes and images that the changes concern are computed, because the rest costs the same before and after.
         """
         part = self._part(changes)
+        # First, because this also determines the images of the part.
+        before = self.cost(part)
         after = self.cost_with(changes, part)
-        return None if after is None else _difference(self.cost(part), after)
+        return None if after is None else _difference(before, after)
 
     def together(self, fixes: Iterable[Sequence[Change]]) -> Price | None:
         """The saving from several fixes together. If two set a member to different values, the first one counts.

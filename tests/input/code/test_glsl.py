@@ -76,7 +76,6 @@ def test_sums_are_followed_alike(term: Term) -> None:
 
 def test_specialization() -> None:
     made = shader(STYLES["specialized"])
-    assert made.specialized
     assert reflect(made.code).images[0].total == 4
     assert reflect(made.code, None, {3: 8}).images[0].total == 8
 
