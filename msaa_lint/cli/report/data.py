@@ -14,10 +14,13 @@ from .place import place
 
 Json = dict[str, object]
 
+_ENCODER = json.JSONEncoder(ensure_ascii=True, allow_nan=False)
+"""Made once: `json.dumps` with these options makes one for each value."""
+
 
 def dump(value: object) -> str:
     """`value` on one line. It is ASCII, so every encoding of an output stream can hold it and no terminal acts on it."""
-    return json.dumps(value, ensure_ascii=True, allow_nan=False)
+    return _ENCODER.encode(value)
 
 
 def text(value: str) -> str:

@@ -49,7 +49,7 @@ class Shading(NamedTuple):
     `msaa` is once a pixel, the limit of large triangles. `sample_shading` is once a sample (minSampleShading 1), `super_sampling` that of
     the smallest grid of k x k single-sampled pixels that has as many samples; `demanded` what the pipelines of the pass state, None where
     they do not say. `edges` holds, for triangles of 1, 2, 4, ... pixels, by what to multiply `msaa`: (leg in pixels, invocations for each
-    pixel of area), see `shading.invocations_per_area`.
+    pixel of area), see `shading.EDGES`.
     """
 
     pixels: int

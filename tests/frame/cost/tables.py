@@ -6,12 +6,13 @@ from collections.abc import Callable, Iterable, Sequence
 
 from msaa_lint.frame.cost.amounts import Amount, FrameCost, Terms
 from msaa_lint.frame.cost.model import difference
-from msaa_lint.frame.cost.shading import EDGES, invocations_at_most
+from msaa_lint.frame.cost.shading import EDGES
 from msaa_lint.frame.devices.tile_models import MODELS
 from msaa_lint.frame.devices.tiles import bins, tile_use
 from msaa_lint.frame.vulkan.formats import Format, format_of
 from tests.frame.cost.frames import cost, example
 from tests.frame.cost.published import CONFIGURATIONS, FITTED_ON, MB_PER_MIB, fitted, predictions
+from tests.frame.cost.triangles import invocations_at_most
 
 Row = Sequence[str]
 

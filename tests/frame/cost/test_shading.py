@@ -6,9 +6,10 @@ from itertools import product
 
 import pytest
 
-from msaa_lint.frame.cost.shading import EDGES, edge_term, hull, invocations_at_most, invocations_per_area, shaded_samples, supersampling
+from msaa_lint.frame.cost.shading import EDGES, shaded_samples, supersampling
 from msaa_lint.frame.vulkan.sample_locations import STANDARD
 from tests.frame.cost.frames import cost, of_pass
+from tests.frame.cost.triangles import edge_term, hull, invocations_at_most, invocations_per_area
 
 MEASURED = {
     1: (1.00, 2.00, 3.32, 4.08, 5.28),
