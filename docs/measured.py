@@ -1,6 +1,6 @@
 """Measures accuracy and time on a device: samples are read back from it, and its clock measures the time.
 
-`python docs/measured.py --device NVIDIA --size 3840x2160 edge-fan` prints a table in Markdown; `--json FILE` stores the points, `--plot
+`python -m docs.measured --device NVIDIA --size 3840x2160 edge-fan` prints a table in Markdown; `--json FILE` stores the points, `--plot
 FILE.svg` plots error against time, and `--from FILE` uses stored points instead of a device.
 """
 
