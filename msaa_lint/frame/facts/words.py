@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from msaa_lint.frame.description.models.frame import VENDORS
+
 
 class Fact(NamedTuple):
     """A fact that rules may ask.
@@ -48,8 +50,6 @@ WORDS: dict[str, tuple[str, ...]] = {
     "chosen": ("MAXIMUM", "ATMOST"),
     "study": ("NONE", "JUSTIFIES", "DECLINES", "STALE", "UNUSABLE"),
     "numeric": ("UNORM", "SNORM", "USCALED", "SSCALED", "UINT", "SINT", "UFLOAT", "SFLOAT", "SRGB", "SFIXED5", "BOOL"),
-    "vendor": (
-        "arm", "img", "amd", "nvidia", "qualcomm", "apple", "intel", "broadcom", "samsung", "mesa", "khronos", "huawei",
-    ),
+    "vendor": VENDORS,
 }  # fmt: skip
 """The texts of such facts by `Fact.enum`."""

@@ -10,7 +10,7 @@ HEADER = 5
 """The number of words in the header."""
 
 OP_NAME, OP_ENTRY_POINT, OP_VARIABLE, OP_STORE, OP_DECORATE = 5, 15, 59, 62, 71
-LEAST = {OP_NAME: 2, OP_ENTRY_POINT: 4, OP_VARIABLE: 4, OP_STORE: 3, OP_DECORATE: 3}
+MIN_WORDS = {OP_NAME: 2, OP_ENTRY_POINT: 4, OP_VARIABLE: 4, OP_STORE: 3, OP_DECORATE: 3}
 """The minimum number of words of these instructions."""
 
 
@@ -37,7 +37,7 @@ def instructions(words: array.array[int]) -> Iterator[tuple[int, array.array[int
         length = words[at] >> 16
         if not length or at + length > len(words):
             raise SpirvError("not SPIR-V: an instruction goes beyond its end")
-        if length < LEAST.get(words[at] & 0xFFFF, 1):
+        if length < MIN_WORDS.get(words[at] & 0xFFFF, 1):
             raise SpirvError("not SPIR-V: an instruction is too short")
         yield words[at] & 0xFFFF, words[at : at + length]
         at += length

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-MOST = 1 << 20
+MAX_BYTES = 1 << 20
 """The number of bytes of a file that are searched."""
 
 _API = re.compile(
@@ -29,6 +29,6 @@ def speaks(text: str) -> bool:
 def file_speaks(path: str) -> bool:
     """Returns whether the first MiB of a file does. Raises OSError if it cannot be read."""
     with open(path, "rb") as file:
-        data = file.read(MOST)
+        data = file.read(MAX_BYTES)
     encoding = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "latin-1"
     return speaks(data.decode(encoding, "replace"))
