@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 from typing import IO, Any, NamedTuple, TypeVar
 
+from msaa_lint.core.extras import needs_extra
 from msaa_lint.core.package import VERSION
 
 from .options import Arguments
@@ -129,7 +130,7 @@ def write_chart(path: str, option: str, draw: Callable[[str], bytes]) -> None:
     except ModuleNotFoundError as error:
         if (error.name or "").partition(".")[0] != "matplotlib":
             raise
-        raise UsageError(f"{option} needs matplotlib, which is not installed: pip install 'msaa-lint[chart]'") from None
+        raise UsageError(needs_extra(option, "chart")) from None
     try:
         with open(path, "wb") as file:
             file.write(data)

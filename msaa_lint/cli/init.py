@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import json
 import os
+import shlex
 import sys
 
-from msaa_lint.core.package import VERSION
 from msaa_lint.linter.rules.registry import EDITIONS
 
 from .common import warn
 from .report.escape import escape
+from .schema import description_schema
 
 CONFIGURATION = f"""\
 # Configuration of msaa-lint. All keys are optional; `msaa-lint rule --all` lists the rules.
@@ -44,11 +46,13 @@ fail-on = "warning"
 # "tests/**" = ["sample-count-above-four"]
 """
 
-DESCRIPTION = """\
+SCHEMA = "msaa-lint.schema.json"
+
+DESCRIPTION = f"""\
+# yaml-language-server: $schema={SCHEMA}
 # A frame, or part of one, in Vulkan's terms. What you leave out is unknown, and rules that need it are undecided.
-# For completion and validation in an editor, run `msaa-lint schema > msaa-lint.schema.json` and keep this line:
-# yaml-language-server: $schema=msaa-lint.schema.json
-frame: {width: 1920, height: 1080, fps: 60}
+# This frame has one mistake on purpose, for a first finding: replace it with yours.
+frame: {{width: 1920, height: 1080, fps: 60}}
 
 images:
   color_ms:
@@ -82,33 +86,40 @@ renderPasses:
         resolveAttachments: [output]
 """
 
-HOOK = f"""\
-To use pre-commit, add this to .pre-commit-config.yaml:
+HOOK = r"""To use pre-commit, add this to the `repos` of .pre-commit-config.yaml:
 
-  - repo: https://github.com/msaa-lint/msaa-lint
-    rev: v{VERSION}
+  - repo: local
     hooks:
       - id: msaa-lint
-
-Next: msaa-lint check frame.msaa.yaml
+        name: msaa-lint
+        language: system
+        entry: msaa-lint check
+        files: \.msaa\.(ya?ml|json)$
+        require_serial: true
 """
 
 
 def init(folder: str) -> int:
-    """Writes msaa-lint.toml and frame.msaa.yaml unless they exist; returns 2 if it cannot."""
+    """Writes msaa-lint.toml, frame.msaa.yaml, and the schema that it names, except those that exist; returns 2 if it cannot."""
+    files = {"msaa-lint.toml": CONFIGURATION, "frame.msaa.yaml": DESCRIPTION, SCHEMA: json.dumps(description_schema(), indent=2) + "\n"}
+    written = set()
     path = folder
     try:
         os.makedirs(folder, exist_ok=True)
-        for name, text in (("msaa-lint.toml", CONFIGURATION), ("frame.msaa.yaml", DESCRIPTION)):
+        for name, text in files.items():
             path = os.path.normpath(os.path.join(folder, name))
             if os.path.lexists(path):
                 print(f"{escape(path)} already exists: left unchanged", file=sys.stderr)
                 continue
             with open(path, "x", encoding="utf-8", newline="\n") as file:
                 file.write(text)
+            written.add(name)
             print(f"wrote {escape(path)}", file=sys.stderr)
     except OSError as error:
         warn(f"cannot write {path}: {error.strerror}")
         return 2
+    if "frame.msaa.yaml" in written:
+        frame = shlex.quote(os.path.normpath(os.path.join(folder, "frame.msaa.yaml")))
+        print(f"The frame in {escape(frame)} has a mistake on purpose. To see it:\n\n  msaa-lint check {escape(frame)}\n")
     print(HOOK, end="")
     return 0

@@ -11,6 +11,7 @@ from functools import partial
 from importlib.util import find_spec
 from typing import IO, Any, NamedTuple
 
+from msaa_lint.core.extras import needs_extra
 from msaa_lint.core.finding import Finding
 from msaa_lint.experiments.confirm.vulkan_errors import NotWritten
 from msaa_lint.experiments.confirm.vulkan_errors import Unusable as NoDevice
@@ -88,7 +89,7 @@ def parse_options(arguments: Arguments) -> StudyOptions:
     if "plot" in arguments:
         chart_format(arguments["plot"], "--plot")
     if arguments.get("ssim") and find_spec("skimage") is None:
-        raise UsageError("--ssim needs scikit-image, which is not installed: pip install 'msaa-lint[ssim]'")
+        raise UsageError(needs_extra("--ssim", "ssim"))
     return StudyOptions(
         parse_outputs(arguments.get("output", ()), FORMATS, "json=study.json") or [Target("full", None)],
         chosen,

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from os.path import isfile, lexists
 from typing import Any, NamedTuple
 
+from msaa_lint.core.extras import needs_extra
 from msaa_lint.core.finding import Finding
 from msaa_lint.experiments.confirm.inputs import Input, Inputs, inputs
 from msaa_lint.experiments.study.tasks import StudyInput
@@ -77,7 +78,7 @@ def _picture(study_input: StudyInput, size: tuple[int, int]) -> Any:
         package = (error.name or "").partition(".")[0]
         if package in ("", "msaa_lint"):
             raise
-        raise UsageError(f"study needs {package}, which is not installed: pip install 'msaa-lint[study]'") from None
+        raise UsageError(needs_extra("msaa-lint study", "study")) from None
     except (OSError, ValueError, LookupError) as error:
         reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
         raise UsageError(f"{study_input.name}: {reason}") from None

@@ -13,7 +13,7 @@ from msaa_lint.core.globs import Glob, excluding
 from msaa_lint.core.project import inside, project_root, shown
 from msaa_lint.core.quote import quoted
 
-from .file_types import DATA, DESCRIPTIONS, HEAD_BYTES, LANGUAGES, MISSING_EXTRA, SOURCES, STDIN
+from .file_types import DATA, DESCRIPTIONS, HEAD_BYTES, LANGUAGES, SOURCES, STDIN, missing_extra
 
 MAX_DEPTH = 64
 _SKIPPED = frozenset({"node_modules", "bower_components", "__pycache__", "__pypackages__", "site-packages", "venv", "CVS"})
@@ -66,7 +66,7 @@ def discover(
             walk.findings.append(diagnostic("MSAA921", f"no such file or folder {quoted(path)}{reason}", shown(path)))
     if walk.unreadable_sources:
         many = "1 source file" if walk.unreadable_sources == 1 else f"{walk.unreadable_sources} source files"
-        walk.notes.append(f"{many} skipped: {MISSING_EXTRA}")
+        walk.notes.append(f"{many} skipped: {missing_extra()}")
     return Discovered(sorted(walk.files, key=lambda name: (name.split("/"), name)), walk.findings, list(dict.fromkeys(walk.notes)))
 
 
@@ -129,7 +129,7 @@ class _Walk:
                         inputs += 1
         if not inputs and len(self.findings) == findings:
             if self.unreadable_sources > unreadable:
-                reason = MISSING_EXTRA
+                reason = missing_extra()
             elif excluded:
                 reason = f"all inputs are excluded ({excluded})"
             else:

@@ -1,5 +1,7 @@
 """File name endings of inputs. Nothing of a reader is imported for them."""
 
+from msaa_lint.core.extras import needs_extra
+
 STDIN = "-"
 """The path of standard input."""
 
@@ -24,4 +26,7 @@ LANGUAGES: dict[str, tuple[str, ...]] = {
 SOURCES = tuple(ending for language, endings in LANGUAGES.items() if language != "markdown" for ending in endings)
 """Source code: inputs of a folder if they mention multisampling. Markdown is linted only if it is named."""
 
-MISSING_EXTRA = 'reading source code requires an extra; install it with `pip install "msaa-lint[source]"`'
+
+def missing_extra() -> str:
+    """The message that source code cannot be read without the extra `source`."""
+    return needs_extra("reading source code", "source")

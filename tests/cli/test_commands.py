@@ -61,16 +61,6 @@ def test_schema(tmp_path: Path) -> None:
     assert json.loads(run(tmp_path, "schema", "cost-v1").stdout)["$id"] == "urn:msaa-lint:cost-v1"
 
 
-def test_init_makes_a_project_that_lints(tmp_path: Path) -> None:
-    done = run(tmp_path, "init", "new")
-    assert done.returncode == 0
-    assert "id: msaa-lint" in done.stdout
-    assert run(tmp_path / "new", "check", "frame.msaa.yaml").returncode == 1
-    (tmp_path / "new" / "msaa-lint.toml").write_text('edition = "2026.1"\n', encoding="utf-8")
-    run(tmp_path, "init", "new")
-    assert (tmp_path / "new" / "msaa-lint.toml").read_text(encoding="utf-8") == 'edition = "2026.1"\n'
-
-
 def test_the_formats_are_those_there_are() -> None:
     assert all((ROOT / "msaa_lint/cli/report" / f"{name}.py").exists() for name in OUTPUT_FORMATS)
     assert sorted(INPUT_FORMATS) == sorted([*readers.FORMATS, *readers.CAPTURES, *LANGUAGES])

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from msaa_lint.core.extras import needs_extra
 from tests.command import run
 from tests.frame.cost.test_reports import validator
 from tests.paths import ROOT
@@ -278,7 +279,7 @@ def test_chart_without_matplotlib_says_how_to_install_it(folder: Path) -> None:
     (folder / "shadow" / "matplotlib" / "__init__.py").write_text("raise ModuleNotFoundError(name='matplotlib')\n", encoding="utf-8")
     done = run(folder, "cost", "a.msaa.yaml", "--chart", "x.svg", PYTHONPATH=f"{folder / 'shadow'}:{ROOT}")
     assert done.returncode == 2
-    assert done.stderr == "msaa-lint: --chart needs matplotlib, which is not installed: pip install 'msaa-lint[chart]'\n"
+    assert done.stderr == f"msaa-lint: {needs_extra('--chart', 'chart')}\n"
     assert "total" in done.stdout, "the table is shown all the same"
     assert not (folder / "x.svg").exists()
 

@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterable
 from types import ModuleType
 from typing import Any
 
-from .vulkan_errors import NO_PACKAGE, RESULTS, Unusable, VulkanError
+from .vulkan_errors import RESULTS, Unusable, VulkanError, missing_package
 
 LOADER = "there is no Vulkan loader (libvulkan.so.1, vulkan-1.dll): install a Vulkan driver; on Debian run `apt install libvulkan1`"
 
@@ -33,7 +33,7 @@ def load() -> Any:
             from vulkan import _vulkan
         except ImportError as error:
             missing = error.name in ("vulkan", "cffi", "_cffi_backend")
-            raise Unusable(NO_PACKAGE if missing else f"`vulkan` cannot be loaded: {error}") from None
+            raise Unusable(missing_package() if missing else f"`vulkan` cannot be loaded: {error}") from None
         except OSError:
             raise Unusable(LOADER) from None
         _keep_alive(_vulkan)

@@ -16,7 +16,7 @@ from msaa_lint.core import package
 from .child import Child, ChildExit, Limits
 from .frame_results import FrameRun, PassOutcome, RunCollector
 from .protocol import Event
-from .vulkan_errors import NO_PACKAGE, Unusable
+from .vulkan_errors import Unusable, missing_package
 from .worker import EXECUTE
 
 ICD_FOLDERS = ("/etc/vulkan/icd.d", "/usr/local/share/vulkan/icd.d", "/usr/share/vulkan/icd.d")
@@ -201,7 +201,7 @@ def _left(number: int) -> PassOutcome:
 def _advice(found: Event) -> str:
     """What to do if a child cannot open a device."""
     if found.get("missing") == "vulkan":
-        return NO_PACKAGE
+        return missing_package()
     if found.get("missing"):
         return f"the module `{found['missing']}` is not installed: {found['reason']}"
     if found.get("kind") == "memory":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-NO_PACKAGE = "the Python package `vulkan` is not installed: run `pip install 'msaa-lint[confirm]'`"
+from msaa_lint.core.extras import needs_extra
 
 RESULTS = {
     0: "VK_SUCCESS",
@@ -78,3 +78,8 @@ class Unusable(Exception):
 
 class NotWritten(Exception):
     """A picture could not be written; the message says which and why."""
+
+
+def missing_package() -> str:
+    """The message that the Python package `vulkan` is not installed."""
+    return needs_extra("calling a Vulkan driver", "confirm")

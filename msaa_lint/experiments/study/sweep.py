@@ -10,6 +10,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor
 from typing import Any
 
+from msaa_lint.core.extras import needs_extra, pip_install
+
 from .checkpoint import Checkpoint
 from .points import MSAA, Point, Technique
 from .tasks import FailedPoint, StudyInput, Task, Unusable
@@ -195,8 +197,8 @@ def _cluster(backend: str | None) -> Any:
             from ray.util.joblib import register_ray
     except ImportError as error:
         package = (error.name or "").partition(".")[0]
-        extra = "'msaa-lint[study]'" if package == "joblib" else package
-        raise Unusable(f"{package} is not installed: run `pip install {extra}`") from None
+        missing = f"{package} is not installed: run `{pip_install(package)}`"
+        raise Unusable(needs_extra("more than one job", "study") if package == "joblib" else missing) from None
     if backend == "dask":
         return contextlib.closing(Client())
     if backend == "ray":

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from importlib import import_module
 from typing import TYPE_CHECKING, NamedTuple
 
-from msaa_lint.input.file_types import LANGUAGES, MISSING_EXTRA
+from msaa_lint.input.file_types import LANGUAGES, missing_extra
 
 if TYPE_CHECKING:
     from msaa_lint.core.text.source import Source
@@ -105,7 +105,7 @@ def read(source: "Source", language: str) -> Program:
     else:
         codes_found = (Code(ascii_only(source.text), language),)
     if codes_found and not installed():
-        raise Missing(MISSING_EXTRA)
+        raise Missing(missing_extra())
     from .documents import bound
 
     by_code = [(code, list(_readings(code))) for code in codes_found]

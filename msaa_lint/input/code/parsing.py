@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.source import Unreadable
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.file_types import MISSING_EXTRA
+from msaa_lint.input.file_types import missing_extra
 
 if TYPE_CHECKING:
     import tree_sitter
@@ -115,7 +115,7 @@ def tree(code: Code) -> "Tree":
 
         grammar = import_module(GRAMMARS[code.language])
     except ImportError:
-        raise Missing(MISSING_EXTRA) from None
+        raise Missing(missing_extra()) from None
     data = code.text.encode()
     with warnings.catch_warnings():
         # tree-sitter-glsl still uses the deprecated API.

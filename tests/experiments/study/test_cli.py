@@ -16,6 +16,7 @@ import pytest
 
 from msaa_lint.cli import study as command
 from msaa_lint.cli.options import COMMANDS, parse
+from msaa_lint.core.extras import needs_extra
 from msaa_lint.experiments.study import measure
 from msaa_lint.experiments.study.points import MSAA, Point, Technique, techniques
 from msaa_lint.experiments.study.scenes import NAMES
@@ -276,9 +277,9 @@ def test_a_failure_of_the_program_is_one_line(monkeypatch: pytest.MonkeyPatch, c
 
 
 @pytest.mark.parametrize(("missing", "arguments", "words"), [
-    ("numpy", [], "study needs numpy, which is not installed: pip install 'msaa-lint[study]'"),
-    ("joblib", ["--jobs", "2"], "joblib is not installed: run `pip install 'msaa-lint[study]'`"),
-    ("matplotlib", ["--plot", "a.svg", "--jobs", "1"], "--plot needs matplotlib, which is not installed: pip install 'msaa-lint[chart]'"),
+    ("numpy", [], needs_extra("msaa-lint study", "study")),
+    ("joblib", ["--jobs", "2"], needs_extra("more than one job", "study")),
+    ("matplotlib", ["--plot", "a.svg", "--jobs", "1"], needs_extra("--plot", "chart")),
 ])  # fmt: skip
 def test_what_is_not_installed_is_said(tmp_path: Path, missing: str, arguments: list[str], words: str) -> None:
     (tmp_path / missing).mkdir()
@@ -294,7 +295,7 @@ def test_only_ssim_needs_scikit_image(monkeypatch: pytest.MonkeyPatch, capsys: p
     assert command.study(given) == 0
     capsys.readouterr()
     assert command.study({**given, "ssim": True}) == 2
-    wanted = "msaa-lint: --ssim needs scikit-image, which is not installed: pip install 'msaa-lint[ssim]'\n"
+    wanted = f"msaa-lint: {needs_extra('--ssim', 'ssim')}\n"
     assert capsys.readouterr() == ("", wanted)
 
 

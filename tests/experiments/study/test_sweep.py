@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from msaa_lint.core.extras import needs_extra, pip_install
 from msaa_lint.experiments.study.checkpoint import Checkpoint
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, Point, Technique, techniques
 from msaa_lint.experiments.study.sweep import costs, ordered, sweep, with_cost
@@ -219,9 +220,9 @@ def test_the_models_costs_are_kept_by_what_it_takes_a_frame_to_be(tmp_path: Path
 
 
 @pytest.mark.parametrize(("package", "backend", "words"), [
-    ("joblib", None, "joblib is not installed: run `pip install 'msaa-lint[study]'`"),
-    ("distributed", "dask", "distributed is not installed: run `pip install distributed`"),
-    ("ray", "ray", "ray is not installed: run `pip install ray`"),
+    ("joblib", None, needs_extra("more than one job", "study")),
+    ("distributed", "dask", f"distributed is not installed: run `{pip_install('distributed')}`"),
+    ("ray", "ray", f"ray is not installed: run `{pip_install('ray')}`"),
 ])  # fmt: skip
 def test_a_backend_that_is_not_installed_is_said(monkeypatch: pytest.MonkeyPatch, package: str, backend: str | None, words: str) -> None:
     for name in [name for name in sys.modules if name.partition(".")[0] == package]:

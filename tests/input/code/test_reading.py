@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from msaa_lint.input.code import language_of, parsing
-from msaa_lint.input.file_types import SOURCES
+from msaa_lint.input.file_types import SOURCES, missing_extra
 from msaa_lint.input.source_file import read_source_file
 from tests.command import run
 from tests.paths import ROOT
@@ -265,7 +265,7 @@ def test_places_count_characters(tmp_path: Path) -> None:
 
 # Without the extra.
 
-MISSING = 'reading source code requires an extra; install it with `pip install "msaa-lint[source]"`'
+MISSING = missing_extra()
 
 
 @pytest.mark.parametrize("name", ["a.cpp", "a.c", "a.swift", "a.vert", "a.md"])

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from msaa_lint.core.extras import needs_extra
 from msaa_lint.experiments.study.exact_area import areas_of
 from msaa_lint.experiments.study.resolve import from_srgb
 
@@ -65,8 +66,7 @@ def _read(path: str) -> tuple[Floats, Floats | None]:
     try:
         import trimesh
     except ModuleNotFoundError:
-        message = "trimesh, which reads meshes, is not installed: run `pip install 'msaa-lint[study]'`"
-        raise ModuleNotFoundError(message, name="trimesh") from None
+        raise ModuleNotFoundError(needs_extra("reading a mesh", "study"), name="trimesh") from None
 
     format = FORMATS.get(os.path.splitext(path)[1].lower())
     if format is None:
