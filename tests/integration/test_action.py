@@ -1,4 +1,4 @@
-"""The GitHub action: its form, and what its steps run, by bash with stand-ins for the runner."""
+"""The GitHub action: its form, and what its steps do, run by bash with stand-ins for the runner and for Python."""
 
 from __future__ import annotations
 
@@ -8,16 +8,19 @@ import re
 import shutil
 import subprocess
 import sys
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import pytest
 import yaml
 
+from tests.integration.test_pre_commit import BAD, GOOD
 from tests.paths import ROOT
 
 ACTION: dict[str, Any] = yaml.safe_load((ROOT / "action.yml").read_text(encoding="utf-8"))
 WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
+DOCS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 STEPS: list[dict[str, Any]] = ACTION["runs"]["steps"]
 
 needs_bash = pytest.mark.skipif(shutil.which("bash") is None or os.name == "nt", reason="bash is not installed")
@@ -34,7 +37,8 @@ def test_inputs_and_outputs_are_described() -> None:
     assert ACTION["runs"]["using"] == "composite"
     for each in (*ACTION["inputs"].values(), *ACTION["outputs"].values()):
         assert each["description"].endswith(".")
-    assert set(ACTION["inputs"]) == {"paths", "config", "fail-on", "source", "args", "annotations", "upload-sarif", "version"}
+    names = {"paths", "config", "fail-on", "source", "args", "annotations", "upload-sarif", "category", "version"}
+    assert set(ACTION["inputs"]) == names
     assert all(isinstance(each["default"], str) for each in ACTION["inputs"].values())
 
 
@@ -46,11 +50,48 @@ def test_scripts_hold_no_expressions(steps: list[dict[str, Any]]) -> None:
     assert [script for script in scripts if "${{" in script] == []
 
 
-@pytest.mark.parametrize("steps", [STEPS, *map(jobs, WORKFLOWS)], ids=["action.yml", *(path.name for path in WORKFLOWS)])
-def test_actions_of_others_are_pinned(steps: list[dict[str, Any]]) -> None:
-    used = [step["uses"] for step in steps if "uses" in step]
-    assert used
-    assert [name for name in used if not re.fullmatch(r"[\w-]+(/[\w-]+)+@v\d+", name)] == []
+def test_a_pinned_action_names_its_version_and_is_pinned_once() -> None:
+    text = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "action.yml", *WORKFLOWS, *DOCS))
+    uses = [line.partition("uses: ")[2] for line in text.splitlines() if "uses: " in line and "uses: $/" not in line]
+    pins = {re.fullmatch(r"(\S+)@([0-9a-f]{40}) # v\d+\.\d+\.\d+", use) for use in uses}
+    assert None not in pins
+    assert len({pin[1] for pin in pins if pin}) == len({pin[0] for pin in pins if pin}) == 3
+
+
+ZIZMOR = shutil.which("zizmor", path=str(Path(sys.executable).parent))
+
+
+@pytest.mark.skipif(ZIZMOR is None, reason="zizmor is not installed")
+def test_zizmor_finds_nothing(tmp_path: Path) -> None:
+    """In the action, the workflows, and the workflows and pre-commit configurations that the documentation shows."""
+    workflows = tmp_path / ".github" / "workflows"
+    workflows.mkdir(parents=True)
+    for name in ("action.yml", ".pre-commit-hooks.yaml", ".github/dependabot.yml", ".github/workflows/ci.yml"):
+        shutil.copy(ROOT / name, tmp_path / name)
+    shown = [block for page in DOCS for block in re.findall(r"```yaml\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)]
+    audited = len(list(tmp_path.rglob("*.y*ml")))
+    for number, block in enumerate(block for block in shown if "uses: " in block or "hooks:" in block):
+        audited += 1
+        if "hooks:" in block:
+            (tmp_path / str(number)).mkdir()
+            (tmp_path / str(number) / ".pre-commit-config.yaml").write_text(block)
+        else:
+            (workflows / f"{number}.yml").write_text(workflow(block))
+    assert ZIZMOR is not None
+    command = [ZIZMOR, "--offline", "--persona=pedantic", "--strict-collection", "--no-progress", "--color=never", str(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "No findings to report" in done.stdout + done.stderr
+    assert (done.stdout + done.stderr).count("completed ") == audited >= 8
+
+
+def workflow(block: str) -> str:
+    """A snippet as a whole workflow: itself, or what it shows of a job or of a list of steps, in the rest of one."""
+    if "\njobs:" in block:
+        return block
+    head = "name: x\non: push\npermissions: {}\nconcurrency: {group: x, cancel-in-progress: true}\njobs:\n  x:\n    name: x\n"
+    head += "    runs-on: ubuntu-latest\n"
+    return head + (block if "steps:" in block else "    steps:\n" + block)
 
 
 def test_every_input_is_used_and_every_one_used_exists() -> None:
@@ -67,116 +108,228 @@ def step(name: str) -> dict[str, Any]:
     return next(each for each in STEPS if each["name"] == name)
 
 
-class Runner:
-    """A folder that looks like a runner's: msaa-lint and pip are stand-ins that write down what they were given."""
+PYTHON = """\
+import json, os, sys
+if sys.argv[1:4] == ["-I", "-m", "venv"]:
+    os.makedirs(sys.argv[4] + "/bin")
+    os.symlink(__file__, sys.argv[4] + "/bin/python")
+    os.symlink(os.environ["LINTER"], sys.argv[4] + "/bin/msaa-lint")
+elif sys.argv[1:4] == ["-I", "-m", "pip"]:
+    json.dump(sys.argv[4:], open(os.environ["GIVEN"], "w"))
+    sys.exit(int(os.environ["PIP_CODE"]))
+else:
+    os.execv(sys.executable, [sys.executable, *sys.argv[1:]])
+"""
+"""Stands in for Python: makes a virtual environment of stand-ins, and writes down what pip is given."""
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self.bin = folder / "temp" / "msaa-lint" / "bin"
-        self.bin.mkdir(parents=True)
+LINTER = """\
+import json, os, sys
+json.dump(sys.argv[1:], open(os.environ["GIVEN"], "w"))
+for word in sys.argv:
+    if word.startswith("sarif="):
+        open(word[6:], "w").write(os.environ["SARIF_TEXT"])
+sys.exit(int(os.environ["LINTER_CODE"]))
+"""
+"""Stands in for msaa-lint: writes down what it is given, and a SARIF file where it is asked to."""
+
+REAL = f"""\
+import runpy, sys
+sys.path.insert(0, {str(ROOT)!r})
+runpy.run_module("msaa_lint", run_name="__main__")
+"""
+"""Runs msaa-lint from this repository."""
+
+
+class Job:
+    """A job of a runner: its folders, and uses of the action in it. Results: the exit code, and what was written down and printed."""
+
+    def __init__(self, folder: Path, linter: str = LINTER) -> None:
+        self.workspace = folder / "work space"
+        self.temp = folder / "temp"
         self.given = folder / "given"
-        self.stand_in(0)
+        for made in (self.workspace, self.temp):
+            made.mkdir()
+        self.tools = {"PYTHON": folder / "python", "LINTER": folder / "linter"}
+        for name, text in (("PYTHON", PYTHON), ("LINTER", linter)):
+            self.tools[name].write_text(f"#!{sys.executable}\n{text}")
+            self.tools[name].chmod(0o755)
+        self.environment = {"GIVEN": str(self.given), "LINTER_CODE": "0", "SARIF_TEXT": "{}", "PIP_CODE": "0"}
+        self.printed = ""
 
-    def stand_in(self, code: int, sarif: str = "{}") -> None:
-        body = (
-            f"#!{sys.executable}\nimport json, sys\n"
-            f"json.dump(sys.argv[1:], open({str(self.given)!r}, 'w'))\n"
-            "for word in sys.argv:\n"
-            "    if word.startswith('sarif='):\n"
-            f"        open(word[6:], 'w').write({sarif!r})\n"
-            f"sys.exit({code})\n"
-        )
-        for name in ("msaa-lint", "python"):
-            (self.bin / name).write_text(body)
-            (self.bin / name).chmod(0o755)
-
-    def run(self, name: str, **inputs: str) -> tuple[int, list[str], dict[str, str]]:
-        """Runs a step; its exit code, what the stand-in was given, and the step's outputs."""
+    def use(self, upload: str = "success", **inputs: str) -> Use:
+        """Runs the steps whose conditions hold, as a runner does. `upload` is the outcome of the upload."""
         values = {key: each["default"] for key, each in ACTION["inputs"].items()} | {key.replace("_", "-"): v for key, v in inputs.items()}
-        stated: dict[str, str] = step(name)["env"]
-        filled = {key: re.sub(r"\$\{\{ inputs\.([\w-]+) \}\}", lambda m: values[m[1]], text) for key, text in stated.items()}
-        filled["PYTHON"] = "true"
-        output = self.folder / "output"
+        contexts = {f"inputs.{key}": value for key, value in values.items()}
+        contexts["steps.python.outputs.python-path"] = str(self.tools["PYTHON"])
+        use = Use({})
+        for each in STEPS:
+            if not holds(each.get("if", "success()"), contexts, use.failed):
+                continue
+            use.ran.append(each["name"])
+            if "uses" in each:
+                uploads = each.get("id") == "upload"
+                use.uploaded = {key: filled(value, contexts) for key, value in each["with"].items()} if uploads else use.uploaded
+                code, outputs = int(uploads and upload == "failure"), {}
+            else:
+                code, outputs = self.run(each, contexts)
+                use.given[each["name"]] = json.loads(self.given.read_text()) if self.given.exists() else []
+                self.given.unlink(missing_ok=True)
+            contexts |= {f"steps.{each.get('id')}.outputs.{key}": value for key, value in outputs.items()}
+            contexts[f"steps.{each.get('id')}.outcome"] = "failure" if code else "success"
+            use.failed |= bool(code) and not each.get("continue-on-error")
+        use.outputs = {key: filled(each["value"], contexts) for key, each in ACTION["outputs"].items()}
+        return use
+
+    def run(self, each: dict[str, Any], contexts: dict[str, str]) -> tuple[int, dict[str, str]]:
+        output = self.temp / "output"
         output.write_text("")
         environment = {
-            **filled, "PATH": os.environ["PATH"], "RUNNER_TEMP": str(self.folder / "temp"), "GITHUB_OUTPUT": str(output),
-            "GITHUB_ACTION_PATH": "/the action/at its ref",
+            **self.environment, **{key: filled(value, contexts) for key, value in each.get("env", {}).items()},
+            "PATH": os.environ["PATH"], "LINTER": str(self.tools["LINTER"]), "RUNNER_TEMP": str(self.temp), "GITHUB_OUTPUT": str(output),
+            "GITHUB_ACTION_PATH": "/the action/at its ref", "GITHUB_WORKSPACE": str(self.workspace),
         }  # fmt: skip
-        command = ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", step(name)["run"]]
-        done = subprocess.run(command, cwd=self.folder, env=environment, capture_output=True, text=True, check=False)
-        assert not done.stderr, done.stderr
-        return done.returncode, json.loads(self.given.read_text()), dict(line.split("=", 1) for line in output.read_text().splitlines())
+        command = ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", each["run"]]
+        done = subprocess.run(
+            command, cwd=self.workspace, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
+        )
+        self.printed = done.stdout + done.stderr
+        return done.returncode, dict(line.split("=", 1) for line in output.read_text().splitlines())
+
+
+@dataclass
+class Use:
+    """What came of a use: the steps that ran, what pip and msaa-lint were given, what was uploaded, and how it ended."""
+
+    given: dict[str, list[str]]
+    ran: list[str] = field(default_factory=list)
+    uploaded: dict[str, str] = field(default_factory=dict)
+    outputs: dict[str, str] = field(default_factory=dict)
+    failed: bool = False
+
+
+def filled(text: str, contexts: dict[str, str]) -> str:
+    return re.sub(r"\$\{\{ ([\w.-]+) \}\}", lambda match: contexts.get(match[1], ""), text)
+
+
+def holds(condition: str, contexts: dict[str, str], failed: bool) -> bool:
+    """Whether a condition of a step holds, in a job that is not cancelled."""
+    if condition == "success()":
+        return not failed
+    left, operator, right = condition.removeprefix("${{ !cancelled() && ").removesuffix(" }}").split(" ")
+    return (contexts.get(left, "") == right.strip("'")) == {"==": True, "!=": False}[operator]
 
 
 @pytest.fixture
-def runner(tmp_path: Path) -> Runner:
-    return Runner(tmp_path)
+def job(tmp_path: Path) -> Job:
+    return Job(tmp_path)
 
 
 @needs_bash
-def test_lints_the_current_folder_by_default(runner: Runner) -> None:
-    sarif = f"{runner.folder}/temp/msaa-lint.sarif"
-    code, given, outputs = runner.run("Lint")
-    assert code == 0
-    assert given == ["check", "--output", "github", "--output", f"sarif={sarif}", "--", "."]
-    assert outputs == {"exit-code": "0", "sarif": sarif}
+def test_lints_the_current_folder_by_default(job: Job) -> None:
+    use = job.use()
+    sarif = use.outputs["sarif"]
+    assert Path(sarif).parent.parent == job.temp
+    assert use.given["Lint"] == ["check", "--output", "github", "--output", f"sarif={sarif}", "--", "."]
+    assert use.outputs == {"exit-code": "0", "sarif": sarif}
+    assert use.uploaded == {"sarif_file": sarif, "category": "msaa-lint"}
+    assert use.ran == ["Set up Python", "Install msaa-lint", "Lint", "Upload to code scanning"]
+    assert not use.failed and not job.printed
 
 
 @needs_bash
-def test_gives_on_what_the_inputs_say(runner: Runner) -> None:
-    _, given, outputs = runner.run(
-        "Lint",
-        paths="renderer/a folder\r\n\nmore.yaml\n",
+def test_passes_on_what_the_inputs_say(job: Job) -> None:
+    use = job.use(
+        paths="renderer/a folder\r\n\n*.yaml\n",
         config="ci/msaa lint.toml",
         fail_on="error",
-        args="--select MSAA2\n  --profile mali-g715\n",
+        args="--select MSAA2\n  --profile 'my device.json' --exclude \"*.yaml\" --baseline ci\\known.json",
         annotations="false",
         upload_sarif="false",
     )
-    options = ["--output", "full", "--config=ci/msaa lint.toml", "--fail-on=error", "--select", "MSAA2", "--profile", "mali-g715"]
-    assert given == ["check", *options, "--", "renderer/a folder", "more.yaml"]
-    assert outputs == {"exit-code": "0", "sarif": ""}
+    assert use.given["Lint"] == [
+        "check", "--output", "full", "--config=ci/msaa lint.toml", "--fail-on=error", "--select", "MSAA2", "--profile", "my device.json",
+        "--exclude", "*.yaml", "--baseline", "ci\\known.json", "--", "renderer/a folder", "*.yaml",
+    ]  # fmt: skip
+    assert use.outputs == {"exit-code": "0", "sarif": ""}
+    assert "Upload to code scanning" not in use.ran
 
 
-HOSTILE = "$(touch owned) `touch owned`; touch owned; \"; touch owned; ' * ${PATH} \\"
+HOSTILE = "$(touch owned) `touch owned`; touch owned; \\\"; touch owned; ' * ${PATH} \\"
 
 
 @needs_bash
-@pytest.mark.parametrize("name", ["paths", "config", "fail_on", "args"])
-def test_inputs_are_words_and_no_code(runner: Runner, name: str) -> None:
-    _, given, _ = runner.run("Lint", **{name: HOSTILE})
-    assert not (runner.folder / "owned").exists()
+@pytest.mark.parametrize("name", ["paths", "config", "fail_on", "args", "version", "source", "category", "annotations", "upload_sarif"])
+def test_inputs_are_words_and_no_code(job: Job, name: str) -> None:
+    hostile = HOSTILE + "'" + '"' if name == "args" else HOSTILE
+    use = job.use(**{name: hostile})
+    assert not list(job.workspace.iterdir())
+    lint = use.given["Lint"]
     whole = {"paths": HOSTILE, "config": f"--config={HOSTILE}", "fail_on": f"--fail-on={HOSTILE}"}
     if name in whole:
-        assert whole[name] in given
-    else:
-        assert "owned;" in given
-        assert "${PATH}" in given
+        assert whole[name] in lint
+    elif name == "args":
+        assert lint[lint.index("`touch") :][:3] == ["`touch", "owned`;", "touch"]
+        assert "\\; touch owned; ' * ${PATH} \\'" in lint
+    elif name == "version":
+        assert use.given["Install msaa-lint"][-1] == f"msaa-lint=={HOSTILE}"
+    elif name == "category":
+        assert use.uploaded["category"] == HOSTILE
 
 
 @needs_bash
-def test_a_path_is_no_option(runner: Runner) -> None:
-    _, given, _ = runner.run("Lint", paths="--exit-zero\n-")
-    assert given[-3:] == ["--", "--exit-zero", "-"]
+def test_modules_of_the_workspace_are_not_imported(job: Job) -> None:
+    for module in ("os", "shlex", "runpy"):
+        (job.workspace / f"{module}.py").write_text("open('owned', 'w')\n")
+    assert not job.use(args="--select MSAA2").failed
+    assert not (job.workspace / "owned").exists()
+
+
+@needs_bash
+def test_a_quotation_mark_without_its_counterpart_is_an_error(job: Job) -> None:
+    use = job.use(args="--config 'ci/msaa lint.toml")
+    assert use.failed and use.outputs == {"exit-code": "2", "sarif": ""}
+    assert job.printed == "::error title=msaa-lint::the input `args` has a quotation mark without its counterpart\n"
+    assert use.given["Lint"] == []
+
+
+@needs_bash
+def test_a_path_is_no_option(job: Job) -> None:
+    assert job.use(paths="--exit-zero\n-").given["Lint"][-3:] == ["--", "--exit-zero", "-"]
 
 
 @needs_bash
 @pytest.mark.parametrize("code", [1, 2])
-def test_ends_as_the_linter_ends_and_still_uploads(runner: Runner, code: int) -> None:
-    runner.stand_in(code)
-    ended, _, outputs = runner.run("Lint")
-    assert ended == code
-    assert outputs["exit-code"] == str(code)
-    assert outputs["sarif"].endswith("/msaa-lint.sarif")
-    assert "!cancelled()" in step("Upload to code scanning")["if"]
+def test_ends_as_the_linter_ends_and_still_uploads(job: Job, code: int) -> None:
+    job.environment["LINTER_CODE"] = str(code)
+    use = job.use(category="frames")
+    assert use.failed and use.outputs["exit-code"] == str(code)
+    assert use.uploaded == {"sarif_file": use.outputs["sarif"], "category": "frames"}
 
 
 @needs_bash
-def test_uploads_nothing_where_nothing_was_written(runner: Runner) -> None:
-    runner.stand_in(2, sarif="")
-    ended, _, outputs = runner.run("Lint")
-    assert ended == 2
-    assert outputs["sarif"] == ""
+def test_a_second_use_never_uploads_what_the_first_wrote(job: Job) -> None:
+    first = job.use()
+    job.environment |= {"LINTER_CODE": "2", "SARIF_TEXT": ""}
+    second = job.use()
+    assert first.uploaded and Path(first.outputs["sarif"]).exists()
+    assert second.failed and second.outputs == {"exit-code": "2", "sarif": ""}
+    assert not second.uploaded
+    job.environment |= {"PIP_CODE": "1"}
+    third = job.use()
+    assert third.ran == ["Set up Python", "Install msaa-lint"]
+    assert third.failed and third.outputs == {"exit-code": "", "sarif": ""}
+    job.environment |= {"LINTER_CODE": "0", "SARIF_TEXT": "{}", "PIP_CODE": "0"}
+    assert job.use().outputs["sarif"] not in ("", first.outputs["sarif"])
+
+
+@needs_bash
+@pytest.mark.parametrize("code", [0, 1])
+def test_a_failed_upload_is_a_notice_and_changes_no_exit_code(job: Job, code: int) -> None:
+    job.environment["LINTER_CODE"] = str(code)
+    use = job.use(upload="failure")
+    assert use.failed is bool(code)
+    assert use.ran[-1] == "Report a failed upload"
+    assert re.fullmatch("::notice title=msaa-lint::The findings were not uploaded to code scanning: [^\n]*\n", job.printed)
 
 
 @needs_bash
@@ -189,8 +342,30 @@ def test_uploads_nothing_where_nothing_was_written(runner: Runner) -> None:
         ("0.1.0", "true", "msaa-lint[source]==0.1.0"),
     ],
 )
-def test_installs_its_own_ref_or_a_release(runner: Runner, version: str, source: str, wanted: str) -> None:
-    code, given, _ = runner.run("Install msaa-lint", version=version, source=source)
-    assert code == 0
-    assert given[:3] == ["-m", "pip", "install"]
+def test_installs_its_own_ref_or_a_release(job: Job, version: str, source: str, wanted: str) -> None:
+    given = job.use(version=version, source=source).given["Install msaa-lint"]
+    assert given[0] == "install"
     assert given[-1] == wanted
+
+
+@needs_bash
+def test_with_msaa_lint_itself(tmp_path: Path) -> None:
+    """Paths with spaces and with a dash at their beginning, findings, a clean file, and a configuration that does not exist."""
+    job = Job(tmp_path, REAL)
+    (job.workspace / "a folder").mkdir()
+    (job.workspace / "a folder" / "-bad.msaa.yaml").write_text(BAD)
+    (job.workspace / "--good.msaa.yaml").write_text(GOOD)
+    use = job.use(paths="a folder\n--good.msaa.yaml", args="--ignore MSAA1 'MSAA4'", upload="failure")
+    assert use.outputs["exit-code"] == "2", "two rules need two options"
+    use = job.use(paths="a folder\n--good.msaa.yaml", args="--ignore MSAA1 --ignore 'MSAA4'")
+    assert use.failed and use.outputs["exit-code"] == "1"
+    (run,) = json.loads(Path(use.outputs["sarif"]).read_text())["runs"]
+    places = [each["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] for each in run["results"]]
+    assert set(places) == {"a%20folder/-bad.msaa.yaml"}
+    assert "::warning file=a folder/-bad.msaa.yaml,line=" in job.printed
+    clean = job.use(paths="--good.msaa.yaml")
+    assert not clean.failed and clean.outputs["exit-code"] == "0"
+    assert json.loads(Path(clean.outputs["sarif"]).read_text())["runs"][0]["results"] == []
+    missing = job.use(config="no such.toml")
+    assert missing.failed and missing.outputs["exit-code"] == "2"
+    assert "no such.toml" in job.printed
