@@ -12,7 +12,7 @@ from msaa_lint.core.finding import RuleInfo
 from msaa_lint.core.suggestions import nearest
 from msaa_lint.linter.engine import load_rules
 from msaa_lint.linter.rules.registry import info, markdown
-from msaa_lint.linter.rules.rule_file import APIS, Rule
+from msaa_lint.linter.rules.rule_file import APIS, PASSES, Rule
 
 from .common import warn
 
@@ -96,6 +96,8 @@ def page(rule: Rule) -> str:
         lines.append(f"Applies to {' and '.join(api.capitalize() for api in rule.apis)} frames.")
     if rule.vendors:
         lines.append(f"Applies to {', '.join(rule.vendors)}; a note on other devices.")
+    if rule.passes != PASSES[0]:
+        lines.append("Applies also to render passes that no command begins.")
     lines += [f"Fix ({fix.safety}): {fix.title}." for fix in rule.fix_specs]
     references = "".join(f"- {reference}\n" for reference in rule.references)
     return (

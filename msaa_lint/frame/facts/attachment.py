@@ -10,11 +10,12 @@ from .parts import RENDER_PASS, Aspect, Attachment, Pass, Resolve
 from .readers import Readers
 
 
-def pass_facts(render_pass: Pass) -> Facts:
+def pass_facts(render_pass: Pass, frame: Frame) -> Facts:
     """What holds for all of a pass."""
     facts = Facts()
     facts.put("pass.kind", render_pass.kind)
     facts.put("pass.name", render_pass.name)
+    facts.put("pass.begun", frame.whether_begun(render_pass))
     facts.put("pass.partial_area", render_pass.partial_area)
     facts.put("pass.custom_resolve", render_pass.custom_resolve)
     facts.put("pass.suspends", render_pass.suspends)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TypeVar
 
 from msaa_lint.frame.description.document import Document, StencilApart
@@ -41,6 +41,8 @@ class Frame:
         """By render pass: for each attachment the images that framebuffers bind to it."""
         self.pipelines: list[tuple[Pipeline, Pass | None]] = []
         self.resolve_commands: list[tuple[int, Resolve]] = []
+        self._begins_unnamed = False
+        """Whether a command begins a render pass that is not stated."""
         self.framebuffers = self._used_framebuffers()
         self._complete_targets()
         self._render_passes()
@@ -52,13 +54,31 @@ class Frame:
     @property
     def all_targets(self) -> list[Target]:
         """The images, then those that stand for attachments without one."""
-        implied = [t for p in self.passes for a in p.attachments for t in a.targets if t.image is None]
-        return [*self.targets.values(), *implied]
+        return [*self.targets.values(), *_implied(self.passes)]
+
+    @property
+    def run_targets(self) -> list[Target]:
+        """Those of `all_targets` that are images, or stand for attachments of passes that the frame may run."""
+        run = [render_pass for render_pass in self.passes if self.whether_begun(render_pass) != "NO"]
+        return [*self.targets.values(), *_implied(run)]
 
     @property
     def has_commands(self) -> bool:
         """Whether what is recorded is known, and in which order."""
         return self.description.commands is not None and self.document.ordered
+
+    def whether_begun(self, render_pass: Pass) -> str:
+        """Whether the frame begins a pass: YES, NO, or NOT_STATED.
+
+        Programs create render passes only to create pipelines, which a compatible pass then uses (Vulkan specification, "Render Pass
+        Compatibility"). A description without `commands` is of what a frame runs. A part of a frame, or one with an empty list of
+        commands, such as a database of pipelines, does not state what runs.
+        """
+        if render_pass.begun or not self.document.ordered:
+            return "YES"
+        if self.commands:
+            return "NOT_STATED" if self._begins_unnamed else "NO"
+        return "NOT_STATED" if self.has_commands or not self.document.whole else "YES"
 
     def recorded(self, kind: type[RecordType]) -> Iterator[tuple[int, RecordType]]:
         """The positions and the parameters of the commands that have parameters of a type."""
@@ -301,6 +321,8 @@ class Frame:
                 # Inside a rendering that draws to it: a local read (VK_KHR_dynamic_rendering_local_read).
                 for attachment in rendering.get(body.image or "", ()):
                     attachment.input.add(0)
+            if command.kind == "beginRenderPass":
+                self._begins_unnamed = self._begins_unnamed or getattr(body, "renderPass", None) is None
             if isinstance(body, BeginRenderPass):
                 begun = self.render_pass(body.renderPass)
                 if begun is not None:
@@ -345,6 +367,11 @@ class Frame:
                 return target.size
         size = self.description.frame
         return (size.width, size.height) if size is not None else (None, None)
+
+
+def _implied(passes: Iterable[Pass]) -> list[Target]:
+    """What stands for the images of the attachments that name none."""
+    return [t for render_pass in passes for attachment in render_pass.attachments for t in attachment.targets if t.image is None]
 
 
 def _aspects(attachment: Attachment, stated: tuple[str, ...] = ()) -> list[Aspect]:

@@ -34,13 +34,14 @@ class Bindings:
 
     def __init__(self, frame: Frame) -> None:
         self.attachments: dict[int, list[Attachment]] = {}
-        """The attachments that an image is bound to, also by a framebuffer that no command names."""
+        """The attachments that an image is bound to, also by a framebuffer that no command names, in passes that the frame may run."""
         self.begun: set[int] = set()
         """The images that a pass which the commands begin is bound to."""
         self.resolved: set[int] = set()
         """The images that a resolve within a pass writes."""
         self.reads: dict[str, list[ReadImage]] = {}
-        for render_pass in frame.passes:
+        run = [render_pass for render_pass in frame.passes if frame.whether_begun(render_pass) != "NO"]
+        for render_pass in run:
             for attachment in render_pass.attachments:
                 records = {id(target.record) for target in attachment.targets}
                 for record in records:
@@ -49,7 +50,7 @@ class Bindings:
                     self.begun |= records
             targets = (resolve.target_image for resolve in render_pass.resolves)
             self.resolved.update(id(target.record) for target in targets if target is not None)
-        passes = {render_pass.name: render_pass for render_pass in frame.passes if render_pass.kind == RENDER_PASS}
+        passes = {render_pass.name: render_pass for render_pass in run if render_pass.kind == RENDER_PASS}
         for framebuffer in frame.description.framebuffers.values():
             bound_to = passes.get(framebuffer.renderPass or "")
             for attachment, name in zip(bound_to.attachments if bound_to is not None else (), framebuffer.attachments, strict=False):

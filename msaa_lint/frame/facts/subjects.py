@@ -134,13 +134,13 @@ class FrameAnalysis:
 
     def subjects(self) -> Iterator[Subject]:
         """Every subject, in the order of the document's sections."""
-        for target in self.frame.all_targets:
+        for target in self.frame.run_targets:
             yield Subject("image", target.path, target.record.head, Facts(self.shared, self._image_facts[id(target.record)]), image=target)
         contents = pass_contents(self.walk)
         of_subpass: dict[str, Facts] = {}
         for render_pass in self.frame.passes:
             instances = contents.get(render_pass.path, [])
-            facts = Facts(self.shared, pass_facts(render_pass))
+            facts = Facts(self.shared, pass_facts(render_pass, self.frame))
             clear_value_facts(facts, render_pass, self.frame)
             yield Subject("pass", render_pass.path, render_pass.record.head, facts, render_pass=render_pass)
             yield from self._attachments(render_pass, facts, instances)

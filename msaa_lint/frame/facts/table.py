@@ -67,4 +67,7 @@ SUBJECTS: dict[str, tuple[Fact, ...]] = {
 }
 """The facts that a rule about each kind of subject may ask."""
 
+PASS_PARTS = ("pass", "attachment", "aspect", "subpass", "resolve", "dependency")
+"""The kinds of subjects that a frame runs only where a command begins their pass."""
+
 FACTS: dict[str, Fact] = {fact.name: fact for facts in SUBJECTS.values() for fact in facts}

@@ -7,6 +7,12 @@ from .words import Fact
 PASS = (
     Fact("pass.kind", "STRING", "a VkRenderPass or a vkCmdBeginRendering", "pass kind"),
     Fact("pass.name", "STRING", "name of the render pass"),
+    Fact(
+        "pass.begun",
+        "STRING",
+        "whether the frame begins it; YES if no commands are stated, NOT_STATED for a part of a frame and with `commands: []`",
+        "begun",
+    ),
     Fact("pass.partial_area", "BOOL", "it begins with a stated render area smaller than its images; unknown if no size is stated"),
     Fact("pass.custom_resolve", "BOOL", "one of its subpasses resolves with a shader"),
     Fact("pass.suspends", "BOOL", "it is a suspended rendering: a later one continues it"),

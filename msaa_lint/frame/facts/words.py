@@ -22,6 +22,7 @@ class Fact(NamedTuple):
 WORDS: dict[str, tuple[str, ...]] = {
     "aspect": ("color", "depth", "stencil"),
     "pass kind": ("renderPass", "rendering"),
+    "begun": ("YES", "NO", "NOT_STATED"),
     "resolve kind": ("subpass", "rendering", "command"),
     "encoding": ("LINEAR", "GAMMA", "DATA"),
     "scene color": ("LDR", "HDR"),

@@ -11,7 +11,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.core.text.tree import Node
 from msaa_lint.frame.description.bind import Binder
 from msaa_lint.frame.description.document import Document
-from msaa_lint.frame.description.models import AttachmentReference, Description, Device, Framebuffer, RenderPass, Subpass
+from msaa_lint.frame.description.models import AttachmentReference, BeginRenderPass, Description, Device, Framebuffer, RenderPass, Subpass
 from msaa_lint.frame.description.problems import member_of
 
 SECTIONS = frozenset(Description.SHAPE)
@@ -32,6 +32,7 @@ def read(source: Source, root: Node) -> Document:
     if description.states("renderTargets"):
         return _of_render_targets(source, description, binder)
     check_names(binder, description)
+    _name_begun_passes(description)
     if description.metal is None:
         return Document(source, description, tuple(binder.problems))
     from . import metal
@@ -70,6 +71,16 @@ def check_names(binder: Binder, description: Description) -> None:
         if within is not None and pipeline.subpass is not None and pipeline.subpass >= max(len(within.subpasses), 1):
             message = _no_subpass(f"{pipeline.renderPass}", pipeline.subpass, within)
             binder.report("MSAA904", message, pipeline.place("subpass"), f"{pipeline.path}.subpass")
+
+
+def _name_begun_passes(description: Description) -> None:
+    """Gives each beginRenderPass that names only framebuffers the render pass that they are created for."""
+    for command in description.commands or ():
+        body = command.body if command is not None else None
+        if isinstance(body, BeginRenderPass) and body.renderPass is None and body.framebuffer is not None:
+            names = (body.framebuffer,) if isinstance(body.framebuffer, str) else body.framebuffer
+            framebuffers = (description.framebuffers.get(name) for name in names)
+            body.renderPass = next((each.renderPass for each in framebuffers if each is not None and each.renderPass), None)
 
 
 def _section(description: Description, name: str) -> dict[str, object]:

@@ -50,6 +50,9 @@ class FixSpec(NamedTuple):
 APIS = ("vulkan", "metal")
 """The APIs whose frames a rule may be about."""
 
+PASSES = ("begun", "all")
+"""The passes that a rule about parts of passes applies to: those that the frame begins, or also those that are only created."""
+
 
 class Case(NamedTuple):
     """What differs if a rule fires and `when` is true as well. The first such case applies; its `fix` replaces the rule's."""
@@ -66,7 +69,8 @@ class Case(NamedTuple):
 class Rule(NamedTuple):
     """A rule as stated by the front matter of its page.
 
-    `when` is a CEL condition. `at` and `labels` name facts and refer to their locations. `apis` are those whose frames the rule applies to.
+    `when` is a CEL condition. `at` and `labels` name facts and refer to their locations. `apis` are those whose frames the rule applies to,
+    `passes` the passes (one of PASSES).
     """
 
     code: str
@@ -90,6 +94,7 @@ class Rule(NamedTuple):
     condition_at: Span
     source: Source
     apis: tuple[str, ...] = APIS[:1]
+    passes: str = PASSES[0]
 
     @property
     def fix_specs(self) -> "tuple[FixSpec, ...]":
@@ -116,7 +121,7 @@ class Page(NamedTuple):
 
 KEYS = (
     "code", "severity", "confidence", "subject", "when", "message", "at", "labels", "cases", "help", "fix", "vendors", "edition",
-    "references", "supersedes", "apis",
+    "references", "supersedes", "apis", "passes",
 )  # fmt: skip
 REQUIRED = ("code", "severity", "subject", "when", "message")
 
@@ -205,6 +210,8 @@ class _PageReader:
         self.one_of(members["severity"], SEVERITIES)
         if "confidence" in members:
             self.one_of(members["confidence"], CONFIDENCES)
+        if "passes" in members:
+            self.one_of(members["passes"], PASSES)
         for vendor in self.items(members.get("vendors")):
             self.one_of(vendor, WORDS["vendor"])
         apis = self.items(members.get("apis"))
@@ -235,6 +242,7 @@ class _PageReader:
             condition_at=when.span,
             source=self.source,
             apis=tuple(dict.fromkeys(api.text for api in apis)) or APIS[:1],
+            passes=members["passes"].text if "passes" in members else PASSES[0],
         )
 
     def unknown(self, key: Node, known: tuple[str, ...]) -> None:

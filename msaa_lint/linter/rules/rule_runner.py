@@ -7,12 +7,13 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
-from msaa_lint.core.finding import Finding, Fix, Undecided
+from msaa_lint.core.finding import CONFIDENCES, Finding, Fix, Undecided
 from msaa_lint.core.text.span import Label, Span
 from msaa_lint.frame.facts.facts import Facts, Subject, Value
+from msaa_lint.frame.facts.table import PASS_PARTS
 
 from .condition import Condition, activation, named
-from .rule_file import Case, FixSpec, Rule
+from .rule_file import PASSES, Case, FixSpec, Rule
 
 _PLACEHOLDER = re.compile(r"\{([a-z_.0-9]+)\}")
 _INTEGRAL = re.compile(r"\.0$")
@@ -59,8 +60,8 @@ class RuleRunner:
         self._fact_names: dict[tuple[str, str], tuple[str, ...]] = {}
         self._cache: dict[tuple[object, ...], _Cached] = {}
         self._severity: object = None
-        self._enabled: dict[str, dict[str, Rules]] = {}
-        """The rules that the last `severity` enables, by API, then by kind of subject."""
+        self._enabled: dict[tuple[str, str, bool], Rules] = {}
+        """The rules that the last `severity` enables, by API, kind of subject, and whether it is of a pass that is only created."""
 
     def run(self, subjects: Iterable[Subject], file: str, severity: Severity, api: str = "VULKAN") -> Verdicts:
         """The findings and undecided rules for the subjects of a document, from the rules for its API."""
@@ -70,7 +71,8 @@ class RuleRunner:
         if self._severity is not severity:
             self._severity, self._enabled = severity, {}
         for subject in subjects:
-            rules = self._rules(subject.kind, api, severity)
+            begun = subject.facts.values.get("pass.begun") if subject.kind in PASS_PARTS else None
+            rules = self._rules(subject.kind, api, severity, only_created=begun == "NO")
             if not rules:
                 continue
             vendor = subject.facts.values.get("device.vendor")
@@ -91,7 +93,8 @@ class RuleRunner:
                 suggested = case.severity or rule.severity if case is not None else rule.severity
                 level = severity(rule, suggested, vendor if isinstance(vendor, str) else None)
                 if level is not None:
-                    fired.append((rule, finding(rule, case, subject, file, level)))
+                    found = finding(rule, case, subject, file, level)
+                    fired.append((rule, _if_begun(found) if begun == "NOT_STATED" and rule.passes == PASSES[0] else found))
                     spec = rule.fix if case is None else case.fix
                     if spec is not None:
                         fixes[rule.code] = spec
@@ -101,12 +104,13 @@ class RuleRunner:
                     fix_specs.setdefault(finding_key(found), []).append((fixes[found.code], subject))
         return Verdicts(distinct(findings), undecided, fix_specs)
 
-    def _rules(self, kind: str, api: str, severity: Severity) -> Rules:
-        by_kind = self._enabled.setdefault(api, {})
-        if kind not in by_kind:
-            enabled = [rule for rule in self._by_subject.get(api, {}).get(kind, ()) if severity(rule, rule.severity, None) is not None]
-            by_kind[kind] = [(rule, self._condition(rule.when)) for rule in enabled]
-        return by_kind[kind]
+    def _rules(self, kind: str, api: str, severity: Severity, only_created: bool) -> Rules:
+        key = (api, kind, only_created)
+        if key not in self._enabled:
+            rules = [rule for rule in self._by_subject.get(api, {}).get(kind, ()) if not only_created or rule.passes != PASSES[0]]
+            enabled = [rule for rule in rules if severity(rule, rule.severity, None) is not None]
+            self._enabled[key] = [(rule, self._condition(rule.when)) for rule in enabled]
+        return self._enabled[key]
 
     def _condition(self, text: str) -> Condition:
         if text not in self._conditions:
@@ -231,6 +235,12 @@ def _format(value: object) -> str:
     if isinstance(value, list):
         return ", ".join(str(item) for item in value)
     return _INTEGRAL.sub("", str(value)) if isinstance(value, float) else str(value)
+
+
+def _if_begun(found: Finding) -> Finding:
+    """A finding about what a pass does, if the input does not state that a command begins it."""
+    note = "the input does not state whether a command begins this render pass, or pipelines are only created with it"
+    return found._replace(confidence=CONFIDENCES[0], notes=(*found.notes, note))
 
 
 def _without_superseded(fired: list[tuple[Rule, Finding]]) -> list[Finding]:
