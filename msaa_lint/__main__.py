@@ -17,18 +17,16 @@ def main() -> None:
 
         print(f"msaa-lint {__version__}")
         return
-    from .cli.options import COMMANDS, parse, run
+    from .cli.arguments import run_words
 
-    name = words[0] if words else ""
-    arguments = parse(name, words[1:]) if name in COMMANDS else None
-    if arguments is not None:
-        code = run(name, arguments)
+    code = run_words(words)
+    if isinstance(code, int):
         # Spares the collection that Python does at exit.
         gc.freeze()
         sys.exit(code)
     from .cli.app import app
 
-    app(prog_name="msaa-lint")
+    app(code, prog_name="msaa-lint")
 
 
 if __name__ == "__main__":

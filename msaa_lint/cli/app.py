@@ -1,170 +1,103 @@
-"""The command line in typer: help, errors, suggestions, completion, and the commands whose arguments `options.parse` does not read."""
+"""Help and completion of the command line, by typer, from the tables of `options`."""
 
 from __future__ import annotations
 
 import inspect
+from collections.abc import Callable, Iterator
 from importlib import import_module
-from typing import Annotated, Any, Literal, NoReturn
+from typing import Annotated, Any
 
 import typer
+from typer.core import TyperCommand
 
-from msaa_lint.core.package import VERSION
-from msaa_lint.input.file_types import LANGUAGES
-from msaa_lint.input.readers import CAPTURES
-
-from .common import run_command
-from .options import COMMANDS, Command, Option, run
+from .options import COMMANDS, Command, Option
 
 app = typer.Typer(
     name="msaa-lint",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"]},
     help="Finds multisampling mistakes in Vulkan and Metal frames that cost bandwidth, memory, power, or correctness.",
+    epilog="`msaa-lint COMMAND --help` describes a command; `msaa-lint rule NAME` explains a rule.",
 )
-
-
-def _print_version(requested: bool) -> None:
-    if requested:
-        typer.echo(f"msaa-lint {VERSION}")
-        raise typer.Exit
 
 
 @app.callback()
 def main(
-    version: Annotated[bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")] = False,
+    version: Annotated[bool, typer.Option("--version", help="Print the version, and exit.")] = False,
 ) -> None:
     """The options before a command."""
 
 
+class _TableCommand(TyperCommand):
+    """A command with its options below their headings."""
+
+    table: Command
+
+    def collect_usage_pieces(self, ctx: Any) -> list[str]:
+        paths = self.table.paths
+        return ["[OPTIONS]", paths.metavar if paths.min and not self.table.standalone else f"[{paths.metavar}]"]
+
+    def format_options(self, ctx: Any, formatter: Any) -> None:
+        paths = self.table.paths
+        with formatter.section("Arguments"):
+            formatter.write_dl([(paths.metavar, paths.help + _values(paths.choices))])
+        for heading, options in self.table.groups.items():
+            with formatter.section(heading):
+                formatter.write_dl([_help_row(option) for option in options])
+
+
+def _help_row(option: Option) -> tuple[str, str]:
+    """An option, and what it does."""
+    name = ", ".join(filter(None, (option.short, option.flag)))
+    return f"{name} {option.metavar}".rstrip(), option.help + _values(option.choices, option.default)
+
+
+def _values(choices: tuple[str, ...], default: str = "") -> str:
+    """`  [a, b, c; default: b]`, or what there is of it."""
+    text = "; ".join(filter(None, (", ".join(choices), default and f"default: {default}")))
+    return f"  [{text}]" if text else ""
+
+
 def _add_command(name: str, command: Command) -> None:
     """Adds a command of `COMMANDS` to the application."""
+    paths = typer.Argument(metavar=command.paths.metavar, autocompletion=_completion(command.paths.values, command.paths.choices))
+    parameters = [_parameter("paths", list[str] | None, paths)]
+    for option in command.options:
+        if option.name != "help":
+            flags = filter(None, (option.flag, option.short))
+            complete = None if option.kind == "flag" else _completion(option.values, option.choices)
+            info = typer.Option(*flags, help=option.help, autocompletion=complete)
+            parameters.append(_parameter(option.name, bool if option.kind == "flag" else list[str] | None, info))
 
-    def callback(**values: Any) -> None:
-        paths = values.pop("paths") or []
-        stated = {name: value for name, value in values.items() if value is not None and value is not False and value != []}
-        raise typer.Exit(run(name, {"paths": paths, **stated}))
+    def callback(**_: Any) -> None:
+        """Never called: `arguments` runs commands."""
 
-    argument = typer.Argument(metavar="PATH...", help=command.paths)
-    optional = bool(command.standalone)
-    paths = inspect.Parameter(
-        "paths",
-        inspect.Parameter.KEYWORD_ONLY,
-        default=None if optional else inspect.Parameter.empty,
-        annotation=Annotated[list[str] | None, argument] if optional else Annotated[list[str], argument],
-    )
-    parameters = [paths, *map(_parameter, command.options)]
     callback.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
     callback.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
-    app.command(name, help=inspect.cleandoc(command.help))(callback)
+    cls = type(name, (_TableCommand,), {"table": command})
+    app.command(name, cls=cls, help=inspect.cleandoc(command.help))(callback)
 
 
-def _parameter(option: Option) -> inspect.Parameter:
-    """An option as a parameter of a typer command."""
-    types: dict[str, Any] = {"flag": bool, "integer": int, "decimal": float, "text": str}
-    kind = Literal[option.choices] if option.kind == "choice" else types[option.kind]
-    default: Any = False if option.kind == "flag" else None
-    if option.repeatable:
-        kind, default = list[kind], []  # type: ignore[valid-type]
-    elif option.kind != "flag":
-        kind = kind | None
-    minimum = 1 if option.kind == "integer" else None
-    declaration = typer.Option(option.flag, help=option.help, metavar=option.metavar or None, show_default=False, min=minimum)
-    return inspect.Parameter(option.name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=Annotated[kind, declaration])
+def _parameter(name: str, kind: Any, info: Any) -> inspect.Parameter:
+    default = False if kind is bool else None
+    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=Annotated[kind, info])
+
+
+def _completion(source: str, choices: tuple[str, ...]) -> Callable[[str], Iterator[tuple[str, str]]] | None:
+    """The function that completes a value; None if shells complete it as a path."""
+    if not source and not choices:
+        return None
+
+    def complete(incomplete: str) -> Iterator[tuple[str, str]]:
+        values = getattr(import_module(".completion", __package__), source)() if source else [(choice, "") for choice in choices]
+        # The last word of a comma-separated list.
+        head = incomplete[: incomplete.rfind(",") + 1] if source not in ("", "scenes", "devices") else ""
+        return ((head + word, text) for word, text in values)
+
+    return complete
 
 
 for _name, _command in COMMANDS.items():
     _add_command(_name, _command)
-
-
-def _exit_with(module: str, function: str, *values: Any) -> NoReturn:
-    """Runs the function of a command's module, which is imported only now, and exits with the code that it returns."""
-    raise typer.Exit(run_command(lambda _: getattr(import_module(f".{module}", __package__), function)(*values), {}))
-
-
-@app.command()
-def rule(
-    name: Annotated[str | None, typer.Argument(help="A rule's name or code.")] = None,
-    all_rules: Annotated[bool, typer.Option("--all", help="List all rules.")] = False,
-    output: Annotated[Literal["text", "markdown", "json"], typer.Option("--output", help="Output format.")] = "text",
-    rules: Annotated[list[str] | None, typer.Option("--rules", metavar="PATH", help="Page or folder of custom rules.")] = None,
-) -> None:
-    """Explain a rule, or list all rules."""
-    if all_rules or name is None:
-        _exit_with("rule", "list_rules", rules or [], output)
-    _exit_with("rule", "explain_rule", name, rules or [], output)
-
-
-@app.command()
-def device(
-    names: Annotated[
-        list[str] | None,
-        typer.Argument(metavar="[NAME|PATH]...", help="Built-in devices and reports; - is standard input; none: the installed drivers."),
-    ] = None,
-    output: Annotated[Literal["text", "json", "description"], typer.Option("--output", help="Output format.")] = "text",
-    listing: Annotated[bool, typer.Option("--list", help="List the built-in devices.")] = False,
-) -> None:
-    """Show what a device supports for multisampling."""
-    _exit_with("device", "device", names or [], output, listing)
-
-
-@app.command()
-def facts(
-    path: Annotated[str | None, typer.Argument(help="An input; none: all facts that a rule can use.")] = None,
-    output: Annotated[Literal["text", "json", "markdown"], typer.Option("--output", help="Output format.")] = "text",
-    profile: Annotated[str | None, typer.Option("--profile", metavar="NAME", help="Device to assume for an input that names none.")] = None,
-) -> None:
-    """List facts that rules can use, or their values in an input."""
-    if path is None:
-        _exit_with("facts", "print_reference", output)
-    _exit_with("facts", "print_facts", path, output, profile)
-
-
-@app.command()
-def convert(
-    path: Annotated[str, typer.Argument(metavar="INPUT", help="A capture, source code, or render targets; - is standard input.")],
-    output: Annotated[str | None, typer.Option("--output", "-o", metavar="FILE", help="Write to this file, shaders next to it.")] = None,
-    input_format: Annotated[
-        Literal[(*CAPTURES, *LANGUAGES)] | None,  # type: ignore[valid-type]
-        typer.Option(help="Read the input as this format instead of detecting it."),
-    ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
-) -> None:
-    """Convert a capture or source code to a description.
-
-    The description can be read, edited, fixed, and confirmed. Render targets are converted to plain descriptions, too.
-
-    Exits with 0, or with 2 if the input has mistakes or a capture is truncated; the part that can be read is still written.
-    """
-    _exit_with("convert", "convert", path, output, input_format, force)
-
-
-@app.command()
-def schema(
-    which: Annotated[
-        Literal["description", "json-v1", "cost-v1"],
-        typer.Argument(help="The description format, or the JSON output of `check` (json-v1) or `cost` (cost-v1)."),
-    ] = "description",
-) -> None:
-    """Print a JSON Schema."""
-    _exit_with("schema", "schema", which)
-
-
-@app.command()
-def baseline(
-    paths: Annotated[list[str], typer.Argument(metavar="PATH...", help="Files and folders to lint.")],
-    file: Annotated[str, typer.Option("--file", help="The baseline file.")] = "msaa-lint-baseline.json",
-    prune: Annotated[bool, typer.Option("--prune", help="Only remove fixed findings.")] = False,
-    config: Annotated[str | None, typer.Option("--config", metavar="FILE", help="Use this configuration file.")] = None,
-    isolated: Annotated[bool, typer.Option("--isolated", help="Ignore configuration files.")] = False,
-) -> None:
-    """Record the current findings, so that only new ones are reported."""
-    _exit_with("baseline", "baseline", paths, file, prune, config, isolated)
-
-
-@app.command()
-def init(
-    folder: Annotated[str, typer.Argument(help="Folder to write to.")] = ".",
-) -> None:
-    """Write a commented configuration and a first description."""
-    _exit_with("init", "init", folder)

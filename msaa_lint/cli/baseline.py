@@ -10,12 +10,26 @@ from msaa_lint.linter.run import run
 from msaa_lint.linter.suppress import baseline as baselines
 from msaa_lint.linter.workspace import Request
 
-from .common import warn
+from .common import run_command, warn
+from .options import Arguments
 from .report.escape import escape
 from .report.summary import plural
 
+FILE = "msaa-lint-baseline.json"
+"""The baseline file unless `--file` names one."""
 
-def baseline(paths: Sequence[str], file: str, prune: bool, config: str | None, isolated: bool) -> int:
+
+def baseline(arguments: Arguments) -> int:
+    """Writes the baseline that the arguments name; returns the exit code."""
+    return run_command(_baseline, arguments)
+
+
+def _baseline(arguments: Arguments) -> int:
+    prune, isolated = bool(arguments.get("prune")), bool(arguments.get("isolated"))
+    return write_baseline(arguments["paths"], arguments.get("file", FILE), prune, arguments.get("config"), isolated)
+
+
+def write_baseline(paths: Sequence[str], file: str, prune: bool, config: str | None, isolated: bool) -> int:
     """Writes the baseline of the current findings, or with `prune` removes fixed findings from it; returns 2 if it cannot."""
     result = run(Request(paths, {}, config, isolated, without_baseline=True)).result
     fatal = [finding for finding in result.findings if finding.fatal]

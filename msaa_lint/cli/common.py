@@ -8,6 +8,7 @@ from typing import IO, Any, NamedTuple, TypeVar
 
 from msaa_lint.core.extras import needs_extra
 from msaa_lint.core.package import VERSION
+from msaa_lint.core.quote import quoted
 
 from .options import Arguments
 from .report import Options
@@ -66,9 +67,7 @@ def run_command(
     except Exception as error:
         if arguments.get("traceback"):
             raise
-        # Commands without a table of options have no --traceback.
-        hint = " (--traceback shows where)" if arguments else ""
-        warn(f"internal error: {type(error).__name__}: {str(error)[:300]}{hint}")
+        warn(f"internal error: {type(error).__name__}: {str(error)[:300]} (--traceback shows where)")
         return 2
     finally:
         if previous is not None:
@@ -97,12 +96,9 @@ def parse_outputs(texts: Sequence[str], formats: Sequence[str], example: str) ->
     for text in texts:
         name, equals, path = text.partition("=")
         if name not in formats:
-            from msaa_lint.core.suggestions import nearest
+            from msaa_lint.core.suggestions import near_or_all
 
-            close = nearest(name, formats)
-            raise UsageError(
-                f"unknown output format {name[:40]!r}: " + (f"did you mean {close}?" if close else f"use one of {', '.join(formats)}")
-            )
+            raise UsageError(f"unknown output format {quoted(name)}: {near_or_all(name, formats)}")
         targets.append(Target(name, path if equals and path not in ("", "-") else None))
     if sum(target.path is None for target in targets) > 1:
         raise UsageError(f"only one output can go to standard output; write the others to files, as in --output {example}")
@@ -142,7 +138,7 @@ def chart_format(path: str, option: str) -> str:
     """`svg` or `png`, by a file's extension. UsageError for another one."""
     extension = os.path.splitext(path)[1].lower()
     if extension not in (".svg", ".png"):
-        raise UsageError(f"{option} {path[:80]!r}: expected the name of an .svg or .png file")
+        raise UsageError(f"`{option}` must be the name of an .svg or .png file, found {quoted(path)}")
     return extension[1:]
 
 
@@ -157,15 +153,19 @@ def parse_size(text: str, limit: int) -> tuple[int, int]:
     """Width and height in pixels of `1920x1080`. UsageError for anything else, and for a side above `limit`."""
     sides = [int(side) for side in text.lower().split("x") if side.isascii() and side.isdigit() and len(side) <= len(str(limit))]
     if len(sides) != 2 or text.lower().count("x") != 1 or not all(1 <= side <= limit for side in sides):
-        raise UsageError(f"--size {text[:40]!r}: expected WIDTHxHEIGHT in pixels, at most {limit} each, as in 1920x1080")
+        raise UsageError(f"`--size` must be WIDTHxHEIGHT in pixels, at most {limit} each, as in 1920x1080; found {quoted(text)}")
     return sides[0], sides[1]
 
 
 def parse_list(text: str, option: str, choices: Mapping[str, Value]) -> list[Value]:
     """The values of a comma-separated list. UsageError for a word that is not one of the `choices`."""
     words = [word.strip() for word in text.split(",")]
-    if any(word not in choices for word in words):
-        raise UsageError(f"{option} {text[:40]!r}: expected a comma-separated list of {', '.join(choices)}")
+    for word in words:
+        if word not in choices:
+            from msaa_lint.core.suggestions import did_you_mean
+
+            hint = did_you_mean(word, choices)
+            raise UsageError(f"`{option}` must be a comma-separated list of {', '.join(choices)}; found {quoted(text)}{hint}")
     return [choices[word] for word in words]
 
 

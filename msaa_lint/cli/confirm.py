@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from functools import partial
 from typing import IO, Any, NamedTuple
 
+from msaa_lint.core.quote import quoted
 from msaa_lint.experiments.confirm.child import Limits
 from msaa_lint.experiments.confirm.outcome import DeviceRun, about, exit_code
 from msaa_lint.experiments.confirm.session import Session, environment
@@ -27,10 +28,9 @@ from .common import (
     warn,
     write_output,
 )  # fmt: skip
-from .options import Arguments
+from .options import TEXT_FORMATS, Arguments
 from .report.escape import escape
 
-FORMATS = ("full", "json")
 COUNTS = (1, 2, 4, 8, 16, 32, 64)
 
 
@@ -64,12 +64,12 @@ def _confirm(arguments: Arguments) -> int:
 def parse_options(arguments: Arguments) -> ConfirmOptions:
     """The options of the command line. UsageError if one cannot be used."""
     if arguments.get("time") and arguments.get("no_time"):
-        raise UsageError("--time and --no-time contradict each other")
+        raise UsageError("`--time` and `--no-time` contradict each other: write one of them")
     samples = arguments.get("samples")
     if samples is not None and samples not in COUNTS:
-        raise UsageError(f"--samples must be one of {', '.join(map(str, COUNTS))}, found {samples}")
+        raise UsageError(f"`--samples` must be one of {', '.join(map(str, COUNTS))}; found `{samples}`")
     return ConfirmOptions(
-        parse_outputs(arguments.get("output", ()), FORMATS, "json=confirm.json") or [Target("full", None)],
+        parse_outputs(arguments.get("output", ()), TEXT_FORMATS, "json=confirm.json") or [Target("full", None)],
         list(dict.fromkeys(arguments.get("device", ()))) or [None],
         Limits(seconds=_parse_seconds(arguments["timeout"])) if "timeout" in arguments else Limits(),
         not arguments.get("no_layer"),
@@ -88,7 +88,7 @@ def _parse_seconds(text: str) -> float:
     except ValueError:
         seconds = math.nan
     if not 0 < seconds <= 86400:
-        raise UsageError(f"--timeout {text[:40]!r}: expected seconds, above 0 and at most a day (86400)")
+        raise UsageError(f"`--timeout` must be seconds, above 0 and at most a day (86400); found {quoted(text)}")
     return seconds
 
 

@@ -12,11 +12,22 @@ from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.input.opening import load
 from msaa_lint.input.source_file import SourceFile
 
-from .common import warn
+from .common import run_command, warn
+from .options import Arguments
 from .report.escape import escape
 
 
-def convert(path: str, output: str | None, format: str | None, force: bool) -> int:
+def convert(arguments: Arguments) -> int:
+    """Converts what the arguments name; returns the exit code."""
+    return run_command(_convert, arguments)
+
+
+def _convert(arguments: Arguments) -> int:
+    (path,) = arguments["paths"]
+    return convert_input(path, arguments.get("output"), arguments.get("input_format"), bool(arguments.get("force")))
+
+
+def convert_input(path: str, output: str | None, format: str | None, force: bool) -> int:
     """Writes the description to a file, with the shader modules that it names in `shaders/` next to it, or prints it.
 
     Returns 2 if the input cannot be read, has mistakes, or is a plain description already; and if a capture is truncated, whose readable

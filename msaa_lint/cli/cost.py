@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import sys
 from functools import partial
@@ -10,6 +9,7 @@ from typing import IO
 
 from msaa_lint.core.finding import Result
 from msaa_lint.core.project import shown
+from msaa_lint.core.quote import quoted
 from msaa_lint.frame.cost.amounts import Terms
 from msaa_lint.frame.cost.input_cost import CostComparison, compare_inputs
 from msaa_lint.frame.cost.samples import COUNTS
@@ -33,10 +33,9 @@ from .common import (
     write_chart,
     write_output,
 )  # fmt: skip
-from .options import Arguments
+from .options import COST_FORMATS, Arguments
 from .report.escape import escape
 
-FORMATS = ("full", "json", "markdown")
 MAX_SIDE = 2**31 - 1
 """Width and height of a frame, in pixels."""
 
@@ -47,7 +46,7 @@ def cost(arguments: Arguments) -> int:
 
 
 def _cost(arguments: Arguments) -> int:
-    targets = parse_outputs(arguments.get("output", ()), FORMATS, "markdown=cost.md") or [Target("full", None)]
+    targets = parse_outputs(arguments.get("output", ()), COST_FORMATS, "markdown=cost.md") or [Target("full", None)]
     terms = parse_terms(arguments)
     counts = parse_list(arguments["samples"], "--samples", {str(n): n for n in COUNTS}) if "samples" in arguments else DEFAULT_COUNTS
     chart = arguments.get("chart")
@@ -78,37 +77,23 @@ def _comparison(result: CostResult, request: Request) -> CostComparison | None:
 def parse_terms(arguments: Arguments) -> Terms:
     """The terms that the options state."""
     width, height = parse_size(arguments["size"], MAX_SIDE) if "size" in arguments else (None, None)
-    power = arguments.get("milliwatts_per_gbps")
     return Terms(
-        fps=_positive(arguments["fps"], "--fps") if "fps" in arguments else None,
+        fps=arguments.get("fps"),
         width=width,
         height=height,
-        milliwatts_per_gbps=_positive(power, "--milliwatts-per-gbps") if power is not None else None,
+        milliwatts_per_gbps=arguments.get("milliwatts_per_gbps"),
         budget_milliwatts=_parse_power(arguments["budget"]) if "budget" in arguments else Terms().budget_milliwatts,
     )
 
 
-def _positive(value: float, option: str) -> float:
-    if not (math.isfinite(value) and value > 0):
-        raise UsageError(f"{option} must be a number above 0, found {value:g}")
-    return value
-
-
 def _parse_power(text: str) -> float:
-    """Milliwatts of `2500`, `2500mW`, `2.5W`."""
+    """Milliwatts of `2500mW`, `2.5W`."""
     from msaa_lint.linter.settings.cost_limit import budget
 
     try:
-        return _positive(float(text), "--budget")
-    except ValueError:
-        pass
-    try:
-        limit = budget(text)
-    except ValueError:
-        limit = None
-    if limit is None or limit.measures != "power":
-        raise UsageError(f"--budget '{escape(text)}': expected a power above 0, as in 2500, 2500mW, or 2.5W")
-    return limit.most
+        return budget(text, ("power",)).most
+    except ValueError as error:
+        raise UsageError(f"invalid power {quoted(text)} in `--budget`: {error}") from None
 
 
 def _print_errors(errors: Result, arguments: Arguments) -> None:

@@ -22,7 +22,8 @@ from msaa_lint.frame.devices.reports import EXPECTED, MAX_BYTES, NotAReport, pic
 from msaa_lint.frame.devices.reports.members import Report
 from msaa_lint.frame.profiles import Problem, parsed, profile_of, reports
 
-from .common import UsageError, set_utf_8, warn
+from .common import UsageError, run_command, set_utf_8, warn
+from .options import Arguments
 from .report.escape import display
 
 Answer = TypeVar("Answer")
@@ -35,7 +36,16 @@ MAX_SECONDS = 30.0
 """Time limit for the drivers to report their devices."""
 
 
-def device(stated: Sequence[str], output: Output = "text", listing: bool = False) -> int:
+def device(arguments: Arguments) -> int:
+    """Prints what the arguments ask for; returns the exit code."""
+    return run_command(_device, arguments)
+
+
+def _device(arguments: Arguments) -> int:
+    return print_devices(arguments["paths"], arguments.get("output", "text"), bool(arguments.get("list")))
+
+
+def print_devices(stated: Sequence[str], output: Output = "text", listing: bool = False) -> int:
     """Prints what devices support; returns 0, or 2 if one is unknown or cannot be read."""
     if listing:
         return _list(output)

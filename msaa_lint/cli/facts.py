@@ -15,10 +15,23 @@ from msaa_lint.frame.facts.words import Fact
 from msaa_lint.input.capture_input import CaptureInput
 from msaa_lint.input.opening import load
 
-from .common import warn
+from .common import run_command, warn
+from .options import Arguments
 from .report.escape import escape
 
 TYPES = {"BOOL": "bool", "INT": "int", "DOUBLE": "double", "STRING": "string", "LIST": "list(string)", "INTS": "list(int)"}
+
+
+def facts(arguments: Arguments) -> int:
+    """Prints what the arguments ask for; returns the exit code."""
+    return run_command(_facts, arguments)
+
+
+def _facts(arguments: Arguments) -> int:
+    output = arguments.get("output", "text")
+    if not arguments["paths"]:
+        return print_reference(output)
+    return print_facts(arguments["paths"][0], output, arguments.get("profile"))
 
 
 def print_reference(output: str) -> int:

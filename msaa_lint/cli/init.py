@@ -9,7 +9,8 @@ import sys
 
 from msaa_lint.linter.rules.registry import EDITIONS
 
-from .common import warn
+from .common import run_command, warn
+from .options import Arguments
 from .report.escape import escape
 from .schema import description_schema
 
@@ -99,7 +100,16 @@ HOOK = r"""To use pre-commit, add this to the `repos` of .pre-commit-config.yaml
 """
 
 
-def init(folder: str) -> int:
+def init(arguments: Arguments) -> int:
+    """Writes the first files to the folder that the arguments name; returns the exit code."""
+    return run_command(_init, arguments)
+
+
+def _init(arguments: Arguments) -> int:
+    return write_files(*arguments["paths"] or [os.curdir])
+
+
+def write_files(folder: str) -> int:
     """Writes msaa-lint.toml, frame.msaa.yaml, and the schema that it names, except those that exist; returns 2 if it cannot."""
     files = {"msaa-lint.toml": CONFIGURATION, "frame.msaa.yaml": DESCRIPTION, SCHEMA: json.dumps(description_schema(), indent=2) + "\n"}
     written = set()

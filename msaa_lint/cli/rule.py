@@ -14,7 +14,20 @@ from msaa_lint.linter.engine import load_rules
 from msaa_lint.linter.rules.registry import info, markdown
 from msaa_lint.linter.rules.rule_file import APIS, PASSES, Rule
 
-from .common import warn
+from .common import run_command, warn
+from .options import Arguments
+
+
+def rule(arguments: Arguments) -> int:
+    """Prints what the arguments ask for; returns the exit code."""
+    return run_command(_rule, arguments)
+
+
+def _rule(arguments: Arguments) -> int:
+    output, rules = arguments.get("output", "text"), arguments.get("rules", [])
+    if arguments.get("all") or not arguments["paths"]:
+        return list_rules(rules, output)
+    return explain_rule(arguments["paths"][0], rules, output)
 
 
 def explain_rule(name: str, rule_paths: Sequence[str], output: str) -> int:

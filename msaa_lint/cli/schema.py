@@ -12,8 +12,20 @@ from msaa_lint.frame.metal import names as metal
 from msaa_lint.frame.vulkan.enums import BITLESS, ENUMS, PREFIXES, VALUES
 from msaa_lint.frame.vulkan.names import VENDORS
 
+from .common import run_command
+from .options import Arguments
 
-def schema(which: str) -> int:
+
+def schema(arguments: Arguments) -> int:
+    """Prints the schema that the arguments name; returns the exit code."""
+    return run_command(_schema, arguments)
+
+
+def _schema(arguments: Arguments) -> int:
+    return print_schema(*arguments["paths"] or ["description"])
+
+
+def print_schema(which: str) -> int:
     """Prints the schema of the description format, or of the JSON output of `check` (json-v1) or `cost` (cost-v1)."""
     if which == "description":
         print(json.dumps(description_schema(), indent=2))

@@ -36,11 +36,9 @@ from .common import (
     write_chart,
     write_output,
 )  # fmt: skip
-from .options import Arguments
+from .options import TEXT_FORMATS, Arguments
 from .report.escape import escape
 from .study_subjects import Subject, subjects
-
-FORMATS = ("full", "json")
 
 Costs = Mapping[str, Mapping[Technique, Cost]]
 """What each technique costs, by scene."""
@@ -91,7 +89,7 @@ def parse_options(arguments: Arguments) -> StudyOptions:
     if arguments.get("ssim") and find_spec("skimage") is None:
         raise UsageError(needs_extra("--ssim", "ssim"))
     return StudyOptions(
-        parse_outputs(arguments.get("output", ()), FORMATS, "json=study.json") or [Target("full", None)],
+        parse_outputs(arguments.get("output", ()), TEXT_FORMATS, "json=study.json") or [Target("full", None)],
         chosen,
         parse_size(arguments["size"], MAX_RENDER_SIDE) if "size" in arguments else None,
         int(arguments.get("bits", 8)),

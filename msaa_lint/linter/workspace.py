@@ -167,7 +167,7 @@ def _invalid_values(settings: Settings) -> list[Finding]:
         try:
             budget(settings.fail_on_cost)
         except ValueError as error:
-            findings.append(settings.problem("fail-on-cost", f"invalid cost {quoted(settings.fail_on_cost)}: {error}"))
+            findings.append(settings.problem("fail-on-cost", f"invalid cost {quoted(settings.fail_on_cost)}", str(error)))
     if settings.edition is not None and settings.edition not in EDITIONS:
         message = f"unknown edition {quoted(settings.edition)}: expected one of {', '.join(EDITIONS)}"
         findings.append(settings.problem("edition", message))

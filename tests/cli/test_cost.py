@@ -149,7 +149,7 @@ def test_what_the_input_does_not_state_is_stated_by_options(folder: Path, option
     assert traffic(report(folder, "unsized.msaa.yaml", *options)["total"]) == expected
 
 
-@pytest.mark.parametrize(("text", "milliwatts"), [("5000", 5000), ("5000mW", 5000), ("2.5W", 2500), ("0.5", 0.5)])
+@pytest.mark.parametrize(("text", "milliwatts"), [("5000mW", 5000), ("2.5W", 2500), ("0.5 mW", 0.5)])
 def test_budget(folder: Path, text: str, milliwatts: float) -> None:
     assert report(folder, "a.msaa.yaml", "--budget", text)["budget_milliwatts"] == milliwatts
 
@@ -173,22 +173,24 @@ def test_samples(folder: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (["--size", "100"], "--size '100': expected WIDTHxHEIGHT in pixels"),
-        (["--size", "0x5"], "--size '0x5'"),
+        (["--size", "100"], "`--size` must be WIDTHxHEIGHT in pixels, at most 2147483647 each, as in 1920x1080; found `100`"),
+        (["--size", "0x5"], "as in 1920x1080; found `0x5`"),
         (["--size", "9999999999x5"], "--size"),
         (["--size", "1x2x3"], "--size"),
-        (["--fps", "0"], "--fps must be a number above 0, found 0"),
-        (["--fps", "nan"], "--fps must be a number above 0, found nan"),
-        (["--milliwatts-per-gbps", "inf"], "--milliwatts-per-gbps must be a number above 0, found inf"),
-        (["--budget", "50MB/s"], "--budget '50MB/s': expected a power above 0"),
-        (["--budget", "0"], "--budget must be a number above 0"),
-        (["--samples", "3"], "--samples '3': expected a comma-separated list of 1, 2, 4, 8, 16, 32, 64"),
+        (["--fps", "0"], "`--fps` must be a number above 0, found `0`"),
+        (["--fps", "nan"], "`--fps` must be a number above 0, found `nan`"),
+        (["--milliwatts-per-gbps", "inf"], "`--milliwatts-per-gbps` must be a number above 0, found `inf`"),
+        (["--budget", "2500"], "invalid power `2500` in `--budget`: a unit is missing; write 2500mW or 2.5W"),
+        (["--budget", "2.5w"], "invalid power `2.5w` in `--budget`: unknown unit `w`; did you mean `W`?"),
+        (["--budget", "50MB/s"], "invalid power `50MB/s` in `--budget`: unknown unit `MB/s`; expected one of mW, W"),
+        (["--budget", "0"], "invalid power `0` in `--budget`: expected a number above 0 with one of the units mW, W, as in 50mW"),
+        (["--samples", "3"], "`--samples` must be a comma-separated list of 1, 2, 4, 8, 16, 32, 64; found `3`"),
         (["--samples", ""], "--samples"),
-        (["--samples", "\x1b[2J"], "'\\x1b[2J'"),
-        (["--output", "sarif"], "unknown output format 'sarif': use one of full, json, markdown"),
+        (["--samples", "\x1b[2J"], "`\\x1b[2J`"),
+        (["--output", "sarif"], "unknown output format `sarif`: expected one of full, json, markdown"),
         (["--output", "json", "--output", "markdown"], "only one output can go to standard output"),
         (["--output", "json=no/such/folder/x.json"], "cannot write no/such/folder/x.json"),
-        (["--chart", "x.pdf"], "expected the name of an .svg or .png file"),
+        (["--chart", "x.pdf"], "must be the name of an .svg or .png file"),
         (["--profile", "mali-g67"], "no profile `mali-g67`"),
         (["--config", "none.toml"], "none.toml"),
     ],

@@ -184,7 +184,8 @@ class TableReader:
     def fail_on_cost(self, path: Path, value: Any) -> str | None:
         from .cost_limit import budget
 
-        text = self.string(path, value, "a cost such as 50MB/s")
+        is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+        text = str(value) if is_number else self.string(path, value, "a cost such as 50MB/s")
         try:
             return None if text is None else budget(text).text
         except ValueError as error:

@@ -1,9 +1,12 @@
 """Cost limits: `--fail-on-cost 50MB/s`."""
 
 import re
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.finding import Price
+from msaa_lint.core.quote import quoted
+from msaa_lint.core.suggestions import near_or_all
 
 UNITS = {
     "MB/s": ("traffic", 1.0),
@@ -15,7 +18,7 @@ UNITS = {
 }
 """The quantity and the factor of each unit. MB is 10^6 bytes, MiB is 2^20 bytes."""
 
-_BUDGET = re.compile(r"([0-9]{1,9}(?:\.[0-9]{1,6})?) ?([A-Za-z/]{1,5})\Z")
+_NUMBER = re.compile(r"([0-9]{1,9}(?:\.[0-9]{1,6})?) ?")
 
 
 class Budget(NamedTuple):
@@ -26,13 +29,20 @@ class Budget(NamedTuple):
     text: str
 
 
-def budget(text: str) -> Budget:
-    """Parses a budget. Raises ValueError unless the text is a number above 0 and one of the units."""
-    found = _BUDGET.match(text)
-    if found is None or found[2] not in UNITS or float(found[1]) == 0:
-        raise ValueError(f"expected a number above 0 with one of the units {', '.join(UNITS)}, such as 50MB/s")
-    measures, factor = UNITS[found[2]]
-    return Budget(measures, float(found[1]) * factor, text)
+def budget(text: str, quantities: Sequence[str] = ("traffic", "memory", "power")) -> Budget:
+    """Parses a budget of one of the quantities. ValueError, with what to write, unless the text is a number above 0 and a unit."""
+    units = {unit: factor for unit, (quantity, factor) in UNITS.items() if quantity in quantities}
+    number = _NUMBER.match(text)
+    if number is None or float(number[1]) == 0:
+        raise ValueError(f"expected a number above 0 with one of the units {', '.join(units)}, as in 50{next(iter(units))}")
+    unit = text[number.end() :]
+    if not unit:
+        same = len(quantities) == 1
+        examples = [f"{float(number[1]) / factor:g}{unit}" for unit, factor in units.items() if same or factor == 1]
+        raise ValueError(f"a unit is missing; write {', '.join(examples[:-1])} or {examples[-1]}")
+    if unit not in units:
+        raise ValueError(f"unknown unit {quoted(unit)}; {near_or_all(unit, list(units))}")
+    return Budget(UNITS[unit][0], float(number[1]) * units[unit], text)
 
 
 def reached(price: Price, limit: Budget) -> bool:

@@ -13,7 +13,9 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from msaa_lint.cli.options import COMMANDS, parse
+from msaa_lint.cli.arguments import parse
+from msaa_lint.cli.common import UsageError
+from msaa_lint.cli.options import COMMANDS
 from msaa_lint.core.extras import needs_extra
 from tests.paths import ROOT
 
@@ -65,14 +67,14 @@ def test_schema_is_one() -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--timeout", "0"], "--timeout '0': expected seconds, above 0 and at most a day"),
-        (["--timeout", "nan"], "--timeout 'nan': expected seconds"),
-        (["--size", "1920"], "--size '1920': expected WIDTHxHEIGHT in pixels"),
-        (["--size", "0x5"], "--size '0x5'"),
+        (["--timeout", "0"], "`--timeout` must be seconds, above 0 and at most a day (86400); found `0`"),
+        (["--timeout", "nan"], "at most a day (86400); found `nan`"),
+        (["--size", "1920"], "`--size` must be WIDTHxHEIGHT in pixels, at most 16384 each, as in 1920x1080; found `1920`"),
+        (["--size", "0x5"], "found `0x5`"),
         (["--size", "99999x5"], "at most 16384 each"),
-        (["--samples", "3"], "--samples must be one of 1, 2, 4, 8, 16, 32, 64, found 3"),
-        (["--time", "--no-time"], "--time and --no-time contradict each other"),
-        (["--output", "sarif"], "unknown output format 'sarif': use one of full, json"),
+        (["--samples", "3"], "`--samples` must be one of 1, 2, 4, 8, 16, 32, 64; found `3`"),
+        (["--time", "--no-time"], "`--time` and `--no-time` contradict each other"),
+        (["--output", "sarif"], "unknown output format `sarif`: expected one of full, json"),
         (["--output", "json", "--output", "full"], "only one output can go to standard output"),
     ],
 )
@@ -91,7 +93,8 @@ def test_options_are_read_without_typer() -> None:
     assert given == {"paths": ["a.yaml"], "device": ["llvm", "nvidia"], "no_gate": True, "timeout": "3", "repeats": 9}
     assert parse("confirm", ["--list-devices"]) == {"paths": [], "list_devices": True}
     for wrong in (["a", "--repeats", "0"], ["a", "--nothing"], ["a", "--no-gate=1"], [], ["a", "--size"]):
-        assert parse("confirm", wrong) is None
+        with pytest.raises(UsageError):
+            parse("confirm", wrong)
     options = COMMANDS["confirm"].options
     assert len({option.flag for option in options}) == len(options)
 

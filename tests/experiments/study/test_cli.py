@@ -15,7 +15,9 @@ import jsonschema
 import pytest
 
 from msaa_lint.cli import study as command
-from msaa_lint.cli.options import COMMANDS, parse
+from msaa_lint.cli.arguments import parse
+from msaa_lint.cli.common import UsageError
+from msaa_lint.cli.options import COMMANDS
 from msaa_lint.core.extras import needs_extra
 from msaa_lint.experiments.study import measure
 from msaa_lint.experiments.study.points import MSAA, Point, Technique, techniques
@@ -74,7 +76,8 @@ def test_options_are_read_without_typer() -> None:
         ["a", "--size"],
         ["a", "--backend=x"],
     ):
-        assert parse("study", wrong) is None
+        with pytest.raises(UsageError):
+            parse("study", wrong)
     options = COMMANDS["study"].options
     assert len({option.flag for option in options}) == len(options)
 
@@ -90,17 +93,20 @@ def test_help_names_every_option(tmp_path: Path) -> None:
     [
         (["edge-fun"], "no scene or file 'edge-fun'; did you mean edge-fan?"),
         (["qqqq\x1b"], r"no scene or file 'qqqq\x1b'; scenes are edge-fan, "),
-        (["edge-fan", "--samples", "3"], "--samples '3': expected a comma-separated list of 1, 2, 4, 8, 16"),
-        (["edge-fan", "--samples", ""], "--samples ''"),
-        (["edge-fan", "--techniques", "msaa,fxaa"], "--techniques 'msaa,fxaa': expected a comma-separated list of msaa, sample-shading"),
+        (["edge-fan", "--samples", "3"], "`--samples` must be a comma-separated list of 1, 2, 4, 8, 16; found `3`"),
+        (["edge-fan", "--samples", ""], "`--samples` must be a comma-separated list of 1, 2, 4, 8, 16; found ``"),
+        (
+            ["edge-fan", "--techniques", "msaa,fxaa"],
+            "`--techniques` must be a comma-separated list of msaa, sample-shading, ssaa; found `msaa,fxaa`",
+        ),
         (["edge-fan", "--techniques", "sample-shading", "--samples", "1"], "sample shading needs a count above 1"),
-        (["edge-fan", "--size", "1920"], "--size '1920': expected WIDTHxHEIGHT in pixels"),
+        (["edge-fan", "--size", "1920"], "`--size` must be WIDTHxHEIGHT in pixels, at most 16384 each, as in 1920x1080; found `1920`"),
         (["edge-fan", "--size", "8x8"], "edge-fan: a scene must be at least 32x32 pixels, found 8x8"),
-        (["edge-fan", "--output", "sarif"], "unknown output format 'sarif': use one of full, json"),
-        (["edge-fan", "--plot", "a.gif"], "--plot 'a.gif': expected the name of an .svg or .png file"),
+        (["edge-fan", "--output", "sarif"], "unknown output format `sarif`: expected one of full, json"),
+        (["edge-fan", "--plot", "a.gif"], "`--plot` must be the name of an .svg or .png file, found `a.gif`"),
         (["edge-fan", "--profile", "mali-g67"], "--profile: no profile `mali-g67`; did you mean `mali-g76`?"),
         (["edge-fan", "--record"], "--record needs a description in a file"),
-        (["edge-fan", "--bits", "5"], "'5' is not one of '4', '8'"),
+        (["edge-fan", "--bits", "5"], "unknown value `5` of `--bits`: expected one of 4, 8"),
     ],
 )
 def test_what_says_nothing_ends_with_2(tmp_path: Path, arguments: list[str], words: str) -> None:

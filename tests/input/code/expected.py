@@ -14,8 +14,8 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from msaa_lint.cli.arguments import parse
 from msaa_lint.cli.check import check
-from msaa_lint.cli.options import parse
 
 CORPUS = Path(__file__).parent / "corpus"
 PROGRAMS = sorted(path for path in CORPUS.iterdir() if path.suffix in (".c", ".cpp"))
