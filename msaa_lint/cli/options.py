@@ -153,8 +153,8 @@ COMMANDS = {
                 Option("diff", "flag", "Print what --fix would change without writing it; exit with 1 if there is a change."),
             ),
             "Exit code": (
-                Option("fail_on", "choice", "Exit with 1 for findings of at least this severity.", "SEVERITY", SEVERITIES, default="warning"),
-                Option("fail_confidence", "choice", "Exit with 1 only for findings of at least this confidence.", "CONFIDENCE", CONFIDENCES, default="medium"),
+                Option("fail_on", "choice", "Lowest severity that exits with 1.", "SEVERITY", SEVERITIES, default="warning"),
+                Option("fail_confidence", "choice", "Lowest confidence that exits with 1.", "LEVEL", CONFIDENCES, default="medium"),
                 Option("fail_on_cost", "text", "Exit with 1 if an input's findings cost this much: 50MB/s, 100mW, 16MiB.", "COST"),
                 Option("exit_zero", "flag", "Exit with 0 even if there are findings."),
             ),
