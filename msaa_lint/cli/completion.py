@@ -7,10 +7,10 @@ Values = Iterable[tuple[str, str]]
 
 def rules() -> Values:
     """The names and codes of the rules, custom ones of the configuration included."""
-    from msaa_lint.core.diagnostics import DIAGNOSTICS
+    from msaa_lint.linter.settings.selectors import RuleNames
     from msaa_lint.linter.workspace import Request, Workspace
 
-    for rule in (*Workspace(Request([])).current.engine.registry.rules, *DIAGNOSTICS.values()):
+    for rule in RuleNames(Workspace(Request([])).current.engine.registry.rules).rules:
         yield rule.name, rule.code
         yield rule.code, rule.name
     yield "ALL", "all rules"
