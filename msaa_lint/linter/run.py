@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Progress = Callable[[int, int, str], None]
 """Called before each input with the number of inputs done, the number of all inputs, and the input's path."""
 
-PRICED_FORMATS = frozenset({"full", "json", "sarif", "markdown", "statistics"})
+PRICED_FORMATS = frozenset({"full", "json", "sarif", "github", "gitlab", "junit", "markdown", "statistics"})
 """The outputs that show prices; for the others prices are not computed."""
 
 MAX_GARBAGE = 200_000

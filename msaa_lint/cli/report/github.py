@@ -12,7 +12,7 @@ from .escape import display, escape
 from .markdown import escape_markdown, table
 from .paths import relative
 from .place import place
-from .summary import fixable, plural, sentence
+from .summary import plural, price_text, summary
 
 MAX_ANNOTATIONS = 10
 """Annotations of one level that GitHub keeps for a step; it silently drops the rest."""
@@ -54,8 +54,9 @@ def _command(finding: Finding, result: Result, options: Options) -> str:
     elif finding.span is not None and source is not None:
         properties |= _region(source, finding.span.start, finding.span.end)
     properties["title"] = f"{display(finding.rule)} ({display(finding.code)})"
-    lines = [display(finding.message)]
-    lines += [f"help: {display(text)}" for text in (finding.help or (finding.fix.title if finding.fix else ""),) if text.strip()]
+    remedy = finding.help or (finding.fix.title if finding.fix else "")
+    remarks = (("cost", price_text(finding)), ("help", display(remedy)))
+    lines = [display(finding.message), *(f"{word}: {text}" for word, text in remarks if text)]
     joined = ",".join(f"{name}={_property(str(value))}" for name, value in properties.items())
     return f"::{_LEVEL[finding.severity]} {joined}::{_data(chr(10).join(lines))}"
 
@@ -80,7 +81,7 @@ def _append(path: str, result: Result, options: Options) -> str:
     try:
         with open(path, "ab") as file:
             room = MAX_SUMMARY_BYTES - file.seek(0, os.SEEK_END)
-            head = "".join(f"{escape_markdown(line)}\n\n" for line in (sentence(result, options), fixable(result)) if line)
+            head = "".join(f"{escape_markdown(line)}\n\n" for line in summary(result, options))
             head = f"### msaa-lint\n\n{head}"
             rows = table(result, options, room - _size(head), _size) if result.findings else ()
             text = head + "".join(rows) + "\n"

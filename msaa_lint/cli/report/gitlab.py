@@ -10,6 +10,7 @@ from .escape import display, escape
 from .fingerprint import fingerprints
 from .paths import relative
 from .place import place
+from .summary import price_text
 
 _SEVERITY = {"note": "info", "warning": "minor", "error": "major"}
 
@@ -29,9 +30,10 @@ def _issue(finding: Finding, name: str, result: Result, options: Options) -> dic
         location["positions"] = {"begin": begin, "end": end}
     else:
         location["lines"] = {"begin": 1}
+    price = price_text(finding)
     return {
         # GitLab does not show check_name.
-        "description": f"{display(finding.rule)}: {display(finding.message)}",
+        "description": f"{display(finding.rule)}: {display(finding.message)}" + (f" ({price})" if price else ""),
         "check_name": display(finding.rule),
         "fingerprint": name,
         "severity": _SEVERITY[finding.severity],

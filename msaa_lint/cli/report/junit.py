@@ -10,6 +10,7 @@ from . import Options, Write
 from .escape import display, escape
 from .paths import relative
 from .place import place
+from .summary import price_text
 
 _ESCAPES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&apos;"})
 
@@ -40,10 +41,13 @@ def _case(finding: Finding, path: str, result: Result, options: Options) -> str:
     at = place(result, finding.file, finding.span)
     message = display(finding.message)
     attributes: dict[str, str | int] = {"name": f"org.msaa-lint.{display(finding.code)}", "classname": _class(path)}
-    text = f"{path}, {message}"
+    price = price_text(finding)
+    text = message + (f" ({price})" if price else "")
     if at:
         attributes |= {"file": path, "line": at.line, "column": at.column}
-        text = f"line {at.line}, column {at.column}, {message}"
+        text = f"line {at.line}, column {at.column}, {text}"
+    else:
+        text = f"{path}, {text}"
     # One element: Jenkins keeps only the first of several.
     if not _fails(finding, options):
         body = f"<system-out>{_xml(text)}</system-out>"

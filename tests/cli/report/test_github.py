@@ -6,6 +6,8 @@ from msaa_lint.cli.report import github
 from msaa_lint.core.finding import Fix
 from msaa_lint.core.text.span import Span
 from tests.cli.report.sample import finding, frame, printed, result
+from tests.command import run
+from tests.paths import ROOT
 
 
 def test_worst_first_and_one_command_each() -> None:
@@ -13,9 +15,19 @@ def test_worst_first_and_one_command_each() -> None:
     assert [line.split(" ")[0] for line in lines] == ["::error", "::error", "::warning", "::notice"]
     assert lines[2] == (
         "::warning file=passes/forward.yaml,line=9,endLine=9,col=18,endColumn=23,title=multisampled-attachment-stored (MSAA201)"
-        "::multisampled attachment `color` is resolved and also stored%0Ahelp: set `storeOp: DONT_CARE`"
+        "::multisampled attachment `color` is resolved and also stored%0Acost: +2248 MB/s written, +31.6 MiB of memory, +225 mW%0Ahelp: set `storeOp: DONT_CARE`"
     )
     assert lines[3] == "::notice file=trace.rdc,title=sample-count-above-four (MSAA101)::8 samples"
+
+
+@pytest.mark.parametrize("name", ["github", "gitlab", "junit"])
+def test_check_prints_the_price_of_a_finding(name: str, tmp_path: Path) -> None:
+    example = str(ROOT / "examples" / "khronos-msaa" / "color-separate.msaa.yaml")
+    done = run(tmp_path, "check", "--output", name, example, GITHUB_STEP_SUMMARY=str(tmp_path / "summary.md"))
+    assert "+2248 MB/s written, +2248 MB/s read, " in done.stdout
+    if name == "github":
+        summary = (tmp_path / "summary.md").read_text()
+        assert "+2248 MB/s written, +2248 MB/s read, " in summary and "\nFixing it saves " in summary
 
 
 def test_nothing_found_prints_nothing() -> None:

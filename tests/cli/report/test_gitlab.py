@@ -7,7 +7,10 @@ from tests.cli.report.sample import finding, frame, printed, result
 def test_issues() -> None:
     broken, stored, _, binary = json.loads(printed("gitlab", frame()))
     assert stored == {
-        "description": "multisampled-attachment-stored: multisampled attachment `color` is resolved and also stored",
+        "description": (
+            "multisampled-attachment-stored: multisampled attachment `color` is resolved and also stored"
+            " (+2248 MB/s written, +31.6 MiB of memory, +225 mW)"
+        ),
         "check_name": "multisampled-attachment-stored",
         "fingerprint": fingerprint(frame().findings[1], 0),
         "severity": "minor",
