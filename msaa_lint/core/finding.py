@@ -113,7 +113,7 @@ class Result(NamedTuple):
     """The result of a lint run. Findings are sorted by file, location and code; `rules` are the enabled rules by code.
 
     `together` is the combined price of the findings of each file with prices. It is less than the sum of their prices if two findings are
-    about the same bytes.
+    about the same bytes. `has_baseline` is whether the findings were compared with a baseline.
     """
 
     findings: Sequence[Finding]
@@ -123,6 +123,7 @@ class Result(NamedTuple):
     sources: Mapping[str, "Source"]
     rules: Sequence[RuleInfo]
     together: Mapping[str, Price] = {}
+    has_baseline: bool = False
 
 
 def is_confident(finding: Finding, confidence: str) -> bool:

@@ -95,7 +95,16 @@ class _Run:
             findings.sort(key=_highest_price)
         current = self.workspace.current
         rules = rule_infos(current.engine.registry, current.selection.for_file(os.curdir), self.request.full_rules)
-        result = Result(findings, self.undecided, [*self.suppressed, *self.accepted], files, self.workspace.sources, rules, self.prices)
+        result = Result(
+            findings,
+            self.undecided,
+            [*self.suppressed, *self.accepted],
+            files,
+            self.workspace.sources,
+            rules,
+            self.prices,
+            self.baseline is not None,
+        )
         return Outcome(result, self.settings, notes, self.fixed, self.failing_prices)
 
     def _run_input(self, path: str) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from msaa_lint.core.finding import Finding, Fix, Result, RuleInfo, Suppressed, rank
 from msaa_lint.core.text.span import Span
+from msaa_lint.linter.rules.reference_links import link
 
 from . import Options, Write
 from .data import dump, write_list
@@ -38,7 +39,6 @@ _FAMILY = {
     "9": "input",
 }
 _SEMANTIC_VERSION = re.compile(r"\d+\.\d+\.\d+(-[0-9A-Za-z.-]+)?(\+[0-9A-Za-z.-]+)?")
-_LINK = re.compile(r"https://[!-~]+")
 
 
 def render(result: Result, out: Write, options: Options) -> None:
@@ -88,9 +88,9 @@ def _rules(result: Result, findings: Sequence[Finding]) -> list[RuleInfo]:
 
 def _descriptor(rule: RuleInfo) -> dict[str, object]:
     summary = display(rule.summary) or display(rule.name).replace("-", " ").capitalize() or display(rule.code)
-    links = [reference for reference in rule.references if _LINK.fullmatch(reference)]
     page = escape_surrogates(rule.markdown.strip()) or summary
-    references = "\n".join(f"- {escape_surrogates(reference)}" for reference in rule.references if reference not in page)
+    links = [(escape_surrogates(reference), link(reference)) for reference in rule.references]
+    references = "\n".join(f"- {_linked(reference, address)}" for reference, address in links if reference not in page)
     tags = ["msaa", "vulkan", *_family(rule)]
     descriptor: dict[str, object] = {
         "id": display(rule.code),
@@ -106,9 +106,15 @@ def _descriptor(rule: RuleInfo) -> dict[str, object]:
             "tags": tags,
         },
     }
-    if links:
-        descriptor["helpUri"] = links[0]
+    addresses = [address for _, address in links if address]
+    if addresses:
+        descriptor["helpUri"] = addresses[0]
     return descriptor
+
+
+def _linked(reference: str, address: str) -> str:
+    """A reference in Markdown, as a link if it has an address that it does not state."""
+    return f"[{_bracketless(reference)}]({address})" if address and address not in reference else reference
 
 
 def _family(rule: RuleInfo) -> list[str]:
@@ -170,6 +176,8 @@ def _result(
     fixes = list(_fix(finding.fix, finding.file, artifact, result)) if finding.fix else []
     if fixes:
         sarif["fixes"] = fixes
+    if result.has_baseline and not finding.fatal and (entry is None or entry.how == "baseline"):
+        sarif["baselineState"] = "unchanged" if entry else "new"
     if options.show_suppressed:
         sarif["suppressions"] = []
         if entry:
@@ -191,10 +199,14 @@ def _message(finding: Finding, labels: list[str]) -> str:
     parts += [_linkless(display(label.text)) for label in finding.labels[:MAX_LINKS] if label.span == finding.span]
     for n, text in enumerate(labels[:MAX_LINKS], 1):
         if text:
-            escaped = text.replace("\\", "\\\\").replace("[", "\\[").replace("]", "\\]")
-            parts.append(f"[{escaped}]({n})")
+            parts.append(f"[{_bracketless(text)}]({n})")
     parts.append(_linkless(display(finding.help)))
     return " ".join(part if part.endswith((".", "!", "?")) else part + "." for part in parts if part)
+
+
+def _bracketless(text: str) -> str:
+    """`text` for the brackets of a link."""
+    return text.replace("\\", "\\\\").replace("[", "\\[").replace("]", "\\]")
 
 
 def _linkless(text: str) -> str:

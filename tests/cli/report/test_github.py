@@ -15,7 +15,8 @@ def test_worst_first_and_one_command_each() -> None:
     assert [line.split(" ")[0] for line in lines] == ["::error", "::error", "::warning", "::notice"]
     assert lines[2] == (
         "::warning file=passes/forward.yaml,line=9,endLine=9,col=18,endColumn=23,title=multisampled-attachment-stored (MSAA201)"
-        "::multisampled attachment `color` is resolved and also stored%0Acost: +2248 MB/s written, +31.6 MiB of memory, +225 mW%0Ahelp: set `storeOp: DONT_CARE`"
+        "::multisampled attachment `color` is resolved and also stored%0Acost: +2248 MB/s written, +31.6 MiB of memory, +225 mW"
+        "%0Ahelp: set `storeOp: DONT_CARE`"
     )
     assert lines[3] == "::notice file=trace.rdc,title=sample-count-above-four (MSAA101)::8 samples"
 

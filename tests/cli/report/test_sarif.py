@@ -1,4 +1,6 @@
 import json
+import re
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -9,6 +11,10 @@ from msaa_lint.core.finding import Fix, RuleInfo
 from msaa_lint.core.text.span import Edit, Label, Span
 from tests.cli.report.sample import finding, frame, printed, result, span
 from tests.cli.report.schemas import check_sarif, sarif_validator
+from tests.command import run as run_command
+from tests.paths import ROOT
+
+PAGES = "https://docs.vulkan.org/refpages/latest/refpages/source/"
 
 
 def run_of(what: Any, **options: object) -> dict[str, Any]:
@@ -32,9 +38,62 @@ def test_driver_names_all_enabled_rules_and_those_of_the_findings() -> None:
     link = "https://docs.vulkan.org/spec/latest/chapters/renderpass.html"
     assert loaded["helpUri"] == link
     assert loaded["help"]["markdown"].endswith(f"The resolve writes every pixel of its target.\n\nReferences:\n\n- VUID-none\n- {link}")
+    assert "helpUri" not in driver["rules"][3]
     assert loaded["properties"] == {"precision": "high", "problem.severity": "warning", "tags": ["msaa", "vulkan", "load-store"]}
     assert driver["rules"][3]["shortDescription"] == {"text": "Syntax"}
     assert run_of(frame(), version="0.1.dev0")["tool"]["driver"]["version"] == "0.1.dev0"
+
+
+def test_every_rule_names_a_public_page() -> None:
+    (run,) = json.loads(run_command(ROOT, "check", "--output", "sarif", "--select", "ALL", "examples/khronos-msaa").stdout)["runs"]
+    rules = {rule["name"]: rule for rule in run["tool"]["driver"]["rules"]}
+    assert len(rules) > 80
+    assert [name for name, rule in rules.items() if not re.fullmatch(r"https://[\w./#-]+", rule.get("helpUri", ""))] == []
+    subpass = "https://docs.vulkan.org/refpages/latest/refpages/source/VkSubpassDescription.html"
+    vuid = "VUID-VkSubpassDescription-pResolveAttachments-00850"
+    assert rules["resolve-format-mismatch"]["helpUri"] == f"{subpass}#{vuid}"
+    assert f"\n- [{vuid}]({subpass}#{vuid})\n" in rules["resolve-format-mismatch"]["help"]["markdown"]
+
+
+@pytest.mark.parametrize(
+    ("reference", "uri"),
+    [
+        ("Our guide, https://wiki.example/msaa_(2)?a=1#b.", "https://wiki.example/msaa_(2)?a=1#b"),
+        ('<https://wiki.example/x>, "chapter 3"', "https://wiki.example/x"),
+        ("https://wiki.example/%zz\u202e[evil](x)", "https://wiki.example/%zz"),
+        ("javascript:alert(1)", None),
+        ("page 12 of our guide", None),
+        ("ours/engine issue 12: slow", "https://github.com/ours/engine/issues/12"),
+        ("VUID-VkImageCreateInfo-usage-00963](x) [y", f"{PAGES}VkImageCreateInfo.html#VUID-VkImageCreateInfo-usage-00963"),
+    ],
+)
+def test_references_of_a_rule_of_ones_own(reference: str, uri: str | None) -> None:
+    rule = RuleInfo("OUR1", "ours", "note", "low", "Ours.", "", (reference,))
+    (described,) = run_of(result(rules=(rule,)))["tool"]["driver"]["rules"]
+    assert described.get("helpUri") == uri
+    if "](" in reference and uri and "VUID" in uri:
+        assert described["help"]["markdown"].endswith(f"\n- [VUID-VkImageCreateInfo-usage-00963\\](x) \\[y]({uri})")
+
+
+def test_baseline_state_says_what_the_baseline_counts(tmp_path: Path) -> None:
+    known = (ROOT / "examples" / "khronos-msaa" / "color-separate.msaa.yaml").read_text(encoding="utf-8")
+    (tmp_path / "known.msaa.yaml").write_text(known, encoding="utf-8")
+    check = ("check", "--output", "sarif", "--select", "MSAA301", "--show-suppressed")
+    assert run_command(tmp_path, "baseline", ".").returncode == 0
+    (tmp_path / "new.msaa.yaml").write_text(known, encoding="utf-8")
+    (tmp_path / "accepted.msaa.yaml").write_text("# msaa-lint: ignore-file[MSAA301] measured\n" + known, encoding="utf-8")
+    (tmp_path / "broken.msaa.yaml").write_text("a: [", encoding="utf-8")
+    with_baseline = ("--baseline", "msaa-lint-baseline.json", ".")
+    states = {}
+    for arguments in (with_baseline, (".",)):
+        log = json.loads(run_command(tmp_path, *check, *arguments).stdout)
+        check_sarif(log)
+        files = {each["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]: each for each in log["runs"][0]["results"]}
+        states[arguments] = {file: (each.get("baselineState"), len(each["suppressions"])) for file, each in files.items()}
+    names = ("accepted", "broken", "known", "new")
+    expected = dict(zip((f"{name}.msaa.yaml" for name in names), ((None, 1), (None, 0), ("unchanged", 1), ("new", 0)), strict=True))
+    assert states[with_baseline] == expected
+    assert states[(".",)] == {file: (None, int(file.startswith("accepted"))) for file in expected}
 
 
 def test_result() -> None:
