@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import os
-import sys
-from collections.abc import Sequence
 
 from msaa_lint.linter.run import run
 from msaa_lint.linter.suppress import baseline as baselines
 from msaa_lint.linter.workspace import Request
 
-from .common import run_command, warn
+from .common import log, note, run_command, warn
 from .options import Arguments
-from .report.escape import escape
 from .report.summary import plural
 
 FILE = "msaa-lint-baseline.json"
@@ -25,13 +22,14 @@ def baseline(arguments: Arguments) -> int:
 
 
 def _baseline(arguments: Arguments) -> int:
-    prune, isolated = bool(arguments.get("prune")), bool(arguments.get("isolated"))
-    return write_baseline(arguments["paths"], arguments.get("file", FILE), prune, arguments.get("config"), isolated)
+    isolated = bool(arguments.get("isolated"))
+    request = Request(arguments["paths"], {}, arguments.get("config"), isolated, without_baseline=True, log=log(arguments))
+    return write_baseline(request, arguments.get("file", FILE), bool(arguments.get("prune")))
 
 
-def write_baseline(paths: Sequence[str], file: str, prune: bool, config: str | None, isolated: bool) -> int:
-    """Writes the baseline of the current findings, or with `prune` removes fixed findings from it; returns 2 if it cannot."""
-    result = run(Request(paths, {}, config, isolated, without_baseline=True)).result
+def write_baseline(request: Request, file: str, prune: bool) -> int:
+    """Writes the baseline of the current findings of a request, or with `prune` removes fixed findings from it; returns 2 if it cannot."""
+    result = run(request).result
     fatal = [finding for finding in result.findings if finding.fatal]
     for finding in fatal:
         warn(f"{finding.file}: {finding.message}")
@@ -55,7 +53,7 @@ def write_baseline(paths: Sequence[str], file: str, prune: bool, config: str | N
         return 2
     after = _count(new)
     change = f"removed {before - after} of {before}" if prune else f"{plural(after, 'finding')} in {plural(len(new.entries), 'file')}"
-    print(f"{escape(file)}: {change}. To use it: msaa-lint check --baseline {escape(file)} ...", file=sys.stderr)
+    note(f"{file}: {change}. To use it: msaa-lint check --baseline {file} ...")
     return 0
 
 

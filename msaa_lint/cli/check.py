@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Sequence
 from functools import partial
+from time import perf_counter
 from typing import IO, Any
 
 from msaa_lint.core.finding import is_confident, rank
@@ -18,6 +19,7 @@ from msaa_lint.linter.workspace import Request
 from .common import (
     Target,
     input_options,
+    note,
     overrides,
     parse_outputs,
     report_options,
@@ -28,6 +30,7 @@ from .common import (
     write_output,
 )
 from .options import Arguments
+from .report.summary import plural
 
 EXAMPLE = "sarif=findings.sarif"
 
@@ -46,11 +49,14 @@ def check(arguments: Arguments) -> int:
 def _check(arguments: Arguments) -> int:
     targets = parse_outputs(arguments.get("output", ()), OUTPUT_FORMATS, EXAMPLE)
     fallback = "full" if sys.stdout.isatty() else "concise"
-    outcome = run(request(arguments, targets, fallback), _progress())
+    start = perf_counter()
+    outcome = run(request(arguments, targets, fallback), None if arguments.get("quiet") else _progress())
+    if arguments.get("verbose"):
+        warn(f"checked {plural(len(outcome.result.files), 'input')} in {perf_counter() - start:.2f} s")
     if not targets:
         targets = parse_outputs(outcome.settings.output, OUTPUT_FORMATS, EXAMPLE) or [Target(fallback, None)]
-    for note in outcome.notes:
-        warn(note)
+    for text in outcome.notes:
+        note(text)
     if arguments.get("diff"):
         return _print_diff(targets, outcome, arguments)
     if arguments.get("fix"):
@@ -68,7 +74,7 @@ def _print_diff(targets: Sequence[Target], outcome: Outcome, arguments: Argument
 
     changed = print_diff(outcome, use_color(arguments.get("color", "auto"), sys.stdout.isatty()))
     for line in fix_summary(outcome, False, bool(arguments.get("unsafe_fixes"))):
-        warn(line)
+        note(line)
     _print_reports([target for target in targets if target.path is not None], outcome, arguments)
     if any(finding.fatal for finding in outcome.result.findings):
         return 2
@@ -84,7 +90,7 @@ def _print_fixes(targets: Sequence[Target], outcome: Outcome, arguments: Argumen
     if stdin:
         print_text(outcome, arguments.get("stdin_filename") or "<stdin>")
     for line in fix_summary(outcome, True, bool(arguments.get("unsafe_fixes"))):
-        warn(line)
+        note(line)
     return [target._replace(path=STDERR) if stdin and target.path is None else target for target in targets]
 
 
@@ -149,9 +155,13 @@ def _render(format: str, outcome: Outcome, arguments: Arguments, out: IO[str]) -
         show_suppressed=bool(arguments.get("show_suppressed")),
         fail_confidence=outcome.settings.fail_confidence,
     )
-    if arguments.get("statistics") and text and out in (sys.stdout, sys.stderr):
+    if arguments.get("statistics") and text and out in (sys.stdout, sys.stderr) and outcome.result.findings:
+        from .report.concise import line
         from .report.statistics import table
 
+        for finding in outcome.result.findings:
+            if finding.fatal:
+                print(line(finding, outcome.result, options), file=sys.stderr)
         out.write(table(outcome.result))
     else:
         render(format, outcome.result, out.write, options._replace(statistics=bool(arguments.get("statistics"))))

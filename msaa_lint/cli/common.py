@@ -23,6 +23,9 @@ MAX_RENDER_SIDE = 16384
 _OVERRIDES = ("edition", "profile", "fail_on", "fail_on_cost", "fail_confidence", "min_severity", "baseline", "rules")
 _SELECTORS = ("select", "extend_select", "ignore")
 
+_quiet = False
+"""Whether the command that runs is `--quiet`."""
+
 Value = TypeVar("Value")
 
 
@@ -42,6 +45,12 @@ def warn(text: str) -> None:
     print(f"msaa-lint: {escape(text)}", file=sys.stderr)
 
 
+def note(text: str) -> None:
+    """Prints a line that is not an error to the standard error stream, unless the command that runs is `--quiet`."""
+    if not _quiet:
+        warn(text)
+
+
 def run_command(
     command: Callable[[Arguments], int], arguments: Arguments, errors: tuple[type[Exception], ...] = (), terminable: bool = False
 ) -> int:
@@ -51,6 +60,8 @@ def run_command(
     is given, which raises it; BROKEN_PIPE; 130 on an interrupt. If `terminable`, SIGTERM unwinds the stack, so that no child process and no
     temporary file is left.
     """
+    global _quiet
+    _quiet = bool(arguments.get("quiet"))
     reported: tuple[type[Exception], ...] = (UsageError, *errors)
     previous = _unwind_on_sigterm() if terminable else None
     try:
@@ -178,6 +189,11 @@ def overrides(arguments: Arguments) -> dict[str, Any]:
     return settings
 
 
+def log(arguments: Arguments) -> Callable[[str], None] | None:
+    """The `log` of a request: prints lines to the standard error stream if `--verbose` is given."""
+    return warn if arguments.get("verbose") else None
+
+
 def input_options(arguments: Arguments) -> dict[str, Any]:
     """The members of a `linter.workspace.Request` that all commands fill alike."""
     return {
@@ -186,6 +202,7 @@ def input_options(arguments: Arguments) -> dict[str, Any]:
         "isolated": bool(arguments.get("isolated")),
         "format": arguments.get("input_format"),
         "stdin_filename": arguments.get("stdin_filename"),
+        "log": log(arguments),
     }
 
 
@@ -196,7 +213,13 @@ def report_options(arguments: Arguments, out: IO[str], *, color: bool = True, wi
         import shutil
 
         width = shutil.get_terminal_size().columns or width
-    return Options(color=color and use_color(arguments.get("color", "auto"), terminal), width=width, version=VERSION)
+    return Options(
+        color=color and use_color(arguments.get("color", "auto"), terminal),
+        width=width,
+        version=VERSION,
+        quiet=bool(arguments.get("quiet")),
+        verbose=bool(arguments.get("verbose")),
+    )
 
 
 def report_module(command: str, format: str) -> Any:

@@ -19,6 +19,7 @@ from .common import (
     Target,
     UsageError,
     input_options,
+    note,
     overrides,
     parse_outputs,
     parse_size,
@@ -109,14 +110,14 @@ def _run(arguments: Arguments, options: ConfirmOptions, session: Session) -> int
             read.append(inputs(Request(**input_options(arguments), overrides=overrides(arguments))))
         return read[0].inputs
 
-    text = any(target.format == "full" for target in options.targets)
-    runs = [trial(session, documents, terms, meanwhile=_import_rich if text else None)]
+    has_text = any(target.format == "full" for target in options.targets)
+    runs = [trial(session, documents, terms, meanwhile=_import_rich if has_text else None)]
     for name in options.devices[1:]:
         with _session(options, name) as other:
             runs.append(trial(other, documents, terms))
     _, errors, notes = read[0]
-    for note in notes:
-        warn(note)
+    for text in notes:
+        note(text)
     for error in errors:
         warn(f"{error.file}: {error.message}")
     for run in runs:
@@ -138,8 +139,7 @@ def _import_rich() -> None:
 
 
 def _render(format: str, runs: Sequence[DeviceRun], errors: Sequence[Any], arguments: Arguments, out: IO[str]) -> None:
-    options = report_options(arguments, out)._replace(verbose=bool(arguments.get("verbose")))
-    report_module("confirm", format).render(runs, errors, out.write, options)
+    report_module("confirm", format).render(runs, errors, out.write, report_options(arguments, out))
 
 
 def _list_devices(options: ConfirmOptions) -> int:

@@ -12,7 +12,7 @@ from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.input.opening import load
 from msaa_lint.input.source_file import SourceFile
 
-from .common import run_command, warn
+from .common import note, run_command, warn
 from .options import Arguments
 from .report.escape import escape
 
@@ -42,8 +42,8 @@ def convert_input(path: str, output: str | None, format: str | None, force: bool
             _convert_source(data, output, force)
         else:
             _write(data.source.text, data.modules, output, force)
-            for note in data.notes:
-                warn(note)
+            for text in data.notes:
+                note(text)
             if data.broken:
                 raise _ConvertError(f"{name}: the capture is truncated: {data.broken}")
     except _ConvertError as error:
@@ -85,10 +85,10 @@ def _convert_source(code: SourceFile, output: str | None, force: bool) -> None:
     trees = [document.tree for document in documents if document.tree is not None]
     if not trees:
         raise _ConvertError(f"{code.source.name}: found no attachment, image, pipeline, or sample count")
-    for number, notes in enumerate(code.program.assumed, 1):
+    for number, assumptions in enumerate(code.program.assumed, 1):
         where = f"{code.source.name}, document {number}" if len(trees) > 1 else code.source.name
-        for note in notes:
-            warn(f"{where}: {note}")
+        for text in assumptions:
+            note(f"{where}: {text}")
     head = f"# Read from {escape(code.source.name)}; what it does not state is left out.\n"
     modules = {name: module for document in documents for name, module in document.modules.items()}
     _write(head + "---\n".join(map(emit, trees)), modules, output, force)
@@ -99,7 +99,7 @@ def _write(text: str, modules: Mapping[str, bytes], output: str | None, force: b
     if output is None or output == "-":
         sys.stdout.write(text)
         if modules:
-            warn(f"{len(modules)} shaders are not written; -o FILE writes them next to the description")
+            note(f"{len(modules)} shaders are not written; -o FILE writes them next to the description")
         return
     if os.path.lexists(output) and not force:
         raise _ConvertError(f"{output} already exists; --force overwrites it")

@@ -22,6 +22,7 @@ from .common import (
     UsageError,
     chart_format,
     input_options,
+    note,
     parse_list,
     parse_outputs,
     parse_size,
@@ -29,7 +30,6 @@ from .common import (
     report_options,
     run_command,
     set_utf_8,
-    warn,
     write_chart,
     write_output,
 )  # fmt: skip
@@ -55,8 +55,8 @@ def _cost(arguments: Arguments) -> int:
     request = Request(**input_options(arguments), overrides={"profile": arguments["profile"]} if "profile" in arguments else {})
     result = run_costs(request, terms, counts)
     comparison = None if arguments.get("each") else _comparison(result, request)
-    for note in result.notes:
-        warn(note)
+    for text in result.notes:
+        note(text)
     _print_errors(result.errors, arguments)
     for target in targets:
         write_output(target.path, partial(_render, target.format, result, comparison, arguments))

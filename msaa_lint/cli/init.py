@@ -5,11 +5,10 @@ from __future__ import annotations
 import json
 import os
 import shlex
-import sys
 
 from msaa_lint.linter.rules.registry import EDITIONS
 
-from .common import run_command, warn
+from .common import note, run_command, warn
 from .options import Arguments
 from .report.escape import escape
 from .schema import description_schema
@@ -106,11 +105,14 @@ def init(arguments: Arguments) -> int:
 
 
 def _init(arguments: Arguments) -> int:
-    return write_files(*arguments["paths"] or [os.curdir])
+    return write_files((arguments["paths"] or [os.curdir])[0], not arguments.get("quiet"))
 
 
-def write_files(folder: str) -> int:
-    """Writes msaa-lint.toml, frame.msaa.yaml, and the schema that it names, except those that exist; returns 2 if it cannot."""
+def write_files(folder: str, hints: bool) -> int:
+    """Writes msaa-lint.toml, frame.msaa.yaml, and the schema that it names, except those that exist; prints `hints` on what to do next.
+
+    Returns 2 if it cannot.
+    """
     files = {"msaa-lint.toml": CONFIGURATION, "frame.msaa.yaml": DESCRIPTION, SCHEMA: json.dumps(description_schema(), indent=2) + "\n"}
     written = set()
     path = folder
@@ -119,15 +121,17 @@ def write_files(folder: str) -> int:
         for name, text in files.items():
             path = os.path.normpath(os.path.join(folder, name))
             if os.path.lexists(path):
-                print(f"{escape(path)} already exists: left unchanged", file=sys.stderr)
+                note(f"{path} already exists: left unchanged")
                 continue
             with open(path, "x", encoding="utf-8", newline="\n") as file:
                 file.write(text)
             written.add(name)
-            print(f"wrote {escape(path)}", file=sys.stderr)
+            note(f"wrote {path}")
     except OSError as error:
         warn(f"cannot write {path}: {error.strerror}")
         return 2
+    if not hints:
+        return 0
     if "frame.msaa.yaml" in written:
         frame = shlex.quote(os.path.normpath(os.path.join(folder, "frame.msaa.yaml")))
         print(f"The frame in {escape(frame)} has a mistake on purpose. To see it:\n\n  msaa-lint check {escape(frame)}\n")

@@ -26,6 +26,7 @@ from .common import (
     Target,
     UsageError,
     chart_format,
+    note,
     parse_list,
     parse_outputs,
     parse_size,
@@ -117,15 +118,15 @@ def _study(arguments: Arguments, options: StudyOptions) -> int:
 
     checkpoint = Checkpoint(arguments["resume"]) if "resume" in arguments else None
     size, studied, errors, notes = subjects(arguments, options.size)
-    for note in notes:
-        warn(note)
+    for text in notes:
+        note(text)
     for error in errors:
         warn(f"{error.file}: {error.message}")
     if arguments.get("record") and not any(subject.file for subject in studied) and not errors:
         raise UsageError("--record needs a description in a file, to write the record next to it")
     costs, device = _costs(studied, arguments, options, size, checkpoint)
     tasks = [Task(subject.input, technique, *size, options.bits, options.ssim) for subject in studied for technique in options.techniques]
-    with _progress(len(tasks)) as progress:
+    with _progress(len(tasks), arguments) as progress:
         results = list(sweep(tasks, jobs=options.jobs, backend=options.backend, checkpoint=checkpoint, progress=progress))
     points: list[Point] = []
     failures: list[FailedPoint] = []
@@ -198,7 +199,7 @@ def _costs(
     from msaa_lint.experiments.study.sweep import costs
 
     by_scene: dict[str, Mapping[Technique, Cost]] = {}
-    with _clock(arguments) as clock, _progress(len(studied)) as progress:
+    with _clock(arguments) as clock, _progress(len(studied), arguments) as progress:
         for number, subject in enumerate(studied):
             effects = " ".join(subject.picture.effects).lower()
             model = CostModel(subject.device, hdr="hdr" in effects, depth="depth" in effects)
@@ -222,9 +223,9 @@ def _clock(arguments: Arguments) -> contextlib.AbstractContextManager[Any]:
 
 
 @contextlib.contextmanager
-def _progress(total: int) -> Iterator[Any]:
-    """A callback that advances a progress bar on a terminal; None elsewhere."""
-    if not sys.stderr.isatty():
+def _progress(total: int, arguments: Arguments) -> Iterator[Any]:
+    """A callback that advances a progress bar on a terminal; None elsewhere, and with `--quiet`."""
+    if arguments.get("quiet") or not sys.stderr.isatty():
         yield None
         return
     from rich.console import Console

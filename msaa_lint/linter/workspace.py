@@ -1,10 +1,11 @@
 """The settings, rules and inputs of one run: settings are resolved for a file before it is opened."""
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from msaa_lint.core.finding import Finding
+from msaa_lint.core.project import shown
 from msaa_lint.core.quote import quoted
 from msaa_lint.core.text.source import Source, Unreadable
 from msaa_lint.core.text.tree import Limits
@@ -35,7 +36,7 @@ class Request(NamedTuple):
     `format` forces a reader. `formats` are the outputs to print instead of those in the settings, and `fallback` is the output if neither
     names one: findings get prices only if an output shows them. `by_price` sorts findings by price, highest first. `fix` is `write` to
     fix files in place, or `show` to compute the fixes only; `unsafe_fixes` includes fixes that may change the picture. Standard input is
-    never written.
+    never written. `log` is called with a line for each configuration and each input that is used.
     """
 
     paths: Sequence[str]
@@ -53,6 +54,7 @@ class Request(NamedTuple):
     by_price: bool = False
     fix: str | None = None
     unsafe_fixes: bool = False
+    log: Callable[[str], None] | None = None
 
     def input_name(self, path: str) -> str:
         """The name of an input in findings."""
@@ -121,9 +123,15 @@ class Workspace:
             engine = self._engine(settings.rules)
             self.findings.extend(unknown_selectors(settings, engine.registry.rules))
             device = profile_of(settings.profile) if settings.profile is not None else None
+            selection = Selection(settings, engine.registry.rules)
+            if self.request.log is not None:
+                where = "no configuration file" if loaded.path is None else f"configuration {shown(loaded.path)}"
+                enabled = sum(map(selection.enabled, engine.registry.rules))
+                profile = f", profile {settings.profile}" if settings.profile is not None else ""
+                self.request.log(f"{where}: edition {settings.edition or EDITIONS[-1]}, {enabled} rules enabled{profile}")
             self._resolved[loaded.path] = ResolvedSettings(
                 settings,
-                Selection(settings, engine.registry.rules),
+                selection,
                 engine,
                 None if isinstance(device, Problem) else device,
                 Limits()._replace(**settings.limits),
@@ -153,9 +161,21 @@ class Workspace:
         except (OSError, Unreadable) as error:
             self.findings.append(opening.unreadable(error, name))
             return None
+        if request.log is not None:
+            path_of = self._configurations.load(path).path
+            request.log(f"{name}: {_kind(data)}" + (f", configuration {shown(path_of)}" if path_of is not None else ""))
         device = resolved.device
         severity = resolved.selection.for_file(name, device.vendor if device is not None else None)
         return InputFile(path, name, data, resolved, LintOptions(severity, resolved.limits, request.format, device, request.ignores))
+
+
+def _kind(data: "bytes | CaptureInput | SourceFile") -> str:
+    """What an input is, in words."""
+    if isinstance(data, bytes):
+        return f"text, {len(data)} bytes"
+    from msaa_lint.input.capture_input import CaptureInput
+
+    return f"capture, {data.frames} frames" if isinstance(data, CaptureInput) else f"source code ({data.language})"
 
 
 def _invalid_values(settings: Settings) -> list[Finding]:

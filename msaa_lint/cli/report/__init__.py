@@ -20,7 +20,8 @@ class Options(NamedTuple):
     `root` is the folder that paths are shown relative to (empty: as given). `width` is in terminal cells (0: lines are never cut).
     `max_undecided` is the number of missing facts that a summary names. `step_summary` is the file that the GitHub output appends a table
     to: None uses GITHUB_STEP_SUMMARY, empty writes none. `fail_confidence` is the confidence that findings need to fail the run; summaries
-    count those below it. `verbose` adds to the text of `confirm` what only msaa-lint reports, and noise of the layer.
+    count those below it. `quiet` leaves out summaries and remarks; `verbose` adds to the text of `confirm` what only msaa-lint reports, and
+    noise of the layer.
     """
 
     color: bool = False
@@ -33,6 +34,7 @@ class Options(NamedTuple):
     max_undecided: int = 5
     step_summary: str | None = None
     fail_confidence: str = "low"
+    quiet: bool = False
     verbose: bool = False
 
 

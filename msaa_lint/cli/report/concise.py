@@ -37,12 +37,12 @@ def location(finding: Finding, result: Result, options: Options) -> str:
 
 
 def render_end(result: Result, out: Write, options: Options) -> None:
-    """Prints what follows the findings in both text outputs: the suppressed ones, the statistics, the summary."""
+    """Prints what follows the findings in both text outputs: the suppressed ones, the statistics, and unless `quiet` the summary."""
     if options.show_suppressed:
         for entry in result.suppressed:
             reason = f", {display(entry.reason)}" if entry.reason.strip() else ""
             out(f"{line(entry.finding, result, options)} [suppressed: {entry.how}{reason}]\n")
     if options.statistics:
         out(table(result))
-    for text in summary(result, options):
+    for text in () if options.quiet else summary(result, options):
         out(text + "\n")

@@ -35,10 +35,10 @@ def render(runs: Sequence[DeviceRun], errors: Sequence[Finding], out: Write, opt
     for number, run in enumerate(runs):
         if number:
             console.print()
-        _device(run, console, options.verbose)
+        _device(run, console, options.verbose, options.quiet)
 
 
-def _device(run: DeviceRun, console: Console, verbose: bool) -> None:
+def _device(run: DeviceRun, console: Console, verbose: bool, quiet: bool) -> None:
     if run.unusable:
         console.print(f"{display(run.title)}: cannot be used: {display(run.unusable)}", soft_wrap=True)
         return
@@ -55,7 +55,7 @@ def _device(run: DeviceRun, console: Console, verbose: bool) -> None:
         console.print()
     if any(verdict.times is not None for verdict in run.verdicts) and run.cannot_show:
         console.print(f"What this device cannot show: {display(run.cannot_show)}.", soft_wrap=True)
-    for line in _summary(run):
+    for line in () if quiet else _summary(run):
         console.print(line, soft_wrap=True)
 
 

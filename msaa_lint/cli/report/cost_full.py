@@ -36,7 +36,8 @@ def render(frames: Sequence[CostedFrame], errors: Result, out: Write, options: O
         out(("\n" if number else "") + f"{name}: {display(cost_rows.head(frame.cost))}\n")
         for table in cost_rows.frame_tables(frame):
             _print_table(table, out, options)
-        _print_remarks([*cost_rows.details(frame.cost), *cost_rows.remarks(frame.cost)], out)
+        if not options.quiet:
+            _print_remarks([*cost_rows.details(frame.cost), *cost_rows.remarks(frame.cost)], out)
     if len(frames) > 1:
         _print_table(cost_rows.totals(frames, names), out, options)
 
@@ -48,7 +49,8 @@ def render_comparison(compared: CostComparison, errors: Result, out: Write, opti
         names = " -> ".join(display_path(file, options.root) for file in (compared.old_file, compared.new_file)) + document
         out(("\n" if number else "") + f"{names}\n{cost_rows.sentence(comparison, cost_rows.budget_of(compared))}\n")
         _print_table(cost_rows.changes(comparison), out, options)
-        _print_remarks(cost_rows.comparison_remarks(compared, number), out)
+        if not options.quiet:
+            _print_remarks(cost_rows.comparison_remarks(compared, number), out)
 
 
 def _print_remarks(remarks: Sequence[tuple[str, str]], out: Write) -> None:

@@ -28,7 +28,7 @@ def render(study: Study, out: Write, options: Options) -> None:
         _scene(scene, study, console)
     if study.scenes:
         console.print()
-    for line in _summary(study):
+    for line in () if options.quiet else _summary(study):
         console.print(line, soft_wrap=True)
 
 

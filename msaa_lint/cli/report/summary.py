@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 from msaa_lint.core.finding import CONFIDENCES, Finding, Price, Result, is_confident
+from msaa_lint.linter.settings.settings import COMMAND_LINE
 
 from . import Options
 from .escape import display
@@ -41,7 +42,7 @@ def tally(result: Result) -> Tally:
         for fact in entry.missing:
             rules_by_fact.setdefault(fact, set()).add(entry.code)
     missing = sorted(((fact, len(codes)) for fact, codes in rules_by_fact.items()), key=lambda item: (-item[1], item[0]))
-    with_findings = {finding.file for finding in result.findings}
+    with_findings = {finding.file for finding in result.findings} - {COMMAND_LINE}
     return Tally(
         errors=severities.count("error"),
         warnings=severities.count("warning"),
@@ -70,7 +71,10 @@ def sentence(result: Result, options: Options) -> str:
         files = plural(count.files, "file")
         if count.files_with_findings < count.files:
             files = f"{count.files_with_findings} of {files}"
-        text = f"Found {plural(count.findings, 'finding')} ({', '.join(kinds)}) in {files}"
+        places = [files] if count.files_with_findings else []
+        if any(finding.file == COMMAND_LINE for finding in result.findings):
+            places.append("the command line")
+        text = f"Found {plural(count.findings, 'finding')} ({', '.join(kinds)}) in {' and '.join(places)}"
     else:
         text = f"No findings in {plural(count.files, 'file')}"
     unconfident = sum(not is_confident(finding, options.fail_confidence) for finding in result.findings)
