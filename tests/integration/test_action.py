@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 import yaml
 
-from tests.integration.test_pre_commit import BAD, GOOD
+from tests.integration.test_pre_commit import BAD, GOOD, SHIPPED
 from tests.paths import ROOT
 
 ACTION: dict[str, Any] = yaml.safe_load((ROOT / "action.yml").read_text(encoding="utf-8"))
@@ -154,6 +154,7 @@ class Job:
             self.tools[name].write_text(f"#!{sys.executable}\n{text}")
             self.tools[name].chmod(0o755)
         self.environment = {"GIVEN": str(self.given), "LINTER_CODE": "0", "SARIF_TEXT": "{}", "PIP_CODE": "0"}
+        self.action = "/the action/at its ref"
         self.printed = ""
 
     def use(self, upload: str = "success", **inputs: str) -> Use:
@@ -183,10 +184,11 @@ class Job:
     def run(self, each: dict[str, Any], contexts: dict[str, str]) -> tuple[int, dict[str, str]]:
         output = self.temp / "output"
         output.write_text("")
+        kept = {name: value for name, value in os.environ.items() if name in ("PATH", "HOME") or name.startswith("PIP_")}
         environment = {
-            **self.environment, **{key: filled(value, contexts) for key, value in each.get("env", {}).items()},
-            "PATH": os.environ["PATH"], "LINTER": str(self.tools["LINTER"]), "RUNNER_TEMP": str(self.temp), "GITHUB_OUTPUT": str(output),
-            "GITHUB_ACTION_PATH": "/the action/at its ref", "GITHUB_WORKSPACE": str(self.workspace),
+            **kept, **self.environment, **{key: filled(value, contexts) for key, value in each.get("env", {}).items()},
+            "LINTER": str(self.tools["LINTER"]), "RUNNER_TEMP": str(self.temp), "GITHUB_OUTPUT": str(output),
+            "GITHUB_ACTION_PATH": self.action, "GITHUB_WORKSPACE": str(self.workspace),
         }  # fmt: skip
         command = ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", each["run"]]
         done = subprocess.run(
@@ -369,3 +371,22 @@ def test_with_msaa_lint_itself(tmp_path: Path) -> None:
     missing = job.use(config="no such.toml")
     assert missing.failed and missing.outputs["exit-code"] == "2"
     assert "no such.toml" in job.printed
+
+
+@needs_bash
+@pytest.mark.network
+def test_with_python_and_pip_themselves(tmp_path: Path) -> None:
+    """From a copy of this repository, as the documentation has it, in a folder whose name has a space."""
+    job = Job(tmp_path)
+    job.tools["PYTHON"] = Path(sys.executable)
+    copy = job.workspace / "tools" / "msaa-lint"
+    copy.mkdir(parents=True)
+    for name in SHIPPED:
+        (shutil.copytree if (ROOT / name).is_dir() else shutil.copy)(ROOT / name, copy / name)
+    job.action = str(copy)
+    (job.workspace / "bad.msaa.yaml").write_text(BAD)
+    (job.workspace / "pip.py").write_text("raise SystemExit('of the workspace')\n")
+    use = job.use(paths="bad.msaa.yaml", source="true", config="")
+    assert use.ran[-1] == "Upload to code scanning", job.printed
+    assert use.failed and use.outputs["exit-code"] == "1"
+    assert json.loads(Path(use.uploaded["sarif_file"]).read_text())["runs"][0]["results"]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from rich import box
 from rich.console import Console
 from rich.table import Table
@@ -10,13 +12,18 @@ from rich.text import Text
 from . import Options, Write
 from .escape import display
 
+_RUNNER_COMMAND = re.compile(r"^((?:\x1b\[[0-9;]*m|\s)*):(?=:)", re.MULTILINE)
+
 
 def open_console(out: Write, options: Options) -> Console:
-    """A console that prints to `out`, as wide and as colored as the options say, and interprets no markup."""
+    """A console that prints to `out`, as wide and as colored as the options say, and interprets no markup.
+
+    No line begins with `::`, which CI runners obey, wherever a table breaks a name.
+    """
 
     class Sink:
         def write(self, text: str) -> int:
-            out(text)
+            out(_RUNNER_COMMAND.sub(r"\1\\x3a", text))
             return len(text)
 
         def flush(self) -> None:
