@@ -20,7 +20,7 @@ BROKEN_PIPE = 2
 MAX_RENDER_SIDE = 16384
 """Width and height of a rendered picture, in pixels."""
 
-_OVERRIDES = ("edition", "profile", "fail_on", "fail_on_cost", "fail_confidence", "min_severity", "baseline", "rules")
+_OVERRIDES = ("edition", "profile", "fail_on", "fail_on_cost", "fail_confidence", "min_severity", "baseline", "rules", "strict_inputs")
 _SELECTORS = ("select", "extend_select", "ignore")
 
 _quiet = False

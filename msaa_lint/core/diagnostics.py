@@ -16,6 +16,7 @@ _TEXTS = {
     "MSAA912": ("unknown-rule-in-suppression", "warning", "A suppression comment that names no rule there is, or that cannot be read."),
     "MSAA913": ("blanket-suppression", "warning", "A suppression comment that names no rule: it silences nothing."),
     "MSAA921": ("configuration", "error", "The configuration, a rule page, a baseline or a path cannot be used."),
+    "MSAA931": ("unread-input", "error", "With `--strict-inputs`: the input creates something multisampled, but shows no pass to check."),
 }
 
 DIAGNOSTICS: dict[str, RuleInfo] = {

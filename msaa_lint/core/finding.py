@@ -96,6 +96,32 @@ class Suppressed(NamedTuple):
     reason: str = ""
 
 
+class Unread(NamedTuple):
+    """Something multisampled of which an input shows no pass or pipeline to check: its place, None without a text, and the problem."""
+
+    span: Span | None
+    message: str
+
+
+class InputSummary(NamedTuple):
+    """What of one input was checked.
+
+    `format` is its `--input-format`; empty if it could not be read. Objects that several documents of the input share count once;
+    `shaders` are those of source code that read samples, `choices` the sample count choices. `failed` says that an error kept a document
+    of it from being checked.
+    """
+
+    file: str
+    format: str = ""
+    images: int = 0
+    passes: int = 0
+    pipelines: int = 0
+    shaders: int = 0
+    choices: int = 0
+    failed: bool = False
+    unread: Unread | None = None
+
+
 class RuleInfo(NamedTuple):
     """A rule as reports describe it. `summary` is one sentence, `markdown` the page without its front matter."""
 
@@ -113,7 +139,7 @@ class Result(NamedTuple):
     """The result of a lint run. Findings are sorted by file, location and code; `rules` are the enabled rules by code.
 
     `together` is the combined price of the findings of each file with prices. It is less than the sum of their prices if two findings are
-    about the same bytes. `has_baseline` is whether the findings were compared with a baseline.
+    about the same bytes. `has_baseline` is whether the findings were compared with a baseline. `inputs` says what of each file was checked.
     """
 
     findings: Sequence[Finding]
@@ -124,6 +150,7 @@ class Result(NamedTuple):
     rules: Sequence[RuleInfo]
     together: Mapping[str, Price] = {}
     has_baseline: bool = False
+    inputs: Sequence[InputSummary] = ()
 
 
 def is_confident(finding: Finding, confidence: str) -> bool:

@@ -21,11 +21,12 @@ _COMMAND = re.compile(r"commands\[\d+\]")
 class CaptureInput(NamedTuple):
     """A capture converted to a description.
 
-    `source` is the text of the description, whose origins are the captured calls; `modules` is the code of its shaders by name. `broken`
-    says why the rest of the capture could not be read, which the last line of the text stands for; empty if all was read. `notes` are
-    lines for the user about what is missing.
+    `format` is one of `readers.CAPTURES`. `source` is the text of the description, whose origins are the captured calls; `modules` is the
+    code of its shaders by name. `broken` says why the rest of the capture could not be read, which the last line of the text stands for;
+    empty if all was read. `notes` are lines for the user about what is missing.
     """
 
+    format: str
     source: Source
     modules: Mapping[str, bytes]
     frames: int
@@ -59,7 +60,7 @@ def read_capture(stream: BinaryIO, format: str, name: str, path: str | None) -> 
         text += "# the capture is readable up to here\n"
         origins.append(Origin(*broken.place, ""))
     message = broken.message if broken is not None else ""
-    return CaptureInput(Source(name, text, origins), modules, tracker.frames.total, message, tuple(notes))
+    return CaptureInput(format, Source(name, text, origins), modules, tracker.frames.total, message, tuple(notes))
 
 
 def capture_findings(capture: CaptureInput, findings: Sequence[Finding]) -> list[Finding]:

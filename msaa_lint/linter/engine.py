@@ -95,7 +95,7 @@ class Engine:
             verdicts, device = self.lint_document(document, file, options, bool(parsed.problems))
             findings.extend(_prefixed(verdicts.findings, prefix))
             undecided.extend(rule._replace(subject=prefix + rule.subject) for rule in verdicts.undecided)
-            results.append(DocumentResult(document, verdicts.fix_specs, number, device))
+            results.append(DocumentResult(document, verdicts.fix_specs, number, device, verdicts.checked))
         suppressed: list[Suppressed] = []
         if options.ignores and _has_suppressions(source.text):
             from msaa_lint.core.text.comments import comments
@@ -123,7 +123,7 @@ class Engine:
             usable = (found._replace(notes=(*found.notes, *notes)) for found in verdicts.findings if not found.fatal)
             findings.extend(_prefixed(usable, prefix))
             undecided.update(rule.rule for rule in verdicts.undecided)
-            results.append(DocumentResult(document, verdicts.fix_specs, number, device))
+            results.append(DocumentResult(document, verdicts.fix_specs, number, device, verdicts.checked))
         # Functions that share a structure are separate documents with the same finding.
         findings = distinct(findings)
         suppressed: list[Suppressed] = []
@@ -148,13 +148,13 @@ class Engine:
         """
         if document.problems or broken:
             problems = [diagnostic(p.code, p.message, file, p.span, p.path, p.labels, p.help) for p in document.problems]
-            return Verdicts(problems, [], {}), None
+            return Verdicts(problems, [], {}, False), None
         from msaa_lint.frame.facts.subjects import subjects
 
         device = device_for(document.description, file, options.device)
         if isinstance(device, Problem):
             span = document.description.place("device")
-            return Verdicts([diagnostic(device.code, device.message, file, span, "device", help=device.help)], [], {}), None
+            return Verdicts([diagnostic(device.code, device.message, file, span, "device", help=device.help)], [], {}, False), None
 
         # Both are imported only if a rule asks: for a sample count above what devices do efficiently, and for a shader.
         def study(frame: Frame) -> Studied:

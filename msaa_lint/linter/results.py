@@ -17,13 +17,15 @@ CombinedPrice = Callable[[Sequence[Finding]], Price | None]
 class DocumentResult(NamedTuple):
     """One document of an input, with the fixes of its findings by finding.
 
-    `number` is its index in a multi-document stream; `device` is the profile it was linted for.
+    `number` is its index in a multi-document stream; `device` is the profile it was linted for; `checked` is false if problems of the
+    document kept rules from running.
     """
 
     document: Document
     fix_specs: FixSpecs
     number: int = 0
     device: DeviceProfile | None = None
+    checked: bool = True
 
 
 class FileResult(NamedTuple):

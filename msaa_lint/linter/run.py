@@ -6,10 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
-from msaa_lint.core.finding import Finding, Price, Result, Suppressed, Undecided, is_confident, rank
+from msaa_lint.core.finding import Finding, InputSummary, Price, Result, Suppressed, Undecided, is_confident, rank
 from msaa_lint.input.file_types import STDIN
 
 from .engine import rule_infos
+from .input_summary import input_summary
 from .results import FileResult
 from .settings.settings import Settings
 from .workspace import InputFile, Request, Workspace
@@ -60,6 +61,7 @@ class _Run:
         self.undecided: list[Undecided] = []
         self.suppressed: list[Suppressed] = []
         self.accepted: list[Suppressed] = []
+        self.inputs: list[InputSummary] = []
         self.prices: dict[str, Price] = {}
         self.failing_prices: dict[str, Price] = {}
         self.fixed: list[FixedText] = []
@@ -104,12 +106,14 @@ class _Run:
             rules,
             self.prices,
             self.baseline is not None,
+            self.inputs,
         )
         return Outcome(result, self.settings, notes, self.fixed, self.failing_prices)
 
     def _run_input(self, path: str) -> None:
         file = self.workspace.open(path)
         if file is None:
+            self.inputs.append(InputSummary(self.request.input_name(path), failed=True))
             return
         result = file.lint(prices=self.with_prices)
         if not isinstance(file.data, bytes):
@@ -154,8 +158,13 @@ class _Run:
 
     def _add(self, file: InputFile, result: FileResult) -> None:
         """Adds the result of an input to the run's, after settings and baseline."""
-        if result.source is not None and (result.findings or result.suppressed):
+        summary = input_summary(file.data, result)
+        self.inputs.append(summary)
+        if result.source is not None and (result.findings or result.suppressed or result.undecided or summary.unread):
             self.workspace.sources[result.file] = result.source
+        if summary.unread is not None and file.resolved.settings.strict_inputs:
+            help = "check a capture or a description of its frame instead, or exclude the file"
+            self.findings.append(diagnostic("MSAA931", summary.unread.message, result.file, summary.unread.span, help=help))
         settled = [found for found in map(file.resolved.selection.settle, result.findings) if found is not None]
         findings, accepted = self._apply_baseline(settled)
         self.findings.extend(findings)

@@ -91,7 +91,7 @@ def test_what_others_cost_counts_alone(folder: Path) -> None:
 
 def test_the_summary_says_how_many(folder: Path) -> None:
     arguments = ("check", "a.msaa.yaml", "--isolated", "--select", "OWN001", "--rules")
-    last = "Found 1 finding (1 error) in 1 file"
+    last = "Found 1 finding (1 error) in 1 file (1 description: 2 images, 1 pass)"
     assert f"{last}; 1 of low confidence, below --fail-confidence\n" in run(folder, *arguments, "low").stdout
     assert f"{last}\n" in run(folder, *arguments, "medium").stdout
     done = run(folder, *arguments, "medium", "--fail-confidence", "high", "--output", "markdown")

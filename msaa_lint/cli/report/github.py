@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 
-from msaa_lint.core.finding import Finding, Result, rank
+from msaa_lint.core.diagnostics import diagnostic
+from msaa_lint.core.finding import Finding, InputSummary, Result, rank
 from msaa_lint.core.text.source import Source
 
 from . import Options, Write
@@ -36,6 +37,8 @@ def render(result: Result, out: Write, options: Options) -> None:
             out(_command(finding, result, options) + "\n")
         else:
             left_out += 1
+    for entry in [each for each in result.inputs if each.unread is not None][: max(room["note"] - bool(left_out), 0)]:
+        out(_unread(entry, result, options) + "\n")
     path = os.environ.get("GITHUB_STEP_SUMMARY", "") if options.step_summary is None else options.step_summary
     problem = _append(path, result, options) if path else ""
     if left_out:
@@ -59,6 +62,13 @@ def _command(finding: Finding, result: Result, options: Options) -> str:
     lines = [display(finding.message), *(f"{word}: {text}" for word, text in remarks if text)]
     joined = ",".join(f"{name}={_property(str(value))}" for name, value in properties.items())
     return f"::{_LEVEL[finding.severity]} {joined}::{_data(chr(10).join(lines))}"
+
+
+def _unread(entry: InputSummary, result: Result, options: Options) -> str:
+    """The command for an input that shows no pass to check."""
+    assert entry.unread is not None
+    finding = diagnostic("MSAA931", entry.unread.message, entry.file, entry.unread.span)
+    return _command(finding._replace(severity="note"), result, options)
 
 
 def _region(source: Source, start: int, end: int) -> dict[str, str | int]:

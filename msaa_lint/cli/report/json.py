@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from msaa_lint.core.finding import Finding, Result, Suppressed, Undecided
+from msaa_lint.core.finding import Finding, InputSummary, Result, Suppressed, Undecided
 from msaa_lint.core.text.span import Span
 
 from . import Options, Write
 from .data import Json, head, text, write_object
 from .escape import escape_surrogates
+from .inputs import COUNTS
 from .paths import relative
 from .place import Place, place
 from .summary import tally, together, usable_price
@@ -27,6 +28,7 @@ def render(result: Result, out: Write, options: Options) -> None:
         "findings": (_finding(finding, result, options) for finding in result.findings),
         "suppressed": (_suppressed(entry, result, options) for entry in result.suppressed),
         "undecided": (_undecided(entry, options) for entry in result.undecided),
+        "inputs": (_input(entry, result, options) for entry in result.inputs),
         "summary": _summary(result),
     }
     write_object(members, out)
@@ -67,6 +69,17 @@ def _undecided(entry: Undecided, options: Options) -> Json:
     }
 
 
+def _input(entry: InputSummary, result: Result, options: Options) -> Json:
+    unread = entry.unread
+    return {
+        "file": escape_surrogates(relative(entry.file, options.root)),
+        "format": entry.format or None,
+        **{name: getattr(entry, name) for name in COUNTS},
+        "failed": entry.failed,
+        "unread": {**_place(result, entry.file, unread.span), "message": text(unread.message)} if unread is not None else None,
+    }
+
+
 def _place(result: Result, file: str, span: Span | None) -> Json:
     at = place(result, file, span)
     return at._asdict() if at is not None else dict.fromkeys(Place._fields)
@@ -77,5 +90,7 @@ def _summary(result: Result) -> Json:
     return {
         **{name: getattr(count, name) for name in _COUNTS},
         "missing": {text(fact): rules for fact, rules in count.missing},
+        "checked": {name: sum(getattr(entry, name) for entry in result.inputs) for name in COUNTS},
+        "unread": sum(entry.unread is not None for entry in result.inputs),
         "price": price._asdict() if price else None,
     }

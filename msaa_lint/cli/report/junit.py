@@ -17,10 +17,11 @@ _ESCAPES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;",
 
 def render(result: Result, out: Write, options: Options) -> None:
     """Prints the document. An unusable input is an error; a note, or a finding below `fail_confidence`, is a passing case that prints it;
-    other findings are failures."""
+    other findings are failures. An input without findings that shows no pass to check is a skipped case."""
     suites: dict[str, list[Finding]] = {file: [] for file in result.files}
     for finding in result.findings:
         suites.setdefault(finding.file, []).append(finding)
+    unread = {each.file: each.unread.message for each in result.inputs if each.unread is not None}
     suites = suites or {"msaa-lint": []}  # Jenkins and GitLab consider an empty report broken
     tests = sum(max(1, len(findings)) for findings in suites.values())
     out('<?xml version="1.0" encoding="UTF-8"?>\n')
@@ -28,11 +29,16 @@ def render(result: Result, out: Write, options: Options) -> None:
     for file, findings in suites.items():
         path = escape(relative(file, options.root))
         counts = _counts(findings, options)
+        reason = unread.get(file) if not findings else None
+        if reason is not None:
+            counts["skipped"] = 1
         out(f"  <testsuite{_attributes(name=path, package='org.msaa-lint', tests=max(1, len(findings)), **counts)}>\n")
         for finding in findings:
             out(_case(finding, path, result, options))
         if not findings:
-            out(f"    <testcase{_attributes(name='No findings', classname=_class(path))}/>\n")
+            case = _attributes(name="No findings", classname=_class(path))
+            body = f">\n      <skipped{_attributes(message=display(reason))}/>\n    </testcase>\n" if reason is not None else "/>\n"
+            out(f"    <testcase{case}{body}")
         out("  </testsuite>\n")
     out("</testsuites>\n")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from msaa_lint.core.finding import Finding, Fix, Result, RuleInfo, Suppressed, rank
+from msaa_lint.core.finding import Finding, Fix, InputSummary, Result, RuleInfo, Suppressed, rank
 from msaa_lint.core.text.span import Span
 from msaa_lint.linter.rules.reference_links import link
 
@@ -13,6 +13,7 @@ from . import Options, Write
 from .data import dump, write_list
 from .escape import clip, display, escape_surrogates
 from .fingerprint import fingerprints
+from .inputs import checked
 from .paths import uri
 from .place import place
 from .summary import tally, together, undecided, usable_price
@@ -24,6 +25,7 @@ MAX_LOCATIONS = 1_000
 MAX_LINKS = 10
 MAX_DESCRIPTION = 1024
 MAX_NAME = 255
+MAX_UNREAD = 100
 
 _PROBLEM = {"error": "error", "warning": "warning", "note": "recommendation"}
 _KIND = {"inline": "inSource", "baseline": "external"}
@@ -122,14 +124,30 @@ def _family(rule: RuleInfo) -> list[str]:
     return [_FAMILY[match[1]]] if match and match[1] in _FAMILY else []
 
 
+def _unread(entry: InputSummary, result: Result, options: Options) -> dict[str, object]:
+    """A notification about an input that shows no pass to check."""
+    assert entry.unread is not None
+    region = _region(result, entry.file, entry.unread.span)
+    location: dict[str, object] = {"artifactLocation": {"uri": uri(entry.file, options.root)}}
+    return {
+        "level": "warning",
+        "message": {"text": _linkless(display(entry.unread.message))},
+        "locations": [{"physicalLocation": location | ({"region": region} if region else {})}],
+    }
+
+
 def _invocation(result: Result, options: Options, left_out: int) -> dict[str, object]:
-    notifications = []
+    notifications: list[dict[str, object]] = []
     if left_out:
         text = f"{left_out} results of the lowest severity are left out: code scanning accepts at most {MAX_RESULTS}."
         notifications.append({"level": "warning", "message": {"text": text}})
     reasons = undecided(tally(result), options)
     if reasons:
         notifications.append({"level": "note", "message": {"text": _linkless(f"{reasons}.")}})
+    if any(each.format for each in result.inputs):
+        notifications.append({"level": "note", "message": {"text": f"Checked {checked(result.inputs)}."}})
+    unread = [each for each in result.inputs if each.unread is not None]
+    notifications += [_unread(entry, result, options) for entry in unread[:MAX_UNREAD]]
     invocation: dict[str, object] = {"executionSuccessful": not any(finding.fatal for finding in result.findings)}
     if notifications:
         invocation["toolExecutionNotifications"] = notifications

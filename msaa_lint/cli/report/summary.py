@@ -7,6 +7,8 @@ from msaa_lint.linter.settings.settings import COMMAND_LINE
 
 from . import Options
 from .escape import display
+from .inputs import checked, unread
+from .words import plural as plural
 
 
 class Tally(NamedTuple):
@@ -59,12 +61,13 @@ def tally(result: Result) -> Tally:
 
 
 def summary(result: Result, options: Options) -> list[str]:
-    """The lines that end a report: the findings, what they cost together, how many have a fix."""
-    return [line for line in (sentence(result, options), total_price(result), fixable(result)) if line]
+    """The lines that end a report: the findings, what they cost together, how many have a fix, and what was not checked."""
+    lines = (sentence(result, options), total_price(result), fixable(result), undecided(tally(result), options))
+    return [*(line for line in lines if line), *unread(result, options)]
 
 
 def sentence(result: Result, options: Options) -> str:
-    """One line: the findings, the number of files, what is suppressed, and what is undecided for lack of which facts."""
+    """One line: the findings, the number of files, what of them was checked, and what is suppressed."""
     count = tally(result)
     if count.findings:
         kinds = [plural(n, word) for n, word in ((count.errors, "error"), (count.warnings, "warning"), (count.notes, "note")) if n]
@@ -77,14 +80,15 @@ def sentence(result: Result, options: Options) -> str:
         text = f"Found {plural(count.findings, 'finding')} ({', '.join(kinds)}) in {' and '.join(places)}"
     else:
         text = f"No findings in {plural(count.files, 'file')}"
+    if any(each.format for each in result.inputs):
+        text += f" ({checked(result.inputs)})"
     unconfident = sum(not is_confident(finding, options.fail_confidence) for finding in result.findings)
     if unconfident:
         levels = " or ".join(CONFIDENCES[: CONFIDENCES.index(options.fail_confidence)])
         text += f"; {unconfident} of {levels} confidence, below --fail-confidence"
     if count.suppressed:
         text += f"; {count.suppressed} suppressed"
-    reasons = undecided(count, options)
-    return f"{text}; {reasons}" if reasons else text
+    return text
 
 
 def undecided(count: Tally, options: Options) -> str:
@@ -119,11 +123,6 @@ def together(result: Result) -> Price | None:
     """What all findings of a run cost together. Those of one file share costs; files are separate frames, whose costs add up."""
     prices = [price for price in result.together.values() if _is_usable(price)]
     return Price(*(sum(column) for column in zip(*prices, strict=True))) if prices else None
-
-
-def plural(n: int, word: str) -> str:
-    """`1 pass`, `2 passes`."""
-    return f"{n} {word}" if n == 1 else f"{n} {word}es" if word.endswith("s") else f"{n} {word}s"
 
 
 def usable_price(finding: Finding) -> Price | None:

@@ -56,6 +56,8 @@ class Document(NamedTuple):
     """Whether the passes run in their order, and the commands are complete. Neither is known of source code."""
     metal: Lowered | None = None
     """The origins of the Vulkan records, for a frame in Metal's terms."""
+    format: str = ""
+    """The format that it was read in, as `--input-format` names it; empty for source code."""
 
     @property
     def api(self) -> str:

@@ -46,9 +46,9 @@ HEADS = (
 
 def read(source: Source, root: Node, format: str | None = None) -> Document:
     """Reads a document in the given format, or in the detected one."""
-    module = FORMATS[format] if format is not None else next((m for m in FORMATS.values() if m.claims(root)), description)
-    document: Document = module.read(source, root)
-    return document
+    name = format if format is not None else next((name for name, module in FORMATS.items() if module.claims(root)), "description")
+    document: Document = FORMATS[name].read(source, root)
+    return document._replace(format=name)
 
 
 CAPTURE_HEADS = tuple(word for words in CAPTURES.values() for word in words)

@@ -37,11 +37,12 @@ MAX_CACHED = 4096
 
 
 class Verdicts(NamedTuple):
-    """The results of all rules for a document."""
+    """The results of all rules for a document; `checked` is false if problems of the document kept them from running."""
 
     findings: list[Finding]
     undecided: list[Undecided]
     fix_specs: FixSpecs
+    checked: bool = True
 
 
 class RuleRunner:

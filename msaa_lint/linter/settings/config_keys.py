@@ -224,6 +224,9 @@ class TableReader:
             return None
         return self.project_path(path, text)
 
+    def flag(self, path: Path, value: Any) -> bool | None:
+        return bool(value) if self.has_type(path, value, bool, "true or false") else None
+
     def limits(self, path: Path, value: Any) -> dict[str, int]:
         limits = {}
         for name, number in self.table(path, value, "a table such as {depth = 50}").items():
@@ -267,6 +270,7 @@ KEYS: dict[str, Callable[[TableReader, Path, Any], Any]] = {
     "rules": TableReader.rules,
     "exclude": TableReader.globs,
     "include": TableReader.globs,
+    "strict-inputs": TableReader.flag,
     "baseline": TableReader.baseline,
     "limits": TableReader.limits,
     "output": TableReader.outputs,

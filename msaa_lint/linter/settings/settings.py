@@ -60,7 +60,8 @@ class Settings(NamedTuple):
     (empty: the command's default), `baseline` the path of the baseline.
 
     Inputs: files that match `exclude` are not linted. In folders, only files that match `include` are (empty: files with the usual
-    endings and files that look like an input). `profile` names a device, a device class or a vendor. `limits` overrides `Limits`.
+    endings and files that look like an input). `strict_inputs` makes an input that creates something multisampled, but shows no pass to
+    check, an error. `profile` names a device, a device class or a vendor. `limits` overrides `Limits`.
 
     `root` is the folder of the configuration file, or the current folder. `origin` maps the path of each key to its configuration file.
     """
@@ -80,6 +81,7 @@ class Settings(NamedTuple):
     exclude: tuple[Glob, ...] = ()
     include: tuple[Glob, ...] = ()
     baseline: str | None = None
+    strict_inputs: bool = False
     limits: Mapping[str, int] = {}
     output: tuple[str, ...] = ()
     root: str = ""
@@ -115,9 +117,8 @@ def override(
 ) -> Settings:
     """The settings with those of the command line; None and empty values keep a file's.
 
-    `rules` and `exclude` add to a file's, the others replace them; `single` are the settings that
-    are one text. Paths and globs are relative to the current folder. Raises ValueError for a glob that cannot match anything; the other
-    values are not checked here.
+    `rules` and `exclude` add to a file's, the others replace them; `single` are the settings that are one text or flag. Paths and globs
+    are relative to the current folder. Raises ValueError for a glob that cannot match anything; the other values are not checked here.
     """
     from msaa_lint.core.globs import compiled
 

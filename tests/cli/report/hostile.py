@@ -4,7 +4,19 @@ from __future__ import annotations
 
 from hypothesis import strategies as st
 
-from msaa_lint.core.finding import CONFIDENCES, SEVERITIES, CaptureLocation, Finding, Fix, Price, Result, Suppressed, Undecided
+from msaa_lint.core.finding import (
+    CONFIDENCES,
+    SEVERITIES,
+    CaptureLocation,
+    Finding,
+    Fix,
+    InputSummary,
+    Price,
+    Result,
+    Suppressed,
+    Undecided,
+    Unread,
+)
 from msaa_lint.core.text.span import Edit, Label, Span
 from tests.cli.report.sample import RULES, Source
 
@@ -109,4 +121,9 @@ def results(draw: st.DrawFn) -> Result:
         silenced += draw(st.lists(st.builds(Suppressed, one, st.sampled_from(["inline", "baseline"]), texts), max_size=1))
     lacking = st.lists(texts, min_size=1, max_size=3).map(tuple)
     undecided = draw(st.lists(st.builds(Undecided, names, names, st.sampled_from(files), texts, lacking), max_size=2))
-    return Result(found, undecided, silenced, files, sources, RULES)
+    places = st.one_of(st.none(), st.tuples(st.integers(0, 20), st.integers(20, 40)).map(lambda ends: Span(*ends)))
+    unread = st.one_of(st.none(), st.builds(Unread, places, texts))
+    n = st.integers(0, 3)
+    formats = st.sampled_from(["description", "fossilize", "cpp", ""])
+    inputs = [draw(st.builds(InputSummary, st.just(file), formats, n, n, n, n, n, st.booleans(), unread)) for file in files]
+    return Result(found, undecided, silenced, files, sources, RULES, inputs=inputs)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from msaa_lint.cli.report import Options, render
-from msaa_lint.core.finding import Finding, Fix, Price, Result, RuleInfo, Suppressed, Undecided
+from msaa_lint.core.finding import Finding, Fix, InputSummary, Price, Result, RuleInfo, Suppressed, Undecided, Unread
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Edit, Label, Span
 
@@ -37,6 +37,8 @@ RULES = (
     RuleInfo("MSAA101", "sample-count-above-four", "warning", "medium", "More than four samples."),
     RuleInfo("MSAA201", "multisampled-attachment-stored", "warning", "high", "A multisampled attachment is stored and nothing reads it."),
 )
+
+CODE = "void create() {\n  info.samples = count;\n}\n"
 
 
 def span(text: str, part: str, after: str = "") -> Span:
@@ -116,10 +118,18 @@ def frame() -> Result:
         Undecided("MSAA401", "multisampled-image-not-transient", file, "images.depth_ms", ("image.usage",)),
         Undecided("MSAA402", "transient-not-lazily-allocated", file, "images.color_ms", ("image.memory", "image.usage")),
     )
-    sources = {file: Source(file, FORWARD), "broken.yaml": Source("broken.yaml", "a: {b")}
-    files = ("broken.yaml", "passes/clean.yaml", file, "trace.rdc")
+    code = "src/render.cpp"
+    sources = {file: Source(file, FORWARD), "broken.yaml": Source("broken.yaml", "a: {b"), code: Source(code, CODE)}
+    files = ("broken.yaml", "passes/clean.yaml", file, code, "trace.rdc")
     together = {file: Price(562.0, 2248.1, 31.64, 281.0)}
-    return Result((broken, stored, loaded, binary), undecided, (silenced, baseline), files, sources, RULES, together)
+    inputs = (
+        InputSummary("broken.yaml", "description", failed=True),
+        InputSummary("passes/clean.yaml", "description", 1, 1, 0),
+        InputSummary(file, "description", 2, 1, 1),
+        InputSummary(code, "cpp", images=1, unread=Unread(span(CODE, "samples = count"), "`samples = count` is in no pass")),
+        InputSummary("trace.rdc", "renderdoc", 4, 2, 12),
+    )
+    return Result((broken, stored, loaded, binary), undecided, (silenced, baseline), files, sources, RULES, together, inputs=inputs)
 
 
 def printed(name: str, run: Result, **options: object) -> str:

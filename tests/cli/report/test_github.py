@@ -12,13 +12,17 @@ from tests.paths import ROOT
 
 def test_worst_first_and_one_command_each() -> None:
     lines = printed("github", frame()).splitlines()
-    assert [line.split(" ")[0] for line in lines] == ["::error", "::error", "::warning", "::notice"]
+    assert [line.split(" ")[0] for line in lines] == ["::error", "::error", "::warning", "::notice", "::notice"]
     assert lines[2] == (
         "::warning file=passes/forward.yaml,line=9,endLine=9,col=18,endColumn=23,title=multisampled-attachment-stored (MSAA201)"
         "::multisampled attachment `color` is resolved and also stored%0Acost: +2248 MB/s written, +31.6 MiB of memory, +225 mW"
         "%0Ahelp: set `storeOp: DONT_CARE`"
     )
     assert lines[3] == "::notice file=trace.rdc,title=sample-count-above-four (MSAA101)::8 samples"
+    assert (
+        lines[4]
+        == "::notice file=src/render.cpp,line=2,endLine=2,col=8,endColumn=23,title=unread-input (MSAA931)::`samples = count` is in no pass"
+    )
 
 
 @pytest.mark.parametrize("name", ["github", "gitlab", "junit"])
@@ -82,7 +86,7 @@ def test_summary_is_appended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(summary))
     printed("github", frame(), step_summary=None)
     text = summary.read_text()
-    assert text.startswith("before\n### msaa-lint\n\nFound 4 findings &#40;2 errors, 1 warning, 1 note&#41; in 3 of 4 files; ")
+    assert text.startswith("before\n### msaa-lint\n\nFound 4 findings &#40;2 errors, 1 warning, 1 note&#41; in 3 of 5 files ")
     assert "\n| error | resolve-target-loaded | passes/forward.yaml:10:60 | resolve target is loaded | +562 MB/s read, +5.62 mW |\n" in text
     printed("github", frame(), step_summary="")
     assert summary.read_text() == text

@@ -29,6 +29,13 @@ def test_frame_is_valid_and_states_places_and_prices() -> None:
         "subject": "images.color_ms",
         "missing": ["image.memory", "image.usage"],
     }
+    assert [(entry["file"], entry["failed"], entry["unread"] and entry["unread"]["line"]) for entry in data["inputs"]] == [
+        ("broken.yaml", True, None),
+        ("passes/clean.yaml", False, None),
+        ("passes/forward.yaml", False, None),
+        ("src/render.cpp", False, 2),
+        ("trace.rdc", False, None),
+    ]
     assert data["summary"] == {
         "findings": 4,
         "errors": 2,
@@ -36,11 +43,13 @@ def test_frame_is_valid_and_states_places_and_prices() -> None:
         "notes": 1,
         "fixable": 2,
         "suppressed": 2,
-        "files": 4,
+        "files": 5,
         "files_with_findings": 3,
         "undecided": 3,
         "undecided_rules": 2,
         "missing": {"image.usage": 2, "image.memory": 1},
+        "checked": {"images": 8, "passes": 4, "pipelines": 13, "shaders": 0, "choices": 0},
+        "unread": 1,
         "price": {"read_mb_per_s": 562.0, "write_mb_per_s": 2248.1, "memory_mib": 31.64, "milliwatts": 281.0},
     }
 

@@ -144,7 +144,26 @@ def test_invocation_tells_of_failure_and_of_what_stayed_undecided() -> None:
     (invocation,) = run_of(frame())["invocations"]
     assert invocation["executionSuccessful"] is False
     assert invocation["toolExecutionNotifications"] == [
-        {"level": "note", "message": {"text": "2 rules undecided, missing facts: image.usage (2), image.memory (1)."}}
+        {"level": "note", "message": {"text": "2 rules undecided, missing facts: image.usage (2), image.memory (1)."}},
+        {
+            "level": "note",
+            "message": {
+                "text": "Checked 3 descriptions: 3 images, 2 passes, 1 pipeline, 1 not checked because of errors; "
+                "1 RenderDoc capture: 4 images, 2 passes, 12 pipelines; 1 C++ file: 1 image."
+            },
+        },
+        {
+            "level": "warning",
+            "message": {"text": "`samples = count` is in no pass"},
+            "locations": [
+                {
+                    "physicalLocation": {
+                        "artifactLocation": {"uri": "src/render.cpp"},
+                        "region": {"startLine": 2, "startColumn": 8, "endLine": 2, "endColumn": 23},
+                    }
+                }
+            ],
+        },
     ]
 
 

@@ -38,10 +38,10 @@ def test_summary_names_the_missing_facts_most_lacked_first() -> None:
     )
     run = result(files=("f",), undecided=undecided)
     assert printed("concise", run) == (
-        "No findings in 1 file; 3 rules undecided, missing facts: image.memory (2), device.name (1), image.usage (1)\n"
+        "No findings in 1 file\n3 rules undecided, missing facts: image.memory (2), device.name (1), image.usage (1)\n"
     )
     assert printed("concise", run, max_undecided=1) == (
-        "No findings in 1 file; 3 rules undecided, missing facts: image.memory (2), and 2 more\n"
+        "No findings in 1 file\n3 rules undecided, missing facts: image.memory (2), and 2 more\n"
     )
 
 

@@ -168,7 +168,7 @@ def test_findings_of_code_fail_nothing_unless_asked_to(tmp_path: Path) -> None:
     write(tmp_path, "a.cpp")
     done = run(tmp_path, "check", *ONLY, "a.cpp")
     assert done.returncode == 0
-    assert "Found 1 finding (1 warning) in 1 file; 1 of low confidence, below --fail-confidence\n" in done.stdout
+    assert "Found 1 finding (1 warning) in 1 file (1 C++ file: 1 pass); 1 of low confidence, below --fail-confidence\n" in done.stdout
     done = run(tmp_path, "check", *ONLY, "a.cpp", "--fail-confidence", "low")
     assert done.returncode == 1
     assert "confidence" not in done.stdout
@@ -401,7 +401,7 @@ def test_the_blocks_of_a_page_are_one_program(tmp_path: Path, name: str) -> None
 def test_a_page_without_code_has_no_findings(tmp_path: Path) -> None:
     write(tmp_path, "page.md", "# MSAA\n\n```yaml\nimages: {}\n```\n")
     done = run(tmp_path, "check", *ONLY, "page.md")
-    assert (done.returncode, done.stdout) == (0, "No findings in 1 file\n")
+    assert (done.returncode, done.stdout) == (0, "No findings in 1 file (1 Markdown page: nothing read)\n")
 
 
 # Suppressions.

@@ -1,0 +1,79 @@
+"""What of the inputs was checked, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from msaa_lint.core.finding import InputSummary, Result
+
+from . import Options
+from .escape import display
+from .paths import display_path
+from .place import place
+from .words import plural
+
+COUNTS = ("images", "passes", "pipelines", "shaders", "choices")
+"""The counts of an `InputSummary`."""
+
+_FORMATS = {
+    "description": "description",
+    "vulkan-sc": "Vulkan SC pipeline",
+    "gfxreconstruct": "gfxreconstruct capture",
+    "api-dump": "api_dump capture",
+    "renderdoc": "RenderDoc capture",
+    "fossilize": "Fossilize archive",
+    "c": "C file",
+    "cpp": "C++ file",
+    "swift": "Swift file",
+    "glsl": "GLSL file",
+    "markdown": "Markdown page",
+    "": "unreadable file",
+}
+"""What an input of each format is called."""
+
+_NOUNS = ("image", "pass", "pipeline", "shader", "sample count choice")
+
+_SOURCE = frozenset({"c", "cpp", "swift", "glsl", "markdown"})
+
+
+def checked(inputs: Sequence[InputSummary]) -> str:
+    """`2 descriptions: 5 images, 3 passes; 1 C++ file: nothing read`; empty if nothing is known of the inputs."""
+    by_format: dict[str, list[InputSummary]] = {}
+    for each in inputs:
+        by_format.setdefault(each.format, []).append(each)
+    ordered = sorted(by_format.items(), key=lambda item: list(_FORMATS).index(item[0]))
+    return "; ".join(_of_format(format, group) for format, group in ordered)
+
+
+def _of_format(format: str, inputs: Sequence[InputSummary]) -> str:
+    """`2 descriptions: 5 images, 3 passes, 1 not checked because of errors`."""
+    name = plural(len(inputs), _FORMATS[format])
+    if not format:
+        return name
+    sums = [sum(getattr(each, count) for each in inputs) for count in COUNTS]
+    parts = [plural(total, noun) for total, noun in zip(sums, _NOUNS, strict=True) if total]
+    failed = [any(getattr(each, count) for count in COUNTS) for each in inputs if each.failed]
+    for checked_in_part, words in ((False, "not checked because of errors"), (True, "checked in part because of errors")):
+        if checked_in_part in failed:
+            parts.append(f"{failed.count(checked_in_part)} {words}")
+    return f"{name}: {', '.join(parts) or ('nothing read' if format in _SOURCE else 'nothing to check')}"
+
+
+def unread(result: Result, options: Options) -> list[str]:
+    """A line for each input that creates something multisampled of which no pass was checked, unless a finding says so."""
+    reported = {finding.file for finding in result.findings if finding.code == "MSAA931"}
+    inputs = [each for each in result.inputs if each.unread is not None and each.file not in reported]
+    lines = [unread_line(each, result, options) for each in inputs[: options.max_unread]]
+    if len(inputs) > len(lines):
+        lines.append(f"{plural(len(inputs) - len(lines), 'more file')} not checked")
+    if lines:
+        lines.append("--strict-inputs makes inputs that are not checked an error")
+    return lines
+
+
+def unread_line(summary: InputSummary, result: Result, options: Options) -> str:
+    """`src/main.cpp:12:5: not checked: ...`."""
+    assert summary.unread is not None
+    at = place(result, summary.file, summary.unread.span)
+    where = display_path(summary.file, options.root) + (f":{at.line}:{at.column}" if at is not None else "")
+    return f"{where}: not checked: {display(summary.unread.message)}"

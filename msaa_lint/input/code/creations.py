@@ -1,0 +1,98 @@
+"""Finds where source code creates multisampled images and pipelines, by its words, if nothing of them could be read."""
+
+import re
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+from .parsing import Code
+
+IMAGES = "images"
+PIPELINES = "pipelines"
+READS = "reads"
+
+_BLANKED = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)|\"(?:[^\"\\\n]|\\.)*\"|'(?:[^'\\\n]|\\.)*'", re.DOTALL)
+"""Comments and literals."""
+
+_VISIBLE = re.compile(r"[^\r\n]")
+
+_ONE = re.compile(
+    r"(?:\(\s*\w+\s*\)\s*)?(?:0|1|1u|\{\s*\}|VK_SAMPLE_COUNT_1_BIT|(?:\w+::)*SampleCountFlagBits(?:KHR)?::e1|\.e1)?\s*", re.IGNORECASE
+)
+"""A sample count of one, or no value."""
+
+_COUNT = r"(?:VK_SAMPLE_COUNT_(?:2|4|8|16|32|64)_BIT|(?:\w+::){0,9}SampleCountFlagBits::e(?:2|4|8|16|32|64)\b)"
+_VALUE = r"(?P<value>[^,;{}\n]{1,200}|\{\s*\})"
+
+_VULKAN = re.compile(
+    # A member that is set: not the declaration of one, and not the setter of a binding.
+    rf"(?:\.|->)\s*(?P<member>samples|rasterizationSamples)\s*=(?!=)\s*{_VALUE}"
+    rf"|(?:\.|->)\s*set(?P<setter>Samples|RasterizationSamples)\s*\((?P<argument>[^;{{}}\n]{{1,200}}?)\)"
+    # Its place in the initializer of an image or an attachment, and a function that creates one.
+    rf"|(?P<initializer>{_COUNT})\s*,\s*(?:VK_ATTACHMENT_LOAD_OP_|VK_IMAGE_TILING_|(?:\w+::){{0,9}}(?:AttachmentLoadOp|ImageTiling)::)"
+    rf"|\b\w{{0,80}}(?i:create|make|alloc|init)\w{{0,80}}\s*\([^;{{}}]{{0,300}}?(?P<passed>{_COUNT})"
+)
+_VULKAN_IMAGES = re.compile(
+    r"(?i:create)\w{0,80}(?:Image|Texture|RenderPass|Attachment|Target)\w{0,80}\s*\(|raii::(?:Image|RenderPass)\b|[bB]eginRendering"
+)
+_VULKAN_PIPELINES = re.compile(r"(?i:create)\w{0,80}Pipeline\w{0,80}\s*\(|raii::Pipeline\b")
+"""Calls that create something: initializers of structures alone do not."""
+
+_METAL = re.compile(
+    rf"\.\s*(?P<member>sampleCount|rasterSampleCount)\s*=(?!=)\s*{_VALUE}|\.textureType\s*=\s*(?P<initializer>\.type2DMultisample\w*)"
+)
+_METAL_IMAGES = re.compile(r"MTLTextureDescriptor|MTKView|texture2DDescriptor|extureDescriptor")
+
+_GLSL = re.compile(r"\b(?P<initializer>[iu]?(?:sampler|texture|image)2DMS(?:Array)?|[iu]?subpassInputMS)\b")
+_GLSL_READS = re.compile(r"\b(?:texelFetch|subpassLoad|imageLoad)\b")
+
+
+class Creation(NamedTuple):
+    """Code that creates something multisampled: what (IMAGES, PIPELINES; READS: a shader that reads samples), its place, and its text."""
+
+    kind: str
+    start: int
+    end: int
+    text: str
+
+
+def creations(codes: Iterable[Code]) -> Iterator[Creation]:
+    """Yields what code creates with a sample count that is not one, in the order of the code.
+
+    Declarations of members, tables of enumerants, and comparisons create nothing.
+    """
+    for code in codes:
+        text = _BLANKED.sub(lambda match: _VISIBLE.sub(" ", match[0]), code.text)
+        yield from _of_language(code.language, text)
+
+
+def _is_one(value: str, text: str) -> bool:
+    """Whether an expression is a sample count of one: a literal, or a name that the text gives no other value."""
+    if _ONE.fullmatch(value) is not None:
+        return True
+    if not value.isidentifier():
+        return False
+    values = re.findall(rf"(?<![.>\w]){value}\s*(?:=(?!=)|\{{)\s*([^;,{{}}\n]{{0,200}})|#\s*define\s+{value}[ \t]+([^\n]{{0,200}})", text)
+    return bool(values) and all(_ONE.fullmatch((assigned or defined).strip()) is not None for assigned, defined in values)
+
+
+def _of_language(language: str, text: str) -> Iterator[Creation]:
+    if language == "glsl":
+        match = _GLSL.search(text) if _GLSL_READS.search(text) is not None else None
+        if match is not None:
+            yield Creation(READS, match.start(), match.end(), match[0])
+        return
+    pattern, images, pipelines = (_METAL, _METAL_IMAGES, None) if language == "swift" else (_VULKAN, _VULKAN_IMAGES, _VULKAN_PIPELINES)
+    has_images, has_pipelines = images.search(text) is not None, pipelines is None or pipelines.search(text) is not None
+    ones: dict[str, bool] = {}
+    for match in pattern.finditer(text):
+        groups = match.groupdict()
+        value = next(groups[name] for name in ("value", "argument", "initializer", "passed") if groups.get(name) is not None).strip()
+        if value not in ones:
+            ones[value] = _is_one(value, text)
+        if ones[value]:
+            continue
+        setter = groups.get("setter") or "samples"
+        member = groups.get("member") or setter[:1].lower() + setter[1:]
+        kind = PIPELINES if member.lower().startswith("raster") else IMAGES
+        if has_images if kind == IMAGES else has_pipelines:
+            yield Creation(kind, match.start(), match.end(), f"{member} = {value}")
