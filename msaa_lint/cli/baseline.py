@@ -8,7 +8,7 @@ from msaa_lint.linter.run import run
 from msaa_lint.linter.suppress import baseline as baselines
 from msaa_lint.linter.workspace import Request
 
-from .common import log, note, run_command, warn
+from .common import log, note, overrides, run_command, warn
 from .options import Arguments
 from .report.summary import plural
 
@@ -23,7 +23,9 @@ def baseline(arguments: Arguments) -> int:
 
 def _baseline(arguments: Arguments) -> int:
     isolated = bool(arguments.get("isolated"))
-    request = Request(arguments["paths"], {}, arguments.get("config"), isolated, without_baseline=True, log=log(arguments))
+    request = Request(
+        arguments["paths"], overrides(arguments), arguments.get("config"), isolated, without_baseline=True, log=log(arguments)
+    )
     return write_baseline(request, arguments.get("file", FILE), bool(arguments.get("prune")))
 
 

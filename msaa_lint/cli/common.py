@@ -186,6 +186,8 @@ def overrides(arguments: Arguments) -> dict[str, Any]:
     for name in _SELECTORS:
         if name in arguments:
             settings[name] = [word.strip() for text in arguments[name] for word in text.split(",") if word.strip()]
+    if arguments.get("no_respect_gitignore"):
+        settings["respect_gitignore"] = False
     return settings
 
 

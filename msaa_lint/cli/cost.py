@@ -23,6 +23,7 @@ from .common import (
     chart_format,
     input_options,
     note,
+    overrides,
     parse_list,
     parse_outputs,
     parse_size,
@@ -52,7 +53,7 @@ def _cost(arguments: Arguments) -> int:
     chart = arguments.get("chart")
     if chart is not None:
         chart_format(chart, "--chart")
-    request = Request(**input_options(arguments), overrides={"profile": arguments["profile"]} if "profile" in arguments else {})
+    request = Request(**input_options(arguments), overrides=overrides(arguments))
     result = run_costs(request, terms, counts)
     comparison = None if arguments.get("each") else _comparison(result, request)
     for text in result.notes:

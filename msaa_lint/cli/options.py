@@ -88,6 +88,7 @@ _STDIN_FILENAME = Option("stdin_filename", "text", "Name to use for standard inp
 _CONFIGURATION = (
     Option("config", "text", "Use this configuration file.", "FILE"),
     Option("isolated", "flag", "Ignore configuration files."),
+    Option("no_respect_gitignore", "flag", "In folders, also lint files that .gitignore ignores."),
 )
 
 

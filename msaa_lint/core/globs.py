@@ -1,8 +1,8 @@
 """Globs with the syntax of .gitignore, matched in linear time: a configuration may come from an untrusted branch.
 
-`*` and `?` do not match `/`; `**` between slashes matches any number of folders; `[a-z]` and `[!a-z]` match one character; a backslash
-escapes the next character. A glob with a slash at its start or in the middle is relative to its root, any other matches at every depth; one
-that ends in a slash matches folders only. A glob that matches a folder matches everything in it. A leading `!` negates a glob.
+`*` and `?` do not match `/`; `**` between slashes matches any number of folders; `[a-z]`, `[!a-z]` and `[[:digit:]]` match one character; a
+backslash escapes the next character. A glob with a slash at its start or in the middle is relative to its root, any other matches at every
+depth; one that ends in a slash matches folders only. A glob that matches a folder matches everything in it. A leading `!` negates a glob.
 """
 
 from __future__ import annotations
@@ -17,6 +17,11 @@ from typing import NamedTuple
 MAX_LENGTH = 256
 _ANY = "[^/]"
 _NAME = "[^/]+"
+_POSIX = {
+    "alnum": "0-9A-Za-z", "alpha": "A-Za-z", "blank": " \\t", "cntrl": "\\0-\\x1f\\x7f", "digit": "0-9", "graph": "!-~", "lower": "a-z",
+    "print": " -~", "punct": "!-/:-@\\[-`{-~", "space": "\\t-\\r ", "upper": "A-Z", "xdigit": "0-9A-Fa-f",
+}  # fmt: skip
+_POSIX_CLASS = re.compile(r"\[:(\w+):\]")
 
 
 class Glob(NamedTuple):
@@ -105,19 +110,26 @@ def _class(part: str, at: int) -> tuple[str, int]:
     negated = part[at : at + 1] in ("!", "^")
     at += negated
     chars: list[tuple[str, bool]] = []
+    out = ""
     while True:
         if at >= len(part):
             raise ValueError("a `[` without its `]`")
+        posix = _POSIX_CLASS.match(part, at)
+        if posix is not None:
+            if posix[1] not in _POSIX:
+                raise ValueError(f"unknown character class `{posix[0]}`")
+            out += _POSIX[posix[1]]
+            at = posix.end()
+            continue
         char = part[at]
         at += 1
-        if char == "]" and chars:
+        if char == "]" and (chars or out):
             break
         if char == "\\" and at < len(part):
             char, at = part[at], at + 1
             chars.append((char, False))
         else:
             chars.append((char, char == "-"))
-    out = ""
     i = 0
     while i < len(chars):
         if i + 2 < len(chars) and chars[i + 1][1]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from functools import cached_property
 from typing import NamedTuple, Protocol
 
@@ -13,19 +14,24 @@ from msaa_lint.core.globs import Glob, excluding
 from msaa_lint.core.project import inside, project_root, shown
 from msaa_lint.core.quote import quoted
 
-from .file_types import DATA, DESCRIPTIONS, HEAD_BYTES, LANGUAGES, SOURCES, STDIN, missing_extra
+from .file_types import DATA, DESCRIPTIONS, INPUT, LANGUAGES, NEAR, OTHER, SOURCES, STDIN, missing_extra
+from .ignore_files import IgnoreFiles, above
 
 MAX_DEPTH = 64
 _SKIPPED = frozenset({"node_modules", "bower_components", "__pycache__", "__pypackages__", "site-packages", "venv", "CVS"})
+_OUTPUTS = (".json", ".sarif", ".xml", ".md")
+"""Endings of files that msaa-lint may have written and that are not inputs; other files are not opened to see."""
 
 
 class Scope(Protocol):
-    """The settings that discovery needs: the globs of inputs in folders, and of files that are not linted."""
+    """The settings that discovery needs: the globs of inputs in folders and of files that are not linted; whether .gitignore applies."""
 
     @property
     def include(self) -> Sequence[Glob]: ...
     @property
     def exclude(self) -> Sequence[Glob]: ...
+    @property
+    def respect_gitignore(self) -> bool: ...
 
 
 class Discovered(NamedTuple):
@@ -36,20 +42,19 @@ class Discovered(NamedTuple):
     notes: list[str]
 
 
-def discover(
-    paths: Iterable[str], settings_for: Callable[[str], Scope], looks_like: Callable[[str], bool], sources: bool = False
-) -> Discovered:
+def discover(paths: Iterable[str], settings_for: Callable[[str], Scope], sources: bool = False) -> Discovered:
     """The files to lint.
 
     A named file is linted whatever its name, unless `exclude` matches it; that is only a note, since commit hooks name every file. A
-    folder contributes the files that `include` matches, or by default those called `*.msaa.yaml` (yml, json) and data files whose first
-    64 KiB satisfy `looks_like`. `sources` adds source code that mentions multisampling, or a note if the extra that reads it is missing.
-    Hidden folders and those of tools and environments are skipped. Links to folders are not followed; links to files are if they stay in
-    the project. A missing path and a folder without inputs are findings (MSAA921).
+    folder contributes the files that `include` matches, or by default those called `*.msaa.yaml` (yml, json) and data files with content
+    that only a frame has; a note counts those that nearly have it. `sources` adds source code that mentions multisampling, or a note if
+    the extra that reads it is missing. Hidden folders and those of tools and environments, what .gitignore ignores, and what msaa-lint
+    itself wrote are skipped. Links to folders are not followed; links to files are if they stay in the project. A missing path and a
+    folder without inputs are findings (MSAA921).
 
     `settings_for` gives the settings of a file or folder. `-` stays as it is.
     """
-    walk = _Walk(settings_for, looks_like, sources)
+    walk = _Walk(settings_for, sources)
     for path in paths:
         if path == STDIN:
             walk.files[STDIN] = None
@@ -65,24 +70,57 @@ def discover(
             reason = ": it is a broken link" if os.path.lexists(path) else ""
             walk.findings.append(diagnostic("MSAA921", f"no such file or folder {quoted(path)}{reason}", shown(path)))
     if walk.unreadable_sources:
-        many = "1 source file" if walk.unreadable_sources == 1 else f"{walk.unreadable_sources} source files"
-        walk.notes.append(f"{many} skipped: {missing_extra()}")
+        walk.notes.append(f"{_count(walk.unreadable_sources, 'source file')} skipped: {missing_extra()}")
+    near = [name for name in walk.near if name not in walk.files]
+    if near:
+        walk.notes.append(_nearly(near))
     return Discovered(sorted(walk.files, key=lambda name: (name.split("/"), name)), walk.findings, list(dict.fromkeys(walk.notes)))
+
+
+def _nearly(names: Sequence[str]) -> str:
+    if len(names) == 1:
+        return f"{names[0]} looks a little like a description and was skipped: to lint it, name it or rename it to *{DESCRIPTIONS[0]}"
+    return (
+        f"{len(names)} files look a little like descriptions and were skipped, the first one {names[0]}: "
+        f"to lint them, name them or rename them to *{DESCRIPTIONS[0]}"
+    )
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def _excluded(path: str, glob: Glob) -> str:
     return f"{shown(path)} is excluded by {quoted(glob.pattern)}"
 
 
-class _Walk:
-    """The files found so far."""
+class _Folder(NamedTuple):
+    """A folder to search, how deep it is in the named one, and the ignore files of the folders above it."""
 
-    def __init__(self, settings_for: Callable[[str], Scope], looks_like: Callable[[str], bool], sources: bool) -> None:
+    path: str
+    depth: int
+    above: IgnoreFiles
+
+
+class _Search:
+    """The search of one named folder: its project, the number of inputs, and the candidates that `exclude` and ignore files skip."""
+
+    def __init__(self, top: str) -> None:
+        self.project = project_root(top)
+        self.inputs = 0
+        self.excluded: list[tuple[os.DirEntry[str], str, Sequence[Glob]]] = []
+        self.ignored: list[str] = []
+
+
+class _Walk:
+    """The files found so far. `near` has the files that are nearly inputs, in order."""
+
+    def __init__(self, settings_for: Callable[[str], Scope], sources: bool) -> None:
         self.settings_for = settings_for
-        self.looks_like = looks_like
         self.sources = sources
         self.unreadable_sources = 0
         self.files: dict[str, None] = {}
+        self.near: dict[str, None] = {}
         self.findings: list[Finding] = []
         self.notes: list[str] = []
 
@@ -92,83 +130,116 @@ class _Walk:
         if glob is not None:
             self.notes.append(_excluded(top, glob))
             return
-        project = project_root(top)
-        findings, unreadable, excluded, inputs = len(self.findings), self.unreadable_sources, 0, 0
-        waiting = [(top, 0)]
+        search = _Search(top)
+        findings, unreadable, near = len(self.findings), self.unreadable_sources, len(self.near)
+        waiting = [_Folder(top, 0, above(top))]
         while waiting:
-            folder, depth = waiting.pop()
-            if depth > MAX_DEPTH:
-                self.notes.append(f"{shown(folder)} is more than {MAX_DEPTH} folders deep: name it to lint it")
+            folder = waiting.pop()
+            if folder.depth > MAX_DEPTH:
+                self.notes.append(f"{shown(folder.path)} is more than {MAX_DEPTH} folders deep: name it to lint it")
                 continue
-            settings = self.settings_for(folder)
             try:
-                with os.scandir(folder) as scan:
+                with os.scandir(folder.path) as scan:
                     entries = sorted(scan, key=lambda entry: entry.name)
             except OSError as error:
-                self.findings.append(diagnostic("MSAA921", f"cannot read the folder: {error.strerror or error}", shown(folder)))
+                self.findings.append(diagnostic("MSAA921", f"cannot read the folder: {error.strerror or error}", shown(folder.path)))
                 continue
-            if folder != top and any(entry.name == "pyvenv.cfg" for entry in entries):
-                continue
-            for entry in entries:
-                # Without the `./` that joining `.` would give: globs and names do not have it.
-                path = entry.name if folder == os.curdir else os.path.join(folder, entry.name)
-                if entry.is_dir(follow_symlinks=False):
-                    if not (entry.name.startswith(".") or entry.name in _SKIPPED or excluding(path, settings.exclude, folder=True)):
-                        waiting.append((path, depth + 1))
-                elif not self._is_input(entry, path, settings.include):
-                    continue
-                elif excluding(path, settings.exclude):
-                    excluded += 1
-                elif entry.is_symlink() and not (os.path.isfile(path) and inside(path, project)):
-                    self.notes.append(f"{shown(path)} is a link that is broken or leaves the project: name it to lint it")
-                elif os.path.isfile(path):
-                    if entry.name.lower().endswith((*SOURCES, *LANGUAGES["markdown"])) and not self._can_read_sources:
-                        self.unreadable_sources += 1
-                    else:
-                        self.files[shown(path)] = None
-                        inputs += 1
-        if not inputs and len(self.findings) == findings:
-            if self.unreadable_sources > unreadable:
-                reason = missing_extra()
-            elif excluded:
-                reason = f"all inputs are excluded ({excluded})"
-            else:
-                names = ", ".join("*" + ending for ending in DESCRIPTIONS)
-                reason = f"inputs are called {names} or look like one; name other files"
+            if folder.path == top or all(entry.name != "pyvenv.cfg" for entry in entries):
+                self._add_entries(folder, entries, search, waiting)
+        if not search.inputs and len(self.findings) == findings:
+            no_extra = self.unreadable_sources > unreadable
+            reason = missing_extra() if no_extra else self._reason(search, len(self.near) - near)
             self.findings.append(diagnostic("MSAA921", f"nothing to lint in {quoted(top)}: {reason}", shown(top)))
 
-    def _is_input(self, entry: os.DirEntry[str], path: str, include: Sequence[Glob]) -> bool:
+    def _add_entries(self, folder: _Folder, entries: Sequence[os.DirEntry[str]], search: _Search, waiting: list[_Folder]) -> None:
+        """Adds the inputs among the entries of a folder, and its folders to `waiting`."""
+        settings = self.settings_for(folder.path)
+        ignore_files = folder.above.below(folder.path, {entry.name for entry in entries if entry.name.startswith(".")})
+        in_force = ignore_files if settings.respect_gitignore else IgnoreFiles()
+        prefix = os.path.abspath(folder.path).replace(os.sep, "/").rstrip("/") + "/"
+        for entry in entries:
+            # Without the `./` that joining `.` would give: globs and names do not have it.
+            path = entry.name if folder.path == os.curdir else os.path.join(folder.path, entry.name)
+            if entry.is_dir(follow_symlinks=False):
+                if entry.name.startswith(".") or entry.name in _SKIPPED or excluding(path, settings.exclude, folder=True):
+                    continue
+                if in_force.ignores(f"{prefix}{entry.name}/"):
+                    search.ignored.append(path)
+                else:
+                    waiting.append(_Folder(path, folder.depth + 1, ignore_files))
+            elif not self._is_candidate(entry.name.lower(), path, settings.include):
+                continue
+            elif in_force.ignores(prefix + entry.name):
+                search.ignored.append(path)
+            elif excluding(path, settings.exclude):
+                search.excluded.append((entry, path, settings.include))
+            else:
+                self._add_file(entry, path, settings.include, search)
+
+    def _is_candidate(self, name: str, path: str, include: Sequence[Glob]) -> bool:
+        """Whether a file may be an input, by its name."""
         if include:
             return excluding(path, include) is not None
-        name = entry.name.lower()
-        if name.startswith("."):
-            return False
-        if name.endswith(DESCRIPTIONS):
-            return True
-        # A link's target is not read: it may be anywhere.
-        is_source = self.sources and name.endswith(SOURCES)
-        if not (is_source or name.endswith(DATA)) or not entry.is_file(follow_symlinks=False):
-            return False
-        try:
-            if is_source:
-                from .code.mentions import file_speaks
+        return not name.startswith(".") and name.endswith((*DESCRIPTIONS, *DATA, *(SOURCES if self.sources else ())))
 
-                return file_speaks(path)
-            return self.looks_like(_head(path))
+    def _add_file(self, entry: os.DirEntry[str], path: str, include: Sequence[Glob], search: _Search) -> None:
+        """Adds a candidate if it is an input."""
+        try:
+            kind = self._kind(entry, path, include)
         except OSError:
-            if not is_source:
-                self.notes.append(f"{shown(path)} cannot be read to see if it is an input")
-            return False
+            self.notes.append(f"{shown(path)} cannot be read to see if it is an input")
+            return
+        if kind == NEAR:
+            self.near[shown(path)] = None
+        elif kind == INPUT and entry.is_symlink() and not (os.path.isfile(path) and inside(path, search.project)):
+            self.notes.append(f"{shown(path)} is a link that is broken or leaves the project: name it to lint it")
+        elif kind == INPUT and os.path.isfile(path):
+            if entry.name.lower().endswith((*SOURCES, *LANGUAGES["markdown"])) and not self._can_read_sources:
+                self.unreadable_sources += 1
+            else:
+                self.files[shown(path)] = None
+                search.inputs += 1
+
+    def _kind(self, entry: os.DirEntry[str], path: str, include: Sequence[Glob]) -> str:
+        """Whether a candidate is an input. A link's target is not read: it may be anywhere."""
+        name = entry.name.lower()
+        is_regular = entry.is_file(follow_symlinks=False)
+        if include or name.endswith(DESCRIPTIONS):
+            if not (is_regular and name.endswith(_OUTPUTS)):
+                return INPUT
+            from .content import is_own_output
+
+            return OTHER if is_own_output(path) else INPUT
+        if not is_regular:
+            return OTHER
+        if name.endswith(SOURCES):
+            from .code.mentions import file_speaks
+
+            return INPUT if file_speaks(path) else OTHER
+        from .content import kind_of
+
+        return kind_of(path)
+
+    def _reason(self, search: _Search, near: int) -> str:
+        """Why a folder has no inputs."""
+        excluded = 0
+        for candidate in search.excluded:
+            with suppress(OSError):
+                excluded += self._kind(*candidate) == INPUT
+        if excluded and not search.ignored and not near:
+            return f"all inputs are excluded ({excluded})"
+        names = ", ".join("*" + ending for ending in DESCRIPTIONS)
+        skipped = [
+            f"{_count(excluded, 'excluded input')}" if excluded else "",
+            f"{_count(len(search.ignored), 'path')} that .gitignore or .ignore lists" if search.ignored else "",
+            f"{_count(near, 'file')} that look a little like descriptions" if near else "",
+        ]
+        skips = ", ".join(filter(None, skipped))
+        advice = f"inputs are called {names} or contain a Vulkan or Metal frame; name other files"
+        return f"{advice} (skipped: {skips})" if skips else advice
 
     @cached_property
     def _can_read_sources(self) -> bool:
         from .code import installed
 
         return installed()
-
-
-def _head(path: str) -> str:
-    with open(path, "rb") as file:
-        data = file.read(HEAD_BYTES)
-    encoding = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
-    return data.decode(encoding, "replace")

@@ -8,11 +8,14 @@ STDIN = "-"
 HEAD_BYTES = 64 << 10
 """The bytes at the beginning of a file from which its format is detected."""
 
+INPUT, NEAR, OTHER = "input", "near", "other"
+"""What a file in a folder is: an input; a file with the structure of a description, but without what only a frame has; any other file."""
+
 DESCRIPTIONS = (".msaa.yaml", ".msaa.yml", ".msaa.json")
 """Inputs by their name."""
 
 DATA = (".yaml", ".yml", ".json", ".jsonl", ".xml", ".foz")
-"""Inputs if their content looks like one; never source code."""
+"""Inputs if their content shows a frame; never source code."""
 
 LANGUAGES: dict[str, tuple[str, ...]] = {
     "c": (".c", ".h"),

@@ -14,6 +14,7 @@ from msaa_lint.core.text.files import open_regular
 from msaa_lint.core.text.node import Limits
 from msaa_lint.core.text.source import Unreadable
 
+from .content import own_output
 from .file_types import DATA, HEAD_BYTES, LANGUAGES, STDIN
 from .readers import CAPTURES, FORMATS, capture_format
 
@@ -29,6 +30,10 @@ class UnsupportedFormat(Unreadable):
     """A file that is recognized but not read: what it is, and what to run to convert it."""
 
 
+class NotAnInput(Unreadable):
+    """A file that msaa-lint wrote: what it is."""
+
+
 class MissingExtra(Unreadable):
     """Source code, without the extra that reads it."""
 
@@ -37,6 +42,8 @@ def unreadable(error: OSError | Unreadable, name: str) -> Finding:
     """The finding about an input that cannot be read."""
     if isinstance(error, UnsupportedFormat):
         return diagnostic("MSAA901", f"unsupported input: this is {error}", name)
+    if isinstance(error, NotAnInput):
+        return diagnostic("MSAA901", f"this is {error}, not an input: name the description, capture, or source code that it is about", name)
     if isinstance(error, MissingExtra):
         return diagnostic("MSAA921", str(error), name)
     code = "MSAA906" if isinstance(error, Unreadable) else "MSAA901"
@@ -75,6 +82,9 @@ def _load(
             stream.seek(0)
             return read_capture(stream, capture, name, path)
         return read_capture(io.BufferedReader(_Rejoined(head, stream), HEAD_BYTES), capture, name, path)
+    output = own_output(head) if format is None else None
+    if output is not None:
+        raise NotAnInput(output)
     unusual = b"vk" in head or b"\0" in head[:512] or not head[:1].isascii()
     form = hint(head) if unusual and format is None and language is None else None
     if form is not None:

@@ -14,7 +14,6 @@ from msaa_lint.frame.profiles import Problem, profile_of
 from msaa_lint.input import opening
 from msaa_lint.input.discovery import Discovered, discover
 from msaa_lint.input.file_types import STDIN
-from msaa_lint.input.readers import looks_like
 
 from .engine import Engine, LintOptions, load_rules
 from .results import FileResult
@@ -148,7 +147,7 @@ class Workspace:
 
     def discover(self, sources: bool = False) -> Discovered:
         """The inputs that the request names; `sources` includes the source code in folders."""
-        found = discover(self.request.paths, self.settings, looks_like, sources)
+        found = discover(self.request.paths, self.settings, sources)
         self.findings.extend(found.findings)
         return found
 

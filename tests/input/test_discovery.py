@@ -18,7 +18,10 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "p"
 
 
-def write(*paths: str, text: str | bytes = "images: {}\n") -> None:
+FRAME = "images: {color: {format: R8G8B8A8_UNORM}}\n"
+
+
+def write(*paths: str, text: str | bytes = FRAME) -> None:
     for path in paths:
         Path(path).parent.mkdir(parents=True, exist_ok=True)
         Path(path).write_bytes(text if isinstance(text, bytes) else text.encode())
@@ -26,7 +29,7 @@ def write(*paths: str, text: str | bytes = "images: {}\n") -> None:
 
 def found(*paths: str) -> Discovered:
     configurations = Configurations()
-    return discover(paths, lambda path: configurations.load(path).settings, lambda head: "images:" in head)
+    return discover(paths, lambda path: configurations.load(path).settings)
 
 
 def clean(*paths: str) -> list[str]:
@@ -56,12 +59,13 @@ def test_a_folder_gives_its_inputs_by_name_or_by_look() -> None:
     assert clean("f") == ["f/a.msaa.yaml", "f/b.msaa.yml", "f/c.MSAA.json", "f/deep/er/d.yaml", "f/e.yml", "f/g.json"]
 
 
-def test_only_the_head_is_looked_at_and_any_bytes_are_bearable() -> None:
-    write("f/near.yaml", text=b"#" * (HEAD_BYTES - 8) + b"\nimages:")
-    write("f/far.yaml", text=b"#" * HEAD_BYTES + b"\nimages:")
-    write("f/latin.yaml", text=b"# \xe9\nimages:")
-    write("f/wide.yaml", text="images: {}".encode("utf-16"))
-    write("f/marked.yaml", text=b"\xef\xbb\xbfimages:")
+def test_a_frame_begins_in_the_head_of_a_file_in_any_encoding() -> None:
+    frame = FRAME.encode()
+    write("f/near.yaml", text=b"#" * (HEAD_BYTES - 80) + b"\n" + frame)
+    write("f/far.yaml", text=b"#" * HEAD_BYTES + b"\n" + frame)
+    write("f/latin.yaml", text=b"# \xe9\n" + frame)
+    write("f/wide.yaml", text=FRAME.encode("utf-16"))
+    write("f/marked.yaml", text=b"\xef\xbb\xbf" + frame)
     assert clean("f") == ["f/latin.yaml", "f/marked.yaml", "f/near.yaml", "f/wide.yaml"]
 
 
@@ -118,7 +122,7 @@ def test_a_folder_without_inputs_is_an_error() -> None:
     (problem,) = result.findings
     assert (problem.code, problem.fatal, problem.file) == ("MSAA921", True, "f")
     names = "*.msaa.yaml, *.msaa.yml, *.msaa.json"
-    assert problem.message == f"nothing to lint in `f`: inputs are called {names} or look like one; name other files"
+    assert problem.message == f"nothing to lint in `f`: inputs are called {names} or contain a Vulkan or Metal frame; name other files"
 
 
 def test_exclude_wins_over_a_named_file_and_says_so() -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import gc
 import re
+from contextlib import suppress
 from typing import Any
 
 from yaml.events import (
@@ -63,17 +64,26 @@ def parse(source: Source, limits: Limits) -> Parsed:
     return Parsed(reading.documents, [*reading.problems, problem])
 
 
+def beginning(text: str, limits: Limits) -> list[Node]:
+    """The documents of a text up to its first syntax error or a limit; the last one may be incomplete."""
+    reading = _Reading(text, limits)
+    with suppress(Stop, *ERRORS):
+        reading.run()
+    return [*reading.documents, *reading.roots]
+
+
 _Anchored = tuple[Node, int, int]
 """An anchored node, its number of nodes and its depth in collections, aliases expanded."""
 
 
 class _Reading:
-    """One text while it is read. An anchor is None until its node is complete."""
+    """One text while it is read. `roots` has the document that is being read; an anchor is None until its node is complete."""
 
     def __init__(self, text: str, limits: Limits) -> None:
         self.text = text
         self.limits = limits
         self.documents: list[Node] = []
+        self.roots: list[Node] = []
         self.problems: list[Problem] = []
         self.anchors: dict[str, _Anchored | None] = {}
 
@@ -88,7 +98,7 @@ class _Reading:
         get = events(text)
         new, known, anchors = object.__new__, dict(WORDS), self.anchors
         maybe_tags = "!" in text
-        roots: list[Node] = []
+        roots = self.roots
         opened: list[tuple[Any, ...]] = []
         parent: Any = None
         values: Any = roots

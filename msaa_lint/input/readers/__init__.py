@@ -18,30 +18,8 @@ from . import description, vulkan_sc
 FORMATS: dict[str, ModuleType] = {"vulkan-sc": vulkan_sc, "description": description}
 """Document readers by `--input-format` name, in detection order. The last one reads documents that no reader claims."""
 
-CAPTURES: dict[str, tuple[str, ...]] = {
-    "gfxreconstruct": ('"vkFunc"', '"gfxrecon-version"'),
-    "api-dump": ('"apiCalls"',),
-    "renderdoc": ("<rdc>",),
-    "fossilize": ("FOSSILIZEDB",),
-}
-"""Capture readers by `--input-format` name (the module name, with `-` for `_`), and the text found near the start of such a capture."""
-
-HEADS = (
-    "images:",
-    "renderPasses:",
-    "pipelines:",
-    "commands:",
-    "framebuffers:",
-    "renderTargets:",
-    "sampleCountChoices:",
-    "metal:",
-    '"renderPasses"',
-    '"images"',
-    '"renderTargets"',
-    '"metal"',
-    "PipelineState",
-)
-"""Text found near the start of a description. Files in a folder that contain none of it are skipped."""
+CAPTURES = ("gfxreconstruct", "api-dump", "renderdoc", "fossilize")
+"""Capture readers by `--input-format` name: the module name, with `-` for `_`."""
 
 
 def read(source: Source, root: Node, format: str | None = None) -> Document:
@@ -51,10 +29,8 @@ def read(source: Source, root: Node, format: str | None = None) -> Document:
     return document._replace(format=name)
 
 
-CAPTURE_HEADS = tuple(word for words in CAPTURES.values() for word in words)
-
 # A cheap test before any reader is imported. It also accepts parts of a capture without a header, and some files that are not captures.
-_MARKS = (*(word.encode() for word in CAPTURE_HEADS), b"gfxrecon", b"vkFunc", b'"function"', b"apiCalls", b"<rdc", b'"meta"')
+_MARKS = (b"gfxrecon", b"vkFunc", b'"function"', b"apiCalls", b"<rdc", b'"meta"', b"FOSSILIZEDB")
 
 
 def capture_format(head: bytes) -> str | None:
@@ -65,8 +41,3 @@ def capture_format(head: bytes) -> str | None:
         if import_module(f".{name.replace('-', '_')}", __package__).claims(head):
             return name
     return None
-
-
-def looks_like(head: str) -> bool:
-    """Whether the start of a file looks like input that a reader claims."""
-    return any(word in head for word in HEADS) or any(word in head for word in CAPTURE_HEADS)

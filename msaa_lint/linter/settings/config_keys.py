@@ -270,6 +270,7 @@ KEYS: dict[str, Callable[[TableReader, Path, Any], Any]] = {
     "rules": TableReader.rules,
     "exclude": TableReader.globs,
     "include": TableReader.globs,
+    "respect-gitignore": TableReader.flag,
     "strict-inputs": TableReader.flag,
     "baseline": TableReader.baseline,
     "limits": TableReader.limits,

@@ -60,8 +60,9 @@ class Settings(NamedTuple):
     (empty: the command's default), `baseline` the path of the baseline.
 
     Inputs: files that match `exclude` are not linted. In folders, only files that match `include` are (empty: files with the usual
-    endings and files that look like an input). `strict_inputs` makes an input that creates something multisampled, but shows no pass to
-    check, an error. `profile` names a device, a device class or a vendor. `limits` overrides `Limits`.
+    endings and files that contain a frame), and with `respect_gitignore` none that .gitignore ignores. `strict_inputs` makes an input
+    that creates something multisampled, but shows no pass to check, an error. `profile` names a device, a device class or a vendor.
+    `limits` overrides `Limits`.
 
     `root` is the folder of the configuration file, or the current folder. `origin` maps the path of each key to its configuration file.
     """
@@ -80,6 +81,7 @@ class Settings(NamedTuple):
     rules: tuple[str, ...] = ()
     exclude: tuple[Glob, ...] = ()
     include: tuple[Glob, ...] = ()
+    respect_gitignore: bool = True
     baseline: str | None = None
     strict_inputs: bool = False
     limits: Mapping[str, int] = {}

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -18,7 +17,7 @@ from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import Command, Description
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.subjects import subjects
-from msaa_lint.input.readers import FORMATS, looks_like, read
+from msaa_lint.input.readers import FORMATS, read
 from tests.frame.description.shapes import RECORDS
 from tests.frame.description.test_schema import documents, mistakes
 from tests.paths import ROOT
@@ -138,21 +137,6 @@ def test_a_format_may_be_forced() -> None:
 def test_what_is_no_mapping_is_no_description(text: str) -> None:
     for format in (None, "description", "vulkan-sc"):
         assert [problem.code for problem in document(text, format).problems] == ["MSAA903"]
-
-
-def test_a_folder_is_searched_for_what_looks_like_an_input(tmp_path: Path) -> None:
-    for name, text in {
-        "frame.yaml": "images: {}\n",
-        "frame.json": '{"images": {}}',
-        "pipeline.json": '{"GraphicsPipelineState": {}}',
-        "compose.yaml": "services: {}\n",
-        "words.txt": "images: {}\n",
-    }.items():
-        (tmp_path / name).write_text(text)
-    result = lint(str(tmp_path), isolated=True)
-    assert [Path(file).name for file in result.files] == ["frame.json", "frame.yaml", "pipeline.json"]
-    assert looks_like("# a comment\n\nrenderPasses:\n")
-    assert not looks_like("services:\n")
 
 
 def test_documents_of_a_stream_are_read_apart() -> None:
