@@ -24,7 +24,7 @@ from msaa_lint.frame.profiles import Problem, parsed, profile_of, reports
 
 from .common import UsageError, run_command, set_utf_8, warn
 from .options import Arguments
-from .report.escape import display
+from .report.escape import display, escape_commands
 
 Answer = TypeVar("Answer")
 Output = Literal["text", "json", "description"]
@@ -158,5 +158,5 @@ def _console() -> Iterator[Console]:
     console = Console(markup=False, highlight=False, emoji=False, width=None if sys.stdout.isatty() else WIDTH)
     with console.capture() as capture:
         yield console
-    sys.stdout.write("".join(line.rstrip() + "\n" for line in capture.get().splitlines()))
+    sys.stdout.write(escape_commands("".join(line.rstrip() + "\n" for line in capture.get().splitlines())))
     sys.stdout.flush()

@@ -133,6 +133,8 @@ def test_hostile_names_are_escaped(folder: Path) -> None:
     assert done.stdout.splitlines()[0] == "\\x1b[31m\\u202eevil[/bold]\\ud800 (arm, tile-based, integrated GPU, Vulkan 1.3.77)"
     for output in ("json", "description"):
         assert run(folder, "device", "own.json", "--output", output).returncode == 0
+    (folder / "own.json").write_text(reported.DIALECTS["gpuinfo"].replace("Mali-G999 MC3", "::error::x"))
+    assert run(folder, "device", "own.json").stdout.startswith("\\x3a:error::x (arm, ")
 
 
 def test_list(folder: Path) -> None:

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import re
-
 from rich import box
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
 from . import Options, Write
-from .escape import display
-
-_RUNNER_COMMAND = re.compile(r"^((?:\x1b\[[0-9;]*m|\s)*):(?=:)", re.MULTILINE)
+from .escape import display, escape_commands
 
 
 def open_console(out: Write, options: Options) -> Console:
@@ -23,7 +19,7 @@ def open_console(out: Write, options: Options) -> Console:
 
     class Sink:
         def write(self, text: str) -> int:
-            out(_RUNNER_COMMAND.sub(r"\1\\x3a", text))
+            out(escape_commands(text))
             return len(text)
 
         def flush(self) -> None:

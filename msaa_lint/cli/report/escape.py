@@ -39,6 +39,11 @@ def escape(text: str) -> str:
     return "".join(escape_each(text))
 
 
+def escape_commands(text: str) -> str:
+    """Lines to print, of which none begins with `::`, after spaces and colors: CI runners obey `::command::` there."""
+    return re.sub(r"(?m)^((?:\x1b\[[0-9;]*m|[ \t])*):(?=:)", r"\1\\x3a", text)
+
+
 def display(text: str) -> str:
     """A message, note, or subject as text outputs show it: trimmed, at most `MAX_LENGTH` code points, escaped."""
     return escape(clip(text.strip()))
