@@ -1,10 +1,8 @@
 """What the documentation tells to run: its fenced blocks and inline commands, page by page, in order.
 
 A comment `<!-- not run: REASON -->` above a block excludes it. From `<!-- in a clone -->` on, commands run in a clone of the repository; at
-first, and from `<!-- in an empty folder -->` on, in an empty folder.
-A block whose first line is a comment with a file name is the content of
-that file.
-`python -m tests.doc_blocks` counts the commands that are run, and those that are not by reason.
+first, and from `<!-- in an empty folder -->` on, in an empty folder. A block whose first line is a comment with a file name is the
+content of that file. `python -m tests.doc_blocks` counts the commands that are run, and those that are not by reason.
 """
 
 from __future__ import annotations
@@ -76,13 +74,22 @@ def blocks(page: str) -> Iterator[Block]:
         elif token.type == "inline":
             for child in token.children or ():
                 if child.type == "code_inline" and COMMAND.fullmatch(child.content):
-                    yield Block(page, line, "inline", child.content, "a placeholder" if PLACEHOLDER.search(child.content) else "", in_clone)
+                    yield Block(page, line, "inline", child.content, _not_run(child.content), in_clone)
+
+
+def _not_run(command: str) -> str:
+    """Why an inline command is not run; empty if it is."""
+    if not command.startswith("msaa-lint "):
+        return "inline: a script of the repository, or another tool"
+    if PLACEHOLDER.search(command):
+        return "inline: with a placeholder"
+    return "" if len(command.split()) > 2 else "inline: the name of a command"
 
 
 def main() -> None:
     """Prints the counts."""
     counts = Counter(
-        block.skipped or "run" for page in PAGES for block in blocks(page) for command in block.commands() if "msaa-lint" in command
+        "run" if not block.skipped else f"not run: {block.skipped}" for page in PAGES for block in blocks(page) for _ in block.commands()
     )
     for reason, count in counts.most_common():
         print(f"{count:4} {reason}")

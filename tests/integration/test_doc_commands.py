@@ -8,7 +8,6 @@ from __future__ import annotations
 import json
 import os
 import re
-import shlex
 import shutil
 import subprocess
 import sys
@@ -22,7 +21,7 @@ from msaa_lint import lint
 from msaa_lint.cli.options import COMMANDS
 from msaa_lint.frame.description.models import Description
 from tests.command import environment_of
-from tests.doc_blocks import PAGES, PLACEHOLDER, Block, blocks
+from tests.doc_blocks import PAGES, Block, blocks
 from tests.paths import ROOT
 
 LANGUAGES = {"sh", "console", "python", "yaml", "toml", "json", "cpp", "markdown", "text", "inline"}
@@ -115,20 +114,8 @@ def test_commands(page: str, tmp_path: Path) -> None:
             assert (done.returncode, done.stderr) == (0, ""), block.place
             assert done.stdout
         elif block.language == "inline":
-            types_inline(reader, block)
-
-
-def types_inline(reader: Reader, block: Block) -> None:
-    """Inline commands of msaa-lint with arguments are run, and may have findings. Of others, the files must exist."""
-    words = shlex.split(block.text, comments=True)
-    if words[0] == "msaa-lint":
-        assert words[1] in COMMANDS or words[1].startswith("-"), block
-        # A command alone is its name.
-        if len(words) > 2:
             done = reader.types(block, block.text)
             assert done.returncode in (0, 1), f"{block.place}: {block.text}\n{done.stderr}"
-    else:
-        assert all((ROOT / word).exists() for word in words if "/" in word), block
 
 
 def flags_of(command: str) -> set[str]:
@@ -137,12 +124,14 @@ def flags_of(command: str) -> set[str]:
 
 @pytest.mark.parametrize("page", PAGES)
 def test_what_is_only_mentioned_exists(page: str) -> None:
-    """Commands with a placeholder, and options in prose."""
+    """The command and the options of inline commands that are not run, the files of scripts, and options in prose."""
     for block in blocks(page):
         words = block.text.split()
-        if block.language == "inline" and words[0] == "msaa-lint" and PLACEHOLDER.search(block.text):
+        if block.language == "inline" and block.skipped and words[0] == "msaa-lint" and words[1] != "--help":
             assert words[1] in COMMANDS, block
-            assert {word for word in words if word.startswith("--")} <= flags_of(words[1]), block
+            assert {word for word in words[2:] if word.startswith("--")} <= flags_of(words[1]), block
+        elif block.language == "inline" and block.skipped:
+            assert all((ROOT / word).exists() for word in words if "/" in word), block
     known = set().union(*map(flags_of, COMMANDS))
     text = re.sub(r"```.*?```", "", (ROOT / page).read_text(encoding="utf-8"), flags=re.DOTALL)
     others = {"--check", "--format", "--expand-flags", "--include-binaries", "--summary", "--json", "--fixed", "--mistake"}
