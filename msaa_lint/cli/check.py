@@ -149,7 +149,7 @@ def _render(format: str, outcome: Outcome, arguments: Arguments, out: IO[str]) -
     from .report import render
 
     text = format in ("full", "concise")
-    options = report_options(arguments, out, color=text)._replace(
+    options = report_options(arguments, out, color=text, width=140)._replace(
         root=os.environ.get(_ROOTS.get(format, ""), ""),
         edition=outcome.settings.edition or "",
         show_suppressed=bool(arguments.get("show_suppressed")),

@@ -208,20 +208,25 @@ def input_options(arguments: Arguments) -> dict[str, Any]:
     }
 
 
-def report_options(arguments: Arguments, out: IO[str], *, color: bool = True, width: int = 140) -> Options:
-    """How to print to a stream: `width` cells unless it is a terminal, without color unless `color` is true."""
-    terminal = out.isatty()
-    if terminal:
-        import shutil
-
-        width = shutil.get_terminal_size().columns or width
+def report_options(arguments: Arguments, out: IO[str], *, color: bool = True, width: int = 80) -> Options:
+    """How to print to a stream: in color only if `color` is true, `width` cells unless COLUMNS or a terminal states another number."""
     return Options(
-        color=color and use_color(arguments.get("color", "auto"), terminal),
-        width=width,
+        color=color and use_color(arguments.get("color", "auto"), out.isatty()),
+        width=output_width(out, width),
         version=VERSION,
         quiet=bool(arguments.get("quiet")),
         verbose=bool(arguments.get("verbose")),
     )
+
+
+def output_width(out: IO[str], width: int = 80) -> int:
+    """The width of a stream in cells: that of the terminal, else COLUMNS, else the given one."""
+    if out.isatty():
+        import shutil
+
+        return shutil.get_terminal_size().columns or width
+    columns = os.environ.get("COLUMNS", "")
+    return int(columns) if columns.isascii() and columns.isdigit() and len(columns) < 6 and int(columns) else width
 
 
 def report_module(command: str, format: str) -> Any:

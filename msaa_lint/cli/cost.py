@@ -113,7 +113,7 @@ def _print_errors(errors: Result, arguments: Arguments) -> None:
 
 
 def _render(format: str, result: CostResult, comparison: CostComparison | None, arguments: Arguments, out: IO[str]) -> None:
-    options = report_options(arguments, out, color=format == "full", width=0)
+    options = report_options(arguments, out, color=format == "full")
     report = report_module("cost", format)
     if comparison is not None:
         report.render_comparison(comparison, result.errors, out.write, options)

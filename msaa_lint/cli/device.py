@@ -5,12 +5,8 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from typing import Literal, TypeVar
-
-from rich.console import Console
-from rich.table import Table
 
 from msaa_lint.core.text.source import Unreadable
 from msaa_lint.frame.devices import builtin, names
@@ -22,16 +18,16 @@ from msaa_lint.frame.devices.reports import EXPECTED, MAX_BYTES, NotAReport, pic
 from msaa_lint.frame.devices.reports.members import Report
 from msaa_lint.frame.profiles import Problem, parsed, profile_of, reports
 
-from .common import UsageError, run_command, set_utf_8, warn
+from .common import UsageError, report_options, run_command, set_utf_8, warn
 from .options import Arguments
-from .report.escape import display, escape_commands
+from .report.color import BOLD, paint
+from .report.console import cell
+from .report.escape import display
+from .report.tables import NAME, Column, Table, print_tables
 
 Answer = TypeVar("Answer")
 Output = Literal["text", "json", "description"]
 SCHEMA = "msaa-lint/device-v1"
-WIDTH = 140
-"""Columns if there is no terminal."""
-
 MAX_SECONDS = 30.0
 """Time limit for the drivers to report their devices."""
 
@@ -126,37 +122,19 @@ def _list(output: Output) -> int:
         rows = [{"key": key, "name": profile.name, "source": profile.source} for key, profile in profiles.items()]
         print(json.dumps({"schema": SCHEMA, "profiles": rows}, indent=2))
         return 0
-    table = Table("name", "device", "source", box=None, pad_edge=False)
-    for key, profile in profiles.items():
-        table.add_row(key, profile.name, profile.source)
-    with _console() as console:
-        console.print(table)
+    columns = [Column("name"), Column("device"), Column("source")]
+    lines = [("", list(map(cell, (key, profile.name, profile.source)))) for key, profile in profiles.items()]
+    set_utf_8(sys.stdout)
+    print_tables(sys.stdout.write, report_options({}, sys.stdout), [Table(columns, lines)])
     return 0
 
 
 def _print(offers: Sequence[Offer]) -> None:
-    with _console() as console:
-        for number, offer in enumerate(offers):
-            console.print(*([""] if number else []), display(words.title(offer)), sep="\n", style="bold")
-            counts = words.table(offer)
-            table = Table(*counts.heads, box=None, pad_edge=False)
-            for row in counts.rows:
-                table.add_row(*row)
-            console.print(table)
-            for line in counts.legend:
-                console.print(line, style="dim")
-            facts = Table("", "", box=None, pad_edge=False, show_header=False)
-            for label, text in words.rows(offer):
-                facts.add_row(display(label), display(text))
-            console.print(facts)
-
-
-@contextmanager
-def _console() -> Iterator[Console]:
-    """A console whose output is printed at the end, without the spaces that pad its lines."""
     set_utf_8(sys.stdout)
-    console = Console(markup=False, highlight=False, emoji=False, width=None if sys.stdout.isatty() else WIDTH)
-    with console.capture() as capture:
-        yield console
-    sys.stdout.write(escape_commands("".join(line.rstrip() + "\n" for line in capture.get().splitlines())))
-    sys.stdout.flush()
+    out, options = sys.stdout.write, report_options({}, sys.stdout)
+    for number, offer in enumerate(offers):
+        counts = words.table(offer)
+        out(("\n" if number else "") + paint(display(words.title(offer)), BOLD, options.color) + "\n")
+        print_tables(out, options, [Table(list(map(Column, counts.heads)), [("", list(map(cell, row))) for row in counts.rows])])
+        print_tables(out, options, [Table([Column("")], [("dim", [cell(line)]) for line in counts.legend])])
+        print_tables(out, options, [Table([Column("", NAME), Column("")], [("", list(map(cell, row))) for row in words.rows(offer)])])

@@ -279,4 +279,4 @@ def _write_records(studied: Sequence[Subject], outcome: Study) -> list[str]:
 
 
 def _render(format: str, outcome: Study, arguments: Arguments, out: IO[str]) -> None:
-    report_module("study", format).render(outcome, out.write, report_options(arguments, out, width=160))
+    report_module("study", format).render(outcome, out.write, report_options(arguments, out))

@@ -81,7 +81,7 @@ def test_table_in_a_pipe(folder: Path) -> None:
     lines = done.stdout.splitlines()
     assert lines[0] == "a.msaa.yaml: 100 frames per second on no device, 100 mW per GB/s, budget 2500 mW"
     total = next(line for line in lines if line.startswith("total"))
-    assert total.split() == ["total", "0.00", "20.00", "0.19", "2.0", "0.1", "%"]
+    assert total.split() == ["total", "0.00", "20.00", "0.19", "2.0", "0.1%"]
     assert "\x1b" not in done.stdout
     assert "\x1b[" in run(folder, "cost", "a.msaa.yaml", "--color", "always").stdout
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from rich.console import Console
-from rich.table import Table
 from rich.text import Text
 
 from msaa_lint.core.finding import Finding
@@ -13,9 +12,10 @@ from msaa_lint.experiments.confirm.outcome import STATUSES, WRONG, AgreementRow,
 from msaa_lint.experiments.confirm.timing import Timing
 
 from . import Options, Write
-from .console import cell, new_table, open_console
+from .console import cell, open_console
 from .escape import display
 from .summary import plural
+from .tables import FIGURE, NAME, Column, Table, print_tables
 
 STYLES = {"confirmed": "green", "refused": "yellow", "skipped": "", **dict.fromkeys(WRONG, "bold red")}
 _WORDS = {"both": "both", "ours": "only msaa-lint", "theirs": "only the layer", "explained": "explained", "noise": "noise"}
@@ -30,15 +30,15 @@ def render(runs: Sequence[DeviceRun], errors: Sequence[Finding], out: Write, opt
     console = open_console(out, options)
     usable = [run for run in runs if not run.unusable]
     if len(usable) > 1:
-        console.print(_comparison(usable))
+        _print_comparison(usable, out, options)
         console.print()
     for number, run in enumerate(runs):
         if number:
             console.print()
-        _device(run, console, options.verbose, options.quiet)
+        _device(run, console, out, options)
 
 
-def _device(run: DeviceRun, console: Console, verbose: bool, quiet: bool) -> None:
+def _device(run: DeviceRun, console: Console, out: Write, options: Options) -> None:
     if run.unusable:
         console.print(f"{display(run.title)}: cannot be used: {display(run.unusable)}", soft_wrap=True)
         return
@@ -46,16 +46,16 @@ def _device(run: DeviceRun, console: Console, verbose: bool, quiet: bool) -> Non
     for note in run.notes:
         console.print(display(note), soft_wrap=True)
     console.print()
-    console.print(_table(run))
+    _print_verdicts(run, out, options)
     console.print()
-    details = [line for verdict in run.verdicts for line in _details(verdict, verbose)]
+    details = [line for verdict in run.verdicts for line in _details(verdict, options.verbose)]
     for line in details:
         console.print(line, soft_wrap=True)
     if details:
         console.print()
     if any(verdict.times is not None for verdict in run.verdicts) and run.cannot_show:
         console.print(f"What this device cannot show: {display(run.cannot_show)}.", soft_wrap=True)
-    for line in () if quiet else _summary(run):
+    for line in () if options.quiet else _summary(run):
         console.print(line, soft_wrap=True)
 
 
@@ -74,47 +74,53 @@ def _heading(run: DeviceRun) -> str:
     return " · ".join(words)
 
 
-def _table(run: DeviceRun) -> Table:
-    timed = any(verdict.times is not None for verdict in run.verdicts)
-    priced = timed and any(verdict.model is not None for verdict in run.verdicts)
-    table = new_table()
-    for name in ("file", "pass", "status", "created", "mistakes reported by", "pixels after fixes"):
-        table.add_column(name, overflow="fold")
-    for name in ("as written, ms", "fixed, ms", "difference here") if timed else ():
-        table.add_column(name, overflow="fold", justify="right")
-    if priced:
-        table.add_column("cost model, MB/s", overflow="fold", justify="right")
-    for verdict in run.verdicts:
-        texts = [
-            verdict.file,
-            verdict.name,
-            verdict.status,
-            {True: "yes", False: "no", None: "-"}[verdict.created],
-            _agreement(verdict),
-            {True: "same", False: "differ", None: "-"}[verdict.pixels_equal],
+def _print_verdicts(run: DeviceRun, out: Write, options: Options) -> None:
+    """Prints the verdicts and times of a device: in one table if it fits, else in a table each."""
+    names = [Column("file", NAME), Column("pass", NAME)]
+    heads = [Column(title) for title in ("status", "created", "mistakes reported by", "pixels after fixes")]
+    times: list[Column] = []
+    if any(verdict.times is not None for verdict in run.verdicts):
+        times += [Column("as written, ms", FIGURE), Column("fixed, ms", FIGURE), Column("difference here")]
+        if any(verdict.model is not None for verdict in run.verdicts):
+            times.append(Column("cost model, MB/s", FIGURE))
+    verdicts = [
+        [
+            cell(verdict.status, STYLES[verdict.status]),
+            cell({True: "yes", False: "no", None: "-"}[verdict.created]),
+            cell(_agreement(verdict)),
+            cell({True: "same", False: "differ", None: "-"}[verdict.pixels_equal]),
         ]
-        if timed:
-            before, after, difference = verdict.times if verdict.times is not None else (None, None, None)
-            texts += [_time(before), _time(after), difference.text if difference is not None else "-"]
-        if priced:
-            texts.append(_traffic(verdict))
-        table.add_row(*(cell(text, STYLES[verdict.status] if column == 2 else "") for column, text in enumerate(texts)))
-    return table
+        for verdict in run.verdicts
+    ]
+    timings = [[cell(text) for text in _times(verdict)][: len(times)] for verdict in run.verdicts]
+    files = [[cell(verdict.file), cell(verdict.name)] for verdict in run.verdicts]
+    whole = Table([*names, *heads, *times], [("", [*file, *row, *time]) for file, row, time in zip(files, verdicts, timings, strict=True)])
+    parts = [
+        Table(
+            [Column("pass", NAME), *(column._replace(title=column.title.replace(", ", ",\n")) for column in columns)],
+            [("", [Text(": ").join(file), *row]) for file, row in zip(files, rows, strict=True)],
+            1,
+        )
+        for columns, rows in ((heads, verdicts), (times, timings))
+        if columns
+    ]
+    print_tables(out, options, [whole], parts)
 
 
-def _comparison(runs: Sequence[DeviceRun]) -> Table:
-    table = new_table()
-    for name in ("file", "pass", *(run.title for run in runs)):
-        table.add_column(cell(name), overflow="fold")
+def _times(verdict: Verdict) -> list[str]:
+    before, after, difference = verdict.times if verdict.times is not None else (None, None, None)
+    return [_time(before), _time(after), difference.text if difference is not None else "-", _traffic(verdict)]
+
+
+def _print_comparison(runs: Sequence[DeviceRun], out: Write, options: Options) -> None:
     rows: dict[tuple[str, str], list[Text]] = {}
     for column, run in enumerate(runs, 2):
         for verdict in run.verdicts:
             cells = rows.setdefault((verdict.file, verdict.path), [cell(verdict.file), cell(verdict.name), *(cell("-") for _ in runs)])
             time = verdict.times.as_written if verdict.times is not None else None
             cells[column] = cell(verdict.status + (f", {_time(time)} ms" if time is not None else ""), STYLES[verdict.status])
-    for cells in rows.values():
-        table.add_row(*cells)
-    return table
+    columns = [Column("file", NAME), Column("pass", NAME), *(Column(display(run.title)) for run in runs)]
+    print_tables(out, options, [Table(columns, [("", cells) for cells in rows.values()])])
 
 
 def _agreement(verdict: Verdict) -> str:

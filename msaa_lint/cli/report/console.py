@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from rich import box
 from rich.console import Console
-from rich.table import Table
 from rich.text import Text
 
 from . import Options, Write
@@ -35,11 +33,6 @@ def open_console(out: Write, options: Options) -> Console:
         emoji=False,
         legacy_windows=False,
     )
-
-
-def new_table() -> Table:
-    """An empty table with a line below its header."""
-    return Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False)
 
 
 def cell(text: str, style: str = "") -> Text:

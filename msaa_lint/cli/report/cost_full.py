@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 
-from rich.console import Console
-from rich.measure import Measurement
-from rich.table import Table as RichTable
 from rich.text import Text
 
 from msaa_lint.core.finding import Result
@@ -17,15 +13,15 @@ from . import Options, Write, cost_rows
 from .cost_rows import Row, Table, frame_name
 from .escape import clip, display, escape
 from .paths import display_path
+from .tables import FIGURE, NAME, Column, print_tables
+from .tables import Table as TextTable
 
-MAX_NAME = 60
+MAX_NAME = 240
 """Code points of a name in a table; JSON has all of it."""
 
 MAX_ROWS = 1000
 """Rows of a table: nobody reads more, and laying one out takes a millisecond."""
 
-MIN_NAME_WIDTH = 12
-_UNLIMITED = 10_000
 _STYLES = {cost_rows.PASS: "bold", cost_rows.LINE: "", cost_rows.TOTAL: "bold"}
 
 
@@ -59,23 +55,11 @@ def _print_remarks(remarks: Sequence[tuple[str, str]], out: Write) -> None:
 
 
 def _print_table(table: Table, out: Write, options: Options) -> None:
-    """Prints a table after an empty line, as wide as its contents; on a terminal, as narrow as its figures allow."""
-    if not table.rows:
-        return
-    table = table._replace(rows=_limited(table.rows))
-    width = options.width or _UNLIMITED
-    buffer = io.StringIO()
-    console = Console(
-        file=buffer, width=_UNLIMITED, color_system="standard" if options.color else None, force_terminal=options.color,
-        no_color=not options.color, markup=False, highlight=False, emoji=False, legacy_windows=False, _environ={},
-    )  # fmt: skip
-    layout = _layout(table, False)
-    if Measurement.get(console, console.options, layout).maximum > width:
-        layout = _layout(table, True)
-    console.width = max(width, Measurement.get(console, console.options, layout).minimum)
-    console.print(layout)
-    lines = buffer.getvalue().split("\n")
-    out("\n" + "\n".join(line if options.color else line.rstrip(" ") for line in lines))
+    """Prints a table after an empty line. Where it is too wide, its texts share a column and its headings take several lines."""
+    if table.rows:
+        table = table._replace(rows=_limited(table.rows))
+        out("\n")
+        print_tables(out, options, [_layout(table, False)], [_layout(table, True)])
 
 
 def _limited(rows: list[Row]) -> list[Row]:
@@ -88,19 +72,18 @@ def _limited(rows: list[Row]) -> list[Row]:
     return [*rows[:MAX_ROWS], rest, *totals]
 
 
-def _layout(table: Table, narrow: bool) -> RichTable:
-    layout = RichTable(box=None, pad_edge=False, padding=(0, 1 if narrow else 2, 0, 0), header_style="underline")
-    for title in table.texts[:1] if narrow else table.texts:
-        layout.add_column(title, overflow="fold", no_wrap=not narrow, min_width=MIN_NAME_WIDTH if narrow else None, vertical="bottom")
-    for title in table.figures:
-        layout.add_column(title.replace(" ", "\n") if narrow else title, justify="right", no_wrap=True, vertical="bottom")
+def _layout(table: Table, narrow: bool) -> TextTable:
+    titles = table.texts[:1] if narrow else table.texts
+    columns = [Column(title, NAME) for title in titles]
+    columns += [Column(title.replace(" ", "\n") if narrow else title, FIGURE) for title in table.figures]
     indent = "  " if any(row.kind == cost_rows.PASS for row in table.rows) else ""
+    rows = []
     for row in table.rows:
-        # CI runners obey lines that begin with `::`, wherever the table breaks a name.
-        cells = [clip(escape(text), MAX_NAME).replace("::", ":\\x3a") for text in row.texts]
+        texts = [clip(escape(text), MAX_NAME) for text in row.texts]
         if row.kind == cost_rows.LINE:
-            cells[0] = indent + cells[0]
+            texts[0] = indent + texts[0]
         if narrow:
-            cells = [" ".join(cell for cell in cells if cell)]
-        layout.add_row(*(Text(cell) for cell in (*cells, *row.figures)), style=_STYLES[row.kind])
-    return layout
+            texts = [" ".join(filter(None, texts))]
+        figures = [figure.replace(" ", "") for figure in row.figures] if narrow else row.figures
+        rows.append((_STYLES[row.kind], [Text(text) for text in (*texts, *figures)]))
+    return TextTable(columns, rows, 1 if narrow else 2)

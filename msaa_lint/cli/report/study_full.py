@@ -6,15 +6,16 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 
 from rich.console import Console
-from rich.table import Table
+from rich.text import Text
 
 from msaa_lint.experiments.study.outcome import SceneSummary, Study
 from msaa_lint.experiments.study.points import Point
 
 from . import Options, Write
-from .console import new_table, open_console
+from .console import open_console
 from .escape import display
 from .summary import plural
+from .tables import FIGURE, Column, Table, print_tables
 
 MARK = "*"
 
@@ -25,14 +26,14 @@ def render(study: Study, out: Write, options: Options) -> None:
     for number, scene in enumerate(study.scenes):
         if number:
             console.print()
-        _scene(scene, study, console)
+        _scene(scene, study, console, out, options)
     if study.scenes:
         console.print()
     for line in () if options.quiet else _summary(study):
         console.print(line, soft_wrap=True)
 
 
-def _scene(scene: SceneSummary, study: Study, console: Console) -> None:
+def _scene(scene: SceneSummary, study: Study, console: Console, out: Write, options: Options) -> None:
     points = study.of(scene.name)
     console.print(display(scene.name), style="bold", soft_wrap=True)
     if scene.description:
@@ -41,7 +42,7 @@ def _scene(scene: SceneSummary, study: Study, console: Console) -> None:
         edges = f"{max(point.edge_pixels for point in points):,} of {study.size[0] * study.size[1]:,} pixels"
         console.print(f"{edges} {'are crossed by an edge' if scene.coverage else 'are compared by color'}", soft_wrap=True)
         console.print()
-        console.print(_table(points, scene))
+        _print_table(points, scene, out, options)
         console.print()
     for name, reason in scene.effects:
         console.print(f"effect {display(name)}" + (f": {display(reason)}" if reason else ""), soft_wrap=True)
@@ -55,17 +56,21 @@ def _scene(scene: SceneSummary, study: Study, console: Console) -> None:
             console.print(f"- {display(advice.text)} ({display(advice.reason)})", soft_wrap=True)
 
 
-def _table(points: Sequence[Point], scene: SceneSummary) -> Table:
-    table = new_table()
-    table.add_column("")
-    table.add_column("samples", no_wrap=True)
+def _print_table(points: Sequence[Point], scene: SceneSummary, out: Write, options: Options) -> None:
+    """Prints the points of a scene: in one table if it fits, else errors and costs in a table each."""
     columns = [name for name, text_of in _COLUMNS.items() if name not in _OPTIONAL or any(text_of(point) != "-" for point in points)]
-    for name in columns:
-        table.add_column(name if scene.coverage else name.replace("edges", "color"), justify="right", overflow="fold")
+    parts = [[name for name in columns if (name in _COSTS) is costs] for costs in (False, True)]
+    whole = ([_table(points, scene, columns, gap)] for gap in (2, 1))
+    print_tables(out, options, *whole, [_table(points, scene, part, 1) for part in parts if part])
+
+
+def _table(points: Sequence[Point], scene: SceneSummary, columns: Sequence[str], gap: int) -> Table:
+    titles = [name if scene.coverage else name.replace("edges", "color") for name in columns]
+    rows = []
     for point in points:
         cells = [MARK if point.best else "", point.technique.name, *(_COLUMNS[name](point) for name in columns)]
-        table.add_row(*cells, style="green" if point.best else "")
-    return table
+        rows.append(("green" if point.best else "", [Text(cell) for cell in cells]))
+    return Table([Column(""), Column("samples"), *(Column(title, FIGURE) for title in titles)], rows, gap)
 
 
 def _number(value: float | None, digits: str) -> str:
@@ -90,7 +95,8 @@ _COLUMNS: dict[str, Callable[[Point], str]] = {
     "mW": lambda point: _number(point.milliwatts, ".0f"),
     "MiB": lambda point: _number(point.memory_mib, ".1f"),
 }
-_OPTIONAL = frozenset({"SSIM", "time\nms", "time\nto 1x", "MB per\nframe", "mW", "MiB"})
+_COSTS = frozenset({"time\nms", "time\nto 1x", "MB per\nframe", "mW", "MiB"})
+_OPTIONAL = _COSTS | {"SSIM"}
 """Columns that are left out if nothing in them is known."""
 
 

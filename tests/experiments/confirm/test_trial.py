@@ -203,7 +203,7 @@ def test_several_devices_stand_side_by_side(tmp_path: Path) -> None:
     assert [each["device"]["name"] for each in data["devices"]] == ["one", "other"]
     as_text(runs, [], text.write, Options(width=200))
     lines = text.getvalue().splitlines()
-    assert lines[0].split() == ["file", "pass", "one", "other"] and lines[2].split()[-2:] == ["confirmed", "confirmed"]
+    assert lines[0].split() == ["file", "pass", "one", "other"] and lines[1].split()[-2:] == ["confirmed", "confirmed"]
 
 
 @pytest.mark.parametrize("name", ["\x1b[2J", "a\u202eb", "[bold]x[/bold]"])
