@@ -20,10 +20,8 @@ from msaa_lint.frame.profiles import Problem, parsed, profile_of, reports
 
 from .common import UsageError, report_options, run_command, set_utf_8, warn
 from .options import Arguments
-from .report.color import BOLD, paint
 from .report.console import cell
-from .report.escape import display
-from .report.tables import NAME, Column, Table, print_tables
+from .report.tables import Column, Table, print_tables
 
 Answer = TypeVar("Answer")
 Output = Literal["text", "json", "description"]
@@ -134,7 +132,11 @@ def _print(offers: Sequence[Offer]) -> None:
     out, options = sys.stdout.write, report_options({}, sys.stdout)
     for number, offer in enumerate(offers):
         counts = words.table(offer)
-        out(("\n" if number else "") + paint(display(words.title(offer)), BOLD, options.color) + "\n")
-        print_tables(out, options, [Table(list(map(Column, counts.heads)), [("", list(map(cell, row))) for row in counts.rows])])
-        print_tables(out, options, [Table([Column("")], [("dim", [cell(line)]) for line in counts.legend])])
-        print_tables(out, options, [Table([Column("", NAME), Column("")], [("", list(map(cell, row))) for row in words.rows(offer)])])
+        out("\n" if number else "")
+        for columns, rows, style in (
+            ([""], [[words.title(offer)]], "bold"),
+            (counts.heads, counts.rows, ""),
+            ([""], [[line] for line in counts.legend], "dim"),
+            (["", ""], words.rows(offer), ""),
+        ):
+            print_tables(out, options, [Table(list(map(Column, columns)), [(style, list(map(cell, row))) for row in rows])])

@@ -58,9 +58,10 @@ def totals(frames: Sequence[CostedFrame], names: Sequence[str]) -> Table:
 
 
 def figure(value: float, digits: int = 2, sign: bool = False) -> str:
-    """A number with its decimals; zero is `0.00` without a sign, and large numbers have an exponent."""
+    """A number with its decimals, none from a million; zero is `0.00` without a sign, and larger numbers have an exponent."""
     if abs(value) >= 1e9:
         return f"{value:+.4g}" if sign else f"{value:.4g}"
+    digits = digits if abs(value) < 1e6 else 0
     text = f"{value:+.{digits}f}" if sign else f"{value:.{digits}f}"
     return text.lstrip("+-") if not text.strip("+-0.") else text
 
