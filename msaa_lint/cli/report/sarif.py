@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
+from msaa_lint.core.diagnostics import DIAGNOSTICS
 from msaa_lint.core.finding import Finding, Fix, InputSummary, Result, RuleInfo, Suppressed, rank
 from msaa_lint.core.text.span import Span
 from msaa_lint.linter.rules.reference_links import link
@@ -84,7 +85,8 @@ def _rules(result: Result, findings: Sequence[Finding]) -> list[RuleInfo]:
     """The enabled rules and the diagnostics (9xx) among the findings, by code."""
     rules = {rule.code: rule for rule in result.rules}
     for finding in findings:
-        rules.setdefault(finding.code, RuleInfo(finding.code, finding.rule, finding.severity, finding.confidence, ""))
+        unlisted = RuleInfo(finding.code, finding.rule, finding.severity, finding.confidence, "")
+        rules.setdefault(finding.code, DIAGNOSTICS.get(finding.code, unlisted))
     return [rules[code] for code in sorted(rules)]
 
 

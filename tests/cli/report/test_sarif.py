@@ -40,7 +40,7 @@ def test_driver_names_all_enabled_rules_and_those_of_the_findings() -> None:
     assert loaded["help"]["markdown"].endswith(f"The resolve writes every pixel of its target.\n\nReferences:\n\n- VUID-none\n- {link}")
     assert "helpUri" not in driver["rules"][3]
     assert loaded["properties"] == {"precision": "high", "problem.severity": "warning", "tags": ["msaa", "vulkan", "load-store"]}
-    assert driver["rules"][3]["shortDescription"] == {"text": "Syntax"}
+    assert driver["rules"][3]["shortDescription"] == {"text": "The input is not readable: its encoding, its YAML or its JSON is broken."}
     assert run_of(frame(), version="0.1.dev0")["tool"]["driver"]["version"] == "0.1.dev0"
 
 
