@@ -59,6 +59,8 @@ def _cost(arguments: Arguments) -> int:
     for text in result.notes:
         note(text)
     _print_errors(result.errors, arguments)
+    if comparison is not None:
+        _require_figures(comparison)
     for target in targets:
         write_output(target.path, partial(_render, target.format, result, comparison, arguments))
     if chart is not None:
@@ -73,6 +75,16 @@ def _comparison(result: CostResult, request: Request) -> CostComparison | None:
     old, new = (request.input_name(path) if path == "-" else shown(path) for path in request.paths)
     old_frames, new_frames = result.of(old), result.of(new)
     return compare_inputs(old, old_frames, new, new_frames) if old_frames and new_frames else None
+
+
+def _require_figures(comparison: CostComparison) -> None:
+    """UsageError if what a pass of the two inputs costs is unknown: a difference between lower bounds says nothing."""
+    for frame in (*comparison.old, *comparison.new):
+        for costs in frame.cost.passes:
+            if costs.unknown:
+                reasons = "; ".join(costs.unknown)
+                option = ", or give --size WxH" if costs.width is None else ""
+                raise UsageError(f"{frame.file}: cannot be compared, because the cost of `{costs.name}` is unknown: {reasons}{option}")
 
 
 def parse_terms(arguments: Arguments) -> Terms:

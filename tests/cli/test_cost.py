@@ -292,3 +292,42 @@ def test_help_says_what_two_files_and_exit_codes_mean(tmp_path: Path) -> None:
         assert f"--{option}" in shown
     assert "Exactly two files are compared" in shown
     assert "Exits with 0" in shown
+
+
+UNKNOWN = """\
+images:
+  a: {format: R8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT]}
+  b: {samples: 4, usage: [COLOR_ATTACHMENT]}
+renderPasses:
+  main:
+    attachments:
+      - {image: a, loadOp: CLEAR, storeOp: STORE, initialLayout: UNDEFINED, finalLayout: COLOR_ATTACHMENT_OPTIMAL}
+      - {image: b, loadOp: CLEAR, storeOp: STORE, initialLayout: UNDEFINED, finalLayout: COLOR_ATTACHMENT_OPTIMAL}
+    subpasses:
+      - {colorAttachments: [0, 1]}
+"""
+
+
+@pytest.mark.parametrize("paths", [("a.msaa.yaml", "unknown.msaa.yaml"), ("unknown.msaa.yaml", "a.msaa.yaml")])
+@pytest.mark.parametrize("output", ["full", "json", "markdown"])
+def test_what_lacks_sizes_is_not_compared(folder: Path, paths: tuple[str, str], output: str) -> None:
+    (folder / "unknown.msaa.yaml").write_text(UNKNOWN, encoding="utf-8")
+    done = run(folder, "cost", *paths, "--output", output)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == (
+        "msaa-lint: unknown.msaa.yaml: cannot be compared, because the cost of `main` is unknown: "
+        "its size is not stated: write `frame: {width: ..., height: ...}`, or give --size WxH\n"
+    )
+    done = run(folder, "cost", *paths, "--output", output, "--size", "100x100")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "the cost of `main` is unknown: `b (attachment 1)`: its format is not stated: write `format`\n" in done.stderr
+    (folder / "unknown.msaa.yaml").write_text(UNKNOWN.replace("b: {", "b: {format: R8_UNORM, "), encoding="utf-8")
+    assert run(folder, "cost", *paths, "--output", output, "--size", "100x100").returncode == 0
+
+
+def test_what_lacks_sizes_is_shown_alone(folder: Path) -> None:
+    (folder / "unknown.msaa.yaml").write_text(UNKNOWN, encoding="utf-8")
+    for words in (["unknown.msaa.yaml"], ["a.msaa.yaml", "unknown.msaa.yaml", "--each"]):
+        done = run(folder, "cost", *words)
+        assert done.returncode == 0
+        assert "\nunknown: `main`: its size is not stated: write `frame: {width: ..., height: ...}`\n" in done.stdout

@@ -36,6 +36,11 @@ MOVING = frozenset(COMMANDS) - {"present"}
 """The commands outside of begin and end that move texels. A present moves none: scanning out is the display's."""
 
 
+_NOT_STATED = {
+    "format": "its format is not stated: write `format`",
+    "samples": "its sample count is not stated: write `samples`",
+    "extent": "its size is not stated: write `extent`",
+}
 _NO_IMAGE = {
     **dict.fromkeys(("copyImage", "blitImage", "resolveImage"), "an image: it is not stated"),
     **dict.fromkeys(("copyImageToBuffer", "copyBufferToImage"), "the image: it is not stated"),
@@ -83,7 +88,7 @@ def pass_lines(render_pass: Pass, area: Area, device: DeviceProfile | None) -> L
     """What a pass loads, stores and resolves, all the times that a frame begins it."""
     lines = Lines(device)
     if not area.sized:
-        lines.missing("its size: no framebuffer, image or frame states it")
+        lines.missing("its size is not stated: write `frame: {width: ..., height: ...}`")
     if area.times == 0 or area.width is None:
         return lines
     for attachment in render_pass.attachments:
@@ -120,7 +125,7 @@ def _attachment(lines: Lines, render_pass: Pass, attachment: Attachment, area: A
             continue
         texel = aspect_bytes(attachment.format, name) if attachment.format is not None else None
         if texel is None or samples is None:
-            lines.missing(f"`{attachment.title}`: its {'format' if texel is None else 'sample count'} is not known")
+            lines.missing(f"`{attachment.title}`: {_NOT_STATED['format' if texel is None else 'samples']}")
             continue
         for action, direction, place in causes:
             lines.add(attachment.name, image, name, samples, samples, action, direction, pixels * texel * samples, place)
@@ -138,7 +143,7 @@ def _rendering_resolves(lines: Lines, render_pass: Pass, area: Area) -> None:
         format = target.format or source.format
         texel = aspect_bytes(format, resolve.aspect) if format is not None else None
         if texel is None:
-            lines.missing(f"`{target.title}`: its format is not known")
+            lines.missing(f"`{target.title}`: {_NOT_STATED['format']}")
             continue
         size = _pixels(render_pass, source, area) * texel
         lines.add(target.name, target.name, resolve.aspect, 1, 1, "resolve", "write", size, resolve.target_at)
@@ -209,8 +214,8 @@ def _move(
     format, kept = image.format, image.samples
     blocks = texels(image, sizes) if blocks is None else blocks
     if format is None or kept is None or blocks is None:
-        lacking = "format" if format is None else "sample count" if kept is None else "size"
-        lines.missing(f"`{image.title}`: its {lacking} is not known")
+        lacking = "format" if format is None else "samples" if kept is None else "extent"
+        lines.missing(f"`{image.title}`: {_NOT_STATED[lacking]}")
         return
     aspects = format.aspects[:1] if action == "read" else format.aspects
     moved = kept if samples is None else samples

@@ -350,8 +350,8 @@ def test_reads_inside_a_pass_are_the_pass_s() -> None:
     [
         ("c: {format: R8_UNORM, samples: 1, storeOp: DONT_CARE}", "`p`: whether `c` is loaded: loadOp is not stated"),
         ("c: {format: R8_UNORM, samples: 1, loadOp: CLEAR}", "`p`: whether `c` is stored: storeOp is not stated"),
-        ("c: {samples: 1, loadOp: CLEAR, storeOp: STORE}", "`p`: `c`: its format is not known"),
-        ("c: {format: R8_UNORM, loadOp: CLEAR, storeOp: STORE}", "`p`: `c`: its sample count is not known"),
+        ("c: {samples: 1, loadOp: CLEAR, storeOp: STORE}", "`p`: `c`: its format is not stated: write `format`"),
+        ("c: {format: R8_UNORM, loadOp: CLEAR, storeOp: STORE}", "`p`: `c`: its sample count is not stated: write `samples`"),
     ],
 )
 def test_what_is_not_stated_is_not_counted_and_named(attachment: str, text: str) -> None:
@@ -366,7 +366,7 @@ def test_without_a_size_nothing_is_counted() -> None:
     )
     found = cost(text)
     assert found.total == Amount(0, 0, 1 / 2**20, 0)
-    assert found.unknown == ("`p`: its size: no framebuffer, image or frame states it", "`n`: what it takes of memory")
+    assert found.unknown == ("`p`: its size is not stated: write `frame: {width: ..., height: ...}`", "`n`: what it takes of memory")
     assert cost(text, terms=Terms(width=10, height=10)).total.write_mb_per_s > 0
 
 

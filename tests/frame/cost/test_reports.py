@@ -128,7 +128,7 @@ def test_what_is_not_counted_whole_is_said_to_be_more() -> None:
     table = printed(cost_full.render, [CostedFrame("a.yaml", 0, 1, cost(text))])
     assert "≥ 0.00" in table
     assert "assumed: 60 frames a second" in table
-    assert "unknown: `main`: its size: no framebuffer, image or frame states it" in table
+    assert "unknown: `main`: its size is not stated: write `frame: {width: ..., height: ...}`" in table
     assert "≥" not in printed(cost_full.render, [costed(SEPARATE)])
 
 
