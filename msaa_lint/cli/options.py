@@ -357,7 +357,7 @@ COMMANDS = {
         Paths("PATH...", "Files and folders to lint."),
     ),
     "init": Command(
-        """Write a commented configuration and a first description.""",
+        """Write a commented configuration, a first description, and its JSON Schema.""",
         {"Options": GLOBAL},
         Paths("FOLDER", "Folder to write to; none: the current one.", 0, 1),
     ),
