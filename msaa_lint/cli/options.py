@@ -289,16 +289,17 @@ COMMANDS = {
         ("list_scenes",),
     ),
     "rule": Command(
-        """Explain a rule, or list all rules.""",
+        """Explain a rule, or list all rules, custom ones of the configuration included.""",
         {
             "Options": (
                 Option("all", "flag", "List all rules."),
                 _text_output("text", "markdown", "json"),
                 _SELECTORS[3],
+                *_CONFIGURATION,
                 *GLOBAL,
             ),
         },
-        Paths("NAME", "A rule's name or code; none: list all rules.", 0, 1, values="rules"),
+        Paths("NAME", "A rule's name or code, in any case; none: list all rules.", 0, 1, values="rules"),
     ),
     "device": Command(
         """Show what a device supports for multisampling.""",

@@ -4,18 +4,24 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 import sys
-from collections.abc import Sequence
+import textwrap
+from collections.abc import Collection, Sequence
 
 from msaa_lint.core.diagnostics import DIAGNOSTICS
 from msaa_lint.core.finding import RuleInfo
-from msaa_lint.core.suggestions import nearest
-from msaa_lint.linter.engine import load_rules
-from msaa_lint.linter.rules.registry import info, markdown
+from msaa_lint.core.quote import quoted
+from msaa_lint.linter.rules.registry import markdown
 from msaa_lint.linter.rules.rule_file import APIS, PASSES, Rule
+from msaa_lint.linter.settings.selectors import RuleNames
+from msaa_lint.linter.workspace import Request, Workspace
 
-from .common import run_command, warn
+from .common import overrides, run_command, warn
 from .options import Arguments
+
+CODE_WIDTH, NAME_WIDTH = 8, 44
+"""Columns of the list of rules; a longer code or name moves the rest of its line."""
 
 
 def rule(arguments: Arguments) -> int:
@@ -24,47 +30,72 @@ def rule(arguments: Arguments) -> int:
 
 
 def _rule(arguments: Arguments) -> int:
-    output, rules = arguments.get("output", "text"), arguments.get("rules", [])
+    output = arguments.get("output", "text")
+    workspace = Workspace(Request([], overrides(arguments), arguments.get("config"), bool(arguments.get("isolated"))))
     if arguments.get("all") or not arguments["paths"]:
-        return list_rules(rules, output)
-    return explain_rule(arguments["paths"][0], rules, output)
+        return list_rules(workspace, output)
+    return explain_rule(arguments["paths"][0], workspace, output)
 
 
-def explain_rule(name: str, rule_paths: Sequence[str], output: str) -> int:
-    """Prints the page of the rule with a name or code; returns 2 if there is none."""
-    rules = load_rules(rule_paths).rules
-    for rule in rules:
-        if name in (rule.name, rule.code):
+def explain_rule(name: str, workspace: Workspace, output: str) -> int:
+    """Prints the page of the rule with a name or code, in any case; returns 2, after the problems of pages, if there is none."""
+    registry = workspace.current.engine.registry
+    wanted = name.upper()
+    for rule in registry.rules:
+        if wanted in (rule.name.upper(), rule.code):
             _print_page(rule, output)
             return 0
     for diagnostic in DIAGNOSTICS.values():
-        if name in (diagnostic.name, diagnostic.code):
+        if wanted in (diagnostic.name.upper(), diagnostic.code):
             _print_diagnostic(diagnostic, output)
             return 0
-    close = nearest(name, [word for rule in [*map(info, rules), *DIAGNOSTICS.values()] for word in (rule.name, rule.code)])
-    warn(f"unknown rule {name}: " + (f"did you mean {close}?" if close else "`msaa-lint rule --all` lists the rules"))
+    pages = [page.page for page in registry.broken if wanted in (page.name.upper(), page.code.upper())]
+    _warn_of_problems(workspace, pages)
+    if not pages:
+        close = RuleNames(registry.names).suggestions.nearest(name)
+        warn(f"unknown rule {quoted(name)}: " + (f"did you mean `{close}`?" if close else "`msaa-lint rule --all` lists the rules"))
     return 2
 
 
-def list_rules(rule_paths: Sequence[str], output: str) -> int:
-    """Prints one line per rule; returns 2 if a custom page cannot be used."""
-    registry = load_rules(rule_paths)
-    infos = [*map(info, registry.rules), *DIAGNOSTICS.values()]
+def list_rules(workspace: Workspace, output: str) -> int:
+    """Prints the rules; returns 2 if the configuration or a custom page cannot be used."""
+    rules: list[Rule | RuleInfo] = [*workspace.current.engine.registry.rules, *DIAGNOSTICS.values()]
     if output == "json":
-        print(json.dumps([_record(info) for info in infos], indent=2, ensure_ascii=False))
+        print(json.dumps([_record(rule) for rule in rules], indent=2, ensure_ascii=False))
     elif output == "markdown":
-        print(index(infos), end="")
+        print(index(rules), end="")
     else:
-        from rich.console import Console
-        from rich.table import Table
+        _print_list(rules)
+    _warn_of_problems(workspace)
+    return 2 if workspace.findings else 0
 
-        table = Table("code", "rule", "severity", "summary", box=None, pad_edge=False)
-        for rule in infos:
-            table.add_row(rule.code, rule.name, rule.severity, rule.summary)
-        Console(markup=False, highlight=False).print(table)
-    for problem in registry.problems:
-        warn(f"{problem.file}: {problem.message}")
-    return 2 if registry.problems else 0
+
+def _print_list(rules: Sequence[Rule | RuleInfo]) -> None:
+    """Prints one line for each rule; in a terminal that is too narrow, its summary below."""
+    rows = [(f"{rule.code:{CODE_WIDTH}} {rule.name:{NAME_WIDTH}} {rule.severity:7}", _summary(rule)) for rule in rules]
+    longest = max(len(row) + len(summary) + 1 for row, summary in rows)
+    width = shutil.get_terminal_size().columns if sys.stdout.isatty() else longest
+    for row, summary in rows:
+        if longest <= width:
+            print(f"{row} {summary}")
+        else:
+            print(row.rstrip())
+            print(textwrap.fill(summary, max(width, 40), initial_indent="    ", subsequent_indent="    ", break_on_hyphens=False))
+
+
+def _summary(rule: Rule | RuleInfo) -> str:
+    """A rule's summary; that of a custom rule begins with its page."""
+    return f"({rule.source.name}) {rule.summary}" if isinstance(rule, Rule) and rule.is_custom else rule.summary
+
+
+def _warn_of_problems(workspace: Workspace, pages: Collection[str] = ()) -> None:
+    """Prints the problems of the configuration and of custom pages, or only those of some `pages`, with their places."""
+    for found in dict.fromkeys(workspace.findings):
+        source = workspace.sources.get(found.file)
+        place = source.position(found.span.start) if source is not None and found.span is not None else None
+        if not pages or found.file in pages:
+            at = f"{found.file}:{place.line}:{place.column}" if place is not None else found.file
+            warn(f"{at}: {found.message}" + (f": {found.help}" if found.help else ""))
 
 
 FAMILIES = {
@@ -75,36 +106,39 @@ FAMILIES = {
 """Headings by the first digit of a code."""
 
 
-def index(infos: Sequence[RuleInfo]) -> str:
+def index(rules: Sequence[Rule | RuleInfo]) -> str:
     """The list of rules as a Markdown page: rules/README.md."""
     out = ["# Rules\n\nGenerated by `msaa-lint rule --all --output markdown`; do not edit. `msaa-lint rule NAME` prints a page.\n"]
     family = ""
-    for rule in infos:
-        digit = rule.code.removeprefix("MSAA")[:1]
-        if digit != family:
-            family = digit
-            out.append(f"\n## {FAMILIES.get(digit, 'Custom')}\n\n| code | rule | severity | summary |\n|---|---|---|---|\n")
-        name = rule.name if digit == "9" else f"[{rule.name}]({rule.name}.md)"
-        fix = " Has a fix." if rule.fixable else ""
+    for rule in rules:
+        heading = "Custom" if isinstance(rule, Rule) and rule.is_custom else FAMILIES[rule.code.removeprefix("MSAA")[:1]]
+        if heading != family:
+            family = heading
+            out.append(f"\n## {heading}\n\n| code | rule | severity | summary |\n|---|---|---|---|\n")
+        name = f"[{rule.name}]({rule.source.name.removeprefix('rules/')})" if isinstance(rule, Rule) else rule.name
+        fix = " Has a fix." if isinstance(rule, Rule) and rule.fix_specs else ""
         out.append(f"| {rule.code} | {name} | {rule.severity} | {rule.summary}{fix} |\n")
     return "".join(out)
 
 
-def _record(rule: RuleInfo) -> dict[str, object]:
+def _record(rule: Rule | RuleInfo) -> dict[str, object]:
+    custom = isinstance(rule, Rule) and rule.is_custom
     return {
         "code": rule.code,
         "name": rule.name,
         "severity": rule.severity,
         "confidence": rule.confidence,
         "summary": rule.summary,
-        "fixable": rule.fixable,
+        "fixable": isinstance(rule, Rule) and bool(rule.fix_specs),
         "references": list(rule.references),
+        "page_path": rule.source.name if isinstance(rule, Rule) and custom else None,
     }
 
 
 def page(rule: Rule) -> str:
     """A rule's page as Markdown, with its condition and references."""
-    lines = [f"**{rule.code}** {rule.name}, {rule.severity}, confidence {rule.confidence}, since edition {rule.edition or '(custom)'}."]
+    since = f"since edition {rule.edition}" if rule.edition else f"a custom rule in `{rule.source.name}`"
+    lines = [f"**{rule.code}** {rule.name}, {rule.severity}, confidence {rule.confidence}, {since}."]
     if rule.apis != APIS[:1]:
         lines.append(f"Applies to {' and '.join(api.capitalize() for api in rule.apis)} frames.")
     if rule.vendors:
@@ -123,7 +157,7 @@ def page(rule: Rule) -> str:
 def _print_page(rule: Rule, output: str) -> None:
     text = page(rule)
     if output == "json":
-        print(json.dumps({**_record(info(rule)), "condition": rule.when, "page": text}, indent=2, ensure_ascii=False))
+        print(json.dumps({**_record(rule), "condition": rule.when, "page": text}, indent=2, ensure_ascii=False))
     elif output == "markdown" or not sys.stdout.isatty():
         print(text)
     else:

@@ -24,8 +24,8 @@ def nearest(name: str, candidates: Iterable[str], simplify: Callable[[str], str]
     """The candidate that was most likely meant by a name that is not among them; None if none is near.
 
     Names are compared by what `simplify` leaves of them. A candidate that differs in case or separators only comes first; then one that is
-    equal when simplified, the shortest one that begins with the name, one with a single typo, the first one that has the letters of the
-    name in their order (`RGBA16F`), and one with a few typos.
+    equal when simplified, the shortest one that begins with the name, one with a single typo, the first one that begins with the same
+    letter and has the others in their order (`RGBA16F`), if these are a third of its letters, and one with a few typos.
     """
     bare = simplify(name) if len(name) <= MAX_LENGTH else ""
     if not bare:
@@ -52,7 +52,7 @@ def nearest(name: str, candidates: Iterable[str], simplify: Callable[[str], str]
     if len(bare) >= 4:
         for key, candidate in simplified.items():
             letters = iter(key)
-            if all(letter in letters for letter in bare):
+            if key[0] == bare[0] and len(key) <= 3 * len(bare) and all(letter in letters for letter in bare):
                 return candidate
     return simplified[close[0]] if close else None
 

@@ -193,7 +193,7 @@ class Engine:
 
         enabled = {rule.name for rule in self.registry.rules if severity(rule, rule.severity, None) is not None}
         remaining, suppressed, about_comments = apply(
-            findings, comments, source, self.registry.rules, enabled.difference(undecided), comment_lines
+            findings, comments, source, self.registry.names, enabled.difference(undecided), comment_lines
         )
         return [*remaining, *about_comments], suppressed
 

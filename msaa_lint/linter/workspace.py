@@ -17,7 +17,7 @@ from msaa_lint.input.file_types import STDIN
 
 from .engine import Engine, LintOptions, load_rules
 from .results import FileResult
-from .rules.registry import EDITIONS
+from .rules.rule_file import EDITIONS
 from .settings.config import Configurations, Loaded
 from .settings.selection import Selection
 from .settings.selectors import unknown_selectors
@@ -120,7 +120,7 @@ class Workspace:
         if loaded.path not in self._resolved:
             settings = self._override(loaded)
             engine = self._engine(settings.rules)
-            self.findings.extend(unknown_selectors(settings, engine.registry.rules))
+            self.findings.extend(unknown_selectors(settings, engine.registry.names))
             device = profile_of(settings.profile) if settings.profile is not None else None
             selection = Selection(settings, engine.registry.rules)
             if self.request.log is not None:

@@ -6,11 +6,12 @@ from collections.abc import Iterator
 
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.quote import quoted
-from msaa_lint.core.suggestions import question
+from msaa_lint.core.suggestions import near_or_all, question
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.facts.table import FACTS, SUBJECTS
 from msaa_lint.frame.facts.words import WORDS
 from msaa_lint.frame.vulkan.names import nearest_name
+from msaa_lint.linter.rules.condition import unknown_fact
 from msaa_lint.linter.rules.rule_file import FixSpec, Rule, Setting
 
 from .actions import ACTIONS
@@ -27,14 +28,16 @@ def problems(rule: Rule) -> list[Finding]:
 def _problems(spec: FixSpec, rule: Rule) -> Iterator[tuple[Span, str]]:
     actions = {**ACTIONS, **METAL_ACTIONS}
     if spec.do and spec.do not in actions:
-        yield spec.at, f"unknown action {quoted(f'do: {spec.do}')}; use one of {', '.join(actions)}"
+        yield spec.at, f"unknown action {quoted(spec.do)}: {near_or_all(spec.do, list(actions))}"
     facts = {fact.name for fact in SUBJECTS[rule.subject]}
     sources = {**FACT_SOURCES, **METAL_FACT_SOURCES}
     for setting in (*spec.set, *spec.add, *spec.remove):
         if setting.fact not in facts:
-            yield setting.at, f"subject `{rule.subject}` has no fact `{setting.fact}`"
+            yield setting.fact_at, unknown_fact(setting.fact, rule.subject)
         elif setting.fact not in sources:
-            yield setting.at, f"fixes cannot change `{setting.fact}`; use one of {', '.join(sources)}"
+            changeable = [fact for fact in sources if fact in facts]
+            hint = f"; use one of {', '.join(changeable)}" if changeable else f"; no fact of {rule.subject} can be changed"
+            yield setting.fact_at, f"fixes cannot change `{setting.fact}`{hint}"
         else:
             yield from _value_problems(setting, facts)
 

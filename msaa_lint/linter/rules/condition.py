@@ -60,7 +60,7 @@ class Condition:
     def must_decide(self) -> None:
         """Raises `ConditionError` if the condition is not a boolean."""
         if str(self._program.return_type()) != "BOOL":
-            raise ConditionError("the condition must be a boolean expression")
+            raise ConditionError(f"the condition must be a boolean expression, found {str(self._program.return_type()).lower()}")
 
     def holds(self, activation: Any) -> bool | None:
         """True or false; None if that depends on an absent fact. Raises ArithmeticError if the evaluation fails."""
@@ -158,18 +158,47 @@ def _condition_error(error: RuntimeError, text: str, subject: str | None) -> Con
     offset = sum(len(line) for line in lines[: int(match[1]) - 1]) + int(match[2]) - 1
     undeclared = re.search(r"undeclared reference to '([^']*)'", match[3])
     if undeclared is None:
-        return ConditionError(match[3], offset)
-    from msaa_lint.core.suggestions import nearest
-
+        return _plain_error(match[3], text, offset)
     name = undeclared[1]
-    known = [fact.name for fact in _facts_of(subject)]
     # The compiler points at the dot of a dotted name.
     start = max(offset - len(name.split(".")[0]), 0)
     word = re.match(r"[a-z_A-Z0-9.]+", text[start:])
     if word is None or not word[0].startswith(name):
         start, word = offset, re.match(r"[a-z_A-Z0-9.]+", text[offset:])
     spelled = word[0] if word is not None and word[0].startswith(name) else name
-    close = nearest(spelled, known)
-    hint = f"; did you mean {close}?" if close else ""
-    of = f" of {subject}" if subject is not None else ""
-    return ConditionError(f"unknown fact {spelled}{of}{hint}", start, len(spelled))
+    return ConditionError(unknown_fact(spelled, subject), start, len(spelled))
+
+
+def unknown_fact(name: str, subject: str | None) -> str:
+    """The message about a name that is not a fact of a kind of subject (None: of any)."""
+    from msaa_lint.core.suggestions import nearest
+
+    message = f"unknown fact {name}" + (f" of {subject}" if subject is not None else "")
+    if name in FACTS:
+        others = [other for other, facts in SUBJECTS.items() if FACTS[name] in facts]
+        return f"{message}; it is a fact of {', '.join(others)}"
+    if name.isupper():
+        return f'{message}; a text is written in quotes: "{name}"'
+    close = nearest(name, [fact.name for fact in _facts_of(subject)])
+    return f"{message}; did you mean {close}?" if close else f"{message}; `msaa-lint facts` lists the facts"
+
+
+_OPERATORS = {"and": "&&", "or": "||", "not": "!", "&": "&&", "|": "||", "=": "=="}
+"""What CEL has in place of what other languages write."""
+
+
+def _plain_error(message: str, text: str, offset: int) -> ConditionError:
+    """An error of the compiler in plain words."""
+    overload = re.match(r"found no matching overload for '([^']*)' applied to '\((.*)\)'", message)
+    if overload is not None:
+        types = re.split(r", (?![^(]*\))", overload[2])
+        return ConditionError(f"`{overload[1].strip('_@')}` cannot be applied to {' and '.join(types)}", offset)
+    if not message.startswith("Syntax error"):
+        return ConditionError(message, offset)
+    word = re.match(r"\s*(\w+|[^\w\s]{1,3}|$)", text[offset:], re.DOTALL)
+    token = word[1] if word is not None else ""
+    if not token:
+        return ConditionError("the condition is incomplete")
+    hint = f": write `{_OPERATORS[token]}`" if token in _OPERATORS else ""
+    start = offset + text[offset:].index(token)
+    return ConditionError(f"unexpected `{token}` in the condition{hint}", start, len(token))

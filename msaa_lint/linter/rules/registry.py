@@ -3,32 +3,39 @@
 from __future__ import annotations
 
 import os
-import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core import package
-from msaa_lint.core.diagnostics import DIAGNOSTICS, diagnostic
+from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding, RuleInfo
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Span
 
-from .condition import ConditionError, check
-from .rule_file import Rule, read_page, split
+from .front_matter import split
+from .rule_file import Rule, read_page
 
-EDITIONS = ("2026.1",)
-"""In order. A rule of an edition later than the pinned one is off by default."""
 
-_FENCE = Span(0, 3)
-"""The place of problems of a whole page."""
+class BrokenPage(NamedTuple):
+    """A page of the user's that is not a usable rule. `code` is empty if it is not stated."""
+
+    code: str
+    name: str
+    page: str
 
 
 class Registry(NamedTuple):
-    """Rules in order of code, the problems of unusable pages, and the texts they point into, by name."""
+    """Rules in order of code, the problems of unusable pages, the texts they point into, by name, and these pages."""
 
     rules: tuple[Rule, ...]
     problems: tuple[Finding, ...]
     sources: Mapping[str, Source] = {}
+    broken: tuple[BrokenPage, ...] = ()
+
+    @property
+    def names(self) -> tuple[Rule | BrokenPage, ...]:
+        """What a selector or a suppression may name: a rule whose page is broken is not unknown."""
+        return (*self.rules, *self.broken)
 
 
 def folder() -> str:
@@ -47,6 +54,11 @@ def pages(path: str) -> list[str]:
     return [os.path.join(path, name) for name in names if name.endswith(".md") and name != "README.md"]
 
 
+def _name(path: str) -> str:
+    """The name of the rule of a page."""
+    return os.path.basename(path).removesuffix(".md")
+
+
 CheckFixes = Callable[[Rule], list[Finding]]
 """The problems of a rule's fixes."""
 
@@ -60,6 +72,7 @@ def load(paths: Sequence[str] = (), check_fixes: CheckFixes = lambda _: []) -> R
     rules: list[Rule] = []
     problems: list[Finding] = []
     sources: dict[str, Source] = {}
+    broken: list[BrokenPage] = []
     for path in pages(folder()):
         page = read_page(path, f"rules/{os.path.basename(path)}")
         problems.extend(page.problems)
@@ -72,76 +85,23 @@ def load(paths: Sequence[str] = (), check_fixes: CheckFixes = lambda _: []) -> R
         if not found:
             shown = os.path.relpath(path).replace(os.sep, "/")
             problems.append(diagnostic("MSAA921", "no rule pages in this folder", shown))
+    names = {rule.name for rule in rules}.union(map(_name, user_pages))
     for path in user_pages:
         shown = os.path.relpath(path).replace(os.sep, "/")
         page = read_page(path, shown)
-        problems.extend(page.problems)
         if page.source is not None:
             sources[shown] = page.source
-        if page.rule is None:
-            continue
-        of_rule = [*conflicts(page.rule, rules), *misnamed(page.rule), *check_rule(page.rule), *check_fixes(page.rule)]
-        problems.extend(of_rule)
-        if not of_rule:
+        of_page = list(page.problems)
+        if page.rule is not None:
+            from .page_checks import check_names, check_rule
+
+            of_page += [*check_names(page.rule, rules, names), *check_rule(page.rule), *check_fixes(page.rule)]
+        if page.rule is not None and not of_page:
             rules.append(page.rule)
-    return Registry(tuple(sorted(rules, key=lambda rule: rule.code)), tuple(problems), sources)
-
-
-def conflicts(rule: Rule, others: Iterable[Rule]) -> list[Finding]:
-    """Problems of a page with the code or the name of another rule."""
-    found = []
-    for other in others:
-        if rule.code == other.code or rule.name == other.name:
-            shared = f"code {rule.code}" if rule.code == other.code else f"name {rule.name}"
-            found.append(rule.problem(f"the {shared} is already used by `{other.name}`", _FENCE))
-    return found
-
-
-def misnamed(rule: Rule) -> list[Finding]:
-    """Problems of a user's page with a code or name that cannot be used in selectors, suppressions or outputs."""
-    found = []
-    if re.fullmatch(r"(?!MSAA)[A-Z]{2,12}-?[0-9]{1,6}", rule.code) is None:
-        found.append("the code must be 2 to 12 capital letters other than MSAA and a number, for example ACME001")
-    if re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", rule.name) is None or any(rule.name == info.name for info in DIAGNOSTICS.values()):
-        found.append("the file name must be lowercase words with hyphens, for example no-multisampled-storage.md")
-    if rule.name in rule.supersedes:
-        found.append("the rule supersedes itself")
-    return [rule.problem(text, _FENCE) for text in found]
-
-
-def check_rule(rule: Rule) -> list[Finding]:
-    """The problems of a rule's conditions, and the facts its texts name that do not exist. Fixes are not checked."""
-    from msaa_lint.frame.facts.table import SUBJECTS
-
-    found = []
-    for when, at in ((rule.when, rule.condition_at), *((case.when, case.condition_at) for case in rule.cases)):
-        try:
-            check(when, rule.subject)
-        except ConditionError as error:
-            found.append(rule.problem(str(error), _within(rule.source.text, at, when, error)))
-    known = {fact.name for fact in SUBJECTS[rule.subject]}
-    texts = [rule.message, rule.help, *(text or "" for case in rule.cases for text in (case.message, case.help))]
-    texts += [*(spec.title for spec in rule.fix_specs), *(text for _, text in rule.labels)]
-    named = [*rule.at, *(fact for fact, _ in rule.labels), *(name for text in texts for name in placeholders(text))]
-    unknown = [name for name in dict.fromkeys(named) if name not in known]
-    return found + [rule.problem(f"unknown fact {name} of {rule.subject}", rule.condition_at) for name in unknown]
-
-
-def _within(text: str, at: Span, when: str, error: ConditionError) -> Span:
-    """The location of an error in a condition on a page; the whole condition if YAML folded its lines."""
-    if error.offset is None:
-        return at
-    begin = when.rfind("\n", 0, error.offset) + 1
-    line = when[begin:].split("\n", 1)[0]
-    found = text.find(line, at.start, at.end) if line else -1
-    start = found + error.offset - begin
-    return Span(start, min(start + error.length, at.end)) if found >= 0 else at
-
-
-def placeholders(text: str) -> list[str]:
-    """The names of the facts in braces in a text."""
-    parts = text.split("{")[1:]
-    return [part[: part.index("}")] for part in parts if "}" in part]
+        else:
+            broken.append(BrokenPage(page.code, _name(path), shown))
+        problems.extend(sorted(of_page, key=lambda found: found.span or Span(0, 0)))
+    return Registry(tuple(sorted(rules, key=lambda rule: rule.code)), tuple(problems), sources, tuple(broken))
 
 
 def markdown(rule: Rule) -> str:

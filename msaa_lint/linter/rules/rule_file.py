@@ -1,6 +1,7 @@
 """Reads rule pages: YAML front matter, then Markdown."""
 
 import os
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
@@ -10,7 +11,8 @@ from msaa_lint.core.text.source import Source, Unreadable, decode
 from msaa_lint.core.text.span import Span
 from msaa_lint.core.text.tree import Limits, Node, parse, read
 
-FENCE = "---"
+from .front_matter import FENCE, first_sentence, mistake, split
+
 MAX_PAGE_BYTES = 1 << 20
 MAX_CONDITION = 2000
 """Characters of a condition. A page may come from an untrusted branch, and the cost of a CEL expression grows with its length."""
@@ -22,17 +24,18 @@ SAFETIES = ("safe", "unsafe", "shown")
 class Setting(NamedTuple):
     """One change of a fix: a fact, the value to set, add or remove, and its location on the page.
 
-    A value in braces names another fact of the subject, whose value is used.
+    A value in braces names another fact of the subject, whose value is used. `fact_at` is the location of the fact's name.
     """
 
     fact: str
     value: str | bool | int | float
     at: Span
+    fact_at: Span = Span(0, 0)
 
 
 class FixSpec(NamedTuple):
     """A fix in terms of facts: `set` sets the member that a fact comes from, `add` and `remove` change a list, and `do` names an action of
-    `linter.fixes`."""
+    `linter.fixes`. `at` is the location of that name, or of the fix."""
 
     title: str
     safety: str
@@ -46,6 +49,9 @@ class FixSpec(NamedTuple):
     def safe(self) -> bool:
         return self.safety == "safe"
 
+
+EDITIONS = ("2026.1",)
+"""In order. A rule of an edition later than the pinned one is off by default."""
 
 APIS = ("vulkan", "metal")
 """The APIs whose frames a rule may be about."""
@@ -95,6 +101,17 @@ class Rule(NamedTuple):
     source: Source
     apis: tuple[str, ...] = APIS[:1]
     passes: str = PASSES[0]
+    places: Mapping[str, Span] = {}
+    """The locations of the values of the front matter's keys."""
+    texts: tuple[tuple[str, Span], ...] = ()
+    """The texts with facts in braces, and their locations."""
+    named: tuple[tuple[str, Span], ...] = ()
+    """The facts that `at` and `labels` name, and their locations."""
+
+    @property
+    def is_custom(self) -> bool:
+        """Whether it is one of the user's own rules; their codes cannot begin with MSAA."""
+        return not self.code.startswith("MSAA")
 
     @property
     def fix_specs(self) -> "tuple[FixSpec, ...]":
@@ -106,17 +123,23 @@ class Rule(NamedTuple):
         return page_problem(self.name, self.source.name, message, span)
 
 
+def _in_front_matter(message: str) -> str:
+    """The message of a YAML error, for a page: what begins with an exclamation mark there is a condition."""
+    return f"{message}; put a condition that begins with `!` in quotes" if message.startswith("the tag `!") else message
+
+
 def page_problem(rule: str, page: str, message: str, span: Span) -> Finding:
     """A finding about the page of a rule (MSAA921)."""
     return diagnostic("MSAA921", f"rule page `{rule}`: {message}", page, span, rule)
 
 
 class Page(NamedTuple):
-    """The result of reader a page: the rule if it is valid, the problems, and the text if it could be read."""
+    """The result of reading a page: the rule if it is valid, the problems, the text if it could be read, and the code if it is stated."""
 
     rule: Rule | None
     problems: tuple[Finding, ...]
     source: Source | None = None
+    code: str = ""
 
 
 KEYS = (
@@ -136,50 +159,22 @@ def read_page(path: str, shown: str) -> Page:
     source = Source(shown, text)
     front, body = split(text)
     if front is None:
-        message = "a rule page must begin with front matter between two `---` lines"
-        return Page(None, (diagnostic("MSAA921", message, shown, Span(0, 0)),), source)
+        return Page(None, (page_problem(name, shown, *mistake(text)),), source)
     parsed = parse(Source(shown, front), Limits())
     if parsed.problems:
-        problems = [diagnostic("MSAA921", p.message, shown, p.span, name, tuple(p.labels)) for p in parsed.problems]
+        problems = [
+            page_problem(name, shown, _in_front_matter(p.message), p.span)._replace(labels=tuple(p.labels)) for p in parsed.problems
+        ]
         return Page(None, tuple(problems), source)
     reader = _PageReader(shown, name, source)
     root = parsed.documents[0] if parsed.documents else None
     if root is None or root.kind != "mapping":
-        reader.problem(Span(0, 0), "the front matter must be a mapping")
+        stated = f"found {_kind(root)}" if root is not None else "it is empty"
+        reader.problem(root.span if root is not None else Span(0, len(FENCE)), f"the front matter must be a mapping of keys, {stated}")
         return Page(None, tuple(reader.problems), source)
     rule = reader.rule(root, body, path)
-    return Page(rule if not reader.problems else None, tuple(reader.problems), source)
-
-
-def split(text: str) -> tuple[str | None, str]:
-    """The front matter, padded with blanks so that offsets are those of the page, and the Markdown after it."""
-    first = text.find("\n") + 1
-    if text[:first].rstrip() != FENCE:
-        return None, text
-    start = text.find("\n" + FENCE, first - 1) + 1
-    while start > 0:
-        body = text.find("\n", start) + 1 or len(text)
-        if text[start:body].rstrip() == FENCE:
-            return " " * (first - 1) + "\n" + text[first:start], text[body:]
-        start = text.find("\n" + FENCE, start) + 1
-    return None, text
-
-
-def first_sentence(body: str) -> str:
-    """The first sentence of the first paragraph."""
-    paragraph: list[str] = []
-    for line in body.splitlines():
-        text = line.strip()
-        if text.startswith(("#", "```")) and not paragraph:
-            continue
-        if not text:
-            if paragraph:
-                break
-            continue
-        paragraph.append(text)
-    joined = " ".join(paragraph)
-    end = joined.find(". ")
-    return joined if end < 0 else joined[: end + 1]
+    code = root.value["code"].text.strip() if "code" in root.value else ""
+    return Page(rule if not reader.problems else None, tuple(reader.problems), source, code)
 
 
 class _PageReader:
@@ -190,6 +185,8 @@ class _PageReader:
         self.name = name
         self.source = source
         self.problems: list[Finding] = []
+        self.texts: list[tuple[str, Span]] = []
+        self.named: list[tuple[str, Span]] = []
 
     def problem(self, span: Span, message: str) -> None:
         self.problems.append(page_problem(self.name, self.shown, message, span))
@@ -199,104 +196,125 @@ class _PageReader:
         from msaa_lint.frame.facts.words import WORDS
 
         members: dict[str, Node] = root.value
-        for key in members:
-            if key not in KEYS:
-                self.unknown(root.keys[key], KEYS)
+        meant = self.unknown(root, KEYS)
         missing = [key for key in REQUIRED if key not in members]
         if missing:
-            self.problem(Span(0, len(FENCE)), f"missing {', '.join(f'`{key}`' for key in missing)} in the front matter")
+            unmentioned = [f"`{key}`" for key in missing if key not in meant]
+            if unmentioned:
+                self.problem(Span(0, len(FENCE)), f"missing {', '.join(unmentioned)} in the front matter")
             return None
-        self.one_of(members["subject"], tuple(SUBJECTS))
-        self.one_of(members["severity"], SEVERITIES)
-        if "confidence" in members:
-            self.one_of(members["confidence"], CONFIDENCES)
-        if "passes" in members:
-            self.one_of(members["passes"], PASSES)
-        for vendor in self.items(members.get("vendors")):
-            self.one_of(vendor, WORDS["vendor"])
-        apis = self.items(members.get("apis"))
+        for key, words in (("subject", tuple(SUBJECTS)), ("severity", SEVERITIES), ("confidence", CONFIDENCES), ("passes", PASSES)):
+            if key in members:
+                self.one_of(members[key], words, key)
+        for vendor in self.items(members.get("vendors"), "vendors"):
+            self.one_of(vendor, WORDS["vendor"], "vendors")
+        apis = self.items(members.get("apis"), "apis")
         for api in apis:
-            self.one_of(api, APIS)
+            self.one_of(api, APIS, "apis")
+        for key in ("code", "when", "message"):
+            if members[key].kind == "scalar" and members[key].value is not None and not members[key].text.strip():
+                self.problem(members[key].span, f"`{key}` must not be empty")
         when = members["when"]
-        at = members.get("at")
+        at = self.items(members.get("at"), "at", scalar=True)
         fix = self.fix(members["fix"], None) if "fix" in members else None
+        self.named += [(node.text, node.span) for node in at]
         return Rule(
-            code=self.text(members["code"]),
+            code=self.text(members["code"], "code"),
             name=self.name,
             severity=members["severity"].text,
             confidence=members["confidence"].text if "confidence" in members else "high",
             subject=members["subject"].text,
             when=self.condition(when),
-            message=self.text(members["message"]),
-            at=() if at is None else self.texts(at) if at.kind == "sequence" else (self.text(at),),
-            labels=self.pairs(members.get("labels")),
-            cases=tuple(self.case(node, fix) for node in self.items(members.get("cases"))),
-            help=self.text(members["help"]) if "help" in members else "",
+            message=self.prose(members["message"], "message"),
+            at=tuple(self.text(node, "at") for node in at),
+            labels=self.labels(members.get("labels")),
+            cases=tuple(self.case(node, fix) for node in self.items(members.get("cases"), "cases")),
+            help=self.prose(members["help"], "help") if "help" in members else "",
             fix=fix,
-            vendors=self.texts(members.get("vendors")),
-            edition=self.text(members["edition"]) if "edition" in members else "",
-            references=self.texts(members.get("references")),
-            supersedes=self.texts(members.get("supersedes")),
+            vendors=self.strings(members, "vendors"),
+            edition=self.text(members["edition"], "edition") if "edition" in members else "",
+            references=self.strings(members, "references"),
+            supersedes=self.strings(members, "supersedes"),
             summary=first_sentence(body),
             path=path,
             condition_at=when.span,
             source=self.source,
             apis=tuple(dict.fromkeys(api.text for api in apis)) or APIS[:1],
             passes=members["passes"].text if "passes" in members else PASSES[0],
+            places={key: node.span for key, node in members.items()},
+            texts=tuple(self.texts),
+            named=tuple(self.named),
         )
 
-    def unknown(self, key: Node, known: tuple[str, ...]) -> None:
-        from msaa_lint.core.suggestions import near_or_all
+    def unknown(self, mapping: Node, known: Sequence[str]) -> set[str]:
+        """Reports the keys of a mapping that are not known; returns the known ones that are likely meant by them."""
+        from msaa_lint.core.suggestions import near_or_all, nearest
 
-        self.problem(key.span, f"unknown key {quoted(key.text)}: {near_or_all(key.text, known)}")
+        keys = [key for key in mapping.value if key not in known]
+        for key in keys:
+            self.problem(mapping.keys[key].span, f"unknown key {quoted(key)}: {near_or_all(key, known)}")
+        return {meant for key in keys if (meant := nearest(key, known)) is not None}
 
-    def text(self, node: Node) -> str:
+    def prose(self, node: Node, key: str) -> str:
+        """A text with facts in braces."""
+        self.texts.append((node.text, node.span))
+        return self.text(node, key)
+
+    def text(self, node: Node, key: str = "") -> str:
         if node.kind != "scalar" or node.value is None:
-            self.problem(node.span, f"expected a string, found {_kind(node)}")
+            self.problem(node.span, f"{_of(key)}expected a string, found {_kind(node)}")
             return ""
         return node.text.strip()
 
     def condition(self, when: Node) -> str:
         if len(when.text) > MAX_CONDITION:
             self.problem(when.span, f"the condition is longer than {MAX_CONDITION} characters")
-        return self.text(when)
+        return self.text(when, "when")
 
-    def one_of(self, node: Node, words: tuple[str, ...]) -> None:
+    def one_of(self, node: Node, words: Sequence[str], key: str) -> None:
         if node.kind != "scalar" or node.text not in words:
-            self.problem(node.span, f"expected one of {', '.join(words)}, found {_kind(node)}")
+            from msaa_lint.core.suggestions import did_you_mean
 
-    def items(self, node: Node | None) -> list[Node]:
+            hint = did_you_mean(node.text, words) if node.kind == "scalar" else ""
+            self.problem(node.span, f"`{key}`: expected one of {', '.join(words)}, found {_kind(node)}{hint}")
+
+    def items(self, node: Node | None, key: str, scalar: bool = False) -> list[Node]:
+        """The items of a list; `scalar` allows one item instead of a list of it."""
         if node is None:
             return []
-        if node.kind != "sequence":
-            self.problem(node.span, f"expected a list, found {_kind(node)}")
-            return []
-        return list(node.value)
+        if node.kind == "sequence":
+            return list(node.value)
+        if scalar:
+            return [node]
+        example = f"; write `[{node.text}]`" if node.kind == "scalar" and node.value is not None else ""
+        self.problem(node.span, f"{_of(key)}expected a list, found {_kind(node)}{example}")
+        return []
 
-    def texts(self, node: Node | None) -> tuple[str, ...]:
-        return tuple(self.text(item) for item in self.items(node))
+    def strings(self, members: Mapping[str, Node], key: str) -> tuple[str, ...]:
+        return tuple(self.text(item, key) for item in self.items(members.get(key), key))
 
-    def pairs(self, node: Node | None) -> tuple[tuple[str, str], ...]:
+    def labels(self, node: Node | None) -> tuple[tuple[str, str], ...]:
         if node is None:
             return ()
         if node.kind != "mapping":
-            self.problem(node.span, f"expected a mapping, found {_kind(node)}")
+            self.problem(node.span, f"`labels`: expected a mapping, found {_kind(node)}")
             return ()
-        return tuple((key, self.text(value)) for key, value in node.value.items())
+        self.named += [(key, node.keys[key].span) for key in node.value]
+        return tuple((key, self.prose(value, key)) for key, value in node.value.items())
 
     def case(self, node: Node, fix: FixSpec | None) -> Case:
         """A case. Without a `fix`, or with one that only states its safety, it has the fix of the rule."""
         known = ("when", "severity", "confidence", "message", "help", "fix")
+        meant = self.unknown(node, known) if node.kind == "mapping" else set()
         if node.kind != "mapping" or "when" not in node.value:
-            self.problem(node.span, "a case must be a mapping with `when` and what differs")
+            if "when" not in meant:
+                self.problem(node.span, "a case must be a mapping with `when` and what differs")
             return Case("true", None, None, None)
-        for key in node.value:
-            if key not in known:
-                self.unknown(node.keys[key], known)
-        texts = {key: self.text(value) for key, value in node.value.items() if key not in ("when", "fix")}
+        texts = {key: self.prose(value, key) for key, value in node.value.items() if key in ("message", "help")}
         for key, words in (("severity", SEVERITIES), ("confidence", CONFIDENCES)):
-            if key in texts:
-                self.one_of(node.value[key], words)
+            if key in node.value:
+                self.one_of(node.value[key], words, key)
+                texts[key] = node.value[key].text
         when = node.value["when"]
         case_fix = node.value.get("fix")
         if case_fix is not None:
@@ -309,21 +327,24 @@ class _PageReader:
         known = ("title", "safety", "set", "add", "remove", "do")
         members = node.value if node.kind == "mapping" else {}
         inherits = of_rule is not None and list(members) == ["safety"]
-        if not inherits and ("title" not in members or "safety" not in members):
-            self.problem(node.span, f"a fix must be a mapping with `title`, `safety` ({', '.join(SAFETIES)}) and what it changes")
+        meant = self.unknown(node, known) if members else set()
+        missing = [key for key in ("title", "safety") if key not in members and not inherits]
+        if missing:
+            if meant.isdisjoint(missing):
+                stated = f"; missing {', '.join(f'`{key}`' for key in missing)}" if members else ""
+                self.problem(
+                    node.span, f"a fix must be a mapping with `title`, `safety` ({', '.join(SAFETIES)}) and what it changes{stated}"
+                )
             return None
-        for key in members:
-            if key not in known:
-                self.unknown(node.keys[key], known)
-        self.one_of(members["safety"], SAFETIES)
+        self.one_of(members["safety"], SAFETIES, "safety")
         safety = members["safety"].text
         if inherits and of_rule is not None:
             return of_rule._replace(safety=safety)
-        if {"set", "add", "remove", "do"}.isdisjoint(members):
+        if _CHANGES.isdisjoint(members) and _CHANGES.isdisjoint(meant):
             self.problem(node.span, "a fix must state what it changes: `set`, `add`, `remove` or `do`")
         set_, added, removed = (self.changes(members.get(key), key) for key in ("set", "add", "remove"))
-        do = self.text(members["do"]) if "do" in members else ""
-        return FixSpec(self.text(members["title"]), safety, set_, added, removed, do, node.span)
+        do = self.text(members["do"], "do") if "do" in members else ""
+        return FixSpec(self.prose(members["title"], "title"), safety, set_, added, removed, do, members.get("do", node).span)
 
     def changes(self, node: Node | None, action: str) -> tuple[Setting, ...]:
         """The facts that a fix changes with their values; a list of values gives one change for each."""
@@ -347,14 +368,14 @@ class _PageReader:
 
             self.problem(key.span, f"unknown fact {quoted(key.text)}{did_you_mean(key.text, FACTS, ': ')}")
         elif (fact.type == "LIST") != (action != "set"):
-            self.problem(
-                key.span, f"{fact.name} is {'a list' if fact.type == 'LIST' else 'not a list'}: it cannot be changed with `{action}`"
-            )
+            kind, instead = ("a list", "`add` or `remove`") if fact.type == "LIST" else ("not a list", "`set`")
+            self.problem(key.span, f"{fact.name} is {kind}: it cannot be changed with `{action}`; use {instead}")
         elif value.kind != "scalar" or not (_names_fact(value) or type(value.value) in _TYPES.get(fact.type, ())):
             self.problem(value.span, f"expected a value of {fact.name} ({fact.type}), found {_kind(value)}")
-        return Setting(key.text, value.value if value.kind == "scalar" else "", value.span)
+        return Setting(key.text, value.value if value.kind == "scalar" else "", value.span, key.span)
 
 
+_CHANGES = frozenset({"set", "add", "remove", "do"})
 _TYPES = {"BOOL": (bool,), "INT": (int,), "DOUBLE": (int, float), "STRING": (str,), "LIST": (str,)}
 """The types of a fact's value, or of its elements."""
 
@@ -362,6 +383,10 @@ _TYPES = {"BOOL": (bool,), "INT": (int,), "DOUBLE": (int, float), "STRING": (str
 def _names_fact(node: Node) -> bool:
     """Whether a value is a fact in braces."""
     return isinstance(node.value, str) and node.text[:1] == "{" and node.text[-1:] == "}"
+
+
+def _of(key: str) -> str:
+    return f"`{key}`: " if key else ""
 
 
 def _kind(node: Node) -> str:

@@ -18,6 +18,8 @@ EXACT = 1000
 """The specificity of a name or a whole code."""
 
 MAX_FINDINGS = 50
+_CUSTOM = re.compile(r"(?!MSAA)[A-Z]{2,12}-?[0-9]{0,6}\Z")
+"""A code of a custom rule, or its prefix."""
 _PREFIX = re.compile(r"([A-Z]+)[0-9]*\Z")
 
 
@@ -58,16 +60,21 @@ def max_specificity(selectors: Iterable[str], rule: Named) -> int:
 
 
 class RuleNames:
-    """The names and codes of rules, to find unknown selectors and suggest the intended ones."""
+    """The names and codes of rules, to find unknown selectors and suggest the intended ones. A rule with a broken page may have no code."""
 
     def __init__(self, rules: Iterable[Named]) -> None:
         self.rules: list[Named] = [*rules, *DIAGNOSTICS.values()]
-        self.by_word = {word: rule for rule in self.rules for word in (rule.name, rule.code)}
+        self.by_word = {word: rule for rule in self.rules for word in (rule.name, rule.code) if word}
         self.suggestions = Suggestions(self.by_word)
+        self._code_missing = not all(rule.code for rule in self.rules)
+
+    def may_be_missing(self, word: str) -> bool:
+        """Whether a word may be the code of a rule whose page does not state a readable one."""
+        return self._code_missing and _CUSTOM.match(word) is not None
 
     def selects_any(self, selector: str) -> bool:
-        """Whether a selector names at least one rule."""
-        return selector in self.by_word or any(specificity(selector, rule) for rule in self.rules)
+        """Whether a selector names at least one rule, or may name one."""
+        return selector in self.by_word or self.may_be_missing(selector) or any(specificity(selector, rule) for rule in self.rules)
 
 
 def unknown_selectors(settings: Settings, rules: Iterable[Named]) -> list[Finding]:

@@ -161,7 +161,7 @@ def _enter(table: _Table, diagnostics: Diagnostics, names: RuleNames, directive:
             table.add(directive, entry, rule.name)
             return
         diagnostics.add("MSAA911", f"{quoted(entry.name)} is an error and cannot be suppressed", entry.span)
-    elif diagnostics.full("MSAA912"):
+    elif diagnostics.full("MSAA912") or names.may_be_missing(entry.name):
         return
     elif names.selects_any(entry.name):
         diagnostics.add("MSAA913", f"{quoted(entry.name)} names a group of rules; name each rule to suppress", entry.span)

@@ -50,8 +50,8 @@ def loaded(folder: Path, fix: str) -> tuple[list[tuple[str, str]], list[str]]:
     ("fix", "message"),
     [
         ("fix: {title: x, safety: safe, set: {⟦aspect.stor⟧: DONT_CARE}}", "unknown fact `aspect.stor`: did you mean `aspect.store`?"),
-        ("fix: {title: x, safety: safe, set: {aspect.name: ⟦color⟧}}", "fixes cannot change `aspect.name`; use one of "),
-        ("fix: {title: x, safety: safe, set: {resolve.mode: ⟦MIN⟧}}", "subject `aspect` has no fact `resolve.mode`"),
+        ("fix: {title: x, safety: safe, set: {⟦aspect.name⟧: color}}", "fixes cannot change `aspect.name`; use one of "),
+        ("fix: {title: x, safety: safe, set: {⟦resolve.mode⟧: MIN}}", "unknown fact resolve.mode of aspect; it is a fact of resolve"),
         ("fix: {title: x, safety: safe, set: {aspect.store: ⟦DONTCARE⟧}}", "`aspect.store` is never `DONTCARE`; did you mean `DONT_CARE`?"),
         ("fix: {title: x, safety: safe, set: {aspect.store: ⟦4⟧}}", "expected a value of aspect.store (STRING), found "),
         ("fix: {title: x, safety: safe, set: {⟦image.usage⟧: SAMPLED}}", "image.usage is a list: it cannot be changed with `set`"),
@@ -65,14 +65,15 @@ def loaded(folder: Path, fix: str) -> tuple[list[tuple[str, str]], list[str]]:
             "`{image.samples}` does not refer to a fact of type STRING",
         ),
         ("fix: ⟦{title: x, safety: safe}⟧", "a fix must state what it changes: `set`, `add`, `remove` or `do`"),
-        ("fix: ⟦{title: x, safety: safe, do: nothing}⟧", "unknown action `do: nothing`; use one of make-transient, resolve-in-pass"),
+        ("fix: {title: x, safety: safe, do: ⟦nothing⟧}", "unknown action `nothing`: expected one of make-transient, resolve-in-pass"),
+        ("fix: {title: x, safety: safe, do: ⟦make_transient⟧}", "unknown action `make_transient`: did you mean `make-transient`?"),
         (
             "cases: [{when: image.samples > 1, fix: ⟦{safety: unsafe}⟧}]",
             "a fix must be a mapping with `title`, `safety` (safe, unsafe, shown)",
         ),
         (
             "fix: {title: x, safety: safe, set: {aspect.store: NONE}}\ncases: [{when: image.samples > 1, fix: {safety: ⟦often⟧}}]",
-            "expected one of safe, unsafe, shown, found `often`",
+            "`safety`: expected one of safe, unsafe, shown, found `often`",
         ),
         ('fix: {title: "{image.sample}", safety: safe, set: {aspect.store: NONE}}', "unknown fact image.sample of aspect"),
     ],
