@@ -30,7 +30,7 @@ def _problems(spec: FixSpec, rule: Rule) -> Iterator[tuple[Span, str]]:
     if spec.do and spec.do not in actions:
         yield spec.at, f"unknown action {quoted(spec.do)}: {near_or_all(spec.do, list(actions))}"
     facts = {fact.name for fact in SUBJECTS[rule.subject]}
-    sources = {**FACT_SOURCES, **METAL_FACT_SOURCES}
+    sources = {**FACT_SOURCES, **(METAL_FACT_SOURCES if "metal" in rule.apis else {})}
     for setting in (*spec.set, *spec.add, *spec.remove):
         if setting.fact not in facts:
             yield setting.fact_at, unknown_fact(setting.fact, rule.subject)
