@@ -13,7 +13,7 @@ from msaa_lint.linter.run import Outcome
 
 from .common import set_utf_8
 from .report.color import paint
-from .report.escape import escape
+from .report.escape import escape, escape_commands
 
 _LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n)|[^\r\n]+")
 _STYLES = {"+": "32", "-": "31", "@": "36"}
@@ -42,12 +42,13 @@ def print_diff(outcome: Outcome, color: bool) -> bool:
 
 
 def unified_diff(before: str, after: str, name: str, color: bool = False) -> Iterator[str]:
-    """The lines of a unified diff, with line ends. Control characters are escaped, except tabs and the line's own end."""
+    """The lines of a unified diff, with line ends. Control characters are escaped, except tabs and the line's own end, and what a CI
+    runner obeys."""
     lines = difflib.unified_diff(_LINE.findall(before), _LINE.findall(after), f"a/{name}", f"b/{name}")
     for number, line in enumerate(lines):
         text = line.rstrip("\r\n")
         end = line[len(text) :]
-        escaped = "\t".join(escape(part) for part in text.split("\t"))
+        escaped = escape_commands("\t".join(escape(part) for part in text.split("\t")))
         style = "1" if number < 2 else _STYLES.get(text[:1], "")
         # A carriage return before the line end stays, so that the diff can be applied.
         yield paint(escaped, style, color) + (end if end in ("\r\n", "\n") else "\n")

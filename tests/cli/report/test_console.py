@@ -1,6 +1,7 @@
 import pytest
 from rich.text import Text
 
+from msaa_lint.cli.fix_report import unified_diff
 from msaa_lint.cli.report import Options
 from msaa_lint.cli.report.console import cell, open_console
 from msaa_lint.cli.report.tables import NAME, Column, Table, print_tables
@@ -18,3 +19,10 @@ def test_no_line_begins_with_what_a_runner_obeys(color: bool) -> None:
     plain = Text.from_ansi("".join(printed)).plain
     assert not [line for line in plain.splitlines() if line.lstrip().startswith("::")]
     assert plain.count("\\x3a:") >= 5 and "a::b" in plain
+
+
+def test_no_line_of_a_diff_begins_so() -> None:
+    before = "a: |\n  ::error::x\n::error::y\nb: 1\nc::d: 1\n"
+    lines = list(unified_diff(before, before.replace("b: 1", "::error::z"), "x"))
+    assert [line for line in lines if line.lstrip().startswith("::")] == []
+    assert lines[3:] == [" a: |\n", "   \\x3a:error::x\n", " \\x3a:error::y\n", "-b: 1\n", "+::error::z\n", " c::d: 1\n"]
