@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import inspect
+import os
+import re
 from collections.abc import Callable, Iterator
 from importlib import import_module
 from typing import Annotated, Any
@@ -99,5 +101,14 @@ def _completion(source: str, choices: tuple[str, ...]) -> Callable[[str], Iterat
     return complete
 
 
+def _join_values(words: str, number: str) -> tuple[str, str]:
+    """The words that bash completes, and the number of the current one, with `--output = json` joined again: bash splits words at `=`."""
+    joined, count = re.subn(r"(\s--[\w-]+)\s=\s(?=\S)", r"\1=", words)
+    return joined, str(int(number) - 2 * count) if number.isdigit() else number
+
+
 for _name, _command in COMMANDS.items():
     _add_command(_name, _command)
+if os.environ.get("_MSAA_LINT_COMPLETE") == "complete_bash":
+    _words = _join_values(os.environ.get("COMP_WORDS", ""), os.environ.get("COMP_CWORD", ""))
+    os.environ["COMP_WORDS"], os.environ["COMP_CWORD"] = _words

@@ -34,7 +34,7 @@ def profiles() -> Values:
     """What `--profile` knows by name: devices, device classes, and vendors."""
     from msaa_lint.frame.facts.words import WORDS
 
-    return [*devices(), *((vendor, "vendor") for vendor in WORDS["vendor"])]
+    return {**dict.fromkeys(WORDS["vendor"], "vendor"), **dict(devices())}.items()
 
 
 def scenes() -> Values:
