@@ -63,8 +63,8 @@ def _check(arguments: Arguments) -> int:
         targets = _print_fixes(targets, outcome, arguments)
     _print_reports(targets, outcome, arguments)
     code = exit_code(outcome, bool(arguments.get("exit_zero")))
-    for file in _over_budget(outcome) if code == 1 else ():
-        warn(f"{file}: its findings together cost at least {outcome.settings.fail_on_cost}")
+    for line in _over_budget(outcome) if code == 1 else ():
+        warn(line)
     return code
 
 
@@ -126,13 +126,21 @@ def exit_code(outcome: Outcome, exit_zero: bool = False) -> int:
 
 
 def _over_budget(outcome: Outcome) -> list[str]:
-    """The inputs whose findings together reach `fail-on-cost`."""
+    """A line for each input of which fixes save as much as `fail-on-cost`, with how much that is."""
     if outcome.settings.fail_on_cost is None:
         return []
-    from msaa_lint.linter.settings.cost_limit import budget, reached
+    from msaa_lint.linter.settings.cost_limit import budget, figure
 
     limit = budget(outcome.settings.fail_on_cost)
-    return [file for file, price in outcome.failing_prices.items() if reached(price, limit)]
+    lines = []
+    for file, savings in outcome.failing.items():
+        safe, everything = (figure(saving.price, limit) if saving.price is not None else 0.0 for saving in (savings.safe, savings.all))
+        if everything >= limit.most:
+            lines.append(
+                f"{file}: --fix saves {safe:g} {limit.unit} and --fix --unsafe-fixes {everything:g} {limit.unit}, "
+                f"and --fail-on-cost is {limit.text}"
+            )
+    return lines
 
 
 def _print_reports(targets: Sequence[Target], outcome: Outcome, arguments: Arguments) -> None:

@@ -82,16 +82,15 @@ def _convert_text(name: str, data: bytes, format: str | None) -> str:
 def _convert_source(code: SourceFile, output: str | None, force: bool) -> None:
     """Writes what source code states, a document for each part, and prints what had to be assumed."""
     documents = code.program.documents
-    trees = [document.tree for document in documents if document.tree is not None]
-    if not trees:
+    description = code.description
+    if not description:
         raise _ConvertError(f"{code.source.name}: found no attachment, image, pipeline, or sample count")
     for number, assumptions in enumerate(code.program.assumed, 1):
-        where = f"{code.source.name}, document {number}" if len(trees) > 1 else code.source.name
+        where = f"{code.source.name}, document {number}" if len(documents) > 1 else code.source.name
         for text in assumptions:
             note(f"{where}: {text}")
     head = f"# Read from {escape(code.source.name)}; what it does not state is left out.\n"
-    modules = {name: module for document in documents for name, module in document.modules.items()}
-    _write(head + "---\n".join(map(emit, trees)), modules, output, force)
+    _write(head + description, code.modules, output, force)
 
 
 def _write(text: str, modules: Mapping[str, bytes], output: str | None, force: bool) -> None:

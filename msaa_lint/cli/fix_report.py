@@ -14,6 +14,7 @@ from msaa_lint.linter.run import Outcome
 from .common import set_utf_8
 from .report.color import paint
 from .report.escape import escape, escape_commands
+from .report.summary import files_saving
 
 _LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n)|[^\r\n]+")
 _STYLES = {"+": "32", "-": "31", "@": "36"}
@@ -69,8 +70,9 @@ def fix_summary(outcome: Outcome, applied: bool, unsafe: bool) -> list[str]:
 
 
 def _unsafe_hint(result: Result) -> str:
-    unsafe = sum(finding.fix is not None and not finding.fix.safe and not finding.fix.shown for finding in result.findings)
-    return f", {unsafe} of them with an unsafe fix (--unsafe-fixes)" if unsafe else ""
+    savings = files_saving(result)
+    unsafe = savings.all.findings - savings.safe.findings
+    return f", {unsafe} of them fixable with --unsafe-fixes" if unsafe > 0 else ""
 
 
 def _line(text: FixedText, finding: Finding) -> str:

@@ -20,22 +20,44 @@ CONFIDENCES = ("low", "medium", "high")
 class Fix(NamedTuple):
     """A fix of a finding. A `safe` fix cannot change the picture. `edits` is empty if they are not computed.
 
-    A fix that is `shown` is never applied: it says what would cost less, for the user to decide.
+    A fix that is `shown` is never applied. It is a `choice` if its rule leaves it to the user, because it changes what the frame does;
+    otherwise the input cannot be edited. `refusal` is the reason why `--fix --unsafe-fixes` does not make a fix that is not shown.
     """
 
     title: str
     safe: bool
     edits: tuple[Edit, ...] = ()
     shown: bool = False
+    choice: bool = False
+    refusal: str = ""
 
 
 class Price(NamedTuple):
-    """The estimated cost of a finding. MB is 10^6 bytes, MiB is 2^20 bytes."""
+    """The estimated saving from a fix, or from several. MB is 10^6 bytes, MiB is 2^20 bytes."""
 
     read_mb_per_s: float
     write_mb_per_s: float
     memory_mib: float
     milliwatts: float
+
+
+class Saving(NamedTuple):
+    """The number of findings that fixes remove, and the cost of the input before them minus its cost after; None if that is unknown."""
+
+    findings: int = 0
+    price: Price | None = None
+
+
+class Savings(NamedTuple):
+    """What fixes save of one input, determined by making them.
+
+    `safe` is the result of `--fix`, `all` that of `--fix --unsafe-fixes`. If `converted`, the input is a capture or source code, and the
+    fixes are those of the description that `msaa-lint convert` writes.
+    """
+
+    safe: Saving
+    all: Saving
+    converted: bool = False
 
 
 class CaptureLocation(NamedTuple):
@@ -54,7 +76,7 @@ class Finding(NamedTuple):
     """One mistake at one location.
 
     `span` is None if the input has no text (binary captures) or could not be decoded. `subject` is the structural path of the object that
-    the finding is about, such as `renderPasses.forward.attachments.color`.
+    the finding is about, such as `renderPasses.forward.attachments.color`; `images` are the names of the images that it concerns.
     """
 
     code: str
@@ -71,6 +93,7 @@ class Finding(NamedTuple):
     fix: Fix | None = None
     price: Price | None = None
     capture_location: CaptureLocation | None = None
+    images: frozenset[str] = frozenset()
 
     @property
     def fatal(self) -> bool:
@@ -138,8 +161,8 @@ class RuleInfo(NamedTuple):
 class Result(NamedTuple):
     """The result of a lint run. Findings are sorted by file, location and code; `rules` are the enabled rules by code.
 
-    `together` is the combined price of the findings of each file with prices. It is less than the sum of their prices if two findings are
-    about the same bytes. `has_baseline` is whether the findings were compared with a baseline. `inputs` says what of each file was checked.
+    `savings` are those of each file with findings that have fixes, if the run determined them. `has_baseline` is whether the findings were
+    compared with a baseline. `inputs` says what of each file was checked.
     """
 
     findings: Sequence[Finding]
@@ -148,7 +171,7 @@ class Result(NamedTuple):
     files: Sequence[str]
     sources: Mapping[str, "Source"]
     rules: Sequence[RuleInfo]
-    together: Mapping[str, Price] = {}
+    savings: Mapping[str, Savings] = {}
     has_baseline: bool = False
     inputs: Sequence[InputSummary] = ()
 

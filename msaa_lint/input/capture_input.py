@@ -6,7 +6,7 @@ from importlib import import_module
 from typing import BinaryIO, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
-from msaa_lint.core.finding import CaptureLocation, Finding
+from msaa_lint.core.finding import CaptureLocation, Finding, Price
 from msaa_lint.core.text.source import Origin, Source
 from msaa_lint.core.text.span import Span
 
@@ -32,6 +32,11 @@ class CaptureInput(NamedTuple):
     frames: int
     broken: str
     notes: tuple[str, ...]
+
+    @property
+    def description(self) -> str:
+        """The text of the description."""
+        return self.source.text
 
 
 def read_capture(stream: BinaryIO, format: str, name: str, path: str | None) -> CaptureInput:
@@ -75,17 +80,30 @@ def capture_findings(capture: CaptureInput, findings: Sequence[Finding]) -> list
         first = merged.get(key)
         if first is None or first.subject == found.subject:
             merged[key if first is None else (key, len(merged))] = found
-        elif first.capture_location is not None and found.capture_location is not None and _COMMAND.search(found.subject):
-            # Another kind of frame has the same command.
-            location = first.capture_location
-            frames = (location.frames or 0) + (found.capture_location.frames or 0)
-            merged[key] = first._replace(capture_location=location._replace(frames=min(frames, location.of) or None))
+        else:
+            merged[key] = _of_both_kinds(first, found)
     result = list(merged.values())
     if capture.broken:
         text = capture.source.text
         start = text.rfind("\n", 0, len(text) - 1) + 1
         result.append(diagnostic("MSAA901", f"the capture ends here: {capture.broken}", capture.source.name, Span(start, len(text) - 1)))
     return result
+
+
+def _of_both_kinds(first: Finding, other: Finding) -> Finding:
+    """A finding that another kind of frame has too. Its traffic adds up, as each kind's is weighted by its share; its image is the same."""
+    prices = [finding.price for finding in (first, other) if finding.price is not None]
+    if len(prices) == 2:
+        sums = [sum(column) for column in zip(*prices, strict=True)]
+        first = first._replace(price=Price(*sums)._replace(memory_mib=max(price.memory_mib for price in prices)))
+    elif prices:
+        first = first._replace(price=prices[0])
+    location, others = first.capture_location, other.capture_location
+    # An object's location has the frames of all kinds; a command's, those of one.
+    if location is not None and others is not None and _COMMAND.search(other.subject):
+        frames = (location.frames or 0) + (others.frames or 0)
+        first = first._replace(capture_location=location._replace(frames=min(frames, location.of) or None))
+    return first
 
 
 def _located(capture: CaptureInput, finding: Finding) -> Finding:

@@ -2,6 +2,7 @@
 
 from typing import NamedTuple
 
+from msaa_lint.core.text.emitter import emit
 from msaa_lint.core.text.source import Source, Unreadable, decode
 
 from . import code
@@ -18,6 +19,16 @@ class SourceFile(NamedTuple):
     language: str
     program: code.Program
     notes: tuple[str, ...] = ()
+
+    @property
+    def description(self) -> str:
+        """The text of the description of what the code states, a document for each part; empty if it states nothing."""
+        return "---\n".join(emit(document.tree) for document in self.program.documents if document.tree is not None)
+
+    @property
+    def modules(self) -> dict[str, bytes]:
+        """The code of the shaders that the description names."""
+        return {name: module for document in self.program.documents for name, module in document.modules.items()}
 
 
 def read_source_file(data: bytes, name: str, language: str) -> SourceFile:

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
 from typing import NamedTuple
 
 from msaa_lint.core.finding import Result
-from msaa_lint.frame.cost.amounts import FrameCost, Terms
+from msaa_lint.frame.cost.amounts import Terms
 from msaa_lint.frame.cost.input_cost import CostedFrame
 from msaa_lint.frame.cost.model import frame_cost
 from msaa_lint.frame.cost.variants import variants
 from msaa_lint.frame.facts.frame import Frame
 
+from .fixes.fixer import FixResult
 from .results import DocumentResult, FileResult
-from .workspace import Request, Workspace
+from .savings import Trials
+from .workspace import InputFile, Request, Workspace
 
 
 class CostResult(NamedTuple):
@@ -30,7 +31,7 @@ class CostResult(NamedTuple):
 
 
 def run_costs(request: Request, terms: Terms, counts: Sequence[int]) -> CostResult:
-    """The costs of the inputs of a request, with variants at other sample counts and with fixes.
+    """The costs of the inputs of a request, after fixes and with other sample counts.
 
     A problem of an input or the configuration is an error in the result; the other inputs still get their costs.
     """
@@ -48,11 +49,9 @@ def run_costs(request: Request, terms: Terms, counts: Sequence[int]) -> CostResu
         if result.source is None:
             continue
         workspace.sources[result.file] = result.source
-        for document in _valid_documents(result) if errors else result.documents:
-            cost = frame_cost(Frame(document.document), document.device, terms)
-            others = variants(document.document, document.device, terms, counts)
-            fixed = _with_fixes(result, document, terms)
-            frames.append(CostedFrame(result.file, document.number, len(result.documents), cost, others, fixed))
+        documents = _valid_documents(result) if errors else list(result.documents)
+        trials = _trials(file, result) if not errors else None
+        frames += (_costed(result, document, trials, terms, counts) for document in documents)
     errors = [finding for finding in dict.fromkeys(findings) if finding.fatal]
     files = dict.fromkeys([*map(request.input_name, discovered.files), *(finding.file for finding in errors)])
     return CostResult(frames, Result(errors, [], [], list(files), workspace.sources, []), discovered.notes)
@@ -66,15 +65,35 @@ def _valid_documents(result: FileResult) -> list[DocumentResult]:
     return [document for document in result.documents if not document.document.problems]
 
 
-def _with_fixes(result: FileResult, document: DocumentResult, terms: Terms) -> FrameCost | None:
-    """The cost of a document's frame with all fixes of its findings, including those that are never applied; None if there are none."""
-    from .fixes.changes import NoFix
-    from .fixes.document_fixes import DocumentFixes
-    from .prices import Prices, merge_changes
+def _trials(file: InputFile, result: FileResult) -> Trials | None:
+    """The fixes of an input, as `check` makes them; None if it has none."""
+    if not any(finding.fix is not None for finding in result.findings):
+        return None
+    from .savings import try_fixes
 
-    fixes = DocumentFixes(document, editable=not result.is_code)
-    plans = []
-    for finding in filter(fixes.covers, result.findings):
-        with suppress(NoFix):
-            plans.append(fixes.changes(finding))
-    return Prices(fixes, terms).cost_with(merge_changes(plans), None) if plans else None
+    description, lint = file.description(result)
+    return try_fixes(description, lint, file.fixable(result))
+
+
+def _costed(result: FileResult, document: DocumentResult, trials: Trials | None, terms: Terms, counts: Sequence[int]) -> CostedFrame:
+    """The costs of one document: as written, after its fixes, and with other sample counts, after the same fixes."""
+    cost = frame_cost(Frame(document.document), document.device, terms)
+    written = variants(document.document, document.device, terms, counts)
+    frame = CostedFrame(result.file, document.number, len(result.documents), cost, written)
+    if trials is None:
+        return frame
+    safe, everything = _document(trials.safe, document), _document(trials.all, document)
+    if everything is None:
+        return frame
+    return frame._replace(
+        safely_fixed=frame_cost(Frame(safe.document), safe.device, terms) if safe is not None else None,
+        fixed=frame_cost(Frame(everything.document), everything.device, terms),
+        fixed_variants=variants(everything.document, everything.device, terms, counts),
+    )
+
+
+def _document(fixes: FixResult, document: DocumentResult) -> DocumentResult | None:
+    """A document after fixes; None if nothing of its input is fixed."""
+    if not fixes.fixed_findings:
+        return None
+    return next((fixed for fixed in fixes.result.documents if fixed.number == document.number), None)

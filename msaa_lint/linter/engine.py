@@ -15,7 +15,7 @@ from msaa_lint.frame.description.models import ShaderStage
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.profiles import Problem, device_for
 
-from .results import CombinedPrice, DocumentResult, FileResult, location_order
+from .results import DocumentResult, FileResult, location_order
 from .rules.registry import Registry, info, load
 from .rules.rule_file import Rule
 from .rules.rule_runner import RuleRunner, Severity, Verdicts, distinct
@@ -74,8 +74,12 @@ class Engine:
             return self._lint_code(data, file, options)
         from msaa_lint.input.capture_input import capture_findings
 
-        result = self._lint_text(data.source, file, options._replace(limits=UNLIMITED, format=None, ignores=False), data.modules)
-        return result._replace(findings=capture_findings(data, result.findings))
+        result = self.lint_description(data.source, file, options, data.modules)
+        return result._replace(findings=capture_findings(data, result.findings), description=result)
+
+    def lint_description(self, source: Source, file: str, options: LintOptions, modules: Mapping[str, bytes]) -> FileResult:
+        """The findings of a description that msaa-lint wrote, of a capture or source code; `modules` are its shaders by name."""
+        return self._lint_text(source, file, options._replace(limits=UNLIMITED, format=None, ignores=False), modules)
 
     def _lint_text(self, source: Source, file: str, options: LintOptions, modules: Mapping[str, bytes] | None = None) -> FileResult:
         """The findings of a text; `modules` are the shaders of a capture that the text was written from."""
@@ -104,8 +108,8 @@ class Engine:
                 findings, comments(source, parsed.documents), source, options.severity, {rule.rule for rule in undecided}
             )
         findings.sort(key=location_order)
-        findings, combined = _with_fixes(results, findings, options)
-        return FileResult(file, source, findings, undecided, suppressed, combined, results)
+        findings = _with_fixes(results, findings, options)
+        return FileResult(file, source, findings, undecided, suppressed, results)
 
     def _lint_code(self, code: SourceFile, file: str, options: LintOptions) -> FileResult:
         """The findings of source code.
@@ -133,11 +137,10 @@ class Engine:
             found = comments(program.codes)
             findings, suppressed = self._suppress(findings, found.comments, _code_only(code), options.severity, undecided, found.alone)
         findings.sort(key=location_order)
-        combined = None
         if options.prices:
-            findings, combined = _with_fixes(results, findings, options, editable=False)
+            findings = _with_fixes(results, findings, options, editable=False)
         suppressed = [each._replace(finding=_of_code(each.finding)) for each in suppressed]
-        return FileResult(file, source, [_of_code(found) for found in findings], [], suppressed, combined, results, True)
+        return FileResult(file, source, [_of_code(found) for found in findings], [], suppressed, results, True)
 
     def lint_document(
         self, document: Document, file: str, options: LintOptions, broken: bool = False
@@ -220,25 +223,22 @@ def _has_suppressions(text: str) -> bool:
     return any(mark in lowered for mark in _COMMENT_MARKS)
 
 
-def _with_fixes(
-    results: Iterable[DocumentResult], findings: list[Finding], options: LintOptions, editable: bool = True
-) -> tuple[list[Finding], CombinedPrice | None]:
+def _with_fixes(results: Iterable[DocumentResult], findings: list[Finding], options: LintOptions, editable: bool = True) -> list[Finding]:
     """The findings with their prices if asked for and, if the text is `editable`, the edits of their fixes."""
     fixable = [result for result in results if result.fix_specs]
     if not fixable:
-        return findings, None
+        return findings
     from .fixes.document_fixes import DocumentFixes
 
     fixes = [DocumentFixes(result, options.format, editable) for result in fixable]
-    combined: CombinedPrice | None = None
     if options.prices:
         from .prices import price_findings
 
-        findings, combined = price_findings(fixes, findings)
+        findings = price_findings(fixes, findings)
     if editable:
         for each in fixes:
             findings = each.with_edits(findings)
-    return findings, combined
+    return findings
 
 
 def _with_modules(document: Document, modules: Mapping[str, bytes], device: DeviceProfile | None) -> Document:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.finding import Finding, Price
 from msaa_lint.frame.cost.amounts import FrameCost, Terms
+from msaa_lint.frame.cost.input_cost import input_total
 from msaa_lint.frame.cost.model import frame_cost
 from msaa_lint.frame.cost.power import ASSUMED_FPS
 from msaa_lint.frame.description.document import Document
@@ -18,14 +19,7 @@ from msaa_lint.frame.facts.parts import Pass
 
 from .fixes.changes import Change, NoFix, StructuralChange, apply_temporarily
 from .fixes.document_fixes import DocumentFixes
-from .results import CombinedPrice
-from .rules.rule_runner import Key, finding_key
-
-MAX_TRIALS = 16
-"""How many structural fixes are tried one by one if they cannot all be made together."""
-
-_DECIMALS = 6
-"""Smaller differences are rounding errors."""
+from .savings import difference
 
 
 class Part(NamedTuple):
@@ -55,31 +49,7 @@ class Prices:
         # First, because this also determines the images of the part.
         before = self.cost(part)
         after = self.cost_with(changes, part)
-        return None if after is None else _difference(before, after)
-
-    def together(self, fixes: Iterable[Sequence[Change]]) -> Price | None:
-        """The saving from several fixes together. If two set a member to different values, the first one counts.
-
-        If one fix removes what another changes, as many as possible are made together.
-        """
-        fixes = list(fixes)
-        changes = merge_changes(fixes)
-        after = self.cost_with(changes, None) if changes else None
-        if after is None and changes:
-            after = self._cost_with_most(fixes)
-        return None if after is None else _difference(self.cost(None), after)
-
-    def _cost_with_most(self, fixes: Sequence[Sequence[Change]]) -> FrameCost | None:
-        """The cost with the fixes that can be made together, those without structural changes first."""
-        combination = [changes for changes in fixes if not any(change.structural for change in changes)]
-        cost = self.cost_with(merge_changes(combination), None)
-        structural = [changes for changes in fixes if any(change.structural for change in changes)]
-        for changes in structural[:MAX_TRIALS]:
-            cost_with_fix = self.cost_with(merge_changes([*combination, changes]), None)
-            if cost_with_fix is not None:
-                combination.append(changes)
-                cost = cost_with_fix
-        return cost
+        return None if after is None else difference(input_total([before]), input_total([after]))
 
     def notes(self, price: Price) -> tuple[str, ...]:
         """What a price assumes that the input does not state."""
@@ -122,16 +92,6 @@ class Prices:
             passes |= owner.passes
             images |= owner.images
         return Part(frozenset(passes), frozenset(images))
-
-
-def merge_changes(fixes: Iterable[Sequence[Change]]) -> tuple[Change, ...]:
-    """The changes of several fixes without repetitions, and of two values for a member only the first."""
-    changes: dict[tuple[object, ...], Change] = {}
-    for fix in fixes:
-        for change in fix:
-            value = () if change.action == "set" else (change.action, str(change.value))
-            changes.setdefault((id(change.record), change.member, *value), change)
-    return tuple(changes.values())
 
 
 def _owners(frame: Frame) -> Iterator[tuple[int, Part]]:
@@ -200,36 +160,18 @@ def _concerns(command: Command, part: Part, render_passes: dict[str, RenderPass]
     return any(name in part.images for name in named_images(command))
 
 
-def _difference(before: FrameCost, after: FrameCost) -> Price | None:
-    price = Price(*(round(a - b, _DECIMALS) + 0.0 for a, b in zip(before.total, after.total, strict=True)))
-    return None if not any(price) and (before.unknown or after.unknown) else price
-
-
-def price_findings(documents: Sequence[DocumentFixes], findings: Sequence[Finding]) -> tuple[list[Finding], CombinedPrice]:
-    """The findings of an input with their prices, and a function for the price of several of them together."""
+def price_findings(documents: Sequence[DocumentFixes], findings: Sequence[Finding]) -> list[Finding]:
+    """The findings of an input with their prices."""
     prices = list(map(Prices, documents))
-    changes_of: dict[Key, tuple[int, tuple[Change, ...]]] = {}
-    priced_findings = []
-    for finding in findings:
-        number = next((n for n, fixes in enumerate(documents) if fixes.covers(finding)), None)
-        if number is not None:
-            try:
-                changes = documents[number].changes(finding)
-                price = prices[number].of(changes)
-            except NoFix:
-                price = None
-            if price is not None:
-                changes_of[finding_key(finding)] = (number, changes)
-                finding = finding._replace(price=price, notes=(*finding.notes, *prices[number].notes(price)))
-        priced_findings.append(finding)
+    return [_priced(documents, prices, finding) for finding in findings]
 
-    def combined(some: Sequence[Finding]) -> Price | None:
-        by_document: dict[int, list[tuple[Change, ...]]] = {}
-        for finding in some:
-            if finding_key(finding) in changes_of:
-                number, changes = changes_of[finding_key(finding)]
-                by_document.setdefault(number, []).append(changes)
-        sums = [price for number, fixes in by_document.items() if (price := prices[number].together(fixes)) is not None]
-        return Price(*(sum(column) for column in zip(*sums, strict=True))) if sums else None
 
-    return priced_findings, combined
+def _priced(documents: Sequence[DocumentFixes], prices: Sequence[Prices], finding: Finding) -> Finding:
+    number = next((n for n, fixes in enumerate(documents) if fixes.covers(finding)), None)
+    if number is None:
+        return finding
+    try:
+        price = prices[number].of(documents[number].changes(finding))
+    except NoFix:
+        return finding
+    return finding if price is None else finding._replace(price=price, notes=(*finding.notes, *prices[number].notes(price)))

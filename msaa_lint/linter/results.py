@@ -1,17 +1,17 @@
 """The result of linting one input, and what is needed to fix and price its findings."""
 
-from collections.abc import Callable, Sequence
+import re
+from collections.abc import Sequence
 from typing import NamedTuple
 
-from msaa_lint.core.finding import Finding, Price, Suppressed, Undecided
+from msaa_lint.core.finding import Finding, Suppressed, Undecided
 from msaa_lint.core.text.source import Source
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.devices import DeviceProfile
 
 from .rules.rule_runner import FixSpecs
 
-CombinedPrice = Callable[[Sequence[Finding]], Price | None]
-"""The price of several findings of one input together; None if none of them has a price."""
+_INDEX = re.compile(r"\[[0-9]+\]")
 
 
 class DocumentResult(NamedTuple):
@@ -31,8 +31,8 @@ class DocumentResult(NamedTuple):
 class FileResult(NamedTuple):
     """The result of linting one input.
 
-    `source` is None if the input could not be decoded. `combined_price` is None if no finding has a price. `is_code` is true for source
-    code, whose findings are never fixed in place.
+    `source` is None if the input could not be decoded. `is_code` is true for source code. `description` is the result of linting the
+    description that a capture is converted to; `documents` are the same.
     """
 
     file: str
@@ -40,9 +40,14 @@ class FileResult(NamedTuple):
     findings: list[Finding]
     undecided: list[Undecided]
     suppressed: list[Suppressed]
-    combined_price: CombinedPrice | None = None
     documents: Sequence[DocumentResult] = ()
     is_code: bool = False
+    description: "FileResult | None" = None
+
+
+def finding_kind(finding: Finding) -> tuple[str, str]:
+    """A finding's code and the structural path of its subject without indices, which shift when an entry before them is removed."""
+    return (finding.code, _INDEX.sub("[]", finding.subject))
 
 
 def location_order(finding: Finding) -> tuple[int, int, str, str]:

@@ -6,12 +6,12 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
-from msaa_lint.core.finding import Finding, InputSummary, Price, Result, Suppressed, Undecided, is_confident, rank
+from msaa_lint.core.finding import Finding, InputSummary, Result, Savings, Suppressed, Undecided, is_confident, rank
 from msaa_lint.input.file_types import STDIN
 
 from .engine import rule_infos
 from .input_summary import input_summary
-from .results import FileResult
+from .results import FileResult, finding_kind
 from .settings.settings import Settings
 from .workspace import InputFile, Request, Workspace
 
@@ -25,6 +25,9 @@ Progress = Callable[[int, int, str], None]
 PRICED_FORMATS = frozenset({"full", "json", "sarif", "github", "gitlab", "junit", "markdown", "statistics"})
 """The outputs that show prices; for the others prices are not computed."""
 
+SUMMARIZED_FORMATS = PRICED_FORMATS - {"gitlab", "junit"} | {"concise"}
+"""The outputs that say what fixes save; for the others fixes are not tried."""
+
 MAX_GARBAGE = 200_000
 """Container objects allocated since the last collection before another one runs: the command line disables the garbage collector, and the
 passes and attachments of a frame refer to each other."""
@@ -34,14 +37,14 @@ class Outcome(NamedTuple):
     """The result of a run.
 
     `settings` are those of the current folder, with the outputs and thresholds; `notes` are lines for standard error. `fixed` has the
-    fixed text of each input, `failing_prices` by file the combined price of the findings with enough confidence to fail the run.
+    fixed text of each input, `failing` by file what fixes save of the findings that can fail the run.
     """
 
     result: Result
     settings: Settings
     notes: Sequence[str]
     fixed: "Sequence[FixedText]" = ()
-    failing_prices: Mapping[str, Price] = {}
+    failing: Mapping[str, Savings] = {}
 
 
 def run(request: Request, progress: Progress | None = None) -> Outcome:
@@ -56,14 +59,16 @@ class _Run:
         self.settings = self.workspace.current.settings
         self.baseline = self._load_baseline()
         outputs = request.formats or [text.partition("=")[0] for text in self.settings.output] or [request.fallback]
-        self.with_prices = request.by_price or self.settings.fail_on_cost is not None or not PRICED_FORMATS.isdisjoint(outputs)
+        limited = self.settings.fail_on_cost is not None
+        self.with_prices = request.by_price or limited or not PRICED_FORMATS.isdisjoint(outputs)
+        self.with_savings = limited or request.fix is not None or not SUMMARIZED_FORMATS.isdisjoint(outputs)
         self.findings: list[Finding] = []
         self.undecided: list[Undecided] = []
         self.suppressed: list[Suppressed] = []
         self.accepted: list[Suppressed] = []
         self.inputs: list[InputSummary] = []
-        self.prices: dict[str, Price] = {}
-        self.failing_prices: dict[str, Price] = {}
+        self.savings: dict[str, Savings] = {}
+        self.failing: dict[str, Savings] = {}
         self.fixed: list[FixedText] = []
         self.notes: list[str] = []
 
@@ -104,11 +109,11 @@ class _Run:
             files,
             self.workspace.sources,
             rules,
-            self.prices,
+            self.savings,
             self.baseline is not None,
             self.inputs,
         )
-        return Outcome(result, self.settings, notes, self.fixed, self.failing_prices)
+        return Outcome(result, self.settings, notes, self.fixed, self.failing)
 
     def _run_input(self, path: str) -> None:
         file = self.workspace.open(path)
@@ -141,20 +146,13 @@ class _Run:
             return result
         write = self.request.fix == "write"
         target = file.path if write and not is_stdin else None
-        fixed = fix_input(file.data, result, file.lint, self._fixable(file, result), self.request.unsafe_fixes, target)
+        fixed = fix_input(file.data, result, file.lint, file.fixable(result), self.request.unsafe_fixes, target)
         self.fixed.append(fixed)
         if fixed.write_error:
             self.findings.append(diagnostic("MSAA921", f"cannot write the fixed text: {fixed.write_error}", file.name))
         elif write and fixed.changed:
             return file.lint(fixed.data, prices=True) if self.with_prices else fixed.result
         return result
-
-    def _fixable(self, file: InputFile, result: FileResult) -> Callable[[Finding], bool]:
-        """Whether to fix a finding: one that is not reported is left alone."""
-        reported, _ = self._apply_baseline(result.findings)
-        rules = {found.rule for found in reported} | {"unused-suppression"}
-        settle = file.resolved.selection.settle
-        return lambda found: found.rule in rules and self._is_shown(found) and settle(found) is not None
 
     def _add(self, file: InputFile, result: FileResult) -> None:
         """Adds the result of an input to the run's, after settings and baseline."""
@@ -166,21 +164,34 @@ class _Run:
             help = "check a capture or a description of its frame instead, or exclude the file"
             self.findings.append(diagnostic("MSAA931", summary.unread.message, result.file, summary.unread.span, help=help))
         settled = [found for found in map(file.resolved.selection.settle, result.findings) if found is not None]
+        if self.with_savings and any(found.fix is not None for found in settled):
+            settled = self._try_fixes(file, result, settled)
         findings, accepted = self._apply_baseline(settled)
         self.findings.extend(findings)
         self.suppressed.extend(result.suppressed)
         self.accepted.extend(accepted)
         self.undecided.extend(result.undecided)
-        if result.combined_price is None:
-            return
-        shown = [found for found in findings if self._is_shown(found)]
-        price = failing_price = result.combined_price(shown)
+
+    def _try_fixes(self, file: InputFile, result: FileResult, settled: list[Finding]) -> list[Finding]:
+        """Determines what fixes of an input save; returns its findings with the reasons why fixes are not made."""
+        from .savings import savings, try_fixes
+
+        description, lint = file.description(result)
+        converted = description is not result
+        fixable = file.fixable(result)
+        trials = try_fixes(description, lint, fixable)
+        self.savings[result.file] = savings(description, trials, self.with_prices, converted)
         if self.settings.fail_on_cost is not None:
-            failing_price = result.combined_price([found for found in shown if is_confident(found, self.settings.fail_confidence)])
-        if price is not None:
-            self.prices[result.file] = price
-        if failing_price is not None:
-            self.failing_prices[result.file] = failing_price
+            findings, _ = self._apply_baseline(settled)
+            failing = {finding_kind(found) for found in findings if is_confident(found, self.settings.fail_confidence)}
+            if len(failing) < len({finding_kind(found) for found in settled}):
+                trials = try_fixes(description, lint, lambda found: finding_kind(found) in failing and fixable(found))
+            self.failing[result.file] = savings(description, trials, True, converted)
+        refusals = {finding_kind(failed.finding): failed.reason for failed in trials.all.failed_fixes}
+        return [
+            found._replace(fix=found.fix._replace(refusal=refusals.get(finding_kind(found), ""))) if found.fix else found
+            for found in settled
+        ]
 
     def _is_shown(self, found: Finding) -> bool:
         return found.fatal or rank(found.severity) >= rank(self.settings.min_severity)
@@ -203,5 +214,6 @@ class _Run:
 
 
 def _highest_price(finding: Finding) -> tuple[float, float]:
-    price = finding.price
-    return (-price.milliwatts, -price.memory_mib) if price is not None else (0.0, 0.0)
+    """The sort key by price, highest first; a choice costs nothing."""
+    price, fix = finding.price, finding.fix
+    return (-price.milliwatts, -price.memory_mib) if price is not None and not (fix is not None and fix.choice) else (0.0, 0.0)

@@ -4,10 +4,10 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from msaa_lint.core.finding import Finding
+from msaa_lint.core.finding import Finding, rank
 from msaa_lint.core.project import shown
 from msaa_lint.core.quote import quoted
-from msaa_lint.core.text.source import Source, Unreadable
+from msaa_lint.core.text.source import Source, Unreadable, encode
 from msaa_lint.core.text.tree import Limits
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.profiles import Problem, profile_of
@@ -16,7 +16,8 @@ from msaa_lint.input.discovery import Discovered, discover
 from msaa_lint.input.file_types import STDIN
 
 from .engine import Engine, LintOptions, load_rules
-from .results import FileResult
+from .fixes.fixer import Lint
+from .results import FileResult, finding_kind
 from .rules.rule_file import EDITIONS
 from .settings.config import Configurations, Loaded
 from .settings.selection import Selection
@@ -71,17 +72,46 @@ class ResolvedSettings(NamedTuple):
 
 
 class InputFile(NamedTuple):
-    """An input that has been read, and how to lint it. `path` is `-` for standard input."""
+    """An input that has been read, and how to lint it. `path` is `-` for standard input; findings below `min_severity` are hidden."""
 
     path: str
     name: str
     data: "bytes | CaptureInput | SourceFile"
     resolved: ResolvedSettings
     options: LintOptions
+    min_severity: str
 
     def lint(self, data: bytes | None = None, prices: bool = False) -> FileResult:
         """The findings of the input, or of other `data` in its place."""
         return self.resolved.engine.lint(self.data if data is None else data, self.name, self.options._replace(prices=prices))
+
+    def fixable(self, result: FileResult) -> Callable[[Finding], bool]:
+        """Whether to fix a finding of the input or of its description: one that the settings turn off or hide is left alone."""
+        settle, least = self.resolved.selection.settle, rank(self.min_severity)
+
+        def is_shown(finding: Finding) -> bool:
+            return rank(finding.severity) >= least and settle(finding) is not None
+
+        if not result.is_code:
+            return is_shown
+        # The description has neither the comments of the code nor its low confidence.
+        reported = {finding_kind(finding) for finding in result.findings}
+        return lambda finding: finding_kind(finding) in reported and is_shown(finding)
+
+    def description(self, result: FileResult) -> tuple[FileResult, Lint]:
+        """The result of linting the text that fixes edit, and a function that lints other contents of that text.
+
+        The text is the input itself or, if `result` is that of a capture or source code, the description that `convert` writes of it.
+        """
+        data, engine, name = self.data, self.resolved.engine, self.name
+        if isinstance(data, bytes):
+            return result, lambda text: self.lint(encode(text, data))
+        modules = data.modules
+
+        def lint(text: str) -> FileResult:
+            return engine.lint_description(Source(name, text), name, self.options, modules)
+
+        return result.description or lint(data.description), lint
 
 
 class Workspace:
@@ -165,7 +195,8 @@ class Workspace:
             request.log(f"{name}: {_kind(data)}" + (f", configuration {shown(path_of)}" if path_of is not None else ""))
         device = resolved.device
         severity = resolved.selection.for_file(name, device.vendor if device is not None else None)
-        return InputFile(path, name, data, resolved, LintOptions(severity, resolved.limits, request.format, device, request.ignores))
+        options = LintOptions(severity, resolved.limits, request.format, device, request.ignores)
+        return InputFile(path, name, data, resolved, options, self.current.settings.min_severity)
 
 
 def _kind(data: "bytes | CaptureInput | SourceFile") -> str:

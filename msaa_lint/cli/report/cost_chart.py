@@ -29,8 +29,8 @@ class Bar(NamedTuple):
 
 def bars(frame: CostedFrame) -> list[Bar]:
     """The bars of a frame, from top to bottom."""
-    fixed = [] if frame.fixed is None else [_bar("fixed", "", frame.fixed)]
-    return [_bar("as written", "", frame.cost), *fixed, *_variants(frame.variants)]
+    after = "" if frame.fixed is None else ", same fixes"
+    return [*(_bar(title, "", cost) for title, cost in frame.states), *_variants(frame.counts, after)]
 
 
 def compared_bars(comparison: CostComparison) -> list[Bar]:
@@ -40,14 +40,14 @@ def compared_bars(comparison: CostComparison) -> list[Bar]:
     return old + new
 
 
-def _variants(variants: Sequence[Variant]) -> Iterator[Bar]:
+def _variants(variants: Sequence[Variant], after: str) -> Iterator[Bar]:
     placed = {variant.samples for variant in variants if variant.resolve not in (AS_WRITTEN, NONE)}
     for variant in variants:
         if variant.resolve == AS_WRITTEN and variant.samples in placed:
             continue
         place = f", {variant.resolve}" if variant.samples in placed else ""
         offered = " (not supported)" if variant.offered is False else ""
-        yield _bar(f"{variant.samples}x{place}{offered}", str(variant.samples), variant.cost)
+        yield _bar(f"{variant.samples}x{place}{offered}{after}", str(variant.samples), variant.cost)
 
 
 def _bar(name: str, group: str, cost: FrameCost) -> Bar:

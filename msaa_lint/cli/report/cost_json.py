@@ -7,8 +7,9 @@ from collections.abc import Iterable, Sequence
 from msaa_lint.core.finding import Result
 from msaa_lint.frame.cost.amounts import Amount, FrameCost, Line, PassCost, Shading
 from msaa_lint.frame.cost.compare import Change, title
-from msaa_lint.frame.cost.input_cost import CostComparison, CostedFrame
+from msaa_lint.frame.cost.input_cost import CostComparison, CostedFrame, inputs_total
 from msaa_lint.frame.cost.power import Rates
+from msaa_lint.frame.cost.variants import Variant
 
 from . import Options, Write
 from .data import Json, head, start, text, write_object
@@ -60,7 +61,7 @@ def _inputs(frames: Sequence[CostedFrame], errors: Result, options: Options) -> 
     ]
     if len(details) == 1:
         return {**details[0], "passes": passes, "frames": details}
-    total = {**_amount(_sum(frame.cost.total for frame in frames)), "corrected": _optional([frame.cost.corrected for frame in frames])}
+    total = {**_amount(inputs_total(frames)), "corrected": _optional([frame.cost.corrected for frame in frames])}
     return {"passes": passes, "total": total, "frames": details}
 
 
@@ -75,15 +76,21 @@ def _frame(frame: CostedFrame, errors: Result, options: Options) -> Json:
         "budget_milliwatts": cost.budget_milliwatts,
         "passes": [_pass(pass_cost, frame, errors) for pass_cost in cost.passes],
         "total": _total(cost),
+        "share": cost.share,
         "fixed": None if frame.fixed is None else _total(frame.fixed),
-        "variants": [
-            {"samples": variant.samples, "resolve": variant.resolve, "offered": variant.offered, **_total(variant.cost)}
-            for variant in frame.variants
-        ],
+        "safely_fixed": None if frame.safely_fixed is None else _total(frame.safely_fixed),
+        "variants": _variants(frame.variants),
+        "fixed_variants": _variants(frame.fixed_variants),
         "images": [{**image._asdict(), "name": text(image.name)} for image in cost.images],
         "assumed": list(map(text, cost.assumed)),
         "unknown": list(map(text, cost.unknown)),
     }
+
+
+def _variants(variants: Sequence[Variant]) -> list[Json]:
+    return [
+        {"samples": variant.samples, "resolve": variant.resolve, "offered": variant.offered, **_total(variant.cost)} for variant in variants
+    ]
 
 
 def _pass(cost: PassCost, frame: CostedFrame, errors: Result) -> Json:

@@ -123,12 +123,13 @@ def _share(amount: Amount, budget: float) -> str:
 
 
 def alternatives(frame: CostedFrame) -> list[Row]:
-    """The frame as written, with its findings fixed, and with other sample counts; empty if there is no alternative."""
-    if not frame.variants and frame.fixed is None:
+    """The frame as written, after fixes, and with other sample counts after the same fixes; empty if there is no alternative."""
+    if not frame.counts and frame.fixed is None:
         return []
-    costs = [("as written", frame.cost), *([("fixed", frame.fixed)] if frame.fixed is not None else [])]
-    costs += [(variant_title(variant), variant.cost) for variant in frame.variants if not _is_repeated(variant, frame.variants)]
-    return [Row(LINE, (name,), _of_frame(cost)) for name, cost in costs]
+    after = "" if frame.fixed is None else ", same fixes"
+    rows = [(title, cost) for title, cost in frame.states]
+    rows += [(variant_title(variant) + after, variant.cost) for variant in frame.counts if not _is_repeated(variant, frame.counts)]
+    return [Row(LINE, (name,), _of_frame(cost)) for name, cost in rows]
 
 
 def _is_repeated(variant: Variant, variants: Sequence[Variant]) -> bool:

@@ -11,7 +11,7 @@ from .color import BOLD, SECONDARY, SEVERITY, paint
 from .concise import location, render_end
 from .escape import display
 from .excerpt import MAX_MARKS, Mark, excerpt
-from .summary import price_text
+from .summary import is_choice, price_text
 
 
 def render(result: Result, out: Write, options: Options) -> None:
@@ -67,11 +67,15 @@ def remarks(finding: Finding, rules: Set[str]) -> list[tuple[str, str]]:
         lines.append(("note", f"{places - MAX_MARKS} more places are not shown"))
     price = price_text(finding)
     if price:
-        lines.append(("cost", price))
+        lines.append(("price" if is_choice(finding) else "cost", price))
     help_text, fix = display(finding.help), finding.fix
     how = ""
-    if fix and fix.edits:
+    if fix and fix.refusal:
+        how = f" (not made: {display(fix.refusal)})"
+    elif fix and fix.edits:
         how = " (safe: --fix)" if fix.safe else " (unsafe: --fix --unsafe-fixes)"
+    elif fix and fix.choice:
+        how = " (a choice: not applied)"
     elif fix and fix.shown:
         how = " (not applied automatically)"
     title = display(fix.title) if fix else ""

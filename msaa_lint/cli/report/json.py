@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from msaa_lint.core.finding import Finding, InputSummary, Result, Suppressed, Undecided
+from msaa_lint.core.finding import Finding, Fix, InputSummary, Result, Saving, Suppressed, Undecided
 from msaa_lint.core.text.span import Span
 
 from . import Options, Write
@@ -11,7 +11,7 @@ from .escape import escape_surrogates
 from .inputs import COUNTS
 from .paths import relative
 from .place import Place, place
-from .summary import tally, together, usable_price
+from .summary import converted_saving, files_saving, tally, usable_price
 
 SCHEMA = "msaa-lint/json-v1"
 _COUNTS = (
@@ -45,13 +45,23 @@ def _finding(finding: Finding, result: Result, options: Options) -> Json:
         "file": escape_surrogates(relative(finding.file, options.root)),
         **_place(result, finding.file, finding.span),
         "subject": text(finding.subject),
-        "fixable": bool(fix and fix.edits),
-        "fix": {"title": text(fix.title), "safe": fix.safe, "shown": fix.shown} if fix else None,
+        "fixable": bool(fix and fix.edits and not fix.refusal),
+        "fix": _fix(fix) if fix else None,
         "price": price._asdict() if price else None,
         "labels": [{**_place(result, finding.file, label.span), "text": text(label.text)} for label in finding.labels],
         "notes": [text(note) for note in finding.notes],
         "help": text(finding.help),
         "seen": {**finding.capture_location._asdict(), "by": text(finding.capture_location.by)} if finding.capture_location else None,
+    }
+
+
+def _fix(fix: Fix) -> Json:
+    return {
+        "title": text(fix.title),
+        "safe": fix.safe,
+        "shown": fix.shown,
+        "choice": fix.choice,
+        "refusal": text(fix.refusal) if fix.refusal else None,
     }
 
 
@@ -86,11 +96,21 @@ def _place(result: Result, file: str, span: Span | None) -> Json:
 
 
 def _summary(result: Result) -> Json:
-    count, price = tally(result), together(result)
+    count, files, converted = tally(result), files_saving(result), converted_saving(result)
     return {
         **{name: getattr(count, name) for name in _COUNTS},
         "missing": {text(fact): rules for fact, rules in count.missing},
         "checked": {name: sum(getattr(entry, name) for entry in result.inputs) for name in COUNTS},
         "unread": sum(entry.unread is not None for entry in result.inputs),
-        "price": price._asdict() if price else None,
+        "price": files.all.price._asdict() if files.all.price else None,
+        "savings": {
+            "fix": _saving(files.safe),
+            "unsafe_fixes": _saving(files.all),
+            "converted_fix": _saving(converted.safe),
+            "converted_unsafe_fixes": _saving(converted.all),
+        },
     }
+
+
+def _saving(saving: Saving) -> Json:
+    return {"findings": saving.findings, "price": saving.price._asdict() if saving.price else None}

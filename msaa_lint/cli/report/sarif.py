@@ -17,7 +17,7 @@ from .fingerprint import fingerprints
 from .inputs import checked
 from .paths import uri
 from .place import place
-from .summary import tally, together, undecided, usable_price
+from .summary import files_saving, tally, undecided, usable_price
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 
@@ -65,7 +65,7 @@ def render(result: Result, out: Write, options: Options) -> None:
     out('"columnKind": "unicodeCodePoints",\n')
     out(f'"invocations": [{dump(_invocation(result, options, len(numbered) - len(results)))}],\n"results": ')
     write_list((_result(finding, entry, name, index, result, options) for (finding, entry), name in results), out)
-    price = together(result)
+    price = files_saving(result).all.price
     if price:
         out(f',\n"properties": {dump({"price": price._asdict()})}')
     out("\n}]\n}\n")

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from msaa_lint.core.finding import Finding, Price, Result, rank
 
 from .escape import display
-from .summary import together, usable_price
+from .summary import converted_saving, files_saving, is_choice, usable_price
 
 UNITS = ("MB/s", "MiB", "mW")
 
@@ -15,7 +15,8 @@ UNITS = ("MB/s", "MiB", "mW")
 def table(result: Result) -> str:
     """The table, the most frequent rule first; empty if there is no finding. A rule has a line for each severity of its findings.
 
-    If findings have prices, more columns have their sums, and the last line what all findings cost together, which is at most the sum.
+    If findings have prices, more columns have their sums, without those of choices. The last lines have what `--fix` and
+    `--fix --unsafe-fixes` save, which is less than the sums if findings are about the same bytes, or if fixes cannot be made.
     """
     groups: dict[tuple[str, str, str], list[Finding]] = {}
     for finding in result.findings:
@@ -25,12 +26,13 @@ def table(result: Result) -> str:
     rows = sorted(groups.items(), key=lambda item: (-len(item[1]), -rank(item[0][2]), item[0]))
     cells = [["count", "code", "rule", "severity", *UNITS]]
     for (code, rule, severity), findings in rows:
-        prices = [price for price in map(usable_price, findings) if price is not None]
+        prices = [price for price in (usable_price(found) for found in findings if not is_choice(found)) if price is not None]
         cells.append([str(len(findings)), code, rule, severity, *(_figures(prices) if prices else [""] * len(UNITS))])
-    total = together(result)
-    if total is not None:
-        cells.append(["", "", "together", "", *_figures([total])])
-    else:
+    for savings, words in ((files_saving(result), "saved by "), (converted_saving(result), "after convert, ")):
+        for saving, option in ((savings.safe, "--fix"), (savings.all, "--fix --unsafe-fixes")):
+            if saving.price is not None:
+                cells.append([str(saving.findings), "", words + option, "", *_figures([saving.price])])
+    if all(cell == "" for row in cells[1:] for cell in row[4:]):
         cells = [row[:4] for row in cells]
     # The count comes first, so that no line begins with text from an input.
     widths = [max(len(row[column]) for row in cells) for column in range(len(cells[0]))]

@@ -1,8 +1,9 @@
 """The figures of a run, and the sentences that state them."""
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
-from msaa_lint.core.finding import CONFIDENCES, Finding, Price, Result, is_confident
+from msaa_lint.core.finding import CONFIDENCES, Finding, Price, Result, Saving, Savings, is_confident
 from msaa_lint.linter.settings.settings import COMMAND_LINE
 
 from . import Options
@@ -12,13 +13,16 @@ from .words import plural as plural
 
 
 class Tally(NamedTuple):
-    """Counts of a run. `missing` has each missing fact with the number of rules that need it, the largest number first."""
+    """Counts of a run. `missing` has each missing fact with the number of rules that need it, the largest number first.
+
+    `fixable` findings are removed by `--fix --unsafe-fixes`, and `safely_fixable` ones by `--fix`.
+    """
 
     errors: int
     warnings: int
     notes: int
-    safe_fixes: int
-    unsafe_fixes: int
+    fixable: int
+    safely_fixable: int
     files: int
     files_with_findings: int
     suppressed: int
@@ -30,15 +34,11 @@ class Tally(NamedTuple):
     def findings(self) -> int:
         return self.errors + self.warnings + self.notes
 
-    @property
-    def fixable(self) -> int:
-        return self.safe_fixes + self.unsafe_fixes
-
 
 def tally(result: Result) -> Tally:
     """The counts of a run."""
     severities = [finding.severity for finding in result.findings]
-    edits = [finding.fix.safe for finding in result.findings if finding.fix and finding.fix.edits]
+    savings = files_saving(result)
     rules_by_fact: dict[str, set[str]] = {}
     for entry in result.undecided:
         for fact in entry.missing:
@@ -49,8 +49,8 @@ def tally(result: Result) -> Tally:
         errors=severities.count("error"),
         warnings=severities.count("warning"),
         notes=severities.count("note"),
-        safe_fixes=edits.count(True),
-        unsafe_fixes=edits.count(False),
+        fixable=savings.all.findings,
+        safely_fixable=savings.safe.findings,
         files=len(with_findings.union(result.files)),
         files_with_findings=len(with_findings),
         suppressed=len(result.suppressed),
@@ -61,8 +61,8 @@ def tally(result: Result) -> Tally:
 
 
 def summary(result: Result, options: Options) -> list[str]:
-    """The lines that end a report: the findings, what they cost together, how many have a fix, and what was not checked."""
-    lines = (sentence(result, options), total_price(result), fixable(result), undecided(tally(result), options))
+    """The lines that end a report: the findings, what fixes do about them, and what was not checked."""
+    lines = (sentence(result, options), *fixable(result), undecided(tally(result), options))
     return [*(line for line in lines if line), *unread(result, options)]
 
 
@@ -101,28 +101,49 @@ def undecided(count: Tally, options: Options) -> str:
     return f"{plural(count.undecided_rules, 'rule')} undecided, missing facts: {', '.join(facts)}"
 
 
-def fixable(result: Result) -> str:
-    """`3 fixable: 2 with --fix, 1 more with --unsafe-fixes`; empty if no finding has a fix with edits."""
-    count = tally(result)
-    safe, unsafe = count.safe_fixes, count.unsafe_fixes
-    if not unsafe:
-        return f"{safe} fixable with --fix" if safe else ""
-    if not safe:
-        return f"{unsafe} fixable with --fix --unsafe-fixes"
-    return f"{count.fixable} fixable: {safe} with --fix, {unsafe} more with --unsafe-fixes"
+def fixable(result: Result) -> list[str]:
+    """How many findings fixes remove, and what that saves; empty if no finding has a fix that can be made."""
+    files, converted = files_saving(result), converted_saving(result)
+    return [*_fixable(files, "fixable with"), *_fixable(converted, "fixable in the description that `msaa-lint convert` writes, with")]
 
 
-def total_price(result: Result) -> str:
-    """`Fixing all of them saves 2248 MB/s written, ...`; empty if no finding has a price."""
-    subject = "it" if len(result.findings) == 1 else "all of them"
-    figures = figures_of(together(result))
-    return f"Fixing {subject} saves {', '.join(f'{_number(value)} {unit}' for value, unit in figures)}" if figures else ""
+def _fixable(savings: Savings, words: str) -> list[str]:
+    safe, everything = savings.safe, savings.all
+    options = [(everything, "--fix --unsafe-fixes")] if safe.findings < everything.findings else []
+    if safe.findings:
+        options.insert(0, (safe, "--fix"))
+    return [f"{saving.findings} {words} {option}{_saved(saving.price)}" for saving, option in options]
 
 
-def together(result: Result) -> Price | None:
-    """What all findings of a run cost together. Those of one file share costs; files are separate frames, whose costs add up."""
-    prices = [price for price in result.together.values() if _is_usable(price)]
-    return Price(*(sum(column) for column in zip(*prices, strict=True))) if prices else None
+def _saved(price: Price | None) -> str:
+    """`: saves 2248 MB/s written, 225 mW; adds 3 MiB of memory`; empty if there is no price or it is zero."""
+    figures = figures_of(price)
+    saved = ", ".join(f"{_number(value)} {unit}" for value, unit in figures if value > 0)
+    added = ", ".join(f"{_number(-value)} {unit}" for value, unit in figures if value < 0)
+    text = "; ".join(f"{verb} {amounts}" for verb, amounts in (("saves", saved), ("adds", added)) if amounts)
+    return f": {text}" if text else ""
+
+
+def files_saving(result: Result) -> Savings:
+    """What fixes save of the inputs that they edit. Files are separate frames, whose costs add up."""
+    return _sum(savings for savings in result.savings.values() if not savings.converted)
+
+
+def converted_saving(result: Result) -> Savings:
+    """What fixes save of captures and source code, in the descriptions that they are converted to."""
+    return _sum(savings for savings in result.savings.values() if savings.converted)
+
+
+def _sum(savings: Iterable[Savings]) -> Savings:
+    entries = list(savings)
+    return Savings(_sum_of(entry.safe for entry in entries), _sum_of(entry.all for entry in entries))
+
+
+def _sum_of(savings: Iterable[Saving]) -> Saving:
+    entries = list(savings)
+    prices = [entry.price for entry in entries if entry.price is not None and _is_usable(entry.price)]
+    price = Price(*(sum(column) for column in zip(*prices, strict=True))) if prices else None
+    return Saving(sum(entry.findings for entry in entries), price)
 
 
 def usable_price(finding: Finding) -> Price | None:
@@ -137,8 +158,19 @@ def _is_usable(price: Price) -> bool:
 
 
 def price_text(finding: Finding) -> str:
-    """`+2248 MB/s written, +31.6 MiB of memory`; empty if there is no price or it is zero."""
-    return ", ".join(f"{'+' if value > 0 else ''}{_number(value)} {unit}" for value, unit in figures_of(usable_price(finding)))
+    """`+2248 MB/s written, +31.6 MiB of memory`; empty if there is no price or it is zero.
+
+    The price of a choice begins with `if chosen: `, and has the signs of the change that it makes.
+    """
+    choice = is_choice(finding)
+    figures = [(-value if choice else value, unit) for value, unit in figures_of(usable_price(finding))]
+    text = ", ".join(f"{'+' if value > 0 else ''}{_number(value)} {unit}" for value, unit in figures)
+    return f"if chosen: {text}" if text and choice else text
+
+
+def is_choice(finding: Finding) -> bool:
+    """Whether the fix of a finding is a choice, whose price is no waste and part of no sum."""
+    return finding.fix is not None and finding.fix.choice
 
 
 def figures_of(price: Price | None) -> list[tuple[float, str]]:

@@ -96,7 +96,10 @@ class ImageMemory(NamedTuple):
 
 
 class FrameCost(NamedTuple):
-    """A whole frame. `total` counts each image's memory once. `assumed` lists the assumptions (60 fps, a size)."""
+    """A whole frame. `total` counts each image's memory once. `assumed` lists the assumptions (60 fps, a size).
+
+    `share` is the fraction of a program's frames that are like this one, by which its traffic is weighted; None if it is not stated.
+    """
 
     passes: tuple[PassCost, ...]
     images: tuple[ImageMemory, ...]
@@ -108,6 +111,7 @@ class FrameCost(NamedTuple):
     unknown: tuple[str, ...]
     milliwatts_per_gbps: float = 100.0
     budget_milliwatts: float = 2500.0
+    share: float | None = None
 
     @property
     def budget_share(self) -> float:

@@ -2,18 +2,48 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from .amounts import FrameCost
+from .amounts import Amount, FrameCost
 from .compare import Comparison, compare
 from .variants import Variant
 
 
-class CostedFrame(NamedTuple):
-    """A frame of an input and its costs: as written, with other sample counts, and with all fixes applied (None if no fix applies).
+class InputTotal(NamedTuple):
+    """The cost of all frames of an input, and whether some of it is unknown."""
 
-    `number` is the index of its document in the input, of `documents`.
+    amount: Amount
+    unknown: bool
+
+
+def input_total(costs: Sequence[FrameCost]) -> InputTotal:
+    """The cost of an input.
+
+    Its frames are separate, and their costs add up, unless they state their `share`: then they are the kinds of frame of one program, whose
+    images are the same if their names are. The traffic of such a kind is already weighted by its share.
+    """
+    total = _sum(cost.total for cost in costs)
+    memory = total.memory_mib
+    shared: dict[str, float] = {}
+    for cost in costs:
+        if cost.share is not None:
+            for image in cost.images:
+                size = (image.committed or 0) / 2**20
+                memory -= size
+                shared[image.name] = max(shared.get(image.name, 0.0), size)
+    return InputTotal(total._replace(memory_mib=memory + sum(shared.values())), any(cost.unknown for cost in costs))
+
+
+def _sum(amounts: Iterable[Amount]) -> Amount:
+    return Amount(*(sum(column) for column in zip(Amount(0.0, 0.0, 0.0, 0.0), *amounts, strict=True)))
+
+
+class CostedFrame(NamedTuple):
+    """A frame of an input and its costs: as written, and with other sample counts (`variants`).
+
+    `safely_fixed` is its cost after `--fix`, and `fixed` after `--fix --unsafe-fixes`, None if they fix nothing of the input;
+    `fixed_variants` are other sample counts after the latter. `number` is the index of its document in the input, of `documents`.
     """
 
     file: str
@@ -21,7 +51,30 @@ class CostedFrame(NamedTuple):
     documents: int
     cost: FrameCost
     variants: Sequence[Variant] = ()
+    safely_fixed: FrameCost | None = None
     fixed: FrameCost | None = None
+    fixed_variants: Sequence[Variant] = ()
+
+    @property
+    def states(self) -> list[tuple[str, FrameCost]]:
+        """The frame as written and after fixes, with titles."""
+        fixes = (("with --fix", self.safely_fixed), ("with --fix --unsafe-fixes", self.fixed))
+        distinct = self.fixed is None or self.safely_fixed is None or self.safely_fixed.total != self.fixed.total
+        fixed = [(title, cost) for title, cost in (fixes if distinct else fixes[:1]) if cost is not None]
+        return [("as written", self.cost), *fixed]
+
+    @property
+    def counts(self) -> Sequence[Variant]:
+        """The frame with other sample counts, after the fixes if there are any: counts are only comparable after the same fixes."""
+        return self.variants if self.fixed is None else self.fixed_variants
+
+
+def inputs_total(frames: Sequence[CostedFrame]) -> Amount:
+    """The cost of all frames of several inputs, which are separate programs."""
+    files: dict[str, list[FrameCost]] = {}
+    for frame in frames:
+        files.setdefault(frame.file, []).append(frame.cost)
+    return _sum(input_total(costs).amount for costs in files.values())
 
 
 class CostComparison(NamedTuple):

@@ -72,6 +72,7 @@ def frame_cost(frame: Frame, device: DeviceProfile | None, terms: Terms | None =
         tuple(dict.fromkeys(unknown)),
         frame_rates.milliwatts_per_gbps,
         terms.budget_milliwatts,
+        frame.description.frame.share if frame.description.frame is not None else None,
     )
 
 

@@ -32,9 +32,14 @@ class Rates(NamedTuple):
 
 
 def rates(description: Description, device: DeviceProfile | None, terms: Terms) -> Rates:
-    """The caller's rates, else the description's (fps) and the device's (power), else 60 Hz and 100 mW."""
+    """The caller's rates, else the description's (fps) and the device's (power), else 60 Hz and 100 mW.
+
+    A kind of frame that is only a share of a program's frames comes as often as that share of the frame rate.
+    """
     size = description.frame
     fps = terms.fps or (size.fps if size is not None else None) or ASSUMED_FPS
+    if size is not None and size.share is not None:
+        fps *= size.share
     power = terms.milliwatts_per_gbps
     if power is None and device is not None:
         power = device.milliwatts_per_gbps

@@ -101,6 +101,8 @@ class Binder(ValueBinder):
             return self.integer(shape[1], shape[2], node, path)
         if kind == "number":
             return self.number(shape[1], node, path)
+        if kind == "share":
+            return self.share(node, path)
         if kind == "text":
             return self.text(node, path)
         if kind == "name":
@@ -215,14 +217,14 @@ def _fits(shape: Shape, node: Node) -> bool:
         return type(node.value) in (str, int)
     if kind == "int":
         return isinstance(node.value, int) and not isinstance(node.value, bool)
-    if kind == "number":
+    if kind in ("number", "share"):
         return isinstance(node.value, (int, float)) and not isinstance(node.value, bool)
     if kind == "bool":
         return isinstance(node.value, bool)
     return node.kind == "scalar" and isinstance(node.value, str)
 
 
-_KINDS = {"list": "a list", "int": "an integer", "number": "a number", "bool": "true or false", "text": "a string"}
+_KINDS = {"list": "a list", "int": "an integer", "number": "a number", "share": "a number", "bool": "true or false", "text": "a string"}
 
 
 def _kind_of(shape: Shape) -> str:

@@ -17,6 +17,7 @@ Index = Annotated[int, ("int", 0, MAX_UINT32)]
 Size = Annotated[int, ("int", 1, MAX_INT32)]
 Offset = Annotated[int, ("int", -MAX_INT32 - 1, MAX_INT32)]
 PositiveNumber = Annotated[float, ("number", True)]
+Share = Annotated[float, ("share",)]
 Samples = Annotated[int, ("samples",)]
 SubpassIndex = Annotated[int | str, ("subpass",)]
 

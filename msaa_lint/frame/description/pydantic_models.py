@@ -137,6 +137,9 @@ def type_of(shape: Shape) -> Any:
         case ("number", True):
             positive = WithJsonSchema({"type": "number", "exclusiveMinimum": 0})
             return Annotated[StrictFloat | StrictInt, Gt(0), AllowInfNan(False), AfterValidator(_finite), positive]
+        case ("share",):
+            fraction = WithJsonSchema({"type": "number", "exclusiveMinimum": 0, "maximum": 1})
+            return Annotated[StrictFloat | StrictInt, Gt(0), Le(1), AllowInfNan(False), fraction]
         case ("samples",):
             pattern = f"^((VK_)?SAMPLE_COUNT_)?({'|'.join(map(str, SAMPLE_COUNTS))})(_BIT)?$"
             return _checked(sample_count, {"anyOf": [{"enum": list(SAMPLE_COUNTS)}, {"type": "string", "pattern": pattern}]})

@@ -107,6 +107,13 @@ class ValueBinder:
             return None
         return value
 
+    def share(self, node: Node, path: str) -> float | None:
+        share = self.number(True, node, path)
+        if share is not None and share > 1:
+            self.mismatch(node, path, "a fraction above 0 and up to 1")
+            return None
+        return share
+
     def samples(self, node: Node, path: str) -> int | None:
         count = sample_count(node.text if self.dumped else node.value)
         if count is None:

@@ -53,6 +53,15 @@ class Subject(NamedTuple):
     dependency: SubpassDependency | None = None
     position: int | None = None
 
+    @property
+    def images(self) -> frozenset[str]:
+        """The names of the images that the subject concerns: its own, or those of its attachment or resolve."""
+        targets = [self.image, *(self.attachment.targets if self.attachment is not None else ())]
+        if self.resolve is not None:
+            targets += (self.resolve.source_image, self.resolve.target_image)
+            targets += (target for end in (self.resolve.source, self.resolve.target) if end is not None for target in end.targets)
+        return frozenset(target.name for target in targets if target is not None and target.image is not None)
+
 
 def known(*values: bool | None) -> bool | None:
     """Whether all are true: false as soon as one is, unknown where that hangs on an unknown one."""

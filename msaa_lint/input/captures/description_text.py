@@ -17,9 +17,6 @@ from .objects import CapturedObject, Image, Pipeline, RenderPass, freeze
 from .tracker import Tracker
 from .yaml_text import Lines
 
-DEFAULT_FPS = 60
-"""The default frame rate of cost estimates. A kind that is only part of the frames gets its share of this rate."""
-
 MAX_UNUSED = 500
 """Maximum number of objects of a kind that are written although no frame uses them."""
 
@@ -88,8 +85,8 @@ class _Writer:
     def _head(self, kind: FrameKind | None) -> None:
         lines = self.lines
         if kind is not None and kind.count < self.total:
-            rate = float(f"{DEFAULT_FPS * kind.count / self.total:.4g}")
-            lines.line(f"frame: {{fps: {rate!r}}}  # {kind.count} of {self.total} frames, at {DEFAULT_FPS} frames per second")
+            share = float(f"{kind.count / self.total:.6g}")
+            lines.line(f"frame: {{share: {share!r}}}  # {kind.count} of {self.total} frames")
         for line in self.tracker.device().splitlines():
             lines.line(line)
         enabled = self.tracker.enabled()

@@ -1,20 +1,19 @@
 """Fixes one text in rounds: each applies the fixes that do not overlap, then lints the result.
 
-A fix is kept only if the result has no errors, its finding is gone, and no new finding appears.
+A fix is kept only if the result has no errors, its finding is gone, and no finding appears that was not there before.
 """
 
 from __future__ import annotations
 
-import re
 from bisect import bisect_left, insort
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.finding import Finding, rank
 from msaa_lint.core.text.edits import Overlap, apply
 from msaa_lint.core.text.span import Edit
-from msaa_lint.linter.results import FileResult
+from msaa_lint.linter.results import FileResult, finding_kind
 from msaa_lint.linter.rules.rule_runner import finding_key
 
 from .aliases import Member, requests
@@ -28,13 +27,8 @@ MAX_TRIALS = 60
 UNUSED_SUPPRESSION = "MSAA911"
 """A fix may leave a suppression without a finding. That is not the fix's fault, and the next round removes the suppression."""
 
-_INDEX = re.compile(r"\[[0-9]+\]")
-
 Lint = Callable[[str], FileResult]
 """Lints a text."""
-
-Kind = tuple[str, str]
-"""A rule's code and a structural path without its indices, which shift when an entry before them is removed."""
 
 
 class FailedFix(NamedTuple):
@@ -233,10 +227,6 @@ def _overlaps(edit: Edit, others: Sequence[Edit]) -> bool:
     return False
 
 
-def _kind(finding: Finding) -> Kind:
-    return (finding.code, _INDEX.sub("[]", finding.subject))
-
-
 def _with_suppressed(result: FileResult) -> list[Finding]:
     # A finding that only moved under a suppression comment is not fixed.
     return [*result.findings, *(suppressed.finding for suppressed in result.suppressed)]
@@ -244,17 +234,52 @@ def _with_suppressed(result: FileResult) -> list[Finding]:
 
 def _objection(before: FileResult, after: FileResult, fixed_findings: Sequence[Finding]) -> str:
     """The reason why the result of fixes cannot be kept, or an empty string."""
-    kinds_before = set(map(_kind, before.findings))
-    error = next((finding for finding in after.findings if finding.fatal and _kind(finding) not in kinds_before), None)
+    kinds_before = set(map(finding_kind, before.findings))
+    error = next((finding for finding in after.findings if finding.fatal and finding_kind(finding) not in kinds_before), None)
     if error is not None:
         return f"the result would have an error: {error.message}"
-    before_counts = Counter(map(_kind, _with_suppressed(before)))
-    findings = _with_suppressed(after)
-    counts = Counter(map(_kind, findings))
-    more = {kind for kind in counts if counts[kind] > before_counts[kind] and kind[0] != UNUSED_SUPPRESSION}
-    addition = next((finding for finding in findings if _kind(finding) in more), None)
-    if addition is not None:
-        return f"it would introduce {addition.rule}: {addition.message}"
-    kinds = Counter(map(_kind, fixed_findings))
-    remaining = any(counts[kind] > before_counts[kind] - count for kind, count in kinds.items() if kind[0] != UNUSED_SUPPRESSION)
-    return "it would not remove the finding" if remaining else ""
+    fixed_kinds = set(map(finding_kind, fixed_findings))
+    for addition in _additions(before, after, fixed_findings):
+        if addition.code != UNUSED_SUPPRESSION:
+            return (
+                "it would not remove the finding"
+                if finding_kind(addition) in fixed_kinds
+                else f"it would introduce {addition.rule}: {addition.message}"
+            )
+    return ""
+
+
+def _additions(before: FileResult, after: FileResult, fixed_findings: Sequence[Finding]) -> Iterator[Finding]:
+    """The findings of `after` that neither were there before nor are one that moved.
+
+    A fix may move a finding: a resolve that becomes part of a pass has the same problem there. It is then by the same rule and about the
+    same image as one that is gone.
+    """
+    expected = Counter(map(finding_kind, _with_suppressed(before)))
+    expected.subtract(map(finding_kind, fixed_findings))
+    new = []
+    for finding in _with_suppressed(after):
+        kind = finding_kind(finding)
+        expected[kind] -= 1
+        if expected[kind] < 0:
+            new.append(finding)
+    if not new:
+        return
+    gone: dict[tuple[str, str], list[int]] = {}
+    for number, finding in enumerate(_with_suppressed(before)):
+        kind = finding_kind(finding)
+        if expected[kind] > 0:
+            expected[kind] -= 1
+            for image in finding.images:
+                gone.setdefault((finding.code, image), []).append(number)
+    matched: set[int] = set()
+    for finding in new:
+        candidates = [gone.get((finding.code, image), []) for image in finding.images]
+        for numbers in candidates:
+            while numbers and numbers[-1] in matched:
+                numbers.pop()
+        origin = min((numbers[-1] for numbers in candidates if numbers), default=None)
+        if origin is None:
+            yield finding
+        else:
+            matched.add(origin)

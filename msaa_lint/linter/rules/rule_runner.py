@@ -219,7 +219,8 @@ def finding(rule: Rule, case: Case | None, subject: Subject, file: str, severity
         tuple(labels),
         (),
         fill_in(help, facts),
-        Fix(fill_in(spec.title, facts), spec.safe, (), spec.safety == "shown") if spec is not None else None,
+        Fix(fill_in(spec.title, facts), spec.safe, (), spec.safety == "shown", spec.safety == "shown") if spec is not None else None,
+        images=subject.images,
     )
 
 

@@ -22,11 +22,12 @@ _NUMBER = re.compile(r"([0-9]{1,9}(?:\.[0-9]{1,6})?) ?")
 
 
 class Budget(NamedTuple):
-    """The highest combined cost of the findings of one input, in MB/s read and written, MiB or mW; `text` is the limit as written."""
+    """The limit of what fixes may save of one input, in MB/s read and written, MiB or mW (`unit`); `text` is the limit as written."""
 
     measures: str
     most: float
     text: str
+    unit: str
 
 
 def budget(text: str, quantities: Sequence[str] = ("traffic", "memory", "power")) -> Budget:
@@ -42,14 +43,16 @@ def budget(text: str, quantities: Sequence[str] = ("traffic", "memory", "power")
         raise ValueError(f"a unit is missing; write {', '.join(examples[:-1])} or {examples[-1]}")
     if unit not in units:
         raise ValueError(f"unknown unit {quoted(unit)}; {near_or_all(unit, list(units))}")
-    return Budget(UNITS[unit][0], float(number[1]) * units[unit], text)
+    measures = UNITS[unit][0]
+    basic = next(unit for unit, terms in UNITS.items() if terms == (measures, 1.0))
+    return Budget(measures, float(number[1]) * units[unit], text, basic)
 
 
-def reached(price: Price, limit: Budget) -> bool:
-    """Whether a price reaches the budget."""
+def figure(price: Price, limit: Budget) -> float:
+    """The figure of a price that a budget limits, in the budget's unit."""
     figures = {
         "traffic": price.read_mb_per_s + price.write_mb_per_s,
         "memory": price.memory_mib,
         "power": price.milliwatts,
     }
-    return figures[limit.measures] >= limit.most
+    return figures[limit.measures]

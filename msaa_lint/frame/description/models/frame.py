@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from ..members import NO_ENTRIES, Format, MemoryProperties, PositiveNumber, ResolveModes, Samples, Size
+from ..members import NO_ENTRIES, Format, MemoryProperties, PositiveNumber, ResolveModes, Samples, Share, Size
 from ..record import Record
 from .commands import RecordedCommand
 from .metal import Metal
@@ -108,11 +108,15 @@ class RenderTarget(Record):
 
 
 class FrameSize(Record):
-    """The frame size in pixels (by default that of the framebuffers) and the frame rate in frames per second, for cost estimates."""
+    """The frame size in pixels (by default that of the framebuffers) and the frame rate in frames per second, for cost estimates.
+
+    `share` is the fraction of a program's frames that are like this one, if the documents of a file are the kinds of frame of one program.
+    """
 
     width: Size | None = None
     height: Size | None = None
     fps: PositiveNumber | None = None
+    share: Share | None = None
 
 
 class Scene(Record):
