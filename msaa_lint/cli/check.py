@@ -136,10 +136,8 @@ def _over_budget(outcome: Outcome) -> list[str]:
     for file, savings in outcome.failing.items():
         safe, everything = (figure(saving.price, limit) if saving.price is not None else 0.0 for saving in (savings.safe, savings.all))
         if everything >= limit.most:
-            lines.append(
-                f"{file}: --fix saves {safe:g} {limit.unit} and --fix --unsafe-fixes {everything:g} {limit.unit}, "
-                f"and --fail-on-cost is {limit.text}"
-            )
+            alone = f" ({safe:g} {limit.unit} with --fix alone)" if safe < everything else ""
+            lines.append(f"{file}: fixes save {everything:g} {limit.unit}{alone}, which reaches --fail-on-cost {limit.text}")
     return lines
 
 

@@ -28,8 +28,8 @@ def table(result: Result) -> str:
     for (code, rule, severity), findings in rows:
         prices = [price for price in (usable_price(found) for found in findings if not is_choice(found)) if price is not None]
         cells.append([str(len(findings)), code, rule, severity, *(_figures(prices) if prices else [""] * len(UNITS))])
-    for savings, words in ((files_saving(result), "saved by "), (converted_saving(result), "after convert, ")):
-        for saving, option in ((savings.safe, "--fix"), (savings.all, "--fix --unsafe-fixes")):
+    for savings, words in ((files_saving(result), "saved by "), (converted_saving(result), "converted, by ")):
+        for saving, option in ((savings.safe, "--fix"), (savings.all, "--unsafe-fixes")):
             if saving.price is not None:
                 cells.append([str(saving.findings), "", words + option, "", *_figures([saving.price])])
     if all(cell == "" for row in cells[1:] for cell in row[4:]):

@@ -99,7 +99,7 @@ def findings(draw: st.DrawFn, text: str, file: str) -> Finding:
         labels=labels,
         notes=st.lists(texts, max_size=2).map(tuple),
         help=texts,
-        fix=st.one_of(st.none(), st.builds(Fix, texts, st.booleans(), edits)),
+        fix=st.one_of(st.none(), st.builds(Fix, texts, st.booleans(), edits, st.booleans(), st.booleans(), texts)),
         price=st.one_of(st.none(), st.builds(Price, figures, figures, figures, figures)),
         capture_location=st.one_of(
             st.none(), st.builds(CaptureLocation, texts, counts, st.one_of(st.none(), st.integers(1, 240)), st.just(240))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from msaa_lint.cli.report import Options, render
-from msaa_lint.core.finding import Finding, Fix, InputSummary, Price, Result, RuleInfo, Suppressed, Undecided, Unread
+from msaa_lint.core.finding import Finding, Fix, InputSummary, Price, Result, RuleInfo, Saving, Savings, Suppressed, Undecided, Unread
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Edit, Label, Span
 
@@ -121,7 +121,7 @@ def frame() -> Result:
     code = "src/render.cpp"
     sources = {file: Source(file, FORWARD), "broken.yaml": Source("broken.yaml", "a: {b"), code: Source(code, CODE)}
     files = ("broken.yaml", "passes/clean.yaml", file, code, "trace.rdc")
-    together = {file: Price(562.0, 2248.1, 31.64, 281.0)}
+    savings = {file: Savings(Saving(1, Price(0.0, 2248.1, 31.64, 224.8)), Saving(2, Price(562.0, 2248.1, 31.64, 281.0)))}
     inputs = (
         InputSummary("broken.yaml", "description", failed=True),
         InputSummary("passes/clean.yaml", "description", 1, 1, 0),
@@ -129,7 +129,7 @@ def frame() -> Result:
         InputSummary(code, "cpp", images=1, unread=Unread(span(CODE, "samples = count"), "`samples = count` is in no pass")),
         InputSummary("trace.rdc", "renderdoc", 4, 2, 12),
     )
-    return Result((broken, stored, loaded, binary), undecided, (silenced, baseline), files, sources, RULES, together, inputs=inputs)
+    return Result((broken, stored, loaded, binary), undecided, (silenced, baseline), files, sources, RULES, savings, inputs=inputs)
 
 
 def printed(name: str, run: Result, **options: object) -> str:

@@ -32,7 +32,7 @@ def test_check_prints_the_price_of_a_finding(name: str, tmp_path: Path) -> None:
     assert "+2248 MB/s written, +2248 MB/s read, " in done.stdout
     if name == "github":
         summary = (tmp_path / "summary.md").read_text()
-        assert "+2248 MB/s written, +2248 MB/s read, " in summary and "\nFixing it saves " in summary
+        assert "+2248 MB/s written, +2248 MB/s read, " in summary and "1 fixable with --fix --unsafe-fixes: saves " in summary
 
 
 def test_nothing_found_prints_nothing() -> None:

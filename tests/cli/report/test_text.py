@@ -4,7 +4,7 @@ import pytest
 
 from msaa_lint.cli.report import Options, render
 from msaa_lint.cli.report.statistics import table
-from msaa_lint.core.finding import Fix, Price, Undecided
+from msaa_lint.core.finding import Fix, Price, Saving, Savings, Undecided
 from msaa_lint.core.text.span import Edit, Label, Span
 from tests.cli.report.sample import finding, frame, printed, result, span
 
@@ -46,18 +46,38 @@ def test_summary_names_the_missing_facts_most_lacked_first() -> None:
 
 
 @pytest.mark.parametrize(
-    ("safe", "expected"),
+    ("safe", "everything", "expected"),
     [
-        ((), ""),
-        ((True,), "1 fixable with --fix\n"),
-        ((False, False), "2 fixable with --fix --unsafe-fixes\n"),
-        ((True, False), "2 fixable: 1 with --fix, 1 more with --unsafe-fixes\n"),
+        (0, 0, ""),
+        (1, 1, "1 fixable with --fix\n"),
+        (0, 2, "2 fixable with --fix --unsafe-fixes\n"),
+        (1, 2, "1 fixable with --fix\n2 fixable with --fix --unsafe-fixes\n"),
     ],
 )
-def test_summary_counts_fixes_that_have_edits(safe: tuple[bool, ...], expected: str) -> None:
-    stated = finding(fix=Fix("rewrite it", True))
-    run = result(stated, *(finding(fix=Fix("mend", one, (Edit(Span(0, 1), "x"),))) for one in safe))
-    assert "".join(printed("concise", run).splitlines(keepends=True)[len(safe) + 2 :]) == expected
+def test_summary_counts_the_findings_that_fixes_remove(safe: int, everything: int, expected: str) -> None:
+    fixable = finding(fix=Fix("mend", True, (Edit(Span(0, 1), "x"),)))
+    run = result(fixable, fixable, savings={"frame.yaml": Savings(Saving(safe), Saving(everything))})
+    assert "".join(printed("concise", run).splitlines(keepends=True)[3:]) == expected
+
+
+def test_summary_tells_descriptions_of_captures_from_files() -> None:
+    run = result(finding(), savings={"a.jsonl": Savings(Saving(1, Price(0.0, 100.0, 0.0, 10.0)), Saving(1, None), True)})
+    (line,) = printed("concise", run).splitlines()[2:]
+    assert line == "1 fixable in the description that `msaa-lint convert` writes, with --fix: saves 100 MB/s written, 10 mW"
+
+
+def test_a_choice_has_a_price_of_its_own_outside_of_every_sum() -> None:
+    choice = Fix("clear it", False, shown=True, choice=True)
+    (price, fix) = remarks(fix=choice, price=Price(622.1, 0.0, 0.0, 62.2))
+    assert (price, fix) == ("price: if chosen: -622 MB/s read, -62.2 mW", "help: clear it (a choice: not applied)")
+    run = result(finding(fix=choice, price=Price(622.1, 0.0, 0.0, 62.2)))
+    assert "MB/s" not in table(run)
+    assert "if chosen: -622 MB/s read" in printed("markdown", run)
+
+
+def test_a_refused_fix_says_why() -> None:
+    refused = Fix("resolve in the pass", False, (Edit(Span(0, 1), "x"),), refusal="it overlaps another fix")
+    assert remarks(fix=refused) == ["help: resolve in the pass (not made: it overlaps another fix)"]
 
 
 def remarks(**values: object) -> list[str]:
@@ -130,25 +150,31 @@ def test_statistics_are_sorted_by_count_then_severity() -> None:
     assert table(result()) == ""
 
 
-def test_statistics_add_up_prices_and_say_what_all_cost_together() -> None:
+def test_statistics_add_up_prices_and_say_what_fixes_save() -> None:
     stored = finding(price=Price(0.0, 2247.78, 31.6, 224.8))
     run = result(stored, stored._replace(message="other"), finding(code="MSAA1", rule="x"))
-    run = run._replace(together={"frame.yaml": Price(100.0, 2247.78, 31.6, 234.8)})
+    safe, everything = Saving(1, Price(0.0, 2247.78, 31.6, 224.8)), Saving(3, Price(100.0, 2247.78, 31.6, 234.8))
+    run = run._replace(savings={"frame.yaml": Savings(safe, everything), "a.jsonl": Savings(Saving(), safe, True)})
     assert table(run).split("\n") == [
         "count  code     rule                            severity    MB/s   MiB     mW",
         "    2  MSAA201  multisampled-attachment-stored  warning   4495.6  63.2  449.6",
         "    1  MSAA1    x                               warning",
-        "                together                                  2347.8  31.6  234.8",
+        "    1           saved by --fix                            2247.8  31.6  224.8",
+        "    3           saved by --unsafe-fixes                   2347.8  31.6  234.8",
+        "    1           converted, by --unsafe-fixes              2247.8  31.6  224.8",
         "",
     ]
 
 
-def test_summary_says_what_the_findings_of_all_files_cost_together() -> None:
-    one, other = Price(0.0, 2247.78, 0.0, 224.8), Price(1.0, 0.0, 31.6, 0.1)
-    run = result(finding(), files=("a", "b"), together={"a": one, "b": other})
-    assert "Fixing it saves 2248 MB/s written, 1 MB/s read, 31.6 MiB of memory, 225 mW\n" in printed("concise", run)
-    assert "saves" not in printed("concise", result(finding(), together={"a": Price(0.0, 0.0, 0.0, 0.0)}))
-    assert "saves" not in printed("concise", result(finding(), together={"a": Price(float("inf"), 0.0, 0.0, 0.0)}))
+def test_summary_says_what_fixes_of_all_files_save() -> None:
+    def saved(*prices: Price) -> str:
+        savings = {str(number): Savings(Saving(1, price), Saving(1, price)) for number, price in enumerate(prices)}
+        return printed("concise", result(finding(), savings=savings))
+
+    both = saved(Price(0.0, 2247.78, 0.0, 224.8), Price(1.0, 0.0, 31.6, 0.1))
+    assert "2 fixable with --fix: saves 2248 MB/s written, 1 MB/s read, 31.6 MiB of memory, 225 mW\n" in both
+    assert "saves 1 MB/s read; adds 31.6 MiB of memory\n" in saved(Price(1.0, 0.0, -31.6, 0.0))
+    assert "saves" not in saved(Price(0.0, 0.0, 0.0, 0.0)) + saved(Price(float("inf"), 0.0, 0.0, 0.0))
 
 
 def test_unknown_output_is_refused() -> None:

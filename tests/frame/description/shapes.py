@@ -89,6 +89,8 @@ def by_shape(shape: tuple[Any, ...]) -> st.SearchStrategy[Json]:
         case "number":
             low = 1e-300 if shape[1] else None
             return st.floats(low, allow_nan=False, allow_infinity=False) | st.integers(1 if shape[1] else None, 10**30)
+        case "share":
+            return st.floats(1e-300, 1) | st.just(1)
         case "text":
             return TEXTS
         case "name":

@@ -21,7 +21,7 @@ def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
 
 def verdicts(engine: Engine, texts: list[bytes]) -> list[FileResult]:
     return [
-        engine.lint(text, "example.yaml", LintOptions(as_written))._replace(source=None, documents=(), combined_price=None)
+        engine.lint(text, "example.yaml", LintOptions(as_written))._replace(source=None, documents=())
         for text in texts
     ]
 
