@@ -86,7 +86,7 @@ def test_what_others_cost_counts_alone(folder: Path) -> None:
     done = run(folder, *arguments, "--fail-on-cost", "400MB/s", "--fail-on", "error")
     assert done.returncode == 1
     assert "a.msaa.yaml: fixes save 497.664 MB/s, which reaches --fail-on-cost 400MB/s" in done.stderr
-    assert "Fixing all of them saves 2488 MB/s written" in done.stdout
+    assert "2 fixable with --fix: saves 2488 MB/s written" in done.stdout
 
 
 def test_the_summary_says_how_many(folder: Path) -> None:

@@ -83,8 +83,8 @@ def test_frames_of_two_kinds_are_two_documents_the_commonest_first() -> None:
     program.submit(buffer)
     program.present()
     text = read(program).source.text
-    assert text.startswith("frame: {fps: 54.55}  # 10 of 11 frames, at 60 frames per second\n")
-    assert text.split("---\n")[1].startswith("frame: {fps: 5.455}  # 1 of 11 frames, at 60 frames per second\n")
+    assert text.startswith("frame: {share: 0.909091}  # 10 of 11 frames\n")
+    assert text.split("---\n")[1].startswith("frame: {share: 0.0909091}  # 1 of 11 frames\n")
 
 
 def test_a_rendering_that_two_kinds_of_frame_record_is_one_finding_with_the_sum_of_their_frames() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from random import Random
 
@@ -36,14 +37,17 @@ def test_fixes_remove_findings_and_add_none(name: str, unsafe: bool) -> None:
 
 
 def check(text: str, unsafe: bool) -> None:
-    """Fixed findings are gone, no finding is new, remaining ones cannot be fixed, and fixing again changes nothing."""
+    """Fixed findings are gone, no finding is new, remaining ones cannot be fixed, and fixing again changes nothing.
+
+    A finding may move: a resolve that becomes part of a pass has the same problem there.
+    """
     before = lint(text)
     done = fix_findings(text, unsafe)
     after = lint(done.text)
     assert [found for found in after.findings if found.fatal] == []
     assert after.findings == done.result.findings
     gone = kinds(before) - kinds(after)
-    assert not kinds(after) - kinds(before)
+    assert not Counter(found.rule for found in after.findings) - Counter(found.rule for found in before.findings)
     assert {found.rule for found in done.fixed_findings} <= {rule for rule, _ in gone}
     assert len(done.fixed_findings) <= gone.total()
     assert (done.text == text) == (not done.fixed_findings)
