@@ -21,6 +21,13 @@ EXPECTED: dict[str, list[tuple[int, str]]] = {
     ],
     "khronos-msaa/color-separate.msaa.yaml": [(30, "resolve-outside-pass")],
     "khronos-msaa/depth-unresolved.msaa.yaml": [(16, "depth-read-without-resolve"), (29, "resolve-outside-pass")],
+    "phone/frame.msaa.yaml": [
+        (8, "multisampled-image-not-transient"),
+        (18, "multisampled-depth-stored"),
+        (39, "framebuffer-readback"),
+        (46, "hdr-resolved-before-tone-mapping"),
+        (46, "resolve-outside-pass"),
+    ],
     "tutorial/final.msaa.yaml": [
         (7, "sample-count-above-four"),
         (7, "sample-count-not-portable"),

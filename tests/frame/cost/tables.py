@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 
+from msaa_lint.cli.report.cost_rows import variant_title
 from msaa_lint.frame.cost.amounts import Amount, FrameCost, Terms
 from msaa_lint.frame.cost.model import difference
 from msaa_lint.frame.cost.shading import EDGES
 from msaa_lint.frame.devices.tile_models import MODELS
 from msaa_lint.frame.devices.tiles import bins, tile_use
 from msaa_lint.frame.vulkan.formats import Format, format_of
+from msaa_lint.linter.cost_run import run_costs
+from msaa_lint.linter.workspace import Request
 from tests.frame.cost.frames import cost, example
 from tests.frame.cost.published import CONFIGURATIONS, FITTED_ON, MB_PER_MIB, fitted, predictions
 from tests.frame.cost.triangles import invocations_at_most
+from tests.paths import ROOT
 
 Row = Sequence[str]
 
@@ -213,7 +217,23 @@ def shading() -> str:
     return table(("legs, pixels", *(f"{samples}x" for samples in EDGES)), rows)
 
 
+def phone() -> str:
+    """The frame of a phone's engine, as written, after fixes, and with other counts after the same fixes."""
+    (frame,) = run_costs(Request([(ROOT / "examples/phone/frame.msaa.yaml").as_posix()], isolated=True), Terms(), (1, 4)).frames
+    costs = [(f"{title} (4x)" if title == "as written" else f"`{title.removeprefix('with ')}`", cost) for title, cost in frame.states]
+    costs += [(f"{variant_title(variant)}, after the same fixes", variant.cost) for variant in frame.counts if variant.samples == 1]
+    rows = [
+        (
+            title,
+            *(f"{figure:,.0f}" for figure in (cost.total.traffic_mb_per_s, cost.total.memory_mib, cost.total.milliwatts)),
+            share(cost.total.milliwatts),
+        )
+        for title, cost in costs
+    ]
+    return table(("the frame", "MB/s", "MiB", "mW", "of 2.5 W"), rows)
+
+
 TABLES: dict[str, Callable[[], str]] = {
     "counters": counters, "constants": constants, "arithmetic": arithmetic, "memory": memory, "tiles": tiles, "adreno": adreno,
-    "shading": shading,
+    "shading": shading, "phone": phone,
 }  # fmt: skip

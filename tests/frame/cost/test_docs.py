@@ -1,9 +1,10 @@
-"""docs/cost.md shows what the model says: its tables are made (UPDATE=1 writes them anew), and its figures are worked out again."""
+"""docs/cost.md and the README show what the model says: its tables are made (UPDATE=1 writes them anew), and its figures are worked out again."""
 
 from __future__ import annotations
 
 import os
 import re
+from pathlib import Path
 
 import pytest
 
@@ -14,19 +15,21 @@ from tests.frame.cost.tables import TABLES, between, separate, stored
 from tests.paths import ROOT
 
 PAGE = ROOT / "docs" / "cost.md"
+PAGES = (PAGE, ROOT / "README.md")
 BLOCK = re.compile(r"(<!-- table: (\w+) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
 
 
-def test_every_table_is_in_the_page() -> None:
-    assert sorted(match[2] for match in BLOCK.finditer(PAGE.read_text(encoding="utf-8"))) == sorted(TABLES)
+def test_every_table_is_in_a_page() -> None:
+    assert sorted(match[2] for page in PAGES for match in BLOCK.finditer(page.read_text(encoding="utf-8"))) == sorted(TABLES)
 
 
-def test_tables_are_fresh() -> None:
-    text = PAGE.read_text(encoding="utf-8")
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_tables_are_fresh(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
     made = BLOCK.sub(lambda match: match[1] + TABLES[match[2]]() + match[4], text)
     if os.environ.get("UPDATE"):
-        PAGE.write_text(made, encoding="utf-8")
-    assert PAGE.read_text(encoding="utf-8") == made
+        page.write_text(made, encoding="utf-8")
+    assert page.read_text(encoding="utf-8") == made
 
 
 def test_the_printed_numbers_with_their_units() -> None:
