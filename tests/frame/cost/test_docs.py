@@ -1,4 +1,4 @@
-"""docs/cost.md and the README show what the model says: its tables are made (UPDATE=1 writes them anew), and its figures are worked out again."""
+"""docs/cost.md and the README show what the model says: UPDATE=1 writes their tables anew, and their figures are worked out again."""
 
 from __future__ import annotations
 
