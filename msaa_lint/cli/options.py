@@ -289,7 +289,10 @@ COMMANDS = {
         ("list_scenes",),
     ),
     "rule": Command(
-        """Explain a rule, or list all rules, custom ones of the configuration included.""",
+        """Explain a rule, or list all rules, custom ones of the configuration included.
+
+        A custom rule is a page like those that this command prints; `msaa-lint facts` lists what its condition can use.
+        """,
         {
             "Options": (
                 Option("all", "flag", "List all rules."),
