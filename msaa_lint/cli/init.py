@@ -7,6 +7,7 @@ import os
 import shlex
 
 from msaa_lint.linter.rules.rule_file import EDITIONS
+from msaa_lint.linter.settings.config import read_folder
 
 from .common import note, run_command, warn
 from .options import Arguments
@@ -118,6 +119,11 @@ def write_files(folder: str, hints: bool) -> int:
     path = folder
     try:
         os.makedirs(folder, exist_ok=True)
+        configuration = read_folder(folder)
+        if configuration and configuration.path and os.path.basename(configuration.path) == "pyproject.toml":
+            # msaa-lint.toml would take its place.
+            note(f"{os.path.normpath(configuration.path)} configures msaa-lint: wrote no msaa-lint.toml")
+            del files["msaa-lint.toml"]
         for name, text in files.items():
             path = os.path.normpath(os.path.join(folder, name))
             if os.path.lexists(path):

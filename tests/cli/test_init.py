@@ -49,6 +49,25 @@ def test_init_changes_no_file(tmp_path: Path) -> None:
     assert {path.read_text(encoding="utf-8") for path in tmp_path.iterdir()} == {"# one's own\n"}
 
 
+def test_init_keeps_a_configuration_in_pyproject(tmp_path: Path) -> None:
+    """msaa-lint.toml would take its place."""
+    (tmp_path / "pyproject.toml").write_text("[tool.msaa-lint]\nfail-on = 'error'\n", encoding="utf-8")
+    done = run(tmp_path, "init")
+    assert "pyproject.toml configures msaa-lint: wrote no msaa-lint.toml" in done.stderr
+    assert not (tmp_path / "msaa-lint.toml").exists()
+    assert run(tmp_path, "check", ".").returncode == 0
+    (tmp_path / "new").mkdir()
+    (tmp_path / "new" / "pyproject.toml").write_text("[project]\n", encoding="utf-8")
+    run(tmp_path, "init", "new")
+    assert (tmp_path / "new" / "msaa-lint.toml").exists()
+
+
+def test_the_examples_of_help_run_in_a_new_project(tmp_path: Path) -> None:
+    run(tmp_path, "init")
+    commands = re.findall(r"^ +msaa-lint (check .*)$", run(tmp_path, "check", "--help").stdout, re.MULTILINE)
+    assert [run(tmp_path, *command.split()).returncode for command in commands] == [1, 0]
+
+
 @pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")
 def test_the_hook_that_init_prints_runs(tmp_path: Path) -> None:
     """By pre-commit, with the command `msaa-lint` of this checkout."""

@@ -72,7 +72,7 @@ class Configurations:
         searched = []
         while folder not in self._by_folder:
             searched.append(folder)
-            found = _read_folder(folder)
+            found = read_folder(folder)
             above = os.path.dirname(folder)
             if found is not None or above == folder:
                 self._by_folder[folder] = found
@@ -92,7 +92,8 @@ def _read_named(path: str) -> Loaded:
     return _read(path, text, parsed(text, shown(path)))
 
 
-def _read_folder(folder: str) -> Loaded | None:
+def read_folder(folder: str) -> Loaded | None:
+    """The configuration in a folder itself; None if it has none."""
     for name in NAMES:
         path = os.path.join(folder, name)
         if not os.path.isfile(path):
