@@ -24,7 +24,13 @@ _LIMITS = Limits(nodes=200_000)
 _SECTIONS = tuple(name for name in Description.SHAPE if name not in ("frame", "device", "enabled", "scene"))
 """The sections that state the frame itself. Other tools' files often have the other keys as well."""
 
-_KEY = re.compile(rf"""(?:^|[\s{{,"'])(?:{"|".join((*_SECTIONS, *STATES))})["']?\s*:""")
+_NAMES = "|".join((*_SECTIONS, *STATES))
+_KEY = re.compile(rf"""(?:^|[\s{{,"'])(?:{_NAMES})["']?\s*:""")
+_JSON_KEY = re.compile(rf'(?<!\\)"(?:{_NAMES})"\s*:')
+_LINE_KEY = re.compile(rf"""^( *)["']?(?:{_NAMES})["']?[ \t]*:""", re.MULTILINE)
+_FIRST_LINE = re.compile(r"^( *)[^\s#%]", re.MULTILINE)
+_FLOW = re.compile(r"^(?:---[ \t]+)?(?:[!&]\S*[ \t]+)*\{", re.MULTILINE)
+_STRING = re.compile(r'"(?:[^"\\]|\\.)*+"', re.DOTALL)
 
 _VULKAN = re.compile(rb'"vk[A-Z]|"gfxrecon-version"|>Vulkan</driver>|name="vk[A-Z]|\AFOSSILIZEDB|\A\x81')
 """What a capture of a Vulkan program has in its head. Captures of other APIs, and other tools' logs of calls, have the same structure."""
@@ -40,7 +46,7 @@ _OWN_JSON = (
     (re.compile(rb'"schema"\s*:\s*"msaa-lint/'), "msaa-lint's own JSON output"),
     (re.compile(rb'"driver"\s*:\s*\{\s*"name"\s*:\s*"msaa-lint"'), "msaa-lint's own SARIF output"),
     (re.compile(rb'"\$id"\s*:\s*"urn:msaa-lint:'), "a JSON Schema of msaa-lint"),
-    (re.compile(rb'\A\[\s*\{[^{}]*"check_name"\s*:[^{}]*"fingerprint"\s*:'), "a GitLab code quality report"),
+    (re.compile(rb'\A\[\s*\{(?=[^{}]*"check_name")(?=[^{}]*"fingerprint")'), "a GitLab code quality report"),
 )
 _OWN_TEXT = (
     (re.compile(rb'\A(?:<\?xml[^>]*>\s*)?<testsuites name="msaa-lint"'), "msaa-lint's own JUnit output"),
@@ -86,10 +92,28 @@ def kind_of(path: str) -> str:
 def _kind_of_text(data: bytes) -> str:
     encoding = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
     text = data.decode(encoding, "replace")
-    if not _KEY.search(text):
+    if not _has_key(text):
         return OTHER
     kinds = {_kind_of_document(root) for root in beginning(text, _LIMITS) if root.kind == "mapping"}
     return next((kind for kind in (INPUT, NEAR) if kind in kinds), OTHER)
+
+
+def _has_key(text: str) -> bool:
+    """Whether a section may be a key of the root: parsing every text that mentions one deep inside would take ten times as long."""
+    start = text.lstrip()
+    if start.startswith("{") and start[1:].lstrip().startswith('"'):
+        depth = at = 0
+        for key in _JSON_KEY.finditer(text):
+            outside = _STRING.sub("", text[at : key.start()])
+            depth += outside.count("{") + outside.count("[") - outside.count("}") - outside.count("]")
+            if depth <= 1:
+                return True
+            at = key.start()
+        return False
+    if _FLOW.search(text):
+        return _KEY.search(text) is not None
+    first = _FIRST_LINE.search(text)
+    return first is not None and any(len(key[1]) <= len(first[1]) for key in _LINE_KEY.finditer(text))
 
 
 def _kind_of_document(root: Node) -> str:
@@ -105,7 +129,7 @@ def _kind_of_document(root: Node) -> str:
     fit.misfits += sum(name not in Description.SHAPE for name in root.value)
     if fit.evidence and fit.fits > fit.misfits:
         return INPUT
-    return NEAR if fit.evidence or fit.fits > fit.misfits else OTHER
+    return NEAR if fit.evidence or fit.fits else OTHER
 
 
 class _Fit(Binder):

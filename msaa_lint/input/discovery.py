@@ -35,11 +35,13 @@ class Scope(Protocol):
 
 
 class Discovered(NamedTuple):
-    """The input files, each once and sorted, as findings name them; findings about paths; notes for the user."""
+    """The input files, each once and sorted, as findings name them; findings about paths; notes for the user; the files that are nearly
+    inputs."""
 
     files: list[str]
     findings: list[Finding]
     notes: list[str]
+    near: Sequence[str] = ()
 
 
 def discover(paths: Iterable[str], settings_for: Callable[[str], Scope], sources: bool = False) -> Discovered:
@@ -71,10 +73,14 @@ def discover(paths: Iterable[str], settings_for: Callable[[str], Scope], sources
             walk.findings.append(diagnostic("MSAA921", f"no such file or folder {quoted(path)}{reason}", shown(path)))
     if walk.unreadable_sources:
         walk.notes.append(f"{_count(walk.unreadable_sources, 'source file')} skipped: {missing_extra()}")
-    near = [name for name in walk.near if name not in walk.files]
+    near = sorted(walk.near.keys() - walk.files.keys(), key=_by_folder)
     if near:
         walk.notes.append(_nearly(near))
-    return Discovered(sorted(walk.files, key=lambda name: (name.split("/"), name)), walk.findings, list(dict.fromkeys(walk.notes)))
+    return Discovered(sorted(walk.files, key=_by_folder), walk.findings, list(dict.fromkeys(walk.notes)), near)
+
+
+def _by_folder(name: str) -> tuple[list[str], str]:
+    return name.split("/"), name
 
 
 def _nearly(names: Sequence[str]) -> str:

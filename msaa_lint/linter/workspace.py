@@ -178,6 +178,9 @@ class Workspace:
     def discover(self, sources: bool = False) -> Discovered:
         """The inputs that the request names; `sources` includes the source code in folders."""
         found = discover(self.request.paths, self.settings, sources)
+        if self.request.log is not None:
+            for name in found.near:
+                self.request.log(f"{name}: skipped, it looks a little like a description")
         self.findings.extend(found.findings)
         return found
 

@@ -1,6 +1,7 @@
 """Which data files of a folder are inputs. The files of others are written here in the form that their tools use."""
 
 import json
+import os
 import time
 from pathlib import Path
 
@@ -26,6 +27,11 @@ INPUTS = {
     "crlf.yml": FRAME.replace("\n", "\r\n"),
     "second-document.yaml": f"name: an index\nframes: [main]\n---\n{FRAME}",
     "one-line.json": '{"device": "arm", "frame": {"width": 64}, "images": {"c": {"samples": 4, "format": "VK_FORMAT_R8_UNORM"}}}',
+    "brackets-in-strings.json": '{"enabled": {"features": ["}}]{", "\\\\", "\\"}"]}, "images": {"c": {"format": "R8_UNORM"}}}',
+    "commented.json": "# a frame\n{ # of two keys\n  images: {c: {format: R8_UNORM, samples: 4}},\n}\n",
+    "tagged.yaml": "--- !!map &root {images: {c: {format: R8_UNORM, samples: 4}}}\n",
+    "indented-root.yaml": "# a frame\n  " + FRAME.replace("\n", "\n  ").rstrip(),
+    "quoted-keys.yaml": '"images" :\n  "c": {"format": R8_UNORM, samples: 4}\n',
     "indented.json": json.dumps({"images": {"c": {"usage": ["COLOR_ATTACHMENT"], "samples": 4}}}, indent=4),
     "typed-in-haste.yaml": FRAME.replace("storeOp", "storeop").replace("samples: 4", "samples: 3"),
     "broken-at-the-end.yaml": FRAME + "pipelines: {p: {renderPass: main\n",
@@ -59,6 +65,9 @@ OTHERS = {
     "translation.yaml": "images: Bilder\npipelines: Leitungen\ncommands: Befehle\nrenderPasses: Durchgänge\n",
     "fixture.yaml": f"- name: reads a description\n  text: |\n    {FRAME.replace(chr(10), chr(10) + '    ')}\n",
     "words.json": json.dumps({"docs": FRAME, "keys": ["images", "renderPasses"], "schema": {"images": {"format": "R8_UNORM"}}}),
+    "deep.json": '{"version": "2.0", "shapes": {"a": {"images": {"c": {"format": "R8G8B8A8_UNORM", "samples": 4}}}}}',
+    "deep.yaml": f"version: 2\nshapes:\n  {FRAME.replace(chr(10), chr(10) + '  ')}\n",
+    "quoted.json": '{"text": "\\"images\\": {\\"c\\": {\\"format\\": \\"R8_UNORM\\"}}", "images": null}',
     "list.yaml": f"- {FRAME.replace(chr(10), chr(10) + '  ')}\n",
     "settings.json": '// a comment\n{"images": {"format": "png"}, "commands": {}}',
     "chart.yaml": "images:\n  web: {repository: {{ .Values.web }}, format: oci}\n",
@@ -76,6 +85,7 @@ OTHERS = {
 }
 
 NEARLY = {
+    "fossilize.json": json.dumps({"version": 6, "renderPasses": {"01": {"attachments": [{"format": 44, "samples": 4, "loadOp": 1}]}}}),
     "partial.yaml": "images:\n  color: {samples: 4, extent: {width: 64, height: 64}}\n",
     "engine-images.json": '{"images": {"gbuffer": {"format": "R8G8B8A8_UNORM", "path": "a", "scale": 0.5, "srgb": true}}}',
     "pipeline-state.json": '{"GraphicsPipelineState": {"RootSignature": "a", "PS": "b"}}',
@@ -125,7 +135,12 @@ def test_the_time_to_tell_a_large_file_is_bounded(tmp_path: Path) -> None:
     (tmp_path / "b.yaml").write_text("images: &a {a: &b {samples: 4}}\n" + "pipelines: [" * 50_000)
     (tmp_path / "c.yaml").write_text("images:\n  a: &a [1, 1]\n" + "".join(f"  {n}: &{n}x [*{chr(97)}, *{chr(97)}]\n" for n in range(9999)))
     started = time.perf_counter()
-    assert [kind_of(str(tmp_path / name)) for name in ("a.json", "b.yaml", "c.yaml")] == ["other", "other", "other"]
+    (tmp_path / "d.json").write_text("[{" + '"check_name": ' * 90_000)
+    (tmp_path / "e.yaml").write_text("images: {c: {samples: 4}}\n" + "!a \n" * 300_000)
+    (tmp_path / "f.json").write_text('{"a": [' + '{"images":' * 100_000)
+    assert {name: kind_of(str(tmp_path / name)) for name in sorted(os.listdir(tmp_path))} == {
+        "a.json": "near", "b.yaml": "near", "c.yaml": "other", "d.json": "other", "e.yaml": "near", "f.json": "other",
+    }  # fmt: skip
     assert time.perf_counter() - started < 20
 
 
@@ -136,17 +151,20 @@ def test_a_folder_counts_what_is_nearly_an_input_in_one_line(tmp_path: Path) -> 
         (tmp_path / name).write_text(text)
     done = run(tmp_path, "check", ".", "--isolated", "--output", "json")
     assert done.stderr == (
-        "msaa-lint: 3 files look a little like descriptions and were skipped, the first one engine-images.json: "
+        "msaa-lint: 4 files look a little like descriptions and were skipped, the first one engine-images.json: "
         "to lint them, name them or rename them to *.msaa.yaml\n"
     )
     assert {found["file"] for found in json.loads(done.stdout)["findings"]} == {"a.msaa.yaml"}
-    done = run(tmp_path, "check", ".", "engine-images.json", "pipeline-state.json", "--isolated", "--output", "json")
+    done = run(tmp_path, "check", ".", "engine-images.json", "fossilize.json", "pipeline-state.json", "--isolated", "--output", "json")
     assert done.stderr == (
         "msaa-lint: partial.yaml looks a little like a description and was skipped: "
         "to lint it, name it or rename it to *.msaa.yaml\n"
     )  # fmt: skip
     assert done.returncode == 2
-    assert {found["file"] for found in json.loads(done.stdout)["findings"] if found["severity"] == "error"} == {"engine-images.json"}
+    assert {found["file"] for found in json.loads(done.stdout)["findings"] if found["severity"] == "error"} == {
+        "engine-images.json",
+        "fossilize.json",
+    }
 
 
 @pytest.fixture
