@@ -13,7 +13,7 @@ from .escape import display, escape
 from .markdown import escape_markdown, table
 from .paths import relative
 from .place import place
-from .summary import plural, price_text, summary
+from .summary import plural, price_text, summary, usable_price
 
 MAX_ANNOTATIONS = 10
 """Annotations of one level that GitHub keeps for a step; it silently drops the rest."""
@@ -25,13 +25,13 @@ _LEVEL = {"error": "error", "warning": "warning", "note": "notice"}
 
 
 def render(result: Result, out: Write, options: Options) -> None:
-    """Prints at most ten commands per level, errors first, and appends the summary to the file `options.step_summary`."""
+    """Prints at most ten commands per level, the most important first, and appends the summary to the file `options.step_summary`."""
     room = dict.fromkeys(_LEVEL, MAX_ANNOTATIONS)
     severities = [finding.severity for finding in result.findings]
     if any(severities.count(severity) > MAX_ANNOTATIONS for severity in room):
         room["note"] -= 1  # for the last one, which counts the others
     left_out = 0
-    for finding in sorted(result.findings, key=lambda finding: -rank(finding.severity)):
+    for finding in sorted(result.findings, key=_importance, reverse=True):
         if room[finding.severity] > 0:
             room[finding.severity] -= 1
             out(_command(finding, result, options) + "\n")
@@ -46,6 +46,12 @@ def render(result: Result, out: Write, options: Options) -> None:
         out(f"::notice title=msaa-lint::{plural(left_out, 'more finding')}, {where}\n")
     if problem:
         out(f"::warning title=msaa-lint::{_data('cannot write the summary of this step: ' + display(problem))}\n")
+
+
+def _importance(finding: Finding) -> tuple[int, bool, float, float]:
+    """By severity, then inputs that cannot be used, then power and memory."""
+    price = usable_price(finding)
+    return (rank(finding.severity), finding.fatal, *((price.milliwatts, price.memory_mib) if price else (0.0, 0.0)))
 
 
 def _command(finding: Finding, result: Result, options: Options) -> str:

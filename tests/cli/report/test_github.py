@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from msaa_lint.cli.report import github
-from msaa_lint.core.finding import Fix
+from msaa_lint.core.finding import Fix, Price
 from msaa_lint.core.text.span import Span
 from tests.cli.report.sample import finding, frame, printed, result
 from tests.command import run
@@ -73,6 +73,15 @@ def test_ten_of_a_level_and_a_count_of_the_rest(tmp_path: Path) -> None:
     lines = printed("github", result(*many), step_summary=str(summary)).splitlines()
     assert lines[-1] == "::notice title=msaa-lint::7 more findings, see the summary of this step"
     assert summary.read_text().count("\n| error |") == 12
+
+
+def test_the_most_expensive_of_a_level_are_among_the_ten() -> None:
+    many = [finding(str(n), price=Price(0.0, 0.0, float(n % 2), float(n // 2))) for n in range(24)] + [
+        finding("none"),
+        finding("error", severity="error"),
+    ]
+    lines = printed("github", result(*many)).splitlines()
+    assert [line.rpartition("::")[2].partition("%0A")[0] for line in lines[:-1]] == ["error", *map(str, range(23, 13, -1))]
 
 
 def test_ten_of_each_level_need_no_count() -> None:
