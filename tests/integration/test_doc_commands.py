@@ -20,7 +20,7 @@ import yaml
 from msaa_lint import lint
 from msaa_lint.cli.options import COMMANDS
 from msaa_lint.frame.description.models import Description
-from tests.command import environment_of
+from tests.command import environment_of, run
 from tests.doc_blocks import PAGES, Block, blocks
 from tests.paths import ROOT
 
@@ -125,14 +125,14 @@ def flags_of(command: str) -> set[str]:
 @pytest.mark.parametrize("page", PAGES)
 def test_what_is_only_mentioned_exists(page: str) -> None:
     """The command and the options of inline commands that are not run, the files of scripts, and options in prose."""
+    known = set(re.findall(r"--[a-z-]+", run(ROOT, "--help").stdout)).union(*map(flags_of, COMMANDS))
     for block in blocks(page):
         words = block.text.split()
-        if block.language == "inline" and block.skipped and words[0] == "msaa-lint" and words[1] != "--help":
-            assert words[1] in COMMANDS, block
+        if block.language == "inline" and block.skipped and words[0] == "msaa-lint":
+            assert words[1] in (*COMMANDS, *known), block
             assert {word for word in words[2:] if word.startswith("--")} <= flags_of(words[1]), block
         elif block.language == "inline" and block.skipped:
             assert all((ROOT / word).exists() for word in words if "/" in word), block
-    known = set().union(*map(flags_of, COMMANDS))
     text = re.sub(r"```.*?```", "", (ROOT / page).read_text(encoding="utf-8"), flags=re.DOTALL)
     others = {"--check", "--format", "--expand-flags", "--include-binaries", "--summary", "--json", "--fixed", "--mistake"}
     assert set(re.findall(r"`(--[a-z][a-z-]+)", text)) - others <= known
