@@ -13,7 +13,7 @@ from .escape import display, escape
 from .markdown import escape_markdown, table
 from .paths import relative
 from .place import place
-from .summary import plural, price_text, summary, usable_price
+from .summary import is_choice, plural, price_text, summary, usable_price
 
 MAX_ANNOTATIONS = 10
 """Annotations of one level that GitHub keeps for a step; it silently drops the rest."""
@@ -64,7 +64,7 @@ def _command(finding: Finding, result: Result, options: Options) -> str:
         properties |= _region(source, finding.span.start, finding.span.end)
     properties["title"] = f"{display(finding.rule)} ({display(finding.code)})"
     remedy = finding.help or (finding.fix.title if finding.fix else "")
-    remarks = (("cost", price_text(finding)), ("help", display(remedy)))
+    remarks = (("price" if is_choice(finding) else "cost", price_text(finding)), ("help", display(remedy)))
     lines = [display(finding.message), *(f"{word}: {text}" for word, text in remarks if text)]
     joined = ",".join(f"{name}={_property(str(value))}" for name, value in properties.items())
     return f"::{_LEVEL[finding.severity]} {joined}::{_data(chr(10).join(lines))}"

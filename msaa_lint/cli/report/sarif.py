@@ -17,7 +17,7 @@ from .fingerprint import fingerprints
 from .inputs import checked
 from .paths import uri
 from .place import place
-from .summary import files_saving, tally, undecided, usable_price
+from .summary import files_saving, is_choice, tally, undecided, usable_price
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 
@@ -179,6 +179,8 @@ def _result(
     price = usable_price(finding)
     if price:
         properties["price"] = price._asdict()
+    if is_choice(finding):
+        properties["choice"] = True
     if finding.notes:
         properties["notes"] = [display(note) for note in finding.notes]
     sarif: dict[str, object] = {

@@ -7,7 +7,7 @@ import pytest
 
 from msaa_lint.cli.report import sarif
 from msaa_lint.cli.report.fingerprint import fingerprint
-from msaa_lint.core.finding import Fix, RuleInfo
+from msaa_lint.core.finding import Fix, Price, RuleInfo
 from msaa_lint.core.text.span import Edit, Label, Span
 from tests.cli.report.sample import finding, frame, printed, result, span
 from tests.cli.report.schemas import check_sarif, sarif_validator
@@ -128,6 +128,14 @@ def test_result() -> None:
             "properties": {"safe": True},
         }
     ]
+
+
+def test_a_choice_is_marked() -> None:
+    choice = Fix("clear it", False, shown=True, choice=True)
+    price = Price(622.1, 0.0, 0.0, 62.2)
+    chosen, fixed = run_of(result(finding(fix=choice, price=price), finding(price=price)))["results"]
+    assert chosen["properties"] == {**fixed["properties"], "choice": True}
+    assert fixed["properties"]["price"] == price._asdict()
 
 
 def test_input_without_text_has_a_place_all_the_same() -> None:
