@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.models import Image, ReadImage
+from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.devices.shares import sample_count_share
 from msaa_lint.frame.vulkan.formats import Format
@@ -30,18 +31,21 @@ _RENDER_TARGET_USAGES = frozenset({"COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT
 class Bindings:
     """What a frame does with its images. Images and those that stand for attachments without one go by their records."""
 
-    __slots__ = ("attachments", "begun", "reads", "resolved")
+    __slots__ = ("_idle", "attachments", "begun", "reads", "resolved")
 
     def __init__(self, frame: Frame) -> None:
         self.attachments: dict[int, list[Attachment]] = {}
-        """The attachments that an image is bound to, also by a framebuffer that no command names, in passes that the frame may run."""
+        """The attachments that an image is bound to, also by a framebuffer that no command names."""
         self.begun: set[int] = set()
         """The images that a pass which the commands begin is bound to."""
         self.resolved: set[int] = set()
         """The images that a resolve within a pass writes."""
         self.reads: dict[str, list[ReadImage]] = {}
-        run = [render_pass for render_pass in frame.passes if frame.whether_begun(render_pass) != "NO"]
-        for render_pass in run:
+        self._idle: set[int] = set()
+        """The attachments, by identity, of passes that the frame does not begin."""
+        for render_pass in frame.passes:
+            if frame.whether_begun(render_pass) == "NO":
+                self._idle.update(map(id, render_pass.attachments))
             for attachment in render_pass.attachments:
                 records = {id(target.record) for target in attachment.targets}
                 for record in records:
@@ -50,7 +54,7 @@ class Bindings:
                     self.begun |= records
             targets = (resolve.target_image for resolve in render_pass.resolves)
             self.resolved.update(id(target.record) for target in targets if target is not None)
-        passes = {render_pass.name: render_pass for render_pass in run if render_pass.kind == RENDER_PASS}
+        passes = {render_pass.name: render_pass for render_pass in frame.passes if render_pass.kind == RENDER_PASS}
         for framebuffer in frame.description.framebuffers.values():
             bound_to = passes.get(framebuffer.renderPass or "")
             for attachment, name in zip(bound_to.attachments if bound_to is not None else (), framebuffer.attachments, strict=False):
@@ -61,12 +65,16 @@ class Bindings:
             if body.image is not None:
                 self.reads.setdefault(body.image, []).append(body)
 
+    def used_by(self, record: Record) -> list[Attachment]:
+        """Those of `attachments` in passes that the frame may begin."""
+        return [attachment for attachment in self.attachments.get(id(record), ()) if id(attachment) not in self._idle]
+
 
 def image_facts(target: Target, bindings: Bindings, frame: Frame, readers: Readers, device: DeviceProfile | None) -> Facts:
     """What is known of an image by itself, and by what the frame does with it."""
     facts = Facts()
     image, record = target.image, target.record
-    bound = bindings.attachments.get(id(record), [])
+    bound = bindings.used_by(record)
     rendered = _rendered(target, bound, bindings)
     facts.put("image.name", target.title, record.head)
     facts.put("image.stated", image is not None)
@@ -212,7 +220,7 @@ def _read(target: Target, bindings: Bindings, frame: Frame, readers: Readers) ->
     """
     image = target.image
     assert image is not None
-    if any(attachment.input for attachment in bindings.attachments.get(id(image), ())):
+    if any(attachment.input for attachment in bindings.used_by(image)):
         return True
     if not readers.timeline.followed:
         return None

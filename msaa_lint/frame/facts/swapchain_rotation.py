@@ -113,7 +113,7 @@ class Turns:
         for target in group:
             if target.name in bindings.reads:
                 return False
-            for attachment in bindings.attachments.get(id(target.record), ()):
+            for attachment in bindings.used_by(target.record):
                 if attachment.used and any(aspect.load in _LOADS for aspect in attachment.aspects):
                     return False
         return True

@@ -70,7 +70,7 @@ def drop_stores(image: Image, context: FixContext, store_change: StoreChange) ->
     for render_pass, attachment in context.attachments.get(id(image), ()):
         for aspect in attachment.aspects:
             change = store_change(attachment, aspect)
-            if change is None:
+            if change is None or context.frame.whether_begun(render_pass) == "NO":
                 continue
             if context.analysis.readers.read_later(render_pass, attachment, aspect) is not False:
                 raise NoFix(f"something may read what `{render_pass.name}` stores in {attachment.title}")

@@ -34,8 +34,8 @@ class Registry(NamedTuple):
 
     @property
     def names(self) -> tuple[Rule | BrokenPage, ...]:
-        """What a selector or a suppression may name: a rule whose page is broken is not unknown."""
-        return (*self.rules, *self.broken)
+        """What a selector or a suppression may name: a rule whose page is broken is not unknown. A usable one of that name is last."""
+        return (*self.broken, *self.rules)
 
 
 def folder() -> str:

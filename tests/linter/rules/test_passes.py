@@ -79,6 +79,10 @@ def test_what_no_pass_does_loads_no_image(tmp_path: Path) -> None:
     begin = "commands: [{beginRenderPass: {framebuffer: main}}, endRenderPass, {present: {image: backbuffer}}]"
     assert ("MSAA401", "images.ms") not in findings(tmp_path, text)
     assert ("MSAA401", "images.ms") in findings(tmp_path, text + begin)
+    done = run(tmp_path, "check", "--isolated", "--select", "MSAA401", "--fix", "--unsafe-fixes", "frame.msaa.yaml")
+    assert done.returncode == 0, done.stdout
+    fixed = (tmp_path / "frame.msaa.yaml").read_text(encoding="utf-8")
+    assert fixed == (text + begin).replace("usage: [COLOR_ATTACHMENT]", "usage: [COLOR_ATTACHMENT, TRANSIENT_ATTACHMENT]")
 
 
 def test_a_pass_that_is_not_begun_costs_nothing(tmp_path: Path) -> None:

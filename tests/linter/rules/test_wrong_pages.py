@@ -204,6 +204,17 @@ def test_several_mistakes_are_found_at_once_in_order(tmp_path: Path) -> None:
     assert [place for place, _ in problems(tmp_path, page)] == ["5:28-40", "6:13-22", "6:30-43"]
 
 
+@pytest.mark.parametrize(("code", "name"), [("MSAA105", "my-rule"), ("ACME001", "sample-count-not-portable")])
+def test_a_broken_page_does_not_stand_for_a_built_in_rule(tmp_path: Path, code: str, name: str) -> None:
+    (tmp_path / f"{name}.md").write_text(PAGE.replace("ACME001", code), encoding="utf-8")
+    text = "images: {a: {samples: 2}}  # msaa-lint: ignore[MSAA105, sample-count-not-portable] agreed\n"
+    (tmp_path / "frame.msaa.yaml").write_text(text, encoding="utf-8")
+    done = run(tmp_path, "check", "--isolated", "--rules", f"{name}.md", "--output", "json", "frame.msaa.yaml")
+    result = json.loads(done.stdout)
+    assert [each["finding"]["code"] for each in result["suppressed"]] == ["MSAA105"]
+    assert [each["file"] for each in result["findings"]] == [f"{name}.md"]
+
+
 @pytest.mark.parametrize("broken", ["severty: warning", "severity: warning\ncode: [", "severity: warning\n: :"])
 def test_a_broken_page_does_not_make_its_rule_unknown(tmp_path: Path, broken: str) -> None:
     """What names the rule in the configuration, on the command line, and in a comment is right."""
