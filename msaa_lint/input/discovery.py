@@ -35,16 +35,16 @@ class Scope(Protocol):
 
 
 class Discovered(NamedTuple):
-    """The input files, each once and sorted, as findings name them; findings about paths; notes for the user; the files that are nearly
-    inputs."""
+    """The input files, each once and sorted, as findings name them; findings about paths; notes for the user."""
 
     files: list[str]
     findings: list[Finding]
     notes: list[str]
-    near: Sequence[str] = ()
 
 
-def discover(paths: Iterable[str], settings_for: Callable[[str], Scope], sources: bool = False) -> Discovered:
+def discover(
+    paths: Iterable[str], settings_for: Callable[[str], Scope], sources: bool = False, log: Callable[[str], None] | None = None
+) -> Discovered:
     """The files to lint.
 
     A named file is linted whatever its name, unless `exclude` matches it; that is only a note, since commit hooks name every file. A
@@ -54,9 +54,9 @@ def discover(paths: Iterable[str], settings_for: Callable[[str], Scope], sources
     itself wrote are skipped. Links to folders are not followed; links to files are if they stay in the project. A missing path and a
     folder without inputs are findings (MSAA921).
 
-    `settings_for` gives the settings of a file or folder. `-` stays as it is.
+    `settings_for` gives the settings of a file or folder. `-` stays as it is. `log` is called with a line for each path that is skipped.
     """
-    walk = _Walk(settings_for, sources)
+    walk = _Walk(settings_for, sources, log)
     for path in paths:
         if path == STDIN:
             walk.files[STDIN] = None
@@ -74,9 +74,11 @@ def discover(paths: Iterable[str], settings_for: Callable[[str], Scope], sources
     if walk.unreadable_sources:
         walk.notes.append(f"{_count(walk.unreadable_sources, 'source file')} skipped: {missing_extra()}")
     near = sorted(walk.near.keys() - walk.files.keys(), key=_by_folder)
+    for name in near:
+        walk.skip(name, "it looks a little like a description")
     if near:
         walk.notes.append(_nearly(near))
-    return Discovered(sorted(walk.files, key=_by_folder), walk.findings, list(dict.fromkeys(walk.notes)), near)
+    return Discovered(sorted(walk.files, key=_by_folder), walk.findings, list(dict.fromkeys(walk.notes)))
 
 
 def _by_folder(name: str) -> tuple[list[str], str]:
@@ -121,9 +123,10 @@ class _Search:
 class _Walk:
     """The files found so far. `near` has the files that are nearly inputs, in order."""
 
-    def __init__(self, settings_for: Callable[[str], Scope], sources: bool) -> None:
+    def __init__(self, settings_for: Callable[[str], Scope], sources: bool, log: Callable[[str], None] | None) -> None:
         self.settings_for = settings_for
         self.sources = sources
+        self.log = log
         self.unreadable_sources = 0
         self.files: dict[str, None] = {}
         self.near: dict[str, None] = {}
@@ -167,20 +170,30 @@ class _Walk:
             # Without the `./` that joining `.` would give: globs and names do not have it.
             path = entry.name if folder.path == os.curdir else os.path.join(folder.path, entry.name)
             if entry.is_dir(follow_symlinks=False):
-                if entry.name.startswith(".") or entry.name in _SKIPPED or excluding(path, settings.exclude, folder=True):
-                    continue
-                if in_force.ignores(f"{prefix}{entry.name}/"):
+                if entry.name.startswith(".") or entry.name in _SKIPPED:
+                    self.skip(path, "a folder that is hidden or of tools")
+                elif excluding(path, settings.exclude, folder=True):
+                    self.skip(path, "excluded")
+                elif in_force.ignores(f"{prefix}{entry.name}/"):
+                    self.skip(path, "listed in .gitignore or .ignore")
                     search.ignored.append(path)
                 else:
                     waiting.append(_Folder(path, folder.depth + 1, ignore_files))
             elif not self._is_candidate(entry.name.lower(), path, settings.include):
                 continue
             elif in_force.ignores(prefix + entry.name):
+                self.skip(path, "listed in .gitignore or .ignore")
                 search.ignored.append(path)
             elif excluding(path, settings.exclude):
+                self.skip(path, "excluded")
                 search.excluded.append((entry, path, settings.include))
             else:
                 self._add_file(entry, path, settings.include, search)
+
+    def skip(self, path: str, reason: str) -> None:
+        """Logs a path that is skipped."""
+        if self.log is not None:
+            self.log(f"skipped {shown(path)}: {reason}")
 
     def _is_candidate(self, name: str, path: str, include: Sequence[Glob]) -> bool:
         """Whether a file may be an input, by its name."""
@@ -195,6 +208,8 @@ class _Walk:
         except OSError:
             self.notes.append(f"{shown(path)} cannot be read to see if it is an input")
             return
+        if kind == OTHER:
+            self.skip(path, "not an input")
         if kind == NEAR:
             self.near[shown(path)] = None
         elif kind == INPUT and entry.is_symlink() and not (os.path.isfile(path) and inside(path, search.project)):

@@ -69,6 +69,7 @@ class ResolvedSettings(NamedTuple):
     engine: Engine
     device: DeviceProfile | None
     limits: Limits
+    configuration: str | None
 
 
 class InputFile(NamedTuple):
@@ -80,10 +81,17 @@ class InputFile(NamedTuple):
     resolved: ResolvedSettings
     options: LintOptions
     min_severity: str
+    log: Callable[[str], None] | None = None
 
     def lint(self, data: bytes | None = None, prices: bool = False) -> FileResult:
         """The findings of the input, or of other `data` in its place."""
-        return self.resolved.engine.lint(self.data if data is None else data, self.name, self.options._replace(prices=prices))
+        result = self.resolved.engine.lint(self.data if data is None else data, self.name, self.options._replace(prices=prices))
+        if data is None and self.log is not None:
+            formats = [getattr(self.data, "format", ""), getattr(self.data, "language", "")]
+            formats += [document.document.format for document in result.documents]
+            where = f", {_named(self.resolved.configuration)}" if self.resolved.configuration is not None else ""
+            self.log(f"{self.name}: read as {next(filter(None, formats), 'nothing')}{where}")
+        return result
 
     def fixable(self, result: FileResult) -> Callable[[Finding], bool]:
         """Whether to fix a finding of the input or of its description: one that the settings turn off or hide is left alone."""
@@ -154,16 +162,16 @@ class Workspace:
             device = profile_of(settings.profile) if settings.profile is not None else None
             selection = Selection(settings, engine.registry.rules)
             if self.request.log is not None:
-                where = "no configuration file" if loaded.path is None else f"configuration {shown(loaded.path)}"
                 enabled = sum(map(selection.enabled, engine.registry.rules))
                 profile = f", profile {settings.profile}" if settings.profile is not None else ""
-                self.request.log(f"{where}: edition {settings.edition or EDITIONS[-1]}, {enabled} rules enabled{profile}")
+                self.request.log(f"{_named(loaded.path)}: edition {settings.edition or EDITIONS[-1]}, {enabled} rules enabled{profile}")
             self._resolved[loaded.path] = ResolvedSettings(
                 settings,
                 selection,
                 engine,
                 None if isinstance(device, Problem) else device,
                 Limits()._replace(**settings.limits),
+                loaded.path,
             )
         return self._resolved[loaded.path]
 
@@ -177,10 +185,7 @@ class Workspace:
 
     def discover(self, sources: bool = False) -> Discovered:
         """The inputs that the request names; `sources` includes the source code in folders."""
-        found = discover(self.request.paths, self.settings, sources)
-        if self.request.log is not None:
-            for name in found.near:
-                self.request.log(f"{name}: skipped, it looks a little like a description")
+        found = discover(self.request.paths, self.settings, sources, self.request.log)
         self.findings.extend(found.findings)
         return found
 
@@ -193,22 +198,14 @@ class Workspace:
         except (OSError, Unreadable) as error:
             self.findings.append(opening.unreadable(error, name))
             return None
-        if request.log is not None:
-            path_of = self._configurations.load(path).path
-            request.log(f"{name}: {_kind(data)}" + (f", configuration {shown(path_of)}" if path_of is not None else ""))
         device = resolved.device
         severity = resolved.selection.for_file(name, device.vendor if device is not None else None)
         options = LintOptions(severity, resolved.limits, request.format, device, request.ignores)
-        return InputFile(path, name, data, resolved, options, self.current.settings.min_severity)
+        return InputFile(path, name, data, resolved, options, self.current.settings.min_severity, request.log)
 
 
-def _kind(data: "bytes | CaptureInput | SourceFile") -> str:
-    """What an input is, in words."""
-    if isinstance(data, bytes):
-        return f"text, {len(data)} bytes"
-    from msaa_lint.input.capture_input import CaptureInput
-
-    return f"capture, {data.frames} frames" if isinstance(data, CaptureInput) else f"source code ({data.language})"
+def _named(configuration: str | None) -> str:
+    return "no configuration file" if configuration is None else f"configuration {shown(configuration)}"
 
 
 def _invalid_values(settings: Settings) -> list[Finding]:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+import shutil
 from pathlib import Path
 
 import pytest
 
 from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
 from tests.command import Done, run
+from tests.paths import ROOT
 
 STORED = """\
 frame: {width: 64, height: 64, fps: 60}
@@ -107,13 +109,49 @@ def test_verbose_names_configurations_and_inputs(folder: Path) -> None:
     (folder / "new" / "a.msaa.yaml").write_text(CLEAN, encoding="utf-8")
     for command in ("check", "cost"):
         errors = run(folder, command, "-v", "clean.msaa.yaml", "new").stderr
-        text = re.sub(r"\d+ (?=rules|bytes)", "N ", errors)
+        text = re.sub(r"\d+ (?=rules)", "N ", errors)
         assert "msaa-lint: no configuration file: edition 2026.1, N rules enabled\n" in text
         assert "msaa-lint: configuration new/msaa-lint.toml: edition 2026.1, N rules enabled, profile mali-g76\n" in text
-        assert "msaa-lint: clean.msaa.yaml: text, N bytes\n" in text
-        assert "msaa-lint: new/a.msaa.yaml: text, N bytes, configuration new/msaa-lint.toml\n" in text
+        assert "msaa-lint: clean.msaa.yaml: read as description\n" in text
+        assert "msaa-lint: new/a.msaa.yaml: read as description, configuration new/msaa-lint.toml\n" in text
     assert re.search(r"msaa-lint: checked 1 input in \d+\.\d\d s\n\Z", run(folder, "check", "-v", "clean.msaa.yaml").stderr)
-    assert "clean.msaa.yaml: text" in run(folder, "baseline", "-v", "clean.msaa.yaml").stderr
+    assert "clean.msaa.yaml: read as description" in run(folder, "baseline", "-v", "clean.msaa.yaml").stderr
+
+
+def test_verbose_names_what_is_skipped(folder: Path) -> None:
+    for name, text in {
+        ".git/HEAD": "ref: refs/heads/main\n",
+        ".gitignore": "ignored.msaa.yaml\n/build/\n",
+        "ignored.msaa.yaml": CLEAN,
+        "build/a.msaa.yaml": CLEAN,
+        ".hidden/a.msaa.yaml": CLEAN,
+        "other.yaml": "on: push\n",
+        "frame.json": '{"images": {"a": {"samples": 4}}}',
+        "excluded.msaa.yaml": CLEAN,
+        "msaa-lint.toml": 'exclude = ["excluded.*"]\n',
+        "shader.glsl": "void main() {}\n",
+    }.items():
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).write_text(text, encoding="utf-8")
+    lines = run(folder, "check", "-v", ".").stderr.splitlines()
+    assert sorted(line for line in lines if line.startswith("msaa-lint: skipped")) == [
+        "msaa-lint: skipped .git: a folder that is hidden or of tools",
+        "msaa-lint: skipped .hidden: a folder that is hidden or of tools",
+        "msaa-lint: skipped build: listed in .gitignore or .ignore",
+        "msaa-lint: skipped excluded.msaa.yaml: excluded",
+        "msaa-lint: skipped frame.json: it looks a little like a description",
+        "msaa-lint: skipped ignored.msaa.yaml: listed in .gitignore or .ignore",
+        "msaa-lint: skipped other.yaml: not an input",
+        "msaa-lint: skipped shader.glsl: not an input",
+    ]
+
+
+def test_verbose_names_formats(folder: Path) -> None:
+    (folder / "a.cpp").write_text("VkSampleCountFlagBits s = VK_SAMPLE_COUNT_4_BIT;\n", encoding="utf-8")
+    (folder / "b.yaml").write_text("{", encoding="utf-8")
+    shutil.copy(ROOT / "examples" / "capture" / "forward.jsonl", folder / "c.jsonl")
+    errors = run(folder, "check", "-v", "a.cpp", "b.yaml", "c.jsonl").stderr
+    assert "a.cpp: read as cpp\n" in errors and "b.yaml: read as nothing\n" in errors and "c.jsonl: read as gfxreconstruct\n" in errors
 
 
 def test_statistics_of_a_clean_input_say_so(folder: Path) -> None:
