@@ -1,7 +1,8 @@
 """Which files and folders `.gitignore`, `.ignore`, and `.git/info/exclude` exclude, as git, ripgrep, and ruff read them.
 
 `.gitignore` applies in a git repository only, from the repository's root downward; a repository within another one begins anew. `.ignore`
-applies everywhere and takes precedence. In each case the nearest file decides, and in a file the last pattern that matches.
+applies everywhere, in all parent folders too, and takes precedence. In each case the nearest file decides, and in a file the last pattern
+that matches.
 """
 
 from __future__ import annotations
@@ -12,7 +13,6 @@ from collections.abc import Collection
 from typing import NamedTuple
 
 from msaa_lint.core.globs import compiled
-from msaa_lint.core.project import project_root
 from msaa_lint.core.text.files import read
 from msaa_lint.core.text.node import Limits
 from msaa_lint.core.text.source import Unreadable
@@ -66,20 +66,15 @@ class IgnoreFiles(NamedTuple):
 
 
 def above(folder: str) -> IgnoreFiles:
-    """The rules of the folders above a folder, from its project's root downward."""
-    folder = os.path.abspath(folder)
-    root = project_root(folder)
+    """The rules of the folders above a folder."""
+    at, parents = os.path.abspath(folder), []
+    while (parent := os.path.dirname(at)) != at:
+        parents.append(parent)
+        at = parent
     files = IgnoreFiles()
-    at = os.path.dirname(folder)
-    chain = []
-    while folder != root and len(at) >= len(root):
-        chain.append(at)
-        if at == root:
-            break
-        at = os.path.dirname(at)
-    for each in reversed(chain):
-        names = [name for name in (*_REPOSITORIES, ".gitignore", ".ignore") if os.path.lexists(os.path.join(each, name))]
-        files = files.below(each, names)
+    for parent in reversed(parents):
+        names = [name for name in (*_REPOSITORIES, ".gitignore", ".ignore") if os.path.lexists(os.path.join(parent, name))]
+        files = files.below(parent, names)
     return files
 
 

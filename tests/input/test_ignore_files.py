@@ -1,10 +1,12 @@
-"""Ignore files, compared with what `git ls-files` lists in the same tree."""
+"""Ignore files, compared with what git and ruff find in the same trees."""
 
 import os
 import random
 import shutil
 import subprocess
+import sys
 import time
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -12,8 +14,6 @@ import pytest
 from msaa_lint.input.discovery import discover
 from msaa_lint.linter.settings.settings import Settings
 from tests.command import run
-
-needs_git = pytest.mark.skipif(shutil.which("git") is None, reason="git is the reference, and is not here")
 
 
 @pytest.fixture
@@ -63,11 +63,13 @@ def test_patterns_are_gits(project: Path, lines: str, skipped: list[str]) -> Non
 
 def test_the_nearest_file_decides_from_the_root_of_the_repository_downward(project: Path) -> None:
     write("a/x.yaml", "a/b/x.yaml", "a/b/y.yaml", "c/x.yaml")
-    write("../.gitignore", "../.ignore", text="*\n")
+    write("../.gitignore", text="*\n")
+    write("../.ignore", text="c/\n")
+    write("c/y.yaml", "d/x.yaml")
     write(".gitignore", text="x.yaml\n")
     write("a/b/.gitignore", text="!x.yaml\n/y.yaml\n")
     assert files() == ["a/b/x.yaml"]
-    assert files("a/b", "c") == ["a/b/x.yaml"]
+    assert files("a/b", "c") == ["a/b/x.yaml", "c/y.yaml"]
 
 
 def test_a_named_file_is_judged_and_a_named_folder_is_searched(project: Path) -> None:
@@ -148,32 +150,54 @@ def test_a_folder_of_which_all_is_ignored_says_so(project: Path) -> None:
     assert "name other files (skipped: 2 paths that .gitignore or .ignore lists)" in done.stdout
 
 
-@needs_git
+NAMES = ["a", "b", "ab", "*", "?", "**", "[ab]", "[!a]", "a*", "*b", "a.*", "?.*"]
+
+
+def random_tree(root: Path, pick: random.Random, ignore_files: tuple[str, ...]) -> list[str]:
+    """Writes `a`, `b`, and `ab`, each as an input and as a Python file, to random folders with random ignore files; returns the folders."""
+    folders = ["/".join(pick.choices(["a", "b", "ab"], k=pick.randint(0, 4))) for _ in range(10)]
+    for folder in folders:
+        (root / folder).mkdir(parents=True, exist_ok=True)
+        for name in ("a", "b", "ab"):
+            (root / folder / f"{name}.msaa.yaml").write_text("images: {}\n")
+            (root / folder / f"{name}.py").write_text("")
+    for name in ignore_files:
+        for folder in pick.sample(folders, 2):
+            globs = ["/".join(pick.choices(NAMES, k=pick.randint(1, 2))) for _ in range(4)]
+            lines = [pick.choice(["", "", "!"]) + pick.choice(["", "", "/"]) + glob + pick.choice(["", "/"]) for glob in globs]
+            (root / folder / name).write_text("\n".join(lines) + "\n")
+    return folders
+
+
+@pytest.mark.skipif(shutil.which("git") is None, reason="git is the reference, and is not here")
 def test_the_files_of_random_trees_are_those_that_git_lists(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pick = random.Random(11)
-    names = ["a", "b", "ab", "*", "?", "**", "[ab]", "[!a]", "a*", "*b", "a.msaa.yaml", "*.yaml", "?.msaa.*"]
     for number in range(25):
         root = tmp_path / str(number)
-        folders = ["/".join(pick.choices(["a", "b", "ab"], k=pick.randint(0, 4))) for _ in range(12)]
-        for folder in folders:
-            (root / folder).mkdir(parents=True, exist_ok=True)
-            for name in ("a", "b", "ab"):
-                (root / folder / f"{name}.msaa.yaml").write_text("images: {}\n")
+        random_tree(root, pick, (".gitignore", ".gitignore"))
         subprocess.run(["git", "init", "-q", str(root)], check=True)
-        for folder in pick.sample(folders, 3):
-            lines = [
-                pick.choice(["", "", "!"])
-                + pick.choice(["", "", "/"])
-                + "/".join(pick.choices(names, k=pick.randint(1, 2)))
-                + pick.choice(["", "/"])
-                for _ in range(4)
-            ]
-            (root / folder / ".gitignore").write_text("\n".join(lines) + "\n")
         (root / ".git/info/exclude").write_text("ab.msaa.yaml\n")
         command = ["git", "-C", str(root), "-c", "core.excludesFile=", "ls-files", "--others", "--exclude-standard"]
         listed = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
         monkeypatch.chdir(root)
         assert set(files()) == {name for name in listed if name.endswith(".msaa.yaml")}, root
+
+
+@pytest.mark.skipif(find_spec("ruff") is None, reason="ruff is the reference, and is not here")
+def test_the_files_of_random_trees_are_those_that_ruff_lints(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pick = random.Random(5)
+    for number in range(20):
+        root = tmp_path / str(number)
+        folders = random_tree(root, pick, (".gitignore", ".ignore"))
+        for repository in ([root] if number % 3 else []) + ([root / folders[2]] if number % 5 == 0 else []):
+            (repository / ".git/info").mkdir(parents=True, exist_ok=True)
+            (repository / ".git/info/exclude").write_text("/a/ab.*\n")
+        monkeypatch.chdir(root)
+        for top in (".", folders[0] or "."):
+            command = [sys.executable, "-m", "ruff", "check", "--isolated", "--show-files", top]
+            shown = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
+            linted = {os.path.relpath(line, root).removesuffix(".py") for line in shown if line.endswith(".py")}
+            assert {name.removesuffix(".msaa.yaml") for name in files(top)} == linted, (root, top)
 
 
 def test_time_grows_with_the_number_of_files_and_not_its_square(project: Path) -> None:
