@@ -35,17 +35,17 @@ def jobs(workflow: Path) -> list[dict[str, Any]]:
 
 def test_inputs_and_outputs_are_described() -> None:
     assert ACTION["runs"]["using"] == "composite"
-    for each in (*ACTION["inputs"].values(), *ACTION["outputs"].values()):
-        assert each["description"].endswith(".")
+    for entry in (*ACTION["inputs"].values(), *ACTION["outputs"].values()):
+        assert entry["description"].endswith(".")
     names = {"paths", "config", "fail-on", "source", "args", "annotations", "upload-sarif", "category", "version"}
     assert set(ACTION["inputs"]) == names
-    assert all(isinstance(each["default"], str) for each in ACTION["inputs"].values())
+    assert all(isinstance(entry["default"], str) for entry in ACTION["inputs"].values())
     page = (ROOT / "docs" / "ci.md").read_text(encoding="utf-8")
-    for name, each in ACTION["inputs"].items():
-        default = f"`{each['default']}`" if each["default"] else ""
-        assert f"\n| `{name}` | {default} | {each['description']} |\n" in page
-    for name, each in ACTION["outputs"].items():
-        assert f"\n| `{name}` | {each['description']} |\n" in page
+    for name, entry in ACTION["inputs"].items():
+        default = f"`{entry['default']}`" if entry["default"] else ""
+        assert f"\n| `{name}` | {default} | {entry['description']} |\n" in page
+    for name, entry in ACTION["outputs"].items():
+        assert f"\n| `{name}` | {entry['description']} |\n" in page
 
 
 @pytest.mark.parametrize("steps", [STEPS, *map(jobs, WORKFLOWS)], ids=["action.yml", *(path.name for path in WORKFLOWS)])
@@ -102,7 +102,7 @@ def test_composite_steps_name_their_shell() -> None:
 
 
 def step(name: str) -> dict[str, Any]:
-    return next(each for each in STEPS if each["name"] == name)
+    return next(entry for entry in STEPS if entry["name"] == name)
 
 
 PYTHON = """\
@@ -112,7 +112,7 @@ if sys.argv[1:4] == ["-I", "-m", "venv"]:
     os.symlink(__file__, sys.argv[4] + "/bin/python")
     os.symlink(os.environ["LINTER"], sys.argv[4] + "/bin/msaa-lint")
 elif sys.argv[1:4] == ["-I", "-m", "pip"]:
-    json.dump(sys.argv[4:], open(os.environ["GIVEN"], "w"))
+    json.dump(sys.argv[4:], open(os.environ["RECORD"], "w"))
     sys.exit(int(os.environ["PIP_CODE"]))
 else:
     os.execv(sys.executable, [sys.executable, *sys.argv[1:]])
@@ -121,7 +121,7 @@ else:
 
 LINTER = """\
 import json, os, sys
-json.dump(sys.argv[1:], open(os.environ["GIVEN"], "w"))
+json.dump(sys.argv[1:], open(os.environ["RECORD"], "w"))
 for word in sys.argv:
     if word.startswith("sarif="):
         open(word[6:], "w").write(os.environ["SARIF_TEXT"])
@@ -143,51 +143,53 @@ class Job:
     def __init__(self, folder: Path, linter: str = LINTER) -> None:
         self.workspace = folder / "work space"
         self.temp = folder / "temp"
-        self.given = folder / "given"
-        for made in (self.workspace, self.temp):
-            made.mkdir()
+        self.record = folder / "record"
+        for path in (self.workspace, self.temp):
+            path.mkdir()
         self.tools = {"PYTHON": folder / "python", "LINTER": folder / "linter"}
         for name, text in (("PYTHON", PYTHON), ("LINTER", linter)):
             self.tools[name].write_text(f"#!{sys.executable}\n{text}")
             self.tools[name].chmod(0o755)
-        self.environment = {"GIVEN": str(self.given), "LINTER_CODE": "0", "SARIF_TEXT": "{}", "PIP_CODE": "0"}
+        self.environment = {"RECORD": str(self.record), "LINTER_CODE": "0", "SARIF_TEXT": "{}", "PIP_CODE": "0"}
         self.action = "/the action/at its ref"
         self.printed = ""
 
     def use(self, upload: str = "success", **inputs: str) -> Use:
         """Runs the steps whose conditions hold, as a runner does. `upload` is the outcome of the upload."""
-        values = {key: each["default"] for key, each in ACTION["inputs"].items()} | {key.replace("_", "-"): v for key, v in inputs.items()}
+        values = {key: entry["default"] for key, entry in ACTION["inputs"].items()} | {
+            key.replace("_", "-"): v for key, v in inputs.items()
+        }
         contexts = {f"inputs.{key}": value for key, value in values.items()}
         contexts["steps.python.outputs.python-path"] = str(self.tools["PYTHON"])
         use = Use({})
-        for each in STEPS:
-            if not holds(each.get("if", "success()"), contexts, use.failed):
+        for entry in STEPS:
+            if not holds(entry.get("if", "success()"), contexts, use.failed):
                 continue
-            use.ran.append(each["name"])
-            if "uses" in each:
-                uploads = each.get("id") == "upload"
-                use.uploaded = {key: filled(value, contexts) for key, value in each["with"].items()} if uploads else use.uploaded
+            use.steps.append(entry["name"])
+            if "uses" in entry:
+                uploads = entry.get("id") == "upload"
+                use.upload = {key: fill(value, contexts) for key, value in entry["with"].items()} if uploads else use.upload
                 code, outputs = int(uploads and upload == "failure"), {}
             else:
-                code, outputs = self.run(each, contexts)
-                use.given[each["name"]] = json.loads(self.given.read_text()) if self.given.exists() else []
-                self.given.unlink(missing_ok=True)
-            contexts |= {f"steps.{each.get('id')}.outputs.{key}": value for key, value in outputs.items()}
-            contexts[f"steps.{each.get('id')}.outcome"] = "failure" if code else "success"
-            use.failed |= bool(code) and not each.get("continue-on-error")
-        use.outputs = {key: filled(each["value"], contexts) for key, each in ACTION["outputs"].items()}
+                code, outputs = self.run(entry, contexts)
+                use.arguments[entry["name"]] = json.loads(self.record.read_text()) if self.record.exists() else []
+                self.record.unlink(missing_ok=True)
+            contexts |= {f"steps.{entry.get('id')}.outputs.{key}": value for key, value in outputs.items()}
+            contexts[f"steps.{entry.get('id')}.outcome"] = "failure" if code else "success"
+            use.failed |= bool(code) and not entry.get("continue-on-error")
+        use.outputs = {key: fill(entry["value"], contexts) for key, entry in ACTION["outputs"].items()}
         return use
 
-    def run(self, each: dict[str, Any], contexts: dict[str, str]) -> tuple[int, dict[str, str]]:
+    def run(self, entry: dict[str, Any], contexts: dict[str, str]) -> tuple[int, dict[str, str]]:
         output = self.temp / "output"
         output.write_text("")
         kept = {name: value for name, value in os.environ.items() if name in ("PATH", "HOME") or name.startswith("PIP_")}
         environment = {
-            **kept, **self.environment, **{key: filled(value, contexts) for key, value in each.get("env", {}).items()},
+            **kept, **self.environment, **{key: fill(value, contexts) for key, value in entry.get("env", {}).items()},
             "LINTER": str(self.tools["LINTER"]), "RUNNER_TEMP": str(self.temp), "GITHUB_OUTPUT": str(output),
             "GITHUB_ACTION_PATH": self.action, "GITHUB_WORKSPACE": str(self.workspace),
         }  # fmt: skip
-        command = ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", each["run"]]
+        command = ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", entry["run"]]
         done = subprocess.run(
             command, cwd=self.workspace, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
         )
@@ -199,14 +201,14 @@ class Job:
 class Use:
     """What came of a use: the steps that ran, what pip and msaa-lint were given, what was uploaded, and how it ended."""
 
-    given: dict[str, list[str]]
-    ran: list[str] = field(default_factory=list)
-    uploaded: dict[str, str] = field(default_factory=dict)
+    arguments: dict[str, list[str]]
+    steps: list[str] = field(default_factory=list)
+    upload: dict[str, str] = field(default_factory=dict)
     outputs: dict[str, str] = field(default_factory=dict)
     failed: bool = False
 
 
-def filled(text: str, contexts: dict[str, str]) -> str:
+def fill(text: str, contexts: dict[str, str]) -> str:
     return re.sub(r"\$\{\{ ([\w.-]+) \}\}", lambda match: contexts.get(match[1], ""), text)
 
 
@@ -228,10 +230,10 @@ def test_lints_the_current_folder_by_default(job: Job) -> None:
     use = job.use()
     sarif = use.outputs["sarif"]
     assert Path(sarif).parent.parent == job.temp
-    assert use.given["Lint"] == ["check", "--output", "github", "--output", f"sarif={sarif}", "--", "."]
+    assert use.arguments["Lint"] == ["check", "--output", "github", "--output", f"sarif={sarif}", "--", "."]
     assert use.outputs == {"exit-code": "0", "sarif": sarif}
-    assert use.uploaded == {"sarif_file": sarif, "category": "msaa-lint"}
-    assert use.ran == ["Set up Python", "Install msaa-lint", "Lint", "Upload to code scanning"]
+    assert use.upload == {"sarif_file": sarif, "category": "msaa-lint"}
+    assert use.steps == ["Set up Python", "Install msaa-lint", "Lint", "Upload to code scanning"]
     assert not use.failed and not job.printed
 
 
@@ -245,12 +247,12 @@ def test_passes_on_what_the_inputs_say(job: Job) -> None:
         annotations="false",
         upload_sarif="false",
     )
-    assert use.given["Lint"] == [
+    assert use.arguments["Lint"] == [
         "check", "--output", "full", "--config=ci/msaa lint.toml", "--fail-on=error", "--select", "MSAA2", "--profile", "my device.json",
         "--exclude", "*.yaml", "--baseline", "ci\\known.json", "--", "renderer/a folder", "*.yaml",
     ]  # fmt: skip
     assert use.outputs == {"exit-code": "0", "sarif": ""}
-    assert "Upload to code scanning" not in use.ran
+    assert "Upload to code scanning" not in use.steps
 
 
 HOSTILE = "$(touch owned) `touch owned`; touch owned; \\\"; touch owned; ' * ${PATH} \\"
@@ -262,7 +264,7 @@ def test_inputs_are_words_and_no_code(job: Job, name: str) -> None:
     hostile = HOSTILE + "'" + '"' if name == "args" else HOSTILE
     use = job.use(**{name: hostile})
     assert not list(job.workspace.iterdir())
-    lint = use.given["Lint"]
+    lint = use.arguments["Lint"]
     whole = {"paths": HOSTILE, "config": f"--config={HOSTILE}", "fail_on": f"--fail-on={HOSTILE}"}
     if name in whole:
         assert whole[name] in lint
@@ -270,9 +272,9 @@ def test_inputs_are_words_and_no_code(job: Job, name: str) -> None:
         assert lint[lint.index("`touch") :][:3] == ["`touch", "owned`;", "touch"]
         assert "\\; touch owned; ' * ${PATH} \\'" in lint
     elif name == "version":
-        assert use.given["Install msaa-lint"][-1] == f"msaa-lint=={HOSTILE}"
+        assert use.arguments["Install msaa-lint"][-1] == f"msaa-lint=={HOSTILE}"
     elif name == "category":
-        assert use.uploaded["category"] == HOSTILE
+        assert use.upload["category"] == HOSTILE
 
 
 @needs_bash
@@ -288,12 +290,12 @@ def test_a_quotation_mark_without_its_counterpart_is_an_error(job: Job) -> None:
     use = job.use(args="--config 'ci/msaa lint.toml")
     assert use.failed and use.outputs == {"exit-code": "2", "sarif": ""}
     assert job.printed == "::error title=msaa-lint::the input `args` has a quotation mark without its counterpart\n"
-    assert use.given["Lint"] == []
+    assert use.arguments["Lint"] == []
 
 
 @needs_bash
 def test_a_path_is_no_option(job: Job) -> None:
-    assert job.use(paths="--exit-zero\n-").given["Lint"][-3:] == ["--", "--exit-zero", "-"]
+    assert job.use(paths="--exit-zero\n-").arguments["Lint"][-3:] == ["--", "--exit-zero", "-"]
 
 
 @needs_bash
@@ -302,7 +304,7 @@ def test_ends_as_the_linter_ends_and_still_uploads(job: Job, code: int) -> None:
     job.environment["LINTER_CODE"] = str(code)
     use = job.use(category="frames")
     assert use.failed and use.outputs["exit-code"] == str(code)
-    assert use.uploaded == {"sarif_file": use.outputs["sarif"], "category": "frames"}
+    assert use.upload == {"sarif_file": use.outputs["sarif"], "category": "frames"}
 
 
 @needs_bash
@@ -310,12 +312,12 @@ def test_a_second_use_never_uploads_what_the_first_wrote(job: Job) -> None:
     first = job.use()
     job.environment |= {"LINTER_CODE": "2", "SARIF_TEXT": ""}
     second = job.use()
-    assert first.uploaded and Path(first.outputs["sarif"]).exists()
+    assert first.upload and Path(first.outputs["sarif"]).exists()
     assert second.failed and second.outputs == {"exit-code": "2", "sarif": ""}
-    assert not second.uploaded
+    assert not second.upload
     job.environment |= {"PIP_CODE": "1"}
     third = job.use()
-    assert third.ran == ["Set up Python", "Install msaa-lint"]
+    assert third.steps == ["Set up Python", "Install msaa-lint"]
     assert third.failed and third.outputs == {"exit-code": "", "sarif": ""}
     job.environment |= {"LINTER_CODE": "0", "SARIF_TEXT": "{}", "PIP_CODE": "0"}
     assert job.use().outputs["sarif"] not in ("", first.outputs["sarif"])
@@ -327,7 +329,7 @@ def test_a_failed_upload_is_a_notice_and_changes_no_exit_code(job: Job, code: in
     job.environment["LINTER_CODE"] = str(code)
     use = job.use(upload="failure")
     assert use.failed is bool(code)
-    assert use.ran[-1] == "Report a failed upload"
+    assert use.steps[-1] == "Report a failed upload"
     assert re.fullmatch("::notice title=msaa-lint::The findings were not uploaded to code scanning: [^\n]*\n", job.printed)
 
 
@@ -342,9 +344,9 @@ def test_a_failed_upload_is_a_notice_and_changes_no_exit_code(job: Job, code: in
     ],
 )
 def test_installs_its_own_ref_or_a_release(job: Job, version: str, source: str, wanted: str) -> None:
-    given = job.use(version=version, source=source).given["Install msaa-lint"]
-    assert given[0] == "install"
-    assert given[-1] == wanted
+    arguments = job.use(version=version, source=source).arguments["Install msaa-lint"]
+    assert arguments[0] == "install"
+    assert arguments[-1] == wanted
 
 
 @needs_bash
@@ -359,7 +361,7 @@ def test_with_msaa_lint_itself(tmp_path: Path) -> None:
     use = job.use(paths="a folder\n--good.msaa.yaml", args="--ignore MSAA1 --ignore 'MSAA4'")
     assert use.failed and use.outputs["exit-code"] == "1"
     (run,) = json.loads(Path(use.outputs["sarif"]).read_text())["runs"]
-    places = [each["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] for each in run["results"]]
+    places = [result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] for result in run["results"]]
     assert set(places) == {"a%20folder/-bad.msaa.yaml"}
     assert "::warning file=a folder/-bad.msaa.yaml,line=" in job.printed
     clean = job.use(paths="--good.msaa.yaml")
@@ -384,6 +386,6 @@ def test_with_python_and_pip_themselves(tmp_path: Path) -> None:
     (job.workspace / "bad.msaa.yaml").write_text(BAD)
     (job.workspace / "pip.py").write_text("raise SystemExit('of the workspace')\n")
     use = job.use(paths="bad.msaa.yaml", source="true", config="")
-    assert use.ran[-1] == "Upload to code scanning", job.printed
+    assert use.steps[-1] == "Upload to code scanning", job.printed
     assert use.failed and use.outputs["exit-code"] == "1"
-    assert json.loads(Path(use.uploaded["sarif_file"]).read_text())["runs"][0]["results"]
+    assert json.loads(Path(use.upload["sarif_file"]).read_text())["runs"][0]["results"]
