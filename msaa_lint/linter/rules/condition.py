@@ -166,6 +166,8 @@ def _condition_error(error: RuntimeError, text: str, subject: str | None) -> Con
     if word is None or not word[0].startswith(name):
         start, word = offset, re.match(r"[a-z_A-Z0-9.]+", text[offset:])
     spelled = word[0] if word is not None and word[0].startswith(name) else name
+    if text.startswith("(", start + len(spelled)):
+        return ConditionError(f"unknown function {spelled}", start, len(spelled))
     return ConditionError(unknown_fact(spelled, subject), start, len(spelled))
 
 
@@ -199,6 +201,8 @@ def _plain_error(message: str, text: str, offset: int) -> ConditionError:
     token = word[1] if word is not None else ""
     if not token:
         return ConditionError("the condition is incomplete")
+    if token[0] in "\"'":
+        return ConditionError("the quote of a text is not closed", offset + text[offset:].index(token))
     hint = f": write `{_OPERATORS[token]}`" if token in _OPERATORS else ""
     start = offset + text[offset:].index(token)
     return ConditionError(f"unexpected `{token}` in the condition{hint}", start, len(token))

@@ -74,7 +74,9 @@ def check_rule(rule: Rule) -> list[Finding]:
 def _braces(prose: str, subject: str, facts: Collection[str]) -> Iterator[tuple[str, str, int]]:
     """The mistakes in the braces of a text: the message, the wrong text, and its offset."""
     for match in _BRACES.finditer(prose):
-        if not match[2]:
+        if prose.startswith("{{", match.start()):
+            yield "write one brace, not two, around a fact", "{{", match.start()
+        elif not match[2]:
             word = match[1].split(" ", 1)[0]
             yield f"{quoted('{' + word)} has no closing brace", "{" + word, match.start()
         elif not match[1].strip():

@@ -241,7 +241,7 @@ def _format(value: object) -> str:
 
 def _if_begun(found: Finding) -> Finding:
     """A finding about what a pass does, if the input does not state that a command begins it."""
-    note = "the input does not state whether a command begins this render pass, or pipelines are only created with it"
+    note = "the input does not state whether a command begins this render pass, or it only serves to create pipelines"
     return found._replace(confidence=CONFIDENCES[0], notes=(*found.notes, note))
 
 
