@@ -32,9 +32,11 @@ class Glob(NamedTuple):
 
 
 class Compiled(NamedTuple):
-    """`exact` matches a path itself, `below` also everything in it. The path of a folder must end in a slash."""
+    """`exact` matches a path itself, `below` also everything in it. The path of a folder must end in a slash. A glob that is not `anchored`
+    matches the last name of a path, whatever folder it is in."""
 
     negated: bool
+    anchored: bool
     exact: re.Pattern[str]
     below: re.Pattern[str]
 
@@ -72,7 +74,7 @@ def compiled(pattern: str) -> Compiled:
         out += "(?:[^/]+/)*?" + "/".join(runs[-1])
     below, exact = ("/", r"/\Z") if folder else (r"(?:/|\Z)", r"/?\Z")
     whole = out.removesuffix(_NAME) + ".+" if all_within else out
-    return Compiled(negated, re.compile(whole + exact, re.DOTALL), re.compile(out + below, re.DOTALL))
+    return Compiled(negated, anchored, re.compile(whole + exact, re.DOTALL), re.compile(out + below, re.DOTALL))
 
 
 def _name(part: str) -> str:

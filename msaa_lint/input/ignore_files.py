@@ -24,17 +24,29 @@ _LIMITS = Limits(bytes=1 << 20)
 _REPOSITORIES = (".git", ".jj")
 
 
+class Patterns(NamedTuple):
+    """Patterns as one expression with a group each, and the line of each, negative for a negated one; the last line comes first."""
+
+    expression: re.Pattern[str]
+    lines: tuple[int, ...]
+
+    def line(self, path: str, start: int) -> int:
+        """The last line whose pattern matches a path from an offset on, negative if it is negated; 0 if none does."""
+        match = self.expression.match(path, start)
+        return 0 if match is None or match.lastindex is None else self.lines[match.lastindex - 1]
+
+
 class Rules(NamedTuple):
-    """The patterns of a file, the last one first, each a group of `pattern`; and which of them are negated. `root` ends in a slash."""
+    """The patterns of a file: those that match names in any folder, and those of paths. `root` is the file's folder with a slash."""
 
     root: str
-    pattern: re.Pattern[str]
-    negated: tuple[bool, ...]
+    names: Patterns
+    paths: Patterns
 
     def ignores(self, path: str) -> bool | None:
         """Whether the file ignores an absolute path below its folder; None if no pattern matches. The path of a folder ends in a slash."""
-        match = self.pattern.match(path, len(self.root))
-        return None if match is None or match.lastindex is None else not self.negated[match.lastindex - 1]
+        line = max(self.names.line(path, path.rfind("/", 0, -1) + 1), self.paths.line(path, len(self.root)), key=abs)
+        return line > 0 if line else None
 
 
 class IgnoreFiles(NamedTuple):
@@ -86,19 +98,26 @@ def _rules(path: str, folder: str) -> tuple[Rules, ...]:
         data = read(path, _LIMITS)
     except (OSError, Unreadable):
         return ()
-    groups, negated = [], []
-    for line in reversed(os.fsdecode(data.removeprefix(b"\xef\xbb\xbf")).split("\n")[:MAX_PATTERNS]):
-        pattern = _pattern(line)
+    lines: dict[bool, list[tuple[int, str]]] = {False: [], True: []}
+    for number, text in enumerate(os.fsdecode(data.removeprefix(b"\xef\xbb\xbf")).split("\n")[:MAX_PATTERNS], 1):
+        pattern = _pattern(text)
         try:
             glob = compiled(pattern) if pattern else None
         except ValueError:
             continue  # Git ignores nothing by it either.
         if glob is not None:
-            groups.append(f"({glob.exact.pattern})")
-            negated.append(glob.negated)
+            lines[glob.anchored].append((-number if glob.negated else number, glob.exact.pattern))
+    if not lines[False] and not lines[True]:
+        return ()
     root = os.path.abspath(folder).replace(os.sep, "/")
-    root = root if root.endswith("/") else root + "/"
-    return (Rules(root, re.compile("|".join(groups), re.DOTALL), tuple(negated)),) if groups else ()
+    return (Rules(root if root.endswith("/") else root + "/", _patterns(lines[False]), _patterns(lines[True])),)
+
+
+def _patterns(lines: list[tuple[int, str]]) -> Patterns:
+    lines = lines[::-1]
+    # Without patterns, an expression that matches nothing.
+    expression = "|".join(f"({pattern})" for _, pattern in lines) or r"(?!)"
+    return Patterns(re.compile(expression, re.DOTALL), tuple(line for line, _ in lines))
 
 
 def _pattern(line: str) -> str:
