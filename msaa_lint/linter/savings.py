@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -16,6 +17,9 @@ from .results import FileResult
 
 _DECIMALS = 6
 """Smaller differences are rounding errors: a MB has 10^6 bytes."""
+
+
+_INDEX = re.compile(r"documents\[[0-9]+\]\.|\[[0-9]+\]")
 
 
 class Trials(NamedTuple):
@@ -40,12 +44,14 @@ def _is_unsafe(finding: Finding) -> bool:
 def savings(result: FileResult, trials: Trials, prices: bool, converted: bool = False) -> Savings:
     """What the fixes of a text save; without `prices`, only how many findings they remove."""
     before = total(result) if prices else None
-    safe = _saving(trials.safe, before)
-    return Savings(safe, safe if trials.all is trials.safe else _saving(trials.all, before), converted)
+    safe = _saving(trials.safe, before, converted)
+    return Savings(safe, safe if trials.all is trials.safe else _saving(trials.all, before, converted), converted)
 
 
-def _saving(fixes: FixResult, before: InputTotal | None) -> Saving:
-    count = len(fixes.fixed_findings)
+def _saving(fixes: FixResult, before: InputTotal | None, converted: bool) -> Saving:
+    findings = fixes.fixed_findings
+    # A capture's kinds of frame share findings, and so do the parts of a program.
+    count = len({(finding.code, finding.message, _INDEX.sub("", finding.subject)) for finding in findings} if converted else findings)
     return Saving(count, difference(before, total(fixes.result)) if before is not None and count else None)
 
 

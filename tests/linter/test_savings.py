@@ -104,6 +104,7 @@ def assert_law(folder: Path, texts: Mapping[str, str]) -> dict[str, Savings]:
         before = costs(folder)
         run(folder, "check", "--isolated", *options, ".")
         entries = {name: entry.all if "--unsafe-fixes" in options else entry.safe for name, entry in savings.items()}
+        assert all(entry.safe.findings <= entry.all.findings for entry in savings.values()), savings
         assert_saved(before, costs(folder), {name: entry.price for name, entry in entries.items()})
     return savings
 
@@ -143,3 +144,46 @@ def test_law_on_what_is_converted(name: str, tmp_path: Path) -> None:
         before = costs(tmp_path)
         run(tmp_path, "check", "--isolated", *options, target.name)
         assert_saved(before, costs(tmp_path), {target.name: saving.price})
+
+
+KIND = """
+frame: {{width: 1000, height: 1000, share: {share}}}
+images: {{ms: {{format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT]}}, out: {{format: R8G8B8A8_UNORM, samples: 1}}}}
+renderPasses:
+  main:
+    attachments: {{color: {{image: ms, loadOp: CLEAR, storeOp: STORE}}, out: {{image: out, loadOp: DONT_CARE, storeOp: STORE}}}}
+    subpasses: [{{colorAttachments: [color], resolveAttachments: [out]}}]
+"""
+
+
+def test_kinds_of_frame_are_weighted_by_how_often_they_occur(tmp_path: Path) -> None:
+    """4 + 16 MB are stored per frame; the two kinds are all of the frames, and their images are the same."""
+    (tmp_path / "frame.msaa.yaml").write_text("---".join(KIND.format(share=share) for share in (0.75, 0.25)))
+
+    def total(*options: str) -> dict[str, Any]:
+        done = run(tmp_path, "cost", "--isolated", "--output", "json", "frame.msaa.yaml", *options)
+        return dict(json.loads(done.stdout)["total"])
+
+    assert total()["write_mb_per_s"] == pytest.approx(20 * 60)
+    assert total("--fps", "30")["write_mb_per_s"] == pytest.approx(20 * 30)
+    assert total()["memory_mib"] == pytest.approx(20e6 / 2**20)
+    (savings,) = lint((tmp_path / "frame.msaa.yaml").as_posix(), isolated=True).savings.values()
+    assert savings.all.price is not None
+    assert savings.all.price.write_mb_per_s == pytest.approx(16 * 60)
+
+
+@pytest.mark.parametrize("share", ["0", "1.5", "-0.1", "25", "true", "half"])
+def test_a_share_is_a_fraction(share: str, tmp_path: Path) -> None:
+    (tmp_path / "frame.msaa.yaml").write_text(KIND.format(share=share))
+    done = run(tmp_path, "check", "--isolated", "--output", "concise", "frame.msaa.yaml")
+    assert done.returncode == 2 and "`share` must be " in done.stdout, done.stdout
+
+
+@pytest.mark.parametrize(("limit", "code"), [("0.96GB/s", 1), ("1GB/s", 0)])
+def test_fail_on_cost_says_what_fixes_save(limit: str, code: int, tmp_path: Path) -> None:
+    (tmp_path / "frame.msaa.yaml").write_text(KIND.format(share=1))
+    done = run(
+        tmp_path, "check", "--isolated", "--fail-on", "error", "--fail-on-cost", limit, "--output", "concise", "--select", "MSAA201", "."
+    )
+    assert done.returncode == code
+    assert (f"frame.msaa.yaml: fixes save 960 MB/s, which reaches --fail-on-cost {limit}" in done.stderr) == (code == 1)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from msaa_lint.core.finding import Finding, Price, Result, rank
 
 from .escape import display
-from .summary import converted_saving, files_saving, is_choice, usable_price
+from .summary import converted_saving, files_saving, is_summed, usable_price
 
 UNITS = ("MB/s", "MiB", "mW")
 
@@ -15,7 +15,7 @@ UNITS = ("MB/s", "MiB", "mW")
 def table(result: Result) -> str:
     """The table, the most frequent rule first; empty if there is no finding. A rule has a line for each severity of its findings.
 
-    If findings have prices, more columns have their sums, without those of choices. The last lines have what `--fix` and
+    If findings have prices, more columns have their sums, without those of choices and of fixes that cannot be made. The last lines have what `--fix` and
     `--fix --unsafe-fixes` save, which is less than the sums if findings are about the same bytes, or if fixes cannot be made.
     """
     groups: dict[tuple[str, str, str], list[Finding]] = {}
@@ -26,7 +26,7 @@ def table(result: Result) -> str:
     rows = sorted(groups.items(), key=lambda item: (-len(item[1]), -rank(item[0][2]), item[0]))
     cells = [["count", "code", "rule", "severity", *UNITS]]
     for (code, rule, severity), findings in rows:
-        prices = [price for price in (usable_price(found) for found in findings if not is_choice(found)) if price is not None]
+        prices = [price for price in (usable_price(found) for found in findings if is_summed(found)) if price is not None]
         cells.append([str(len(findings)), code, rule, severity, *(_figures(prices) if prices else [""] * len(UNITS))])
     for savings, words in ((files_saving(result), "saved by "), (converted_saving(result), "converted, by ")):
         for saving, option in ((savings.safe, "--fix"), (savings.all, "--unsafe-fixes")):

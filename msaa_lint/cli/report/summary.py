@@ -173,6 +173,11 @@ def is_choice(finding: Finding) -> bool:
     return finding.fix is not None and finding.fix.choice
 
 
+def is_summed(finding: Finding) -> bool:
+    """Whether the price of a finding counts: that of a choice, or of a fix that cannot be made, is nobody's saving."""
+    return finding.fix is not None and not finding.fix.choice and not finding.fix.refusal
+
+
 def figures_of(price: Price | None) -> list[tuple[float, str]]:
     """The nonzero figures of a price, with their units."""
     if price is None:

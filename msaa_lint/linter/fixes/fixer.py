@@ -182,7 +182,10 @@ def _leaving_an_entry(plans: Iterable[tuple[Finding, tuple[Change, ...]]]) -> li
 
 
 def _join(fixes: Sequence[_Fix]) -> list[_Fix]:
-    """Joins fixes that have edits in common, at the position of the first."""
+    """Joins fixes that have edits in common, at the position of the first.
+
+    A fix with edits that overlap others of its group stays apart: it is made after them, or in their place.
+    """
     parents = list(range(len(fixes)))
 
     def root(n: int) -> int:
@@ -198,10 +201,21 @@ def _join(fixes: Sequence[_Fix]) -> list[_Fix]:
     groups: dict[int, list[_Fix]] = {}
     for n, fix in enumerate(fixes):
         groups.setdefault(root(n), []).append(fix)
-    return [
-        _Fix(tuple(finding for fix in group for finding in fix.findings), tuple(sorted({edit for fix in group for edit in fix.edits})))
-        for group in groups.values()
-    ]
+    joined: list[_Fix] = []
+    apart: list[_Fix] = []
+    for group in groups.values():
+        findings, edits, known = list[Finding](), list[Edit](), set[Edit]()
+        for fix in group:
+            new = [edit for edit in fix.edits if edit not in known]
+            if any(_overlaps(edit, edits) for edit in new):
+                apart.append(fix)
+                continue
+            findings += fix.findings
+            known.update(new)
+            for edit in new:
+                insort(edits, edit)
+        joined.append(_Fix(tuple(findings), tuple(edits)))
+    return joined + apart
 
 
 def _without_overlaps(fixes: Iterable[_Fix]) -> list[_Fix]:

@@ -10,6 +10,7 @@ import re
 from collections.abc import Sequence
 from itertools import pairwise
 
+from msaa_lint.core.text.edits import apply
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Edit, Span
 
@@ -48,14 +49,17 @@ class CollectionEditor:
             after = len(self.items) - 1
         return self._insert_in_flow(entries, after) if self.flow else self._insert_in_block(entries, after)
 
-    def remove(self, indices: Sequence[int]) -> list[Edit]:
-        """Removes some of the entries."""
+    def remove(self, indices: Sequence[int], replacements: Sequence[Edit] = ()) -> list[Edit]:
+        """Removes some of the entries, and makes the replacements in others."""
         self._check_keys()
         if len(indices) == len(self.items):
             raise NoFix("no entry would remain")
         if self.flow and len(indices) > 1:
-            return self._keep([n for n in range(len(self.items)) if n not in indices])
-        return [edit for n in indices for edit in (self._remove_from_flow(n) if self.flow else self._remove_from_block(n))]
+            return self._keep([n for n in range(len(self.items)) if n not in indices], replacements)
+        return [
+            *replacements,
+            *(edit for n in indices for edit in (self._remove_from_flow(n) if self.flow else self._remove_from_block(n))),
+        ]
 
     def remove_only_item(self, colon: int) -> list[Edit]:
         """Removes the only item of a sequence that is the value of a key whose `:` ends at `colon`. `[]` remains."""
@@ -124,15 +128,15 @@ class CollectionEditor:
         opening = _LINE_OPENING.match(self.text.text, start)
         return at - start if opening is not None and opening.end() >= at else None
 
-    def _keep(self, indices: Sequence[int]) -> list[Edit]:
-        """Rewrites the collection with the items at the indices, each with the text before it."""
+    def _keep(self, indices: Sequence[int], replacements: Sequence[Edit]) -> list[Edit]:
+        """Rewrites the collection with the items at the indices, each with the text before it, and with replacements in them."""
         items, text = self.items, self.text.text
         whole = Span(items[0].start, items[-1].end)
         if self.node.kind == "mapping" or self.text.comments_in(*whole):
             raise NoFix("comments or merge keys may stand between the entries")
         first, *others = indices
-        texts = [text[slice(*items[first])], *(text[items[n - 1].end : items[n].end] for n in others)]
-        return [Edit(whole, "".join(texts))]
+        spans = [Span(*items[first]), *(Span(items[n - 1].end, items[n].end) for n in others)]
+        return [Edit(whole, "".join(_replaced(text, span, replacements) for span in spans))]
 
     def _remove_from_flow(self, index: int) -> list[Edit]:
         text, items = self.text, self.items
@@ -182,3 +186,9 @@ class CollectionEditor:
 
 def _insertion(at: int, text: str) -> Edit:
     return Edit(Span(at, at), text)
+
+
+def _replaced(text: str, span: Span, replacements: Sequence[Edit]) -> str:
+    """A part of a text with the replacements in it made."""
+    inside = [edit for edit in replacements if span.start <= edit.span.start and edit.span.end <= span.end]
+    return apply(text[slice(*span)], [Edit(Span(*(place - span.start for place in edit.span)), edit.text) for edit in inside])

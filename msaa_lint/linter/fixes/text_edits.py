@@ -177,7 +177,7 @@ class TextEditor:
                 raise NoFix("no entry would remain")
             return collection.remove_only_item(colon)
         if surplus:
-            edits += collection.remove(surplus)
+            return collection.remove(surplus, edits)
         elif missing:
             model = node.value[0].text if node.value and node.value[0].kind == "scalar" else ""
             quote = self._writer.item_quote(node)

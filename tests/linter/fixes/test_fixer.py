@@ -10,6 +10,7 @@ from msaa_lint.core.finding import Finding, Fix
 from msaa_lint.core.text.span import Edit, Span
 from msaa_lint.linter.fixes.fixer import MAX_TRIALS, _Fix, _join, _without_overlaps
 from tests.linter.fixes.linting import fix_findings, lint, rules
+from tests.paths import ROOT
 
 STORED = """\
 images:
@@ -202,3 +203,35 @@ def test_fix_that_a_failed_one_blocked_is_applied() -> None:
     assert done.text == "aB"
     assert rules(done.fixed_findings) == ["msaa2"]
     assert [(each.finding.code, each.reason) for each in done.failed_fixes] == [("MSAA1", "it would introduce msaa3: ")]
+
+
+def test_flags_that_a_fix_replaces_and_removes_in_one_list() -> None:
+    """TRANSIENT_ATTACHMENT takes the place of the first of three usages that it excludes."""
+    text = """\
+images:
+  ms: {format: R8G8B8A8_UNORM, samples: 4, usage: [TRANSFER_SRC, TRANSFER_DST, SAMPLED, COLOR_ATTACHMENT]}
+  out: {format: R8G8B8A8_UNORM, samples: 1, usage: [COLOR_ATTACHMENT], presentable: true}
+renderPasses:
+  main:
+    attachments:
+      color: {image: ms, loadOp: CLEAR, storeOp: STORE}
+      out: {image: out, loadOp: DONT_CARE, storeOp: STORE}
+    subpasses:
+      - {colorAttachments: [color], resolveAttachments: [out]}
+commands:
+  - beginRenderPass: {renderPass: main}
+  - endRenderPass
+  - present: {image: out}
+"""
+    done = fix_findings(text, unsafe=True)
+    assert [failed.reason for failed in done.failed_fixes] == []
+    assert "usage: [TRANSIENT_ATTACHMENT, COLOR_ATTACHMENT]" in done.text
+    assert "color: {image: ms, loadOp: CLEAR, storeOp: DONT_CARE}" in done.text
+
+
+def test_a_finding_may_move_with_a_fix() -> None:
+    """The resolve has the same problem before and after it becomes part of the pass: that is no reason to leave it outside."""
+    text = (ROOT / "examples/phone/frame.msaa.yaml").read_text(encoding="utf-8")
+    done = fix_findings(text, unsafe=True)
+    assert "resolveImage" not in done.text and "resolveAttachments: [scene]" in done.text
+    assert rules(done.result.findings) == ["framebuffer-readback", "hdr-resolved-before-tone-mapping"]
