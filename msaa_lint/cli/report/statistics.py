@@ -15,8 +15,8 @@ UNITS = ("MB/s", "MiB", "mW")
 def table(result: Result) -> str:
     """The table, the most frequent rule first; empty if there is no finding. A rule has a line for each severity of its findings.
 
-    If findings have prices, more columns have their sums, without those of choices and of fixes that cannot be made. The last lines have what `--fix` and
-    `--fix --unsafe-fixes` save, which is less than the sums if findings are about the same bytes, or if fixes cannot be made.
+    If findings have prices, more columns have their sums, without those of choices and of fixes that cannot be made. The last lines have
+    what `--fix` and `--fix --unsafe-fixes` save, which is less than the sums if findings are about the same bytes.
     """
     groups: dict[tuple[str, str, str], list[Finding]] = {}
     for finding in result.findings:
