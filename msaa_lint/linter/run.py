@@ -94,7 +94,8 @@ class _Run:
                 gc.collect()
         files = [self.request.input_name(path) for path in discovered.files]
         notes = [*discovered.notes, *self.notes, *self._stale_entries(files)]
-        order = {file: number for number, file in enumerate(files)}
+        # A broken rule page comes first: other findings of the configuration may be due to it.
+        order = {**{file: number for number, file in enumerate(files)}, **dict.fromkeys(self.workspace.broken_pages(), -2)}
         # Two configurations may name the same broken rule page.
         findings = [found for found in dict.fromkeys([*self.workspace.findings, *self.findings]) if self._is_shown(found)]
         findings.sort(key=lambda found: (order.get(found.file, -1), found.file))

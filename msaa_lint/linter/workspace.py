@@ -183,6 +183,10 @@ class Workspace:
             self._engines[paths] = Engine(registry)
         return self._engines[paths]
 
+    def broken_pages(self) -> list[str]:
+        """The files of the custom rules that cannot be used."""
+        return [page.page for engine in self._engines.values() for page in engine.registry.broken]
+
     def discover(self, sources: bool = False) -> Discovered:
         """The inputs that the request names; `sources` includes the source code in folders."""
         found = discover(self.request.paths, self.settings, sources, self.request.log)

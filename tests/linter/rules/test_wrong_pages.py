@@ -207,6 +207,15 @@ def test_several_mistakes_are_found_at_once_in_order(tmp_path: Path) -> None:
     assert [place for place, _ in problems(tmp_path, page)] == ["5:28-40", "6:13-22", "6:30-43"]
 
 
+def test_a_broken_page_is_the_first_finding(tmp_path: Path) -> None:
+    (tmp_path / "team").mkdir()
+    (tmp_path / "team" / "My_Rule.md").write_text(PAGE, encoding="utf-8")
+    (tmp_path / "msaa-lint.toml").write_text('rules = ["team"]\nignore = ["my-rule"]\n', encoding="utf-8")
+    (tmp_path / "frame.msaa.yaml").write_text("images: {a: {samples: 2}}\n", encoding="utf-8")
+    done = run(tmp_path, "check", "--output", "concise", ".")
+    assert [line.split(":")[0] for line in done.stdout.splitlines()[:3]] == ["team/My_Rule.md", "msaa-lint.toml", "frame.msaa.yaml"]
+
+
 @pytest.mark.parametrize(("code", "name"), [("MSAA105", "my-rule"), ("ACME001", "sample-count-not-portable")])
 def test_a_broken_page_does_not_stand_for_a_built_in_rule(tmp_path: Path, code: str, name: str) -> None:
     (tmp_path / f"{name}.md").write_text(PAGE.replace("ACME001", code), encoding="utf-8")
