@@ -49,16 +49,17 @@ def execute(folder: Path, script: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(["bash", "-ec", script], cwd=folder, env={**kept, **author}, capture_output=True, text=True, check=False)
 
 
-def test_the_first_command_prints_one_finding(clone: Path) -> None:
-    """In a terminal it prints the excerpt too, in a pipe one line per finding."""
-    (command,) = steps("README.md")
-    done = execute(clone, command)
+def test_the_installation(clone: Path) -> None:
+    """In a terminal the first command prints an excerpt too, in a pipe one line per finding."""
+    first, extras = steps("README.md")
+    done = execute(clone, first)
     assert done.returncode == 1, done.stdout + done.stderr
     assert "warning[resolve-outside-pass]" in done.stdout
-    shown = execute(clone, command.rpartition("&&")[2].strip() + " --output full").stdout.splitlines()
+    shown = execute(clone, first.rpartition("&&")[2].strip() + " --output full").stdout.splitlines()
     assert 10 < len(shown) < 24
-    everything = execute(clone, ".venv/bin/msaa-lint check examples")
-    assert everything.returncode == 1
+    assert execute(clone, ".venv/bin/msaa-lint check examples").returncode == 1
+    done = execute(clone, f"{extras}\ncd examples\nmsaa-lint study --list-scenes\nmsaa-lint check --fail-confidence high code/forward.cpp")
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_the_steps_of_a_release(clone: Path) -> None:
