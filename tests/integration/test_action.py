@@ -108,9 +108,10 @@ def step(name: str) -> dict[str, Any]:
 PYTHON = """\
 import json, os, sys
 if sys.argv[1:4] == ["-I", "-m", "venv"]:
-    os.makedirs(sys.argv[4] + "/bin")
-    os.symlink(__file__, sys.argv[4] + "/bin/python")
-    os.symlink(os.environ["LINTER"], sys.argv[4] + "/bin/msaa-lint")
+    folder = os.path.join(sys.argv[4], os.environ["PROGRAMS"])
+    os.makedirs(folder)
+    os.symlink(__file__, folder + "/python")
+    os.symlink(os.environ["LINTER"], folder + "/msaa-lint")
 elif sys.argv[1:4] == ["-I", "-m", "pip"]:
     json.dump(sys.argv[4:], open(os.environ["RECORD"], "w"))
     sys.exit(int(os.environ["PIP_CODE"]))
@@ -150,7 +151,7 @@ class Job:
         for name, text in (("PYTHON", PYTHON), ("LINTER", linter)):
             self.tools[name].write_text(f"#!{sys.executable}\n{text}")
             self.tools[name].chmod(0o755)
-        self.environment = {"RECORD": str(self.record), "LINTER_CODE": "0", "SARIF_TEXT": "{}", "PIP_CODE": "0"}
+        self.environment = {"RECORD": str(self.record), "LINTER_CODE": "0", "SARIF_TEXT": "{}", "PIP_CODE": "0", "PROGRAMS": "bin"}
         self.action = "/the action/at its ref"
         self.printed = ""
 
@@ -235,6 +236,12 @@ def test_lints_the_current_folder_by_default(job: Job) -> None:
     assert use.upload == {"sarif_file": sarif, "category": "msaa-lint"}
     assert use.steps == ["Set up Python", "Install msaa-lint", "Lint", "Upload to code scanning"]
     assert not use.failed and not job.printed
+
+
+@needs_bash
+def test_finds_the_programs_of_a_virtual_environment_of_windows(job: Job) -> None:
+    job.environment["PROGRAMS"] = "Scripts"
+    assert job.use().arguments["Lint"][0] == "check"
 
 
 @needs_bash
