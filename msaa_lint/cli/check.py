@@ -110,6 +110,7 @@ def request(arguments: Arguments, targets: Sequence[Target] = (), fallback: str 
         by_price=arguments.get("sort") == "price",
         fix="show" if arguments.get("diff") else "write" if arguments.get("fix") else None,
         unsafe_fixes=bool(arguments.get("unsafe_fixes")),
+        all_keys=bool(arguments.get("explain_undecided")) or any(target.format == "json" for target in targets),
     )
 
 
@@ -160,6 +161,7 @@ def _render(format: str, outcome: Outcome, arguments: Arguments, out: IO[str]) -
         edition=outcome.settings.edition or "",
         show_suppressed=bool(arguments.get("show_suppressed")),
         fail_confidence=outcome.settings.fail_confidence,
+        explain_undecided=bool(arguments.get("explain_undecided")),
     )
     if arguments.get("statistics") and text and out in (sys.stdout, sys.stderr) and outcome.result.findings:
         from .report.concise import line

@@ -101,14 +101,33 @@ class Finding(NamedTuple):
         return self.code.startswith("MSAA9") and self.severity == "error"
 
 
+class MissingKey(NamedTuple):
+    """A key that an input lacks: the path of its structure (empty: the input), its name there, what it may hold, and where it goes.
+
+    `converted` says that the structure is one of the description that `msaa-lint convert` writes, since the input is not a description.
+    """
+
+    structure: str
+    name: str
+    values: str
+    span: Span
+    converted: bool = False
+
+    @property
+    def path(self) -> str:
+        """The whole path: `images.color.usage`."""
+        return f"{self.structure}.{self.name}" if self.structure else self.name
+
+
 class Undecided(NamedTuple):
-    """A rule that could not be decided for a subject, and the facts that were missing."""
+    """A rule that could not be decided for a subject, the facts that were missing, and the keys to write next, which state them."""
 
     code: str
     rule: str
     file: str
     subject: str
     missing: tuple[str, ...]
+    keys: tuple[MissingKey, ...] = ()
 
 
 class Suppressed(NamedTuple):

@@ -42,7 +42,7 @@ class LintOptions(NamedTuple):
     """How to lint one input.
 
     `format` forces a reader; None detects the format from content. `device` is the profile for descriptions that do not name a device.
-    `ignores` applies suppression comments, `prices` computes the prices of findings.
+    `ignores` applies suppression comments, `prices` computes the prices of findings, `all_keys` all keys that undecided rules lack.
     """
 
     severity: Severity
@@ -51,6 +51,7 @@ class LintOptions(NamedTuple):
     device: DeviceProfile | None = None
     ignores: bool = True
     prices: bool = False
+    all_keys: bool = False
 
 
 class Engine:
@@ -152,7 +153,10 @@ class Engine:
         if document.problems or broken:
             problems = [diagnostic(p.code, p.message, file, p.span, p.path, p.labels, p.help) for p in document.problems]
             return Verdicts(problems, [], {}, False), None
-        from msaa_lint.frame.facts.subjects import subjects
+        from msaa_lint.frame.facts.frame import Frame
+        from msaa_lint.frame.facts.global_facts import profile
+        from msaa_lint.frame.facts.missing_keys import MissingKeys
+        from msaa_lint.frame.facts.subjects import FrameAnalysis
 
         device = device_for(document.description, file, options.device)
         if isinstance(device, Problem):
@@ -174,7 +178,10 @@ class Engine:
                 modules.append(Modules(document, file))
             return modules[0].reflected(stage, alpha)
 
-        verdicts = self._runner.run(subjects(document, device, study, shader), file, options.severity, document.api)
+        analysis = FrameAnalysis(Frame(document), profile(document.description, device), study, shader)
+        # Nobody writes keys into source code.
+        missing_keys = MissingKeys(analysis).of if document.whole or document.format else None
+        verdicts = self._runner.run(analysis.subjects(), file, options.severity, document.api, missing_keys, options.all_keys)
         for loaded in modules:
             verdicts.findings.extend(loaded.findings)
         return verdicts, device

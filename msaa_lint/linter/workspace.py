@@ -36,7 +36,8 @@ class Request(NamedTuple):
     `format` forces a reader. `formats` are the outputs to print instead of those in the settings, and `fallback` is the output if neither
     names one: findings get prices only if an output shows them. `by_price` sorts findings by price, highest first. `fix` is `write` to
     fix files in place, or `show` to compute the fixes only; `unsafe_fixes` includes fixes that may change the picture. Standard input is
-    never written. `log` is called with a line for each configuration and each input that is used.
+    never written. `all_keys` finds all keys that undecided rules lack, and not only the next one. `log` is called with a line for each
+    configuration and each input that is used.
     """
 
     paths: Sequence[str]
@@ -54,6 +55,7 @@ class Request(NamedTuple):
     by_price: bool = False
     fix: str | None = None
     unsafe_fixes: bool = False
+    all_keys: bool = False
     log: Callable[[str], None] | None = None
 
     def input_name(self, path: str) -> str:
@@ -204,7 +206,7 @@ class Workspace:
             return None
         device = resolved.device
         severity = resolved.selection.for_file(name, device.vendor if device is not None else None)
-        options = LintOptions(severity, resolved.limits, request.format, device, request.ignores)
+        options = LintOptions(severity, resolved.limits, request.format, device, request.ignores, all_keys=request.all_keys)
         return InputFile(path, name, data, resolved, options, self.current.settings.min_severity, request.log)
 
 

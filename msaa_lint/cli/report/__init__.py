@@ -18,9 +18,10 @@ class Options(NamedTuple):
     """How to print.
 
     `root` is the folder that paths are shown relative to (empty: as given). `width` is in terminal cells (0: lines are never cut).
-    `max_undecided` is the number of missing facts that a summary names, `max_unread` that of inputs without a pass to check.
+    `max_undecided` is the number of missing keys that a summary names, `max_unread` that of inputs without a pass to check.
     `step_summary` is the file that the GitHub output appends a table to: None uses GITHUB_STEP_SUMMARY, empty writes none.
-    `fail_confidence` is the confidence that findings need to fail the run; summaries count those below it. `quiet` leaves out summaries and
+    `fail_confidence` is the confidence that findings need to fail the run; summaries count those below it. `explain_undecided` lists the
+    keys that undecided rules lack. `quiet` leaves out summaries and
     remarks; `verbose` adds to the text of `confirm` what only msaa-lint reports, and noise of the layer.
     """
 
@@ -35,6 +36,7 @@ class Options(NamedTuple):
     max_unread: int = 5
     step_summary: str | None = None
     fail_confidence: str = "low"
+    explain_undecided: bool = False
     quiet: bool = False
     verbose: bool = False
 

@@ -11,6 +11,7 @@ from .paths import display_path
 from .place import place
 from .statistics import table
 from .summary import summary
+from .undecided import explanation
 
 
 def render(result: Result, out: Write, options: Options) -> None:
@@ -42,6 +43,9 @@ def render_end(result: Result, out: Write, options: Options) -> None:
         for entry in result.suppressed:
             reason = f", {display(entry.reason)}" if entry.reason.strip() else ""
             out(f"{line(entry.finding, result, options)} [suppressed: {entry.how}{reason}]\n")
+    if options.explain_undecided:
+        for text in explanation(result, options):
+            out(text + "\n")
     if options.statistics:
         out(table(result))
     for text in () if options.quiet else summary(result, options):

@@ -33,7 +33,8 @@ _FORMATS = {
 
 _NOUNS = ("image", "pass", "pipeline", "shader", "sample count choice")
 
-_SOURCE = frozenset({"c", "cpp", "swift", "glsl", "markdown"})
+SOURCE = frozenset({"c", "cpp", "swift", "glsl", "markdown"})
+"""The formats of source code."""
 
 
 def checked(inputs: Sequence[InputSummary]) -> str:
@@ -56,7 +57,7 @@ def _of_format(format: str, inputs: Sequence[InputSummary]) -> str:
     for checked_in_part, words in ((False, "not checked because of errors"), (True, "checked in part because of errors")):
         if checked_in_part in failed:
             parts.append(f"{failed.count(checked_in_part)} {words}")
-    return f"{name}: {', '.join(parts) or ('nothing read' if format in _SOURCE else 'nothing to check')}"
+    return f"{name}: {', '.join(parts) or ('nothing read' if format in SOURCE else 'nothing to check')}"
 
 
 def unread(result: Result, options: Options) -> list[str]:

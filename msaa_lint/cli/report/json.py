@@ -12,6 +12,7 @@ from .inputs import COUNTS
 from .paths import relative
 from .place import Place, place
 from .summary import converted_saving, files_saving, tally, usable_price
+from .undecided import rules_by_key
 
 SCHEMA = "msaa-lint/json-v1"
 _COUNTS = (
@@ -27,7 +28,7 @@ def render(result: Result, out: Write, options: Options) -> None:
     members |= {
         "findings": (_finding(finding, result, options) for finding in result.findings),
         "suppressed": (_suppressed(entry, result, options) for entry in result.suppressed),
-        "undecided": (_undecided(entry, options) for entry in result.undecided),
+        "undecided": (_undecided(entry, result, options) for entry in result.undecided),
         "inputs": (_input(entry, result, options) for entry in result.inputs),
         "summary": _summary(result),
     }
@@ -69,13 +70,17 @@ def _suppressed(entry: Suppressed, result: Result, options: Options) -> Json:
     return {"how": entry.how, "reason": text(entry.reason), "finding": _finding(entry.finding, result, options)}
 
 
-def _undecided(entry: Undecided, options: Options) -> Json:
+def _undecided(entry: Undecided, result: Result, options: Options) -> Json:
     return {
         "rule": text(entry.rule),
         "code": text(entry.code),
         "file": escape_surrogates(relative(entry.file, options.root)),
         "subject": text(entry.subject),
         "missing": [text(fact) for fact in entry.missing],
+        "keys": [
+            {"key": text(key.path), "values": text(key.values), "converted": key.converted, **_place(result, entry.file, key.span)}
+            for key in entry.keys
+        ],
     }
 
 
@@ -100,6 +105,7 @@ def _summary(result: Result) -> Json:
     return {
         **{name: getattr(count, name) for name in _COUNTS},
         "missing": {text(fact): rules for fact, rules in count.missing},
+        "missing_keys": {text(key): rules for key, rules in rules_by_key(result)},
         "checked": {name: sum(getattr(entry, name) for entry in result.inputs) for name in COUNTS},
         "unread": sum(entry.unread is not None for entry in result.inputs),
         "price": files.all.price._asdict() if files.all.price else None,

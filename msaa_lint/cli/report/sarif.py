@@ -17,7 +17,8 @@ from .fingerprint import fingerprints
 from .inputs import checked
 from .paths import uri
 from .place import place
-from .summary import files_saving, is_choice, tally, undecided, usable_price
+from .summary import files_saving, is_choice, usable_price
+from .undecided import summary_line
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 
@@ -143,7 +144,7 @@ def _invocation(result: Result, options: Options, left_out: int) -> dict[str, ob
     if left_out:
         text = f"{left_out} results of the lowest severity are left out: code scanning accepts at most {MAX_RESULTS}."
         notifications.append({"level": "warning", "message": {"text": text}})
-    reasons = undecided(tally(result), options)
+    reasons = summary_line(result, options._replace(explain_undecided=True))
     if reasons:
         notifications.append({"level": "note", "message": {"text": _linkless(f"{reasons}.")}})
     if any(each.format for each in result.inputs):

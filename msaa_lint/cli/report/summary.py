@@ -7,8 +7,8 @@ from msaa_lint.core.finding import CONFIDENCES, Finding, Price, Result, Saving, 
 from msaa_lint.linter.settings.settings import COMMAND_LINE
 
 from . import Options
-from .escape import display
 from .inputs import checked, unread
+from .undecided import summary_line
 from .words import plural as plural
 
 
@@ -62,7 +62,7 @@ def tally(result: Result) -> Tally:
 
 def summary(result: Result, options: Options) -> list[str]:
     """The lines that end a report: the findings, what fixes do about them, and what was not checked."""
-    lines = (sentence(result, options), *fixable(result), undecided(tally(result), options))
+    lines = (sentence(result, options), *fixable(result), summary_line(result, options))
     return [*(line for line in lines if line), *unread(result, options)]
 
 
@@ -89,16 +89,6 @@ def sentence(result: Result, options: Options) -> str:
     if count.suppressed:
         text += f"; {count.suppressed} suppressed"
     return text
-
-
-def undecided(count: Tally, options: Options) -> str:
-    """`4 rules undecided, missing facts: image.usage (2), ...`; empty if none is."""
-    if not count.undecided_rules:
-        return ""
-    facts = [f"{display(fact)} ({n})" for fact, n in count.missing[: options.max_undecided]]
-    if len(count.missing) > options.max_undecided:
-        facts.append(f"and {len(count.missing) - options.max_undecided} more")
-    return f"{plural(count.undecided_rules, 'rule')} undecided, missing facts: {', '.join(facts)}"
 
 
 def fixable(result: Result) -> list[str]:

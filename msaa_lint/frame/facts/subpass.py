@@ -37,7 +37,7 @@ def subpass_facts(subpass: PassSubpass, walk: Walk, device: DeviceProfile | None
     shared = samples_of(subpass)
     facts.put("subpass.samples", shared, record.place("colorAttachments", "depthStencilAttachment", "depthAttachment", "stencilAttachment"))
     _tile(facts, subpass, device)
-    _pipelines(facts, _own_pipelines(subpass, walk))
+    _pipelines(facts, pipelines_of(subpass, walk))
     return facts
 
 
@@ -130,7 +130,7 @@ def _decided(answer: bool, known: bool) -> bool | None:
     return True if answer else False if known else None
 
 
-def _own_pipelines(subpass: PassSubpass, walk: Walk) -> list[Pipeline | None]:
+def pipelines_of(subpass: PassSubpass, walk: Walk) -> list[Pipeline | None]:
     """The pipelines that draw in it: those made for a subpass, those of the draws in a rendering. None where that is not all of them."""
     frame, render_pass = walk.frame, subpass.render_pass
     if isinstance(render_pass.record, BeginRendering):

@@ -21,7 +21,11 @@ IMAGE = (
     Fact("image.memory", "LIST", "property flags of the memory that it is bound to", "VkMemoryPropertyFlagBits"),
     Fact("image.transient", "BOOL", "its usage includes TRANSIENT_ATTACHMENT"),
     Fact("image.lazily_allocated", "BOOL", "its memory is LAZILY_ALLOCATED"),
-    Fact("image.multisampling_conflicts", "LIST", "stated properties that Vulkan forbids for more than one sample; never unknown"),
+    Fact(
+        "image.multisampling_conflicts",
+        "LIST",
+        "stated properties that Vulkan forbids for more than one sample; unknown for an attachment without an image",
+    ),
     Fact(
         "image.compression_blockers",
         "LIST",

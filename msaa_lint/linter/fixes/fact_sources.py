@@ -8,7 +8,7 @@ from functools import partial
 from msaa_lint.frame.description.models import BeginRenderPass
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.facts import Subject
-from msaa_lint.frame.facts.parts import RENDERING, Resolve
+from msaa_lint.frame.facts.missing_keys import resolve_mode
 
 from .changes import NoFix
 from .context import FixContext
@@ -50,14 +50,6 @@ def _layout(member: str, subject: Subject, _: FixContext) -> list[Source]:
     if member not in record.SHAPE:
         raise NoFix(f"`{member}` exists only for attachments of render passes")
     return [(record, member)]
-
-
-def resolve_mode(resolve: Resolve) -> Source | None:
-    """The member that states a resolve's mode, or None if Vulkan prescribes the mode."""
-    if resolve.kind == RENDERING:
-        return (resolve.record, "resolveMode")
-    member = f"{resolve.aspect}ResolveMode"
-    return (resolve.record, member) if member in resolve.record.SHAPE else None
 
 
 def _resolve_mode(subject: Subject, _: FixContext) -> list[Source]:

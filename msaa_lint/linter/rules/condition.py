@@ -12,6 +12,7 @@ from typing import Any
 
 from cel_expr_python import cel
 
+from msaa_lint.frame.facts.facts import Value
 from msaa_lint.frame.facts.table import FACTS, SUBJECTS
 from msaa_lint.frame.facts.words import WORDS, Fact
 
@@ -74,6 +75,30 @@ class Condition:
         if "No value with name" in str(value):
             return None
         raise ArithmeticError(str(value))
+
+    def first_absent(self, activation: Any) -> str:
+        """An absent fact that an undecided condition depends on."""
+        found = re.search(r'No value with name "([^"]*)"', str(self._program.eval(activation).plain_value()))
+        return found[1] if found is not None else ""
+
+    def decides(self, activation: Any) -> bool:
+        """Whether the condition is true or false."""
+        try:
+            return self.holds(activation) is not None
+        except ArithmeticError:
+            return False
+
+    def trials(self, fact: str) -> list[Value]:
+        """Values of a fact, so that the condition takes every value that it can if only this fact changes."""
+        kind = FACTS[fact].type
+        if kind == "BOOL":
+            return [True, False]
+        if kind in ("INT", "DOUBLE", "INTS"):
+            numbers = [float(number) for number in re.findall(r"(?<![\w.])-?\d+(?:\.\d+)?", self.text)]
+            near = sorted({number + step for number in (*numbers, 1.0) for step in (-1.0, 0.0, 1.0)})
+            return [*near] if kind == "DOUBLE" else [[], *([int(n)] for n in near)] if kind == "INTS" else [int(n) for n in near]
+        words = [match["text"] for match in _STRING.finditer(self.text) if match["quote"] is not None]
+        return ["", *words] if kind == "STRING" else [[], *([word] for word in words), ["?"]]
 
 
 def activation(subject: str | None, facts: Mapping[str, Any]) -> Any:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
-from msaa_lint.core.finding import CONFIDENCES, Finding, Fix, Undecided
+from msaa_lint.core.finding import CONFIDENCES, Finding, Fix, MissingKey, Undecided
 from msaa_lint.core.text.span import Label, Span
 from msaa_lint.frame.facts.facts import Facts, Subject, Value
 from msaa_lint.frame.facts.table import PASS_PARTS
@@ -23,6 +23,9 @@ Key = tuple[str, Span | None, str]
 
 FixSpecs = dict[Key, list[tuple[FixSpec, Subject]]]
 """By finding: the fix on its rule's page and the subject it applies to; several if the finding stands for several subjects."""
+
+FindKeys = Callable[[Subject, str], Sequence[MissingKey]]
+"""The keys to write next so that a fact of a subject is known."""
 
 Rules = list[tuple[Rule, Condition]]
 
@@ -64,8 +67,19 @@ class RuleRunner:
         self._enabled: dict[tuple[str, str, bool], Rules] = {}
         """The rules that the last `severity` enables, by API, kind of subject, and whether it is of a pass that is only created."""
 
-    def run(self, subjects: Iterable[Subject], file: str, severity: Severity, api: str = "VULKAN") -> Verdicts:
-        """The findings and undecided rules for the subjects of a document, from the rules for its API."""
+    def run(
+        self,
+        subjects: Iterable[Subject],
+        file: str,
+        severity: Severity,
+        api: str = "VULKAN",
+        missing_keys: FindKeys | None = None,
+        all_keys: bool = False,
+    ) -> Verdicts:
+        """The findings and undecided rules for the subjects of a document, from the rules for its API.
+
+        `missing_keys` finds the keys that undecided rules name: those of one fact that it takes, or with `all_keys` of all facts.
+        """
         findings: list[Finding] = []
         undecided: list[Undecided] = []
         fix_specs: FixSpecs = {}
@@ -82,7 +96,11 @@ class RuleRunner:
             fixes: dict[str, FixSpec] = {}
             for rule, value, missing in evaluation.results(rules):
                 if value is None:
-                    undecided.append(Undecided(rule.code, rule.name, file, subject.path, missing))
+                    keys: Mapping[str, MissingKey] = {}
+                    if missing_keys is not None:
+                        blocking = evaluation.blocking(self._condition(rule.when), missing, all_keys)
+                        keys = {key.path: key for fact in blocking for key in missing_keys(subject, fact)}
+                    undecided.append(Undecided(rule.code, rule.name, file, subject.path, missing, tuple(keys.values())))
                     continue
                 try:
                     if isinstance(value, ArithmeticError):
@@ -142,9 +160,10 @@ class RuleRunner:
 class _Cached:
     """The values of conditions for one set of facts, and the results of the rules that do not simply pass."""
 
-    __slots__ = ("results", "values")
+    __slots__ = ("blocking", "results", "values")
 
     def __init__(self) -> None:
+        self.blocking: dict[tuple[str, bool], tuple[str, ...]] = {}
         self.values: dict[str, bool | None] = {}
         self.results: tuple[Rules, list[RuleResult]] | None = None
 
@@ -169,6 +188,20 @@ class _Evaluation:
             values[condition.text] = condition.holds(self._activation)
         return values[condition.text]
 
+    def blocking(self, condition: Condition, missing: Sequence[str], every: bool) -> tuple[str, ...]:
+        """A missing fact that an undecided condition depends on; if `every`, all that can decide it alone, or all if none can."""
+        if len(missing) < 2:
+            return tuple(missing)
+        key = (condition.text, every)
+        if key not in self._cached.blocking:
+            known = {name: self._facts[name] for name in self._names if name in self._facts}
+            if every:
+                decisive = [name for name in missing if any(map(condition.decides, _trials(condition, name, known)))]
+                self._cached.blocking[key] = tuple(decisive or missing)
+            else:
+                self._cached.blocking[key] = (condition.first_absent(activation(None, known)),)
+        return self._cached.blocking[key]
+
     def results(self, rules: Rules) -> list[RuleResult]:
         """The rules that fire, fail or are undecided, in order."""
         cached = self._cached.results
@@ -185,6 +218,11 @@ class _Evaluation:
                     results.append((rule, value, missing))
             cached = self._cached.results = (rules, results)
         return cached[1]
+
+
+def _trials(condition: Condition, fact: str, known: Mapping[str, Value]) -> Iterator[object]:
+    """What is known, with each of the values of a fact that a condition tells apart."""
+    return (activation(None, {**known, fact: value}) for value in condition.trials(fact))
 
 
 def finding_key(finding: Finding) -> Key:

@@ -11,6 +11,7 @@ from msaa_lint.core.finding import (
     Finding,
     Fix,
     InputSummary,
+    MissingKey,
     Price,
     Result,
     Suppressed,
@@ -120,7 +121,9 @@ def results(draw: st.DrawFn) -> Result:
         found += draw(st.lists(one, max_size=3))
         silenced += draw(st.lists(st.builds(Suppressed, one, st.sampled_from(["inline", "baseline"]), texts), max_size=1))
     lacking = st.lists(texts, min_size=1, max_size=3).map(tuple)
-    undecided = draw(st.lists(st.builds(Undecided, names, names, st.sampled_from(files), texts, lacking), max_size=2))
+    key = st.builds(MissingKey, texts, texts, texts, st.builds(Span, st.integers(0, 5), st.integers(5, 9)), st.booleans())
+    keys = st.lists(key, max_size=2).map(tuple)
+    undecided = draw(st.lists(st.builds(Undecided, names, names, st.sampled_from(files), texts, lacking, keys), max_size=2))
     places = st.one_of(st.none(), st.tuples(st.integers(0, 20), st.integers(20, 40)).map(lambda ends: Span(*ends)))
     unread = st.one_of(st.none(), st.builds(Unread, places, texts))
     n = st.integers(0, 3)

@@ -3,7 +3,20 @@
 from __future__ import annotations
 
 from msaa_lint.cli.report import Options, render
-from msaa_lint.core.finding import Finding, Fix, InputSummary, Price, Result, RuleInfo, Saving, Savings, Suppressed, Undecided, Unread
+from msaa_lint.core.finding import (
+    Finding,
+    Fix,
+    InputSummary,
+    MissingKey,
+    Price,
+    Result,
+    RuleInfo,
+    Saving,
+    Savings,
+    Suppressed,
+    Undecided,
+    Unread,
+)
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Edit, Label, Span
 
@@ -113,10 +126,14 @@ def frame() -> Result:
     binary = Finding("MSAA101", "sample-count-above-four", "note", "low", "8 samples", "trace.rdc", None, "images.color_ms")
     silenced = Suppressed(loaded._replace(code="MSAA101", rule="sample-count-above-four"), "inline", "measured on the device")
     baseline = Suppressed(binary._replace(subject="images.depth_ms"), "baseline")
+    at, flags = span(FORWARD, "color", "attachments"), "a list of VkImageUsageFlagBits"
+    usage = MissingKey("images.color_ms", "usage", flags, at)
+    depth_usage = MissingKey("images.depth_ms", "usage", flags, at)
+    memory = MissingKey("images.color_ms", "memory", "a list of VkMemoryPropertyFlagBits", at, True)
     undecided = (
-        Undecided("MSAA401", "multisampled-image-not-transient", file, "images.color_ms", ("image.usage",)),
-        Undecided("MSAA401", "multisampled-image-not-transient", file, "images.depth_ms", ("image.usage",)),
-        Undecided("MSAA402", "transient-not-lazily-allocated", file, "images.color_ms", ("image.memory", "image.usage")),
+        Undecided("MSAA401", "multisampled-image-not-transient", file, "images.color_ms", ("image.usage",), (usage,)),
+        Undecided("MSAA401", "multisampled-image-not-transient", file, "images.depth_ms", ("image.usage",), (depth_usage,)),
+        Undecided("MSAA402", "transient-not-lazily-allocated", file, "images.color_ms", ("image.memory", "image.usage"), (memory, usage)),
     )
     code = "src/render.cpp"
     sources = {file: Source(file, FORWARD), "broken.yaml": Source("broken.yaml", "a: {b"), code: Source(code, CODE)}

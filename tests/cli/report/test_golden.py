@@ -26,7 +26,10 @@ def test_format(name: str) -> None:
 
 
 def test_full_in_color_with_all_options() -> None:
-    check("full-color.txt", printed("full", frame(), color=True, show_suppressed=True, statistics=True, max_undecided=1))
+    check(
+        "full-color.txt",
+        printed("full", frame(), color=True, show_suppressed=True, statistics=True, max_undecided=1, explain_undecided=True),
+    )
 
 
 def test_excerpts() -> None:

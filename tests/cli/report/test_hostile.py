@@ -21,7 +21,7 @@ from tests.cli.report.schemas import check_sarif, json_validator
 from tests.strength import examples
 
 TEXT_FORMATS = ("full", "concise", "github", "junit", "markdown")
-EVERYTHING = {"show_suppressed": True, "statistics": True, "edition": "2026.1"}
+EVERYTHING = {"show_suppressed": True, "statistics": True, "edition": "2026.1", "explain_undecided": True}
 
 
 @examples(0.8, suppress_health_check=[HealthCheck.too_slow])

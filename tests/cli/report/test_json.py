@@ -9,6 +9,8 @@ from msaa_lint.core.text.span import Edit, Label, Span
 from tests.cli.report.sample import FORWARD, finding, frame, printed, result
 from tests.cli.report.schemas import json_validator
 
+KEY_AT = {"line": 5, "column": 7, "end_line": 5, "end_column": 12}
+
 
 def test_frame_is_valid_and_states_places_and_prices() -> None:
     data = json.loads(printed("json", frame(), edition="2026.1"))
@@ -31,6 +33,10 @@ def test_frame_is_valid_and_states_places_and_prices() -> None:
         "file": "passes/forward.yaml",
         "subject": "images.color_ms",
         "missing": ["image.memory", "image.usage"],
+        "keys": [
+            {"key": "images.color_ms.memory", "values": "a list of VkMemoryPropertyFlagBits", "converted": True, **KEY_AT},
+            {"key": "images.color_ms.usage", "values": "a list of VkImageUsageFlagBits", "converted": False, **KEY_AT},
+        ],
     }
     assert [(entry["file"], entry["failed"], entry["unread"] and entry["unread"]["line"]) for entry in data["inputs"]] == [
         ("broken.yaml", True, None),
@@ -51,6 +57,7 @@ def test_frame_is_valid_and_states_places_and_prices() -> None:
         "undecided": 3,
         "undecided_rules": 2,
         "missing": {"image.usage": 2, "image.memory": 1},
+        "missing_keys": {"images.*.usage": 2, "images.*.memory": 1},
         "checked": {"images": 8, "passes": 4, "pipelines": 13, "shaders": 0, "choices": 0},
         "unread": 1,
         "price": {"read_mb_per_s": 562.0, "write_mb_per_s": 2248.1, "memory_mib": 31.64, "milliwatts": 281.0},

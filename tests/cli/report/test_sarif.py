@@ -154,7 +154,7 @@ def test_invocation_tells_of_failure_and_of_what_stayed_undecided() -> None:
     (invocation,) = run_of(frame())["invocations"]
     assert invocation["executionSuccessful"] is False
     assert invocation["toolExecutionNotifications"] == [
-        {"level": "note", "message": {"text": "2 rules undecided, missing facts: image.usage (2), image.memory (1)."}},
+        {"level": "note", "message": {"text": "2 rules undecided, missing keys: images.*.usage (2), images.*.memory (1)."}},
         {
             "level": "note",
             "message": {

@@ -4,7 +4,7 @@ import pytest
 
 from msaa_lint.cli.report import Options, render
 from msaa_lint.cli.report.statistics import table
-from msaa_lint.core.finding import Fix, Price, Saving, Savings, Undecided
+from msaa_lint.core.finding import Fix, MissingKey, Price, Saving, Savings, Undecided
 from msaa_lint.core.text.span import Edit, Label, Span
 from tests.cli.report.sample import finding, frame, printed, result, span
 
@@ -29,19 +29,25 @@ def test_nothing_found() -> None:
     assert printed("concise", result(files=("a.yaml",))) == "No findings in 1 file\n"
 
 
-def test_summary_names_the_missing_facts_most_lacked_first() -> None:
+def key(structure: str, name: str) -> MissingKey:
+    return MissingKey(structure, name, "a list", Span(0, 1))
+
+
+def test_summary_names_the_missing_keys_most_lacked_first() -> None:
     undecided = (
-        Undecided("MSAA401", "a", "f", "x", ("image.usage",)),
-        Undecided("MSAA401", "a", "f", "y", ("image.usage",)),
-        Undecided("MSAA402", "b", "f", "x", ("image.memory", "device.name")),
-        Undecided("MSAA403", "c", "f", "x", ("image.memory",)),
+        Undecided("MSAA401", "a", "f", "x", ("image.usage",), (key("images.x", "usage"),)),
+        Undecided("MSAA401", "a", "f", "y", ("image.usage",), (key("images.y", "usage"),)),
+        Undecided("MSAA402", "b", "f", "x", ("image.memory", "device.name"), (key("images.x", "memory"), key("", "device"))),
+        Undecided("MSAA403", "c", "f", "x", ("image.memory",), (key("images.x", "memory"),)),
+        Undecided("MSAA403", "c", "f", "x", ("aspect.store_wasted",)),
     )
     run = result(files=("f",), undecided=undecided)
     assert printed("concise", run) == (
-        "No findings in 1 file\n3 rules undecided, missing facts: image.memory (2), device.name (1), image.usage (1)\n"
+        "No findings in 1 file\n"
+        "3 rules undecided, missing keys: images.*.memory (2), device (1), images.*.usage (1); --explain-undecided lists what to add\n"
     )
     assert printed("concise", run, max_undecided=1) == (
-        "No findings in 1 file\n3 rules undecided, missing facts: image.memory (2), and 2 more\n"
+        "No findings in 1 file\n3 rules undecided, missing keys: images.*.memory (2), and 2 more; --explain-undecided lists what to add\n"
     )
 
 

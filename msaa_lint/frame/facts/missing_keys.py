@@ -1,0 +1,405 @@
+"""The keys that a description lacks for a fact: where each belongs, and what it may hold.
+
+A part of the frame (`image` in `image.usage`) stands for records of the description, which depend on the subject that the fact is of.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from functools import cached_property
+
+from msaa_lint.core.finding import MissingKey
+from msaa_lint.frame.description.models import BeginRenderPass, Description, Device, Image, Pipeline, ReadImage
+from msaa_lint.frame.description.record import Record
+from msaa_lint.frame.description.shapes import Shape
+
+from .facts import Subject
+from .parts import RENDERING, Attachment, Pass, Resolve, Target
+from .pipeline import Draw, draws_of
+from .subjects import FrameAnalysis
+from .subpass import pipelines_of
+from .table_keys import KEYS
+
+Place = tuple[Record, str]
+"""A record and the path of a member from it."""
+
+_METAL_IMAGE = {
+    "format": "pixelFormat", "samples": "sampleCount", "usage": "usage", "memory": "storageMode", "imageType": "textureType",
+    "mipLevels": "mipmapLevelCount", "presentable": "drawable", "encoding": "encoding", "extent": "width",
+    "storageMode": "storageMode", "textureType": "textureType",
+}  # fmt: skip
+_METAL_ATTACHMENT = {
+    "image": "texture", "format": "texture", "samples": "texture",
+    "loadOp": "loadAction", "stencilLoadOp": "loadAction", "storeOp": "storeAction", "stencilStoreOp": "storeAction",
+}  # fmt: skip
+_METAL_PIPELINE = {
+    "multisampleState.rasterizationSamples": "rasterSampleCount",
+    "multisampleState.alphaToCoverageEnable": "isAlphaToCoverageEnabled",
+    "colorBlendState.attachments.blendEnable": "colorAttachments.isBlendingEnabled",
+    "rasterizationState.rasterizerDiscardEnable": "isRasterizationEnabled",
+    "renderPass": "renderPass",
+}
+_COMMANDS = {"pipelineBarrier": "a command before the first reader", "present": "a command at the end of the frame"}
+"""The commands that a fact may hang on, and what they are."""
+
+_SIBLING = {"format": "samples", "samples": "format"}
+
+
+class MissingKeys:
+    """The keys that one description lacks."""
+
+    def __init__(self, analysis: FrameAnalysis) -> None:
+        self.analysis = analysis
+        self.frame = analysis.frame
+        self.description: Description = analysis.frame.description
+        self.lowered = analysis.frame.document.metal
+        document = analysis.frame.document
+        self._converted = document.tree is not None or document.source.origins is not None
+        self._parts: dict[str, Callable[[Subject, str], Iterable[Place]]] = {
+            "image": lambda subject, member: self._of_images(self._images(subject), member),
+            "attachment": self._attachment,
+            "attachments": self._attachments,
+            "pipelines": self._pipelines,
+            "pass": self._pass,
+            "resolve": lambda subject, member: _of_resolve(subject.resolve, member),
+            "pair": lambda subject, member: _of_resolve(subject.resolve.pair if subject.resolve is not None else None, member),
+            "source": lambda subject, member: self._of_end(subject, member, "source"),
+            "target": lambda subject, member: self._of_end(subject, member, "target"),
+            "dependency": lambda subject, member: _one(subject.dependency, member),
+            "pipeline": self._pipeline,
+            "read": self._read,
+            "choice": lambda subject, member: _one(self._choice(subject), member),
+            "begins": self._begins,
+            "device": lambda subject, member: self._device(subject, member),
+        }
+
+    def of(self, subject: Subject, fact: str) -> list[MissingKey]:
+        """The keys to write next so that a fact of a subject is known; empty if no key is missing."""
+        for group in KEYS.get(fact, "").split(";"):
+            found: dict[tuple[str, str], MissingKey] = {}
+            for key in group.split():
+                if key in _COMMANDS:
+                    found.update(self._command(key))
+                    continue
+                for record, path in self._places(subject, key):
+                    missing = _unstated(record, path)
+                    if missing is not None:
+                        found.setdefault((missing.structure, missing.name), missing)
+            if found:
+                return [key._replace(converted=self._converted) for key in found.values()]
+        return []
+
+    def _places(self, subject: Subject, key: str) -> Iterator[Place]:
+        part, _, member = key.partition(".")
+        places = self._parts[part](subject, member) if part in self._parts else [(self.description, key)]
+        for record, path in places:
+            yield from [(record, path)] if self.lowered is None else self._in_metal(record, path, subject)
+
+    def _command(self, kind: str) -> dict[tuple[str, str], MissingKey]:
+        """A command that the commands of the frame lack."""
+        commands = self.description.commands
+        if commands is None or any(command is not None and command.kind == kind for command in commands) or self.lowered is not None:
+            return {}
+        span = self.description.place("commands")
+        return {("commands", kind): MissingKey("commands", kind, _COMMANDS[kind], span)}
+
+    # Images
+
+    def _images(self, subject: Subject) -> list[Target]:
+        """The images that a subject is about, each once."""
+        targets = (
+            [subject.image] if subject.image is not None else list(subject.attachment.targets) if subject.attachment is not None else []
+        )
+        return list({id(target.record): target for target in targets}.values())
+
+    def _of_images(self, targets: Iterable[Target], member: str) -> Iterator[Place]:
+        for target in targets:
+            bound = self.analysis.bindings.attachments.get(id(target.record), [])
+            if member == "loadOp":
+                yield from self._operations(bound, "load")
+            elif target.image is None:
+                yield (target.record, member if self._stands_alone(target.record, member) else "image")
+            elif member == "resolves":
+                yield from ((read, member) for read in self.analysis.bindings.reads.get(target.name, []))
+            elif member in _SIBLING and not target.image.states(_SIBLING[member]):
+                # Where the format is stated, the sample count belongs, too.
+                stating = (attachment.record for attachment in bound if attachment.record.states(_SIBLING[member]))
+                yield (next(stating, target.image), member)
+            elif member != "image":
+                yield (target.image, member)
+
+    def _stands_alone(self, record: Record, member: str) -> bool:
+        """Whether an attachment without an image states its own format and sample count."""
+        return member in _SIBLING and member in record.SHAPE and (record.states(_SIBLING[member]) or not self.description.images)
+
+    # Attachments
+
+    def _attachment(self, subject: Subject, member: str) -> Iterator[Place]:
+        if subject.attachment is None:
+            return
+        attachment = subject.attachment
+        if member in ("load", "store"):
+            aspects = [subject.aspect] if subject.aspect is not None else attachment.aspects
+            yield from ((attachment.record, aspect.load_member if member == "load" else aspect.store_member) for aspect in aspects)
+        elif member == "initial":
+            name = subject.aspect.name if subject.aspect is not None else None
+            separate = name == "stencil" and attachment.record.states("stencilInitialLayout")
+            yield (attachment.record, "stencilInitialLayout" if separate else "initialLayout")
+        elif member == "resolveMode":
+            resolves = (resolve for each in self.frame.passes for resolve in each.resolves)
+            for resolve in resolves:
+                if attachment in (resolve.source, resolve.target):
+                    yield from _of_resolve(resolve, "mode")
+        elif member in _SIBLING:
+            yield from self._of_attachment(attachment, member)
+        else:
+            yield (attachment.record, member)
+
+    def _of_attachment(self, attachment: Attachment, member: str) -> Iterator[Place]:
+        """The format or the sample count of an attachment: its own, or its image's."""
+        images = any(target.image is not None for target in attachment.targets)
+        if member in attachment.record.SHAPE and images and attachment.record.states(_SIBLING[member]):
+            yield (attachment.record, member)
+        else:
+            yield from self._of_images(attachment.targets, member)
+
+    def _operations(self, attachments: Iterable[Attachment], operation: str) -> Iterator[Place]:
+        for attachment in attachments:
+            for aspect in attachment.aspects:
+                yield (attachment.record, aspect.load_member if operation == "load" else aspect.store_member)
+
+    def _attachments(self, subject: Subject, member: str) -> Iterator[Place]:
+        """All attachments of the subpass or pass that a subject is about."""
+        render_pass = self._pass_of(subject)
+        draws = self._draws.get(subject.pipeline.key, ()) if subject.pipeline is not None and subject.subpass is None else ()
+        subpasses = [draw.subpass for draw in draws] if draws else [subject.subpass]
+        drawn_in = [subpass for subpass in subpasses if subpass is not None]
+        attachments = [each for subpass in drawn_in for each in (*subpass.color, *subpass.depth_stencil) if each is not None]
+        if not drawn_in and render_pass is not None:
+            attachments = render_pass.attachments
+        if member in ("load", "store"):
+            yield from self._operations(attachments, member)
+        else:
+            for attachment in attachments:
+                yield from self._of_attachment(attachment, member)
+
+    @cached_property
+    def _draws(self) -> dict[str, list[Draw]]:
+        return draws_of(self.analysis.walk)
+
+    def _of_end(self, subject: Subject, member: str, end: str) -> Iterator[Place]:
+        """The source or the target of a resolve."""
+        resolve = subject.resolve
+        if resolve is None:
+            return
+        if member == end or (resolve.read_part if end == "source" else resolve.written_part) is None:
+            yield from self._end_of(resolve, end)
+            return
+        attachment, image = (resolve.source, resolve.source_image) if end == "source" else (resolve.target, resolve.target_image)
+        if attachment is not None and member == "store":
+            yield from self._operations([attachment], member)
+        elif attachment is not None and member in _SIBLING:
+            yield from self._of_attachment(attachment, member)
+        else:
+            yield from self._of_images([image] if image is not None else attachment.targets if attachment is not None else [], member)
+
+    def _end_of(self, resolve: Resolve, end: str) -> Iterator[Place]:
+        """The key that names what a resolve reads or writes."""
+        if resolve.kind == "command":
+            yield (resolve.record, "srcImage" if end == "source" else "dstImage")
+        elif resolve.kind == RENDERING:
+            yield (resolve.record, "image" if end == "source" else "resolveImage")
+        elif end == "source" and resolve.render_pass is not None:
+            subpass = resolve.render_pass.subpasses[resolve.subpass].record
+            yield (subpass, "colorAttachments" if resolve.aspect == "color" else "depthStencilAttachment")
+        else:
+            yield (resolve.record, "attachment")
+
+    # The rest
+
+    def _pass_of(self, subject: Subject) -> Pass | None:
+        if subject.render_pass is not None:
+            return subject.render_pass
+        if subject.subpass is not None:
+            return subject.subpass.render_pass
+        if subject.resolve is not None:
+            return subject.resolve.render_pass
+        inside = (each for each in self.frame.passes if subject.path.startswith((each.path + ".", each.path + "[")))
+        return next(inside, None)
+
+    def _pass(self, subject: Subject, member: str) -> Iterator[Place]:
+        render_pass = self._pass_of(subject)
+        if render_pass is not None:
+            yield (render_pass.record, member)
+
+    def _pipelines(self, subject: Subject, member: str) -> Iterator[Place]:
+        if subject.subpass is not None:
+            pipelines = pipelines_of(subject.subpass, self.analysis.walk)
+            yield from ((pipeline, member) for pipeline in pipelines if pipeline is not None)
+
+    def _pipeline(self, subject: Subject, member: str) -> Iterator[Place]:
+        pipeline = subject.pipeline
+        if pipeline is not None and not (member in ("renderPass", "subpass") and pipeline.states("rendering")):
+            yield (pipeline, member)
+
+    def _read(self, subject: Subject, member: str) -> Iterator[Place]:
+        body = self.frame.commands[subject.position].body if subject.position is not None else None
+        if isinstance(body, ReadImage) and member in body.SHAPE:
+            yield (body, member)
+        elif member == "pipeline":
+            pipelines = self.description.pipelines.values()
+            yield from ((pipeline, "stages") for pipeline in pipelines) if pipelines else [(self.description, "pipelines")]
+
+    def _choice(self, subject: Subject) -> Record | None:
+        return next((each for each in self.description.sampleCountChoices.values() if each.path == subject.path), None)
+
+    def _begins(self, subject: Subject, member: str) -> Iterator[Place]:
+        render_pass = self._pass_of(subject)
+        for position in render_pass.begun if render_pass is not None else ():
+            body = self.frame.commands[position].body
+            if isinstance(body, BeginRenderPass):
+                yield (body, member)
+
+    def _device(self, subject: Subject, member: str) -> Iterator[Place]:
+        """The device, and of one that the description describes, a member. A device that is only named says all that it says."""
+        device = self.description.device
+        if device is None and self.analysis.device is None:
+            yield (self.description, "device")
+        elif isinstance(device, Device):
+            resolve = subject.resolve
+            if member == "resolveModes":
+                member = "stencilResolveModes" if resolve is not None and resolve.aspect == "stencil" else "depthResolveModes"
+            if member != "sampleCounts":
+                yield (device, member)
+                return
+            formats = {target.format for target in self._images(subject)} - {None}
+            for format in formats:
+                for aspect in format.aspects if format is not None else ():
+                    integer = aspect == "color" and format is not None and format.is_integer
+                    yield (device, f"sampleCounts.{'integer' if integer else aspect}")
+
+    def _in_metal(self, record: Record, path: str, subject: Subject) -> Iterator[Place]:
+        """A key in Metal's terms, if it has one."""
+        metal = self.description.metal
+        assert metal is not None and self.lowered is not None
+        if isinstance(record, Image):
+            texture = metal.textures.get(record.key)
+            if texture is not None and path in _METAL_IMAGE:
+                yield (texture, _METAL_IMAGE[path])
+        elif isinstance(record, Pipeline):
+            pipeline = metal.renderPipelines.get(record.key)
+            if pipeline is not None and path in _METAL_PIPELINE:
+                yield (pipeline, _METAL_PIPELINE[path])
+        elif id(record) in self.lowered.attachments:
+            stated = self.lowered.attachments[id(record)]
+            aspect = subject.aspect.name if subject.aspect is not None else None
+            structures = [stated[aspect]] if aspect is not None and aspect in stated else list(stated.values())
+            if path == "resolveFilter":
+                names = {each: next((name for name in each.SHAPE if name.endswith("ResolveFilter")), None) for each in structures}
+                yield from ((each, name) for each, name in names.items() if name is not None)
+            elif path in _METAL_ATTACHMENT:
+                yield from ((each, _METAL_ATTACHMENT[path]) for each in structures)
+        elif record is self.description:
+            yield (metal, path) if path == "commands" else (record, path)
+
+
+def _one(record: Record | None, member: str) -> list[Place]:
+    return [(record, member)] if record is not None else []
+
+
+def resolve_mode(resolve: Resolve) -> Place | None:
+    """The member that states a resolve's mode, or None if Vulkan prescribes the mode."""
+    if resolve.kind == RENDERING:
+        return (resolve.record, "resolveMode")
+    member = f"{resolve.aspect}ResolveMode"
+    return (resolve.record, member) if member in resolve.record.SHAPE else None
+
+
+def _of_resolve(resolve: Resolve | None, member: str) -> Iterator[Place]:
+    if resolve is None:
+        return
+    if member == "mode":
+        place = resolve_mode(resolve)
+        if place is not None:
+            yield place
+
+
+def _unstated(record: Record, path: str) -> MissingKey | None:
+    """The first member on a path from a record that is not stated; None if all are, or if the record has no such member."""
+    name, _, rest = path.partition(".")
+    shape = record.SHAPE.get(name)
+    if shape is None:
+        return None
+    if not record.states(name):
+        return MissingKey(record.path, path, _IN_WORDS.get(path.rpartition(".")[2]) or _values(shape, rest), record.head)
+    value = getattr(record, name)
+    parts = value if isinstance(value, tuple) else (value,)
+    if not rest:
+        return None
+    inner = (_unstated(part, rest) for part in parts if isinstance(part, Record))
+    return next((missing for missing in inner if missing is not None), None)
+
+
+_IN_WORDS = {
+    "device": "a device's name, or a mapping of what it supports",
+    "commands": "the recorded commands of a whole frame",
+    "dependencies": "a list of VkSubpassDependency",
+    "module": "the path of a SPIR-V file",
+    "memoryTypes": "a list of lists of VkMemoryPropertyFlagBits",
+    "sampleCounts": "a mapping of lists of sample counts",
+    "tests": "a list of the bits that are tested",
+}
+"""What keys hold that no Vulkan type tells."""
+
+MAX_WORDS = 7
+
+
+def _values(shape: Shape, rest: str = "") -> str:
+    """What a key may hold, in words."""
+    kind = shape[0]
+    if kind == "record":
+        name, _, below = rest.partition(".")
+        inner = shape[1].SHAPE.get(name)
+        return _values(inner, below) if inner is not None else "a mapping"
+    if kind == "list" and rest:
+        return _values(shape[1], rest)
+    if kind == "null":
+        return _values(shape[1], rest)
+    if kind == "either":
+        return " or ".join(dict.fromkeys(_values(each, rest) for each in shape[1:]))
+    if kind in ("enum", "word", "caseless"):
+        words = list(map(str, shape[1])) if kind != "enum" else _enumerants(shape[1])
+        return f"{', '.join(words[:-1])} or {words[-1]}" if 1 < len(words) <= MAX_WORDS else _type(shape)
+    return _type(shape)
+
+
+def _enumerants(enums: str) -> list[str]:
+    if enums.startswith("MTL"):
+        from msaa_lint.frame.metal.names import ENUMS
+
+        return list(ENUMS.get(enums, ()))
+    from msaa_lint.frame.vulkan.enums import VALUES
+
+    return [name for enum in enums.split("|") for name in VALUES[enum]]
+
+
+def _type(shape: Shape) -> str:
+    kind = shape[0]
+    if kind == "enum":
+        return f"{'an' if shape[1].startswith('MTL') else 'a'} {shape[1].split('|')[0]}"
+    if kind == "flags":
+        return f"a list of {shape[1]}"
+    if kind == "name":
+        return f"the name of an entry of `{shape[1]}`"
+    words = {
+        "bool": "true or false",
+        "samples": "1, 2, 4, 8, 16, 32 or 64",
+        "int": "an integer",
+        "number": "a number",
+        "text": "a string",
+        "list": "a list",
+        "map": "a mapping by name",
+        "numbered": "a mapping by number",
+        "counted": "a list",
+    }
+    return words.get(kind, "one of the documented values")
