@@ -15,11 +15,11 @@ from msaa_lint.frame.description.models import (
 )
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.facts import Subject
+from msaa_lint.frame.facts.missing_keys import resolve_mode
 from msaa_lint.frame.facts.parts import Attachment, Resolve
 
 from .changes import Change, NoFix
 from .context import FixContext
-from .fact_sources import resolve_mode
 from .resolve_targets import next_use, target_usage
 from .subject_parts import copied_images, present, resolve_of
 
