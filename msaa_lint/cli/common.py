@@ -1,6 +1,7 @@
 """What the commands share: parsing option values, writing outputs, and ending with the right exit code."""
 
 import os
+import re
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
@@ -162,10 +163,13 @@ def set_utf_8(out: IO[str]) -> None:
 
 def parse_size(text: str, limit: int) -> tuple[int, int]:
     """Width and height in pixels of `1920x1080`. UsageError for anything else, and for a side above `limit`."""
-    sides = [int(side) for side in text.lower().split("x") if side.isascii() and side.isdigit() and len(side) <= len(str(limit))]
-    if len(sides) != 2 or text.lower().count("x") != 1 or not all(1 <= side <= limit for side in sides):
-        raise UsageError(f"`--size` must be WIDTHxHEIGHT in pixels, at most {limit} each, as in 1920x1080; found {quoted(text)}")
-    return sides[0], sides[1]
+    found = re.fullmatch(r"0*([1-9][0-9]{0,18})[xX]0*([1-9][0-9]{0,18})", text)
+    if found is None:
+        raise UsageError(f"`--size` must be WIDTHxHEIGHT in pixels, as in 1920x1080; found {quoted(text)}")
+    width, height = int(found[1]), int(found[2])
+    if max(width, height) > limit:
+        raise UsageError(f"`--size` must be at most {limit}x{limit}; found {quoted(text)}")
+    return width, height
 
 
 def parse_list(text: str, option: str, choices: Mapping[str, Value]) -> list[Value]:

@@ -126,8 +126,8 @@ COMMANDS = {
 
         Reads descriptions of frames (YAML, JSON), captures (GFXReconstruct, API dump, RenderDoc, Fossilize), Vulkan SC pipelines, render
         targets of Flutter's engine, and source code (C, C++, Swift, GLSL, Markdown).
-        In a folder, it reads what is called *.msaa.yaml (.yml, .json), and files whose content is one of these; a file that is named is
-        always read.
+        In a folder, it reads files called *.msaa.yaml (.yml, .json), other data files with content that only a frame has, and source code
+        that uses multisampling, except what .gitignore ignores. A file that is named is always read.
 
         Exits with 0 if there are no findings, 1 if there are, and 2 if an input, an option, the configuration, or msaa-lint failed.
 

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 from msaa_lint.core.extras import needs_extra
 from msaa_lint.core.finding import Finding
+from msaa_lint.core.quote import quoted
 from msaa_lint.experiments.confirm.inputs import Input, Inputs, inputs
 from msaa_lint.experiments.study.tasks import StudyInput
 from msaa_lint.frame.devices import DeviceProfile
@@ -88,8 +89,8 @@ def _unknown(word: str, names: Sequence[str]) -> str:
     from msaa_lint.core.suggestions import nearest
 
     close = nearest(word, names)
-    hint = f"did you mean {close}?" if close else f"scenes are {', '.join(names)}"
-    return f"no scene or file {word[:80]!r}; {hint}"
+    hint = f"did you mean `{close}`?" if close else f"scenes are {', '.join(names)}"
+    return f"no scene or file {quoted(word)}; {hint}"
 
 
 def _profile(arguments: Arguments) -> DeviceProfile | None:
@@ -97,7 +98,7 @@ def _profile(arguments: Arguments) -> DeviceProfile | None:
         return None
     profile = profile_of(arguments["profile"])
     if isinstance(profile, Problem):
-        raise UsageError(f"--profile: {profile.message}" + (f"; {profile.help}" if profile.help else ""))
+        raise UsageError(f"{profile.message} in `--profile`" + (f": {profile.help}" if profile.help else ""))
     return profile
 
 
