@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import CONFIDENCES, Finding, RuleInfo, Suppressed, Undecided
 from msaa_lint.core.text.source import Source, Unreadable, decode
+from msaa_lint.core.text.span import Span
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import ShaderStage
@@ -31,6 +32,9 @@ if TYPE_CHECKING:
 
 UNLIMITED = Limits(depth=100, nodes=1 << 40, bytes=1 << 40)
 """For text that msaa-lint itself wrote: the limits are for text that people write."""
+
+MAX_UNDECODABLE = 200
+"""Bytes that an excerpt shows from the first one that is not text."""
 
 _COMMENT_MARKS = ("msaa-lint", "msaalint", "msaa_lint", "msaa lint")
 """What a suppression comment contains, in lower case, misspelled ones included."""
@@ -67,7 +71,7 @@ class Engine:
             try:
                 source = Source(file, decode(data))
             except Unreadable as error:
-                return FileResult(file, None, [diagnostic("MSAA901", str(error), file)], [], [])
+                return _undecodable(data, file, error)
             return self._lint_text(source, file, options)
         from msaa_lint.input.source_file import SourceFile
 
@@ -91,7 +95,7 @@ class Engine:
         undecided: list[Undecided] = []
         results: list[DocumentResult] = []
         if not parsed.documents and not parsed.problems:
-            findings.append(diagnostic("MSAA901", "the input is empty", file))
+            findings.append(diagnostic("MSAA901", "the input is empty; it must contain a description", file, Span(0, 0)))
         for number, root in enumerate(parsed.documents):
             document = readers.read(source, root, options.format)
             if modules is not None:
@@ -223,6 +227,15 @@ def rule_infos(registry: Registry, severity: Severity, full: bool) -> list[RuleI
     """The enabled rules by code, as reports describe them; `full` includes their pages."""
     severities = [(rule, severity(rule, rule.severity, None)) for rule in registry.rules]
     return [info(rule, level, full) for rule, level in severities if level is not None]
+
+
+def _undecodable(data: bytes, file: str, error: Unreadable) -> FileResult:
+    """The result of an input that is not text: what stands before the invalid byte, if anything, gives the finding its place."""
+    if error.before is None:
+        return FileResult(file, None, [diagnostic("MSAA901", str(error), file)], [], [])
+    at = len(error.before)
+    text = error.before + data[error.offset : (error.offset or 0) + MAX_UNDECODABLE].decode("cp1252", "replace")
+    return FileResult(file, Source(file, text), [diagnostic("MSAA901", str(error), file, Span(at, at + 1))], [], [])
 
 
 def _has_suppressions(text: str) -> bool:

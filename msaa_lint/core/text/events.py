@@ -15,7 +15,7 @@ from yaml.error import MarkedYAMLError, YAMLError
 from yaml.events import ScalarEvent
 
 from .node import Problem, Stop
-from .span import Label, Span
+from .span import Span
 
 Get = Callable[[], Any]
 
@@ -27,7 +27,6 @@ _TAG_DIRECTIVE = r"(?:^|(?<=[\r\n]))%TAG"
 _SURROGATE = r"(?<!\\)((?:\\\\)*+)\\u(?=[dD][89a-fA-F][0-9a-fA-F]{2})"
 _PRIVATE = (range(0xE000, 0xF900), range(0xF0000, 0xFFFFE))
 _BREAKS = "\x85\u2028\u2029"
-_CONTEXT = r"while (?:parsing|scanning) an? (.+)"
 
 
 def readable(text: str) -> tuple[str, str]:
@@ -68,32 +67,19 @@ def events(text: str) -> Get:
 
 
 def problem_of(error: Exception, text: str) -> Problem:
-    """A parser's error as a problem, with a label at the structure that the error is in."""
-    mark = error.problem_mark if isinstance(error, MarkedYAMLError) else None
-    if not isinstance(error, MarkedYAMLError) or mark is None:
-        return Problem("MSAA901", f"the text cannot be parsed: {str(error).partition(chr(10))[0][:200]}", Span(0, 0))
-    start = min(mark.index, len(text))
-    span = Span(start, min(start + 1, len(text)))
-    problem, context = error.problem or "the text cannot be parsed", error.context or ""
-    message = _clearer_message(problem, text[start : start + 1]) or f"{problem} {context}".rstrip()
-    begin = start if error.context_mark is None else error.context_mark.index
-    structure = re.fullmatch(_CONTEXT, context)
-    if structure is None or begin >= start:
-        return Problem("MSAA901", message, span)
-    return Problem("MSAA901", message, span, (Label(Span(begin, begin + 1), f"the {structure[1]} begins here"),))
+    """The mistake behind a parser's error."""
+    if not isinstance(error, MarkedYAMLError) or error.problem_mark is None:
+        return Problem("MSAA901", "the text cannot be read as YAML or JSON", Span(0, 0))
+    from .outline import outline
+    from .syntax_errors import syntax_problem
+
+    problem = syntax_problem(error, text, outline(parser(readable(text)[0]), text, error.problem_mark.index))
+    start, end = problem.span
+    return problem._replace(span=Span(min(start, len(text)), min(end, len(text))))
 
 
 ERRORS = (YAMLError, ValueError)
 """What a parser raises for an invalid text."""
-
-
-def _clearer_message(problem: str, at: str) -> str:
-    """A message that says more than the parser's own; empty where that is clear."""
-    if at == "\t" and ("cannot start any token" in problem or "violates indentation" in problem):
-        return "a tab cannot be used here; indent YAML with spaces"
-    if at == ":" and "',' or '}'" in problem:
-        return "this `:` has no key; a key must be on the line of its `:` and have at most 1024 characters"
-    return ""
 
 
 def _without_outer_tabs(text: str) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from msaa_lint.core.quote import quoted
+
 from .node import Node, Stop
 
 
@@ -16,7 +18,8 @@ def merge(node: Node) -> None:
     bases = merged.value if merged.kind == "sequence" else [merged]
     for base in bases:
         if base.kind != "mapping":
-            raise Stop("MSAA903", "`<<` must be a mapping or a list of mappings", base.start, max(base.end, base.start + 1))
+            message = f"`<<` must be a mapping or a list of mappings, found {quoted(base.text) if base.kind == 'scalar' else 'a list'}"
+            raise Stop("MSAA903", f"{message}; write `*name` with the name of an anchor", base.start, max(base.end, base.start + 1))
     values: dict[str, Node] = {}
     keys: dict[str, Node] = {}
     for name, value in node.value.items():

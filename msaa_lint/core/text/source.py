@@ -18,11 +18,12 @@ _NAMES = {"utf-8": "UTF-8", "utf-16-le": "UTF-16", "utf-16-be": "UTF-16"}
 
 
 class Unreadable(ValueError):
-    """An input that is not text or is too large. `offset` is that of the invalid byte, if there is one."""
+    """An input that is not text or is too large. `offset` is that of the invalid byte, if there is one, and `before` the text before it."""
 
-    def __init__(self, message: str, offset: int | None = None) -> None:
+    def __init__(self, message: str, offset: int | None = None, before: str | None = None) -> None:
         super().__init__(message)
         self.offset = offset
+        self.before = before
 
 
 class Position(NamedTuple):
@@ -103,8 +104,19 @@ def decode(data: bytes) -> str:
         before = Source("", body[: error.start].decode(encoding))
         place = before.position(len(before.text))
         offset = len(mark) + error.start
-        message = f"the input is not {_NAMES[encoding]}: byte {offset} (line {place.line}, column {place.column}): {error.reason}"
-        raise Unreadable(message, offset) from None
+        message = (
+            f"the input is not {_NAMES[encoding]}: byte {offset} (line {place.line}, column {place.column}) {_invalid(body, error.start)}"
+        )
+        raise Unreadable(message, offset, before.text) from None
+
+
+def _invalid(body: bytes, at: int) -> str:
+    """What an invalid byte is, and what to do."""
+    if b"\0" in body[:64]:
+        return f"is 0x{body[at]:02X}; this is not a text file"
+    letter = body[at : at + 1].decode("cp1252", "replace")
+    legacy = f", which is `{letter}` in Windows-1252" if letter.isprintable() and letter != "\ufffd" else ""
+    return f"is 0x{body[at]:02X}{legacy}; save the file as UTF-8"
 
 
 def encode(text: str, like: bytes) -> bytes:
@@ -127,3 +139,14 @@ def forbidden(text: str) -> int | None:
         return None
     match = re.search(_FORBIDDEN, text)
     return match.start() if match is not None else None
+
+
+def forbidden_message(text: str, at: int) -> str:
+    """What to say about a character that YAML forbids."""
+    if text[at] != "\0":
+        number = f"{ord(text[at]):04X}"
+        return f"the character U+{number} is not allowed in YAML or JSON; delete it, or write `\\u{number}` in double quotes"
+    head = text[:64]
+    if len(head) >= 4 and head.count("\0") * 3 >= len(head):
+        return "the text looks like UTF-16 or UTF-32, which is read with a byte order mark only in UTF-16; save the file as UTF-8"
+    return "the character U+0000 is not allowed in YAML or JSON; delete it"

@@ -33,7 +33,11 @@ def apply_tag(node: Node, tag: str, text: str) -> Problem | None:
     span = _tag_place(node, text) or Span(node.start, node.start)
     shown = quoted(text[span.start : span.end])
     if core == tag or core not in _KINDS:
-        return Problem("MSAA903", f"the tag {shown} is not supported; use only tags of YAML's core schema", span)
+        return Problem(
+            "MSAA903",
+            f"the tag {shown} is not supported; put the value in quotes if `!` is part of it, or use a tag of YAML's core schema",
+            span,
+        )
     if node.kind != _KINDS[core] or not _matches(node, core):
         return Problem("MSAA903", f"the tag {shown} does not match its value", span)
     return None

@@ -27,7 +27,7 @@ from .events import ERRORS, events, problem_of
 from .files import read
 from .node import NO_KEYS, Limits, Node, Parsed, Problem, Stop
 from .scalars import WORDS, resolve
-from .source import Source, forbidden
+from .source import Source, forbidden, forbidden_message
 from .span import Label, Span
 
 __all__ = ["Limits", "Node", "Parsed", "Problem", "parse", "read"]
@@ -60,7 +60,7 @@ def parse(source: Source, limits: Limits) -> Parsed:
     # The parser rejects these characters too, but not at their place, and perhaps after it has rejected something else.
     at = forbidden(text)
     if at is not None:
-        return Parsed([], [Problem("MSAA901", f"the character U+{ord(text[at]):04X} is not allowed in YAML or JSON", Span(at, at + 1))])
+        return Parsed([], [Problem("MSAA901", forbidden_message(text, at), Span(at, at + 1))])
     return Parsed(reading.documents, [*reading.problems, problem])
 
 
@@ -198,7 +198,8 @@ class _Reading:
                 values.append(node)
             elif key is None:
                 if node.kind != "scalar":
-                    raise Stop("MSAA901", f"a {node.kind} cannot be a key; use a scalar", start, max(start + 1, node.end))
+                    hint = "fill in the template" if text.startswith("{{", max(start - 1, 0)) else "use a scalar"
+                    raise Stop("MSAA901", f"a {node.kind} cannot be a key; {hint}", start, max(start + 1, node.end))
                 key = node
                 continue
             else:
@@ -221,12 +222,21 @@ class _Reading:
 
     def _report_duplicate(self, key: Node, first: Node) -> None:
         """Reports the second of two equal keys; the first one counts."""
-        self._report(Problem("MSAA905", f"duplicate key {quoted(key.text)}", key.span, (Label(first.span, "first defined here"),)))
+        self._report(
+            Problem(
+                "MSAA905", f"duplicate key {quoted(key.text)}; remove one of the two", key.span, (Label(first.span, "first defined here"),)
+            )
+        )
 
     def _anchored(self, event: Any) -> _Anchored:
         start, end, name = event.start_mark.index, event.end_mark.index, event.anchor
         if name not in self.anchors:
-            raise Stop("MSAA901", f"the anchor {quoted(f'&{name}')} is not defined before this alias", start, end)
+            from msaa_lint.core.suggestions import did_you_mean
+
+            hint = did_you_mean(name, self.anchors)
+            if not hint and re.search(rf"&{re.escape(name)}(?![^\s,\[\]{{}}])", self.text[end:]):
+                hint = "; move its definition before it"
+            raise Stop("MSAA901", f"the anchor {quoted(f'&{name}')} is not defined before this alias{hint}", start, end)
         anchored = self.anchors[name]
         if anchored is None:
             raise Stop("MSAA901", f"the anchor {quoted(f'&{name}')} contains itself", start, end)

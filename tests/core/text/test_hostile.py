@@ -208,7 +208,7 @@ def test_ten_megabytes_of_one_scalar(before: str, after: str) -> None:
         ('{{"{}": 1}}', "a key must be on the line of its `:` and have at most 1024 characters"),
         ("'{}': 1", ""),
         ("? {}\n: 1", None),
-        ("'{}", "unexpected end of stream"),
+        ("'{}", "is never closed"),
         ("# {}", None),
         ("&{} a", None),
         ("*{}", "is not defined"),
