@@ -7,10 +7,10 @@ from typing import Any
 
 from yaml.tokens import FlowEntryToken, FlowMappingStartToken, FlowSequenceStartToken, KeyToken, ScalarToken, ValueToken
 
+from .excerpts import indent_of, line_start, place, shown, syntax, unclosed_quote
 from .node import Problem
-from .outline import Bracket, Outline, indent_of, line_start
+from .outline import Bracket, Outline
 from .span import Label, Span
-from .syntax_errors import place, shown, unclosed_quote
 
 MAX_KEY = 200
 """Characters in which the key is looked for that a plain text ends with."""
@@ -39,12 +39,13 @@ def in_brackets(text: str, at: int, outline: Outline) -> Problem:
     end = last.end_mark.index
     if type(last) in (FlowEntryToken, FlowMappingStartToken, FlowSequenceStartToken) or char == ",":
         after = shown(text, last.start_mark.index, end)
-        return _problem(f"expected a value or a key after {after}, found {shown(text, at, at + 1)}; remove one of them", at, at + 1)
+        return syntax(f"expected a value or a key after {after}, found {shown(text, at, at + 1)}; remove one of them", at, at + 1)
     if type(last) is ValueToken or type(last) is KeyToken:
-        return _problem(f"expected a value, found {shown(text, at, at + 1)}", at, at + 1)
+        return syntax(f"expected a value, found {shown(text, at, at + 1)}", at, at + 1)
     if text[end - 1 : end] in ('"', "'") and type(last) is ScalarToken and end == at and not text[at : at + 1].isspace():
-        message = f'{shown(text, at)} follows the closing quote of {shown(text, last.start_mark.index, end)}; a quote is missing, or a `\\"` for one in the text'
-        return _problem(message, at, at + 1, Label(Span(last.start_mark.index, end), "the quotes end here"))
+        quotes = f"the closing quote of {shown(text, last.start_mark.index, end)}"
+        message = f'{shown(text, at)} follows {quotes}; a quote is missing, or a `\\"` for one in the text'
+        return syntax(message, at, at + 1, Label(Span(last.start_mark.index, end), "the quotes end here"))
     if opening == "{" and type(last) is ScalarToken and not _is_value(outline):
         return _missing_colon(text, at, last)
     if _continues_below(text, at, outline.brackets[-1], end):
@@ -52,14 +53,10 @@ def in_brackets(text: str, at: int, outline: Outline) -> Problem:
     return missing_comma(text, last.start_mark.index, end, at)
 
 
-def _problem(message: str, start: int, end: int, *labels: Label) -> Problem:
-    return Problem("MSAA901", message, Span(start, end), labels)
-
-
 def missing_comma(text: str, start: int, end: int, at: int) -> Problem:
     """A comma that is missing right after a value, before what stands at `at`."""
     value = shown(text, start, end) if end - start > 1 else f"`{text[start:end]}`"
-    return _problem(f"`,` is missing after {value}, before {shown(text, at, _word_end(text, at))}", end, end)
+    return syntax(f"`,` is missing after {value}, before {shown(text, at, _word_end(text, at))}", end, end)
 
 
 def _word_end(text: str, at: int) -> int:
@@ -74,7 +71,7 @@ def _unclosed(text: str, at: int, bracket: Bracket, count: int, why: str) -> Pro
     message = f"`{opening}` is never closed{others}: {why} before its `{closing}`"
     end = min(at + 1, len(text))
     labels = (Label(Span(at, end), f"expected `{closing}` before this"),) if at < end else ()
-    return _problem(message, bracket.start, bracket.start + 1, *labels)
+    return syntax(message, bracket.start, bracket.start + 1, *labels)
 
 
 def _closed_by_another(text: str, at: int, bracket: Bracket) -> Problem:
@@ -83,9 +80,9 @@ def _closed_by_another(text: str, at: int, bracket: Bracket) -> Problem:
     if line_start(text, at) == line_start(text, bracket.start):
         column = bracket.start - line_start(text, at) + 1
         message = f"`{text[at]}` does not close the `{opening}` at column {column}; write `{closing}` before it or for it"
-        return _problem(message, at, at + 1, Label(Span(bracket.start, bracket.start + 1), f"this `{opening}` is open"))
+        return syntax(message, at, at + 1, Label(Span(bracket.start, bracket.start + 1), f"this `{opening}` is open"))
     message = f"`{opening}` is never closed: expected its `{closing}` before the `{text[at]}` at {place(text, at)}"
-    return _problem(message, bracket.start, bracket.start + 1, Label(Span(at, at + 1), f"this `{text[at]}` closes another bracket"))
+    return syntax(message, bracket.start, bracket.start + 1, Label(Span(at, at + 1), f"this `{text[at]}` closes another bracket"))
 
 
 def _at_colon(text: str, at: int, outline: Outline) -> Problem:
@@ -94,18 +91,18 @@ def _at_colon(text: str, at: int, outline: Outline) -> Problem:
     start, end = last.start_mark.index, last.end_mark.index
     if type(last) is not ScalarToken:
         if type(last) in (FlowEntryToken, FlowMappingStartToken, FlowSequenceStartToken):
-            return _problem("expected a key before this `:`", at, at + 1)
-        return _problem("this `:` has no key; a key must be on the line of its `:` and have at most 1024 characters", at, at + 1)
+            return syntax("expected a key before this `:`", at, at + 1)
+        return syntax("this `:` has no key; a key must be on the line of its `:` and have at most 1024 characters", at, at + 1)
     value = text[start:end]
     match = re.compile(r"(?<=\s)(?:\"[^\"]*\"|'[^']*'|\S+)\Z").search(value, max(0, len(value) - MAX_KEY))
     key = start + match.start() if match is not None else start
     before = start + len(text[start:key].rstrip())
     if last.style or before <= start:
-        return _problem("this `:` has no key; a key must be on the line of its `:` and have at most 1024 characters", at, at + 1)
+        return syntax("this `:` has no key; a key must be on the line of its `:` and have at most 1024 characters", at, at + 1)
     if "\n" in text[before:key] and _continues_below(text, key, bracket, before):
         return _unclosed(text, key, bracket, 1, f"the key {shown(text, key, end)} follows")
     if text[before - 1] == ";":
-        return _problem("`;` does not separate entries; write `,`", before - 1, before)
+        return syntax("`;` does not separate entries; write `,`", before - 1, before)
     return missing_comma(text, start, before, key)
 
 
@@ -125,8 +122,8 @@ def _missing_colon(text: str, at: int, key: Any) -> Problem:
     start, end = key.start_mark.index, key.end_mark.index
     sign = re.compile(r"=>?").match(text, at)
     if sign is not None:
-        return _problem(f"`{sign[0]}` does not separate a key and its value; write `:`", at, sign.end())
-    return _problem(f"`:` is missing after the key {shown(text, start, end)}", end, end)
+        return syntax(f"`{sign[0]}` does not separate a key and its value; write `:`", at, sign.end())
+    return syntax(f"`:` is missing after the key {shown(text, start, end)}", end, end)
 
 
 def _comment(text: str, scalar: Any) -> Problem | None:
@@ -136,4 +133,4 @@ def _comment(text: str, scalar: Any) -> Problem | None:
     match = re.compile(r"(?<!\S)(?://|/\*)").search(text, scalar.start_mark.index, scalar.end_mark.index)
     if match is None:
         return None
-    return _problem(f"`{match[0]}` does not begin a comment here; write `#`, or remove the comment", *match.span())
+    return syntax(f"`{match[0]}` does not begin a comment here; write `#`, or remove the comment", *match.span())

@@ -15,6 +15,8 @@ from yaml.tokens import (
     ScalarToken,
 )
 
+from .excerpts import indent_of
+
 MAX_TOKENS = 4
 
 
@@ -88,19 +90,3 @@ def outline(parser: Any, text: str, at: int) -> Outline:
         if kind is ScalarToken or token.end_mark.index > mark.index:
             tokens.append(token)
     return Outline(brackets, blocks, closed, list(tokens), misaligned)
-
-
-def line_start(text: str, at: int) -> int:
-    """The offset at which the line of an offset begins."""
-    return max(text.rfind("\n", 0, at), text.rfind("\r", 0, at)) + 1
-
-
-def line_end(text: str, at: int) -> int:
-    """The offset at which the line of an offset ends."""
-    return min(end for end in (text.find("\n", at), text.find("\r", at), len(text)) if end >= 0)
-
-
-def indent_of(text: str, at: int) -> int:
-    """The number of spaces that the line of an offset begins with."""
-    line = text[line_start(text, at) : line_end(text, at)]
-    return len(line) - len(line.lstrip(" "))

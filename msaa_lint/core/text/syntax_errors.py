@@ -13,16 +13,16 @@ from yaml.error import MarkedYAMLError
 
 from msaa_lint.core.quote import quoted
 
+from .bracket_errors import in_brackets
+from .excerpts import MAX_SHOWN, line_end, line_start, place, shown, syntax, unclosed_quote
 from .node import Problem
-from .outline import Outline, line_end, line_start
+from .outline import Outline
 from .plain_lines import keyless, word_at
 from .span import Label, Span
 
 _CONFLICT = re.compile(r"^(?:<{7}|={7}|>{7})(?= |\r?$)", re.MULTILINE)
 _UNCLOSED_QUOTE = ("unexpected end of stream", "unexpected document separator", "unexpected document indicator")
 _HEX = {"x": "two", "u": "four", "U": "eight"}
-MAX_SHOWN = 40
-"""Characters of the text in a message."""
 
 
 def syntax_problem(error: MarkedYAMLError, text: str, outline: Outline) -> Problem:
@@ -33,7 +33,7 @@ def syntax_problem(error: MarkedYAMLError, text: str, outline: Outline) -> Probl
     begin = min(error.context_mark.index, at) if error.context_mark is not None else at
     conflict = _CONFLICT.search(text, line_start(text, begin), line_end(text, at))
     if conflict is not None:
-        return _problem(
+        return syntax(
             "this is a merge conflict's marker; keep one side of the conflict and delete the markers", conflict.start(), conflict.end()
         )
     if "quoted scalar" in context or "double-quoted" in context or "single-quoted" in context:
@@ -46,27 +46,8 @@ def syntax_problem(error: MarkedYAMLError, text: str, outline: Outline) -> Probl
     if name is not None:
         return name
     if outline.brackets:
-        from .bracket_errors import in_brackets
-
         return in_brackets(text, at, outline)
     return _in_blocks(text, at, begin, said, outline)
-
-
-def _problem(message: str, start: int, end: int | None = None, *labels: Label) -> Problem:
-    return Problem("MSAA901", message, Span(start, start + 1 if end is None else end), labels)
-
-
-def shown(text: str, start: int, end: int | None = None) -> str:
-    """A piece of the text in backticks, on one line."""
-    end = min(line_end(text, start) if end is None else end, start + 4 * MAX_SHOWN)
-    return quoted(" ".join(text[start:end].split()), MAX_SHOWN)
-
-
-def place(text: str, at: int) -> str:
-    """How a message names an offset: `line 3, column 5`."""
-    start = line_start(text, at)
-    line = len(re.findall(r"\r\n|\r|\n", text[:start]))
-    return f"line {line + 1}, column {at - start + 1}"
 
 
 def _in_quotes(text: str, at: int, begin: int, said: str) -> Problem:
@@ -75,28 +56,22 @@ def _in_quotes(text: str, at: int, begin: int, said: str) -> Problem:
         return unclosed_quote(text, begin)
     start = text.rfind("\\", begin, at + 1)
     if start < 0 or quote != '"':
-        return _problem(f"this text in quotes is invalid; check its `{quote}` and `\\`", at)
+        return syntax(f"this text in quotes is invalid; check its `{quote}` and `\\`", at)
     letter = text[start + 1 : start + 2]
     if "escape code" in said:
         escape = re.compile(r"\\u?U?[0-9a-fA-F]{0,8}").match(text, start)
         end = escape.end() if escape is not None else at
-        return _problem(f"`{text[start:end]}` is not a character", start, end)
+        return syntax(f"`{text[start:end]}` is not a character", start, end)
     if letter and letter in _HEX:
         message = f"`\\{letter}` must be followed by {_HEX[letter]} hexadecimal digits of a character; write `\\\\` for a backslash"
-        return _problem(message, start, start + 2)
-    return _problem(f"`\\{letter}` is not an escape in double quotes; write `\\\\` for a backslash, or `/` in a path", start, start + 2)
-
-
-def unclosed_quote(text: str, begin: int) -> Problem:
-    """A text in quotes that begins at an offset and does not end on its line."""
-    quote, rest = text[begin], shown(text, begin)
-    return _problem(f"the quote {rest} is never closed; add the closing `{quote}`", begin)
+        return syntax(message, start, start + 2)
+    return syntax(f"`\\{letter}` is not an escape in double quotes; write `\\\\` for a backslash, or `/` in a path", start, start + 2)
 
 
 def _tab(text: str, at: int) -> Problem:
     while text[at - 1 : at] == "\t":
         at -= 1
-    return _problem("a tab cannot be used here; indent YAML with spaces", at)
+    return syntax("a tab cannot be used here; indent YAML with spaces", at)
 
 
 def _directive(text: str, at: int) -> Problem:
@@ -104,37 +79,37 @@ def _directive(text: str, at: int) -> Problem:
     start = max(start, 0)
     line = text[start : line_end(text, start)]
     if re.match(r"%YAML\b", line):
-        return _problem(
+        return syntax(
             f"{quoted(line, MAX_SHOWN)} is not a version of YAML that is read; remove the line, or write `%YAML 1.2`",
             start,
             start + len(line),
         )
     if line.startswith("%"):
-        return _problem("a line that begins with `%` is a YAML directive; write `#` for a comment, or remove the line", start)
-    return _problem("expected `---` after the YAML directives", at)
+        return syntax("a line that begins with `%` is a YAML directive; write `#` for a comment, or remove the line", start)
+    return syntax("expected `---` after the YAML directives", at)
 
 
 def _indicator(text: str, at: int, begin: int, said: str, context: str) -> Problem | None:
     """A value that begins with a character that YAML reserves; None if the error is another."""
     if "cannot start any token" in said:
         if text.startswith("```", at):
-            return _problem("a Markdown fence is not YAML; remove the lines that begin with three backticks", at, at + 3)
+            return syntax("a Markdown fence is not YAML; remove the lines that begin with three backticks", at, at + 3)
         char = "a backtick" if text[at] == "`" else f"`{text[at]}`"
         hint = f'; write "{_rest(text, at)}"' if text[at] != "`" else "; remove it, or put the value in quotes"
-        return _problem(f"a value cannot begin with {char}{hint}", at)
+        return syntax(f"a value cannot begin with {char}{hint}", at)
     if "while scanning an alias" in context or "while scanning an anchor" in context:
         star = text[begin : begin + 1]
         kind = "an alias" if star == "*" else "an anchor"
-        return _problem(f"`{star}` begins {kind}, so a name must follow; put the value in quotes if `{star}` is part of it", begin)
+        return syntax(f"`{star}` begins {kind}, so a name must follow; put the value in quotes if `{star}` is part of it", begin)
     if " tag" in context:
-        return _problem("`!` begins a YAML tag; put the value in quotes if `!` is part of it", begin)
+        return syntax("`!` begins a YAML tag; put the value in quotes if `!` is part of it", begin)
     if "block scalar" in context:
-        return _problem(
+        return syntax(
             f"{shown(text, begin)} begins a text on the following lines, and nothing may follow it on its line; put the value in quotes",
             begin,
         )
     if "mapping keys are not allowed" in said:
-        return _problem("a value cannot begin with `? `; put it in quotes", at)
+        return syntax("a value cannot begin with `? `; put it in quotes", at)
     return None
 
 
@@ -151,18 +126,18 @@ def _in_blocks(text: str, at: int, begin: int, said: str, outline: Outline) -> P
     if "mapping values are not allowed" in said:
         return _second_colon(text, at)
     if "could not find expected ':'" in said:
-        return keyless(text, begin) or _problem(f"expected `:` after {shown(text, begin)}", begin, line_end(text, begin))
+        return keyless(text, begin) or syntax(f"expected `:` after {shown(text, begin)}", begin, line_end(text, begin))
     if "sequence entries are not allowed" in said:
-        return _problem("a list cannot begin on the line of its key; put each `- ` on a line of its own, or write `[...]`", at)
+        return syntax("a list cannot begin on the line of its key; put each `- ` on a line of its own, or write `[...]`", at)
     if char in ("]", "}"):
         opening = "[" if char == "]" else "{"
-        return _problem(f"this `{char}` closes nothing; remove it, or add the `{opening}` that it closes", at)
+        return syntax(f"this `{char}` closes nothing; remove it, or add the `{opening}` that it closes", at)
     if "document start" in said:
         return _after_document(text, at)
     if last is not None and end > 0 and _same_line(text, end, at) and text[at] not in ",:":
         return _after_value(text, at, last)
     if char == ":":
-        return _problem("expected a key before this `:`", at)
+        return syntax("expected a key before this `:`", at)
     if char == "-" and text[at + 1 : at + 2] in (" ", "\n", "\r", ""):
         return _stray_item(text, at, outline)
     return _indentation(text, at, outline)
@@ -182,10 +157,10 @@ def _second_colon(text: str, at: int) -> Problem:
             if len(words) == 1
             else f"put the value in quotes, or {last} on a line of its own"
         )
-        return _problem(f"a second `:` on the line of {key}: {hint}", at)
+        return syntax(f"a second `:` on the line of {key}: {hint}", at)
     before = _line_before(text, start)
     if before is None:
-        return _problem("this `:` is not expected; put the value in quotes if it is part of it", at)
+        return syntax("this `:` is not expected; put the value in quotes if it is part of it", at)
     head, tail = before
     found = keyless(text, head)
     if found is not None:
@@ -193,8 +168,8 @@ def _second_colon(text: str, at: int) -> Problem:
     key, column = word_at(text, head)
     if key.endswith(":") and column is not None:
         message = f"{shown(text, body, at)} is indented deeper than {quoted(key[:-1], MAX_SHOWN)}, which has a value already; align them"
-        return _problem(message, body, at, Label(Span(head, tail), "this is the value that the line would continue"))
-    return _problem("this `:` is not expected; put the value in quotes if it is part of it", at)
+        return syntax(message, body, at, Label(Span(head, tail), "this is the value that the line would continue"))
+    return syntax("this `:` is not expected; put the value in quotes if it is part of it", at)
 
 
 def _line_before(text: str, start: int) -> tuple[int, int] | None:
@@ -227,9 +202,9 @@ def _after_value(text: str, at: int, last: Any) -> Problem:
             if quote == "'"
             else 'put the whole value in quotes, and write `\\"` for a quote in it'
         )
-        return _problem(f"{rest} follows {closing}; {hint}", at, None, Label(Span(start, end), "the quotes end here"))
+        return syntax(f"{rest} follows {closing}; {hint}", at, None, Label(Span(start, end), "the quotes end here"))
     after = f"`{text[end - 1]}`" if text[end - 1 : end] in ("]", "}") else shown(text, start, end)
-    return _problem(f"{shown(text, at)} follows {after} on the same line; remove it, or put it on a line of its own", at)
+    return syntax(f"{shown(text, at)} follows {after} on the same line; remove it, or put it on a line of its own", at)
 
 
 def _after_document(text: str, at: int) -> Problem:
@@ -238,17 +213,15 @@ def _after_document(text: str, at: int) -> Problem:
     begin = first.end() if first is not None else 0
     if text[begin : begin + 1] in ("{", "["):
         if char in ("{", "["):
-            return _problem("a second JSON value begins here; keep one value in a file, or put a line `---` before each", at)
+            return syntax("a second JSON value begins here; keep one value in a file, or put a line `---` before each", at)
         if char == ",":
-            return _problem("this `,` follows the end of the JSON value; remove it, or put the values in one", at)
-        return _problem(
-            f"{shown(text, at)} follows the end of the value that `{text[begin]}` begins at {place(text, begin)}; remove it", at
-        )
+            return syntax("this `,` follows the end of the JSON value; remove it, or put the values in one", at)
+        return syntax(f"{shown(text, at)} follows the end of the value that `{text[begin]}` begins at {place(text, begin)}; remove it", at)
     column, least = at - line_start(text, at), begin - line_start(text, begin)
     if column < least:
         message = f"{shown(text, at)} is indented less than the first line, {shown(text, begin)}; align them"
-        return _problem(message, at, None, Label(Span(begin, begin + 1), "the first line begins here"))
-    return _problem(f"{shown(text, at)} follows the end of the document; indent it as the other keys, or put a line `---` before it", at)
+        return syntax(message, at, None, Label(Span(begin, begin + 1), "the first line begins here"))
+    return syntax(f"{shown(text, at)} follows the end of the document; indent it as the other keys, or put a line `---` before it", at)
 
 
 def _stray_item(text: str, at: int, outline: Outline) -> Problem:
@@ -258,10 +231,10 @@ def _stray_item(text: str, at: int, outline: Outline) -> Problem:
     if items is not None:
         first = f"the item of its list at {place(text, items.start)} by {items.column}"
         message = f"this `- ` is indented by {column} spaces, but {first}; align them"
-        return _problem(message, at, None, Label(Span(items.start, items.start + 1), "the list begins here"))
+        return syntax(message, at, None, Label(Span(items.start, items.start + 1), "the list begins here"))
     above = outline.blocks[-1] if outline.blocks else None
     among = f" among the keys of the mapping that {shown(text, above.start)} begins" if above is not None else ""
-    return _problem(f"a list item cannot stand{among}; remove its `- `, or indent it below the key that it belongs to", at)
+    return syntax(f"a list item cannot stand{among}; remove its `- `, or indent it below the key that it belongs to", at)
 
 
 def _indentation(text: str, at: int, outline: Outline) -> Problem:
@@ -270,16 +243,14 @@ def _indentation(text: str, at: int, outline: Outline) -> Problem:
     above = outline.blocks[-1] if outline.blocks else None
     if above is not None and above.is_list and column == above.column:
         label = Label(Span(above.start, above.start + 1), "the list begins here")
-        return _problem(
-            f"{shown(text, at)} stands among list items; write `- ` before it, as at {place(text, above.start)}", at, None, label
-        )
+        return syntax(f"{shown(text, at)} stands among list items; write `- ` before it, as at {place(text, above.start)}", at, None, label)
     deeper = outline.closed[-1] if outline.closed else None
     if above is not None and deeper is not None and above.column < column < deeper.column:
         message = (
             f"{shown(text, at)} is indented by {column} spaces; write {deeper.column}, as {shown(text, deeper.start)} "
             f"at {place(text, deeper.start)} has, or {above.column}"
         )
-        return _problem(message, at, None, Label(Span(deeper.start, deeper.start + 1), f"indented by {deeper.column}"))
+        return syntax(message, at, None, Label(Span(deeper.start, deeper.start + 1), f"indented by {deeper.column}"))
     if at >= len(text.rstrip()):
-        return _problem("the text ends where a value or a key is expected", at, at)
-    return _problem(f"expected a line with `key: value`, found {shown(text, at)}; check its indentation", at)
+        return syntax("the text ends where a value or a key is expected", at, at)
+    return syntax(f"expected a line with `key: value`, found {shown(text, at)}; check its indentation", at)

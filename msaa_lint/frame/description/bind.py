@@ -5,6 +5,7 @@ The description format is strict: an unknown key is an error. Tools' dumps are r
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 from msaa_lint.core.quote import quoted, shortened
@@ -12,9 +13,10 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
 
 from .dumps import PNEXT, WITHIN, is_null, is_number, member_name, structure_type
+from .hints import commands_hint, has_no_value, items_hint, key_below, key_hint, mapping_hint, meant, question_or_names
 from .members import MAX_UINT32
 from .models import AttachmentReference, Command, DepthStencilResolve
-from .problems import found, head_of, list_hint, structure_of
+from .problems import found, head_of, structure_of
 from .record import Record
 from .scalars import ATTACHMENT_UNUSED, UNUSED, caseless
 from .shapes import Shape
@@ -28,7 +30,7 @@ class Binder(ValueBinder):
         """The record of that class that a mapping states."""
         record = kind(node, path, key, head if head is not None else head_of(node))
         if node.kind != "mapping":
-            self.wrong_structure(node, path, "a mapping")
+            self.wrong_structure(node, path, "a mapping", mapping_hint(("record", kind), node))
             return record
         self.members(record, node, path)
         if self.dumped and "pNext" in node.value:
@@ -52,6 +54,9 @@ class Binder(ValueBinder):
             key = node.keys[key_text]
             if shape is None:
                 self.unknown_key(kind, key, path)
+            elif has_no_value(value) and not self.dumped and (below := key_below(shape, kind, node, key_text)) is not None:
+                self.unindented(key_text, below, path)
+                break
             elif not (self.dumped and is_null(value)):
                 record.spelled[name] = (key, value)
                 setattr(record, name, self.value(shape, value, f"{path}.{key_text}" if path else key_text, key_text, key.span))
@@ -74,11 +79,16 @@ class Binder(ValueBinder):
             path += ".pNext"
             node = following
 
+    def unindented(self, above: str, key: Node, path: str) -> None:
+        """Reports a key that lacks the indentation to be part of the value of the key above it."""
+        message = f"{quoted(key.text)} must be indented deeper than {quoted(above)}, which has no value without it"
+        self.report("MSAA903", message, key.span, f"{path}.{shortened(above)}".lstrip("."))
+
     def unknown_key(self, kind: type[Record], key: Node, path: str) -> None:
-        hint = self.suggestion(key.text, kind.SHAPE, ": ")
-        help = "" if hint else f"the keys are {', '.join(sorted(kind.SHAPE))}"
-        key_path = f"{path}.{shortened(key.text)}".lstrip(".")
-        self.report("MSAA902", f"unknown key {quoted(key.text)} in {path or 'the description'}{hint}", key.span, key_path, help)
+        if not self.is_full:
+            key_path = f"{path}.{shortened(key.text)}".lstrip(".")
+            message = f"unknown key {quoted(key.text)} in {path or 'the description'}{key_hint(kind, key.text)}"
+            self.report("MSAA902", message, key.span, key_path)
 
     def value(self, shape: Shape, node: Node, path: str, key: str, head: Span | None = None) -> Any:
         """The value of a node by a shape."""
@@ -126,7 +136,7 @@ class Binder(ValueBinder):
     def items(self, shape: Shape, node: Node, path: str) -> tuple[Any, ...]:
         """The items of a list, of which there may be a maximum."""
         if node.kind != "sequence":
-            self.wrong_structure(node, path, "a list", list_hint(node))
+            self.wrong_structure(node, path, "a list", items_hint(node))
             return ()
         maximum = shape[2] if len(shape) > 2 else None
         if maximum is not None and len(node.value) > maximum:
@@ -138,13 +148,22 @@ class Binder(ValueBinder):
         """The entries of a mapping by name, or by number."""
         is_numbered = shape[0] == "numbered"
         if node.kind != "mapping":
-            self.wrong_structure(node, path, f"a mapping by {'number' if is_numbered else 'name'}")
+            self.wrong_structure(node, path, f"a mapping by {'number' if is_numbered else 'name'}", mapping_hint(shape, node))
             return {}
         highest = shape[2] if len(shape) > 2 else None
         for key in node.keys.values() if is_numbered else ():
             if not is_number(key.text) or (highest is not None and (int(key.text) > highest or len(key.text) > len(str(highest)))):
                 expected = "integers" if highest is None else f"integers from 0 to {highest}"
                 self.report("MSAA903", f"the keys of {structure_of(path)} must be {expected}, found {found(key)}", key.span, path)
+        item = shape[1]
+        if item[0] == "record" and not self.dumped:
+            names = list(node.value)
+            for above, below in pairwise(names):
+                # The members of an entry stand beside it.
+                is_member = below in item[1].SHAPE and node.value[below].kind != "mapping"
+                if is_member and has_no_value(node.value[above]):
+                    self.unindented(above, node.keys[below], path)
+                    return {}
         return {
             name: self.value(shape[1], value, f"{path}.{shortened(name)}", name, node.keys[name].span) for name, value in node.value.items()
         }
@@ -163,7 +182,7 @@ class Binder(ValueBinder):
             reference: AttachmentReference = self.record(AttachmentReference, node, path, key, head)
         else:
             reference = AttachmentReference(node, path, key, node.span)
-            if node.kind != "scalar" or isinstance(node.value, (bool, float)):
+            if node.kind != "scalar" or isinstance(node.value, (bool, float)) or (isinstance(node.value, int) and node.value < 0):
                 self.mismatch(node, path, "an attachment (a name, an index, {attachment, layout} or null)")
             elif isinstance(node.value, int):
                 reference.attachment = self.integer(0, MAX_UINT32, node, path)
@@ -184,20 +203,21 @@ class Binder(ValueBinder):
         elif node.kind == "scalar" and isinstance(node.value, str):
             name = node.value
         else:
-            self.wrong_structure(node, path, "one command")
+            self.wrong_structure(node, path, "one command", commands_hint(node, kind))
             return None
         shape = kind.SHAPE.get(name)
         if shape is None:
-            hint = self.suggestion(name, kind.SHAPE, ": ")
-            help = "" if hint else f"the commands are {', '.join(kind.SHAPE)}"
-            self.report("MSAA902", f"unknown command {quoted(name)}{hint}", span, path, help)
+            hint = "" if self.is_full else question_or_names(meant(name, kind.SHAPE), list(kind.SHAPE), ": ")
+            self.report("MSAA902", f"unknown command {quoted(name)}{hint}", span, path)
             return None
         command = kind(node, f"{path}.{name}", key, span)
         command.kind = name
         command.body = None
         if parameters is None or (parameters.kind == "scalar" and parameters.value is None):
             if shape[0] != "null":
-                self.report("MSAA903", f"the command `{name}` needs parameters", span, command.path)
+                body = shape[1].SHAPE if shape[0] == "record" else ()
+                hint = f"; write `{name}: {{{next(iter(body))}: ...}}`" if body else f"; write `{name}: ...`"
+                self.report("MSAA903", f"the command `{name}` needs parameters{hint}", span, command.path)
                 return None
             return command
         command.body = self.value(shape, parameters, command.path, name, span)

@@ -56,14 +56,6 @@ def found(node: Node) -> str:
     return "null" if node.value is None else quoted(node.text)
 
 
-def boolean_hint(node: Node) -> str:
-    """What to write instead of a word that YAML 1.1 takes for a boolean; nothing for another value."""
-    if node.kind != "scalar" or not node.plain:
-        return ""
-    word = node.text.lower()
-    return "; write `true`" if word in ("yes", "on", "y") else "; write `false`" if word in ("no", "off", "n") else ""
-
-
 def quote_hint(node: Node) -> str:
     """How to write a number or a boolean as a string; nothing for another value."""
     is_literal = node.kind == "scalar" and not isinstance(node.value, str) and node.value is not None
@@ -74,7 +66,7 @@ def list_hint(node: Node) -> str:
     """How to write a value as a list of one item; nothing for null."""
     if node.kind != "scalar":
         return "; write `[{...}]`"
-    return f"; write `[{shortened(node.text, 20)}]`" if node.value is not None else ""
+    return f"; write `[{shortened(node.text, 60)}]`" if node.value is not None else ""
 
 
 def one_of(words: tuple[object, ...]) -> str:

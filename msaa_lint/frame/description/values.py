@@ -6,16 +6,17 @@ from collections.abc import Iterable
 from typing import Any
 
 from msaa_lint.core.quote import quoted
-from msaa_lint.core.suggestions import did_you_mean, question
+from msaa_lint.core.suggestions import did_you_mean
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.names import from_value
 
 from . import dumps
 from .dumps import DECISIVE, is_number
+from .hints import boolean_hint, enumerant_hint, joined_flags, meant, null_hint, number_hint, question_or_names, samples_hint, single_hint
 from .members import MAX_UINT32
-from .problems import MAX_PROBLEMS, Mention, Problem, boolean_hint, found, head_of, member_of, one_of, quote_hint
-from .scalars import ATTACHMENT_UNUSED, EXTERNAL, SAMPLE_COUNTS, enumerant, finite, flags, nearest_enumerant, sample_count
+from .problems import MAX_PROBLEMS, Mention, Problem, found, head_of, member_of, one_of, quote_hint
+from .scalars import ATTACHMENT_UNUSED, EXTERNAL, SAMPLE_COUNTS, enumerant, finite, flags, sample_count
 
 _SAMPLE_COUNTS = f"{', '.join(map(str, SAMPLE_COUNTS[:-1]))} or {SAMPLE_COUNTS[-1]}"
 
@@ -47,7 +48,9 @@ class ValueBinder:
 
     def mismatch(self, node: Node, path: str, expected: str, hint: str = "") -> None:
         """Reports a value of the wrong type or out of range."""
-        self.report("MSAA903", f"{member_of(path)} must be {expected}, found {found(node)}{hint}", head_of(node), path)
+        if not self.is_full:
+            hint = hint or null_hint(node) or single_hint(node)
+            self.report("MSAA903", f"{member_of(path)} must be {expected}, found {found(node)}{hint}", head_of(node), path)
 
     def enumerant(self, enums: str, node: Node, path: str) -> str | None:
         text = node.text if node.kind == "scalar" else None
@@ -62,8 +65,8 @@ class ValueBinder:
         return name
 
     def unknown_enumerant(self, enums: str, text: str, node: Node, path: str) -> None:
-        hint = "" if self.is_full else question(nearest_enumerant(enums, text))
-        self.report("MSAA903", f"{quoted(text)} is not {_a(enums)}{hint}", node.span, path)
+        hint = "" if self.is_full else enumerant_hint(enums, text)
+        self.report("MSAA903", f"{member_of(path)} must be {_a(enums)}, found {quoted(text)}{hint}", node.span, path)
 
     def flags(self, enum: str, node: Node, path: str) -> tuple[str, ...] | None:
         if node.kind == "sequence":
@@ -78,7 +81,11 @@ class ValueBinder:
             return tuple(flags(enum, node.text))
         except ValueError as error:
             if not self.dumped:
-                self.unknown_enumerant(enum, str(error), node, path)
+                joined = "" if self.is_full else joined_flags(enum, node.text)
+                if joined:
+                    self.mismatch(node, path, f"a list of {enum}", f"; write `[{joined}]`")
+                else:
+                    self.unknown_enumerant(enum, str(error), node, path)
                 return None
         return None if enum in DECISIVE else _distinct([enumerant(enum, part.strip()) for part in node.text.split("|")])
 
@@ -93,14 +100,14 @@ class ValueBinder:
         if self.dumped and isinstance(value, str):
             value = dumps.integer(value)
         if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-            self.mismatch(node, path, f"an integer from {low} to {high}")
+            self.mismatch(node, path, f"an integer from {low} to {high}", number_hint(node, low, high))
             return None
         return value
 
     def number(self, positive: bool, node: Node, path: str) -> float | None:
         value = dumps.number(node) if self.dumped else node.value
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not finite(value):
-            self.mismatch(node, path, "a finite number")
+            self.mismatch(node, path, "a finite number", number_hint(node, -MAX_UINT32, MAX_UINT32))
             return None
         if positive and value <= 0:
             self.mismatch(node, path, "a number above 0")
@@ -117,7 +124,7 @@ class ValueBinder:
     def samples(self, node: Node, path: str) -> int | None:
         count = sample_count(node.text if self.dumped else node.value)
         if count is None:
-            self.mismatch(node, path, _SAMPLE_COUNTS)
+            self.mismatch(node, path, _SAMPLE_COUNTS, samples_hint(node))
         return count
 
     def text(self, node: Node, path: str) -> str | None:
@@ -136,7 +143,9 @@ class ValueBinder:
     def word(self, words: tuple[Any, ...], node: Node, path: str) -> Any:
         if is_word(node, words):
             return node.value
-        hint = self.suggestion(node.text, [word for word in words if isinstance(word, str)]) if node.kind == "scalar" else ""
+        hint = ""
+        if node.kind == "scalar" and node.value is not None and not self.is_full:
+            hint = question_or_names(meant(node.text, [word for word in words if isinstance(word, str)]), (), "; ")
         self.mismatch(node, path, one_of(words), hint)
         return None
 
@@ -146,6 +155,9 @@ class ValueBinder:
             return "EXTERNAL"
         if isinstance(node.value, str) and not (self.dumped and is_number(node.text)):
             self.mismatch(node, path, "EXTERNAL or the index of a subpass", self.suggestion(node.text, EXTERNAL))
+            return None
+        if isinstance(node.value, int) and node.value < 0:
+            self.mismatch(node, path, "EXTERNAL or the index of a subpass")
             return None
         index = self.integer(0, MAX_UINT32, node, path)
         return "EXTERNAL" if index == ATTACHMENT_UNUSED else index

@@ -33,6 +33,10 @@ def read(source: Source, root: Node) -> Document:
         return _of_render_targets(source, description, binder)
     check_names(binder, description)
     _name_begun_passes(description)
+    if description.commands and source.origins is None:
+        from .command_order import check_order
+
+        check_order(binder, description)
     if description.metal is None:
         return Document(source, description, tuple(binder.problems))
     from . import metal
@@ -69,7 +73,7 @@ def check_names(binder: Binder, description: Description) -> None:
     for pipeline in description.pipelines.values():
         within = description.renderPasses.get(pipeline.renderPass) if pipeline.renderPass is not None else None
         if within is not None and pipeline.subpass is not None and pipeline.subpass >= max(len(within.subpasses), 1):
-            message = _no_subpass(f"{pipeline.renderPass}", pipeline.subpass, within)
+            message = _no_subpass("subpass", f"{pipeline.renderPass}", pipeline.subpass, within)
             binder.report("MSAA904", message, pipeline.place("subpass"), f"{pipeline.path}.subpass")
 
 
@@ -95,10 +99,11 @@ def _section(description: Description, name: str) -> dict[str, object]:
 def _report_unknown(binder: Binder, message: str, name: str, names: Collection[str], section: str, span: Span, path: str) -> None:
     """Reports a name that a section does not have, with the nearest one or the first few that it has."""
     hint = binder.suggestion(name, names)
-    help = "" if hint or not names else f"`{section}` has {', '.join(islice(names, 8))}{', …' if len(names) > 8 else ''}"
     if not names:
         hint = f"; the description has no `{section}`"
-    binder.report("MSAA904", f"{message}{hint}", span, path, help)
+    elif not hint:
+        hint = f"; `{section}` has {', '.join(map(shortened, islice(names, 8)))}{', …' if len(names) > 8 else ''}"
+    binder.report("MSAA904", f"{message}{hint}", span, path)
 
 
 def _device(binder: Binder, description: Description) -> None:
@@ -113,9 +118,8 @@ def _device(binder: Binder, description: Description) -> None:
     name = description.device
     if builtin(name) is not None or is_path(name):
         return
-    hint = binder.suggestion(name, names())
-    help = "" if hint else f"built-in devices: {', '.join(names())}"
-    binder.report("MSAA904", f"unknown device {quoted(name)}{hint}", description.place("device"), "device", help)
+    hint = binder.suggestion(name, names()) or f"; built-in devices are {', '.join(names())}"
+    binder.report("MSAA904", f"unknown device {quoted(name)}{hint}", description.place("device"), "device")
 
 
 def _cost_model(binder: Binder, device: Device) -> None:
@@ -128,7 +132,7 @@ def _cost_model(binder: Binder, device: Device) -> None:
             stated = device.spelled[member][1]
             at = stated.value[found.key].span if found.key in stated.value else device.place(member)
             path = f"{device.path}.{member}" + (f".{shortened(found.key)}" if found.key is not None else "")
-            binder.report("MSAA903", found.message, at, path, found.help)
+            binder.report("MSAA903", f"{found.message}; {found.help}" if found.help else found.message, at, path)
 
 
 def _attachments(binder: Binder, name: str, render_pass: RenderPass) -> None:
@@ -136,26 +140,36 @@ def _attachments(binder: Binder, name: str, render_pass: RenderPass) -> None:
     names = dict.fromkeys(attachment.key for attachment in render_pass.attachments if attachment is not None)
     count = len(render_pass.attachments)
     for subpass in render_pass.subpasses:
+        colors, resolves = len(subpass.colorAttachments), len(subpass.resolveAttachments)
+        if resolves > colors and subpass.states("colorAttachments") and not binder.dumped:
+            message = f"`resolveAttachments` has {_count(resolves, 'item')}, but `colorAttachments` {colors}; list at most one for each"
+            binder.report("MSAA903", message, subpass.place("resolveAttachments"), f"{subpass.path}.resolveAttachments")
         for reference in _references(subpass):
             attachment = reference.attachment
             if attachment is None or (isinstance(attachment, int) and attachment < count) or attachment in names:
                 continue
             at = reference.place("attachment")
             if isinstance(attachment, int):
-                message = f"render pass `{name}` has no attachment {attachment}; it has {_count(count, 'attachment')}, counted from 0"
+                has = f"render pass {quoted(name)} has {_count(count, 'attachment')}, counted from 0"
+                message = f"{member_of(reference.path)} is {attachment}, but {has}"
                 binder.report("MSAA904", message, at, reference.path)
             else:
-                message = f"render pass `{name}` has no attachment {quoted(attachment)}"
+                message = (
+                    f"{member_of(reference.path)} names {quoted(attachment)}, which is not an attachment of render pass {quoted(name)}"
+                )
                 _report_unknown(binder, message, attachment, names, f"renderPasses.{name}.attachments", at, reference.path)
     for dependency in render_pass.dependencies:
         for member in ("srcSubpass", "dstSubpass"):
             index = getattr(dependency, member)
             if isinstance(index, int) and index >= len(render_pass.subpasses):
-                binder.report("MSAA904", _no_subpass(name, index, render_pass), dependency.place(member), f"{dependency.path}.{member}")
+                binder.report(
+                    "MSAA904", _no_subpass(member, name, index, render_pass), dependency.place(member), f"{dependency.path}.{member}"
+                )
 
 
-def _no_subpass(name: str, index: int, render_pass: RenderPass) -> str:
-    return f"render pass `{name}` has no subpass {index}; it has {_count(len(render_pass.subpasses), 'subpass')}, counted from 0"
+def _no_subpass(member: str, name: str, index: int, render_pass: RenderPass) -> str:
+    count = _count(len(render_pass.subpasses), "subpass")
+    return f"`{member}` is {index}, but render pass {quoted(name)} has {count}, counted from 0"
 
 
 def _count(number: int, noun: str) -> str:
@@ -179,5 +193,9 @@ def _framebuffer(binder: Binder, framebuffer: Framebuffer, description: Descript
         return
     expected, count = len(within.attachments), len(framebuffer.attachments)
     if expected != count:
-        message = f"this framebuffer has {_count(count, 'attachment')}, but render pass `{framebuffer.renderPass}` has {expected}"
+        names = ", ".join(shortened(each.key) for each in within.attachments[:8] if each is not None)
+        message = (
+            f"`attachments` has {_count(count, 'image')}, but render pass {quoted(framebuffer.renderPass or '')} has "
+            f"{_count(expected, 'attachment')} ({names}{', …' if expected > 8 else ''}); list one image for each"
+        )
         binder.report("MSAA903", message, framebuffer.place("attachments"), f"{framebuffer.path}.attachments")

@@ -9,7 +9,7 @@ import pytest
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.document import Document
-from msaa_lint.frame.description.models import Description, Device
+from msaa_lint.frame.description.models import Description, Device, Image
 from msaa_lint.frame.description.problems import MAX_PROBLEMS, Problem
 from msaa_lint.input.readers import description
 from tests.marked import unmarked
@@ -45,8 +45,9 @@ def check(marked: str, code: str, message: str, help: str = "", path: str | None
         ("images: {a: {⟦sample⟧: 4}}", "unknown key `sample` in images.a: did you mean `samples`?", "", "images.a.sample"),
         (
             "scene: {⟦qqq⟧: 1}",
-            "unknown key `qqq` in scene",
-            "the keys are alphaTest, color, depth, depthResolveWants, edges, peak, textureDetail, toneMapping",
+            "unknown key `qqq` in scene: expected one of edges, depth, color, peak, depthResolveWants, "
+            "toneMapping, alphaTest, textureDetail",
+            "",
             "scene.qqq",
         ),
         (
@@ -74,7 +75,12 @@ def check(marked: str, code: str, message: str, help: str = "", path: str | None
             "commands[0]",
         ),
         ("commands: [⟦nextsubpass⟧]", "unknown command `nextsubpass`: did you mean `nextSubpass`?", "", "commands[0]"),
-        ('images: {a: {⟦"a b\\n"⟧: 1}}', "unknown key `a b\n` in images.a", None, None),
+        (
+            'images: {a: {⟦"a b\\n"⟧: 1}}',
+            "unknown key `a b\n` in images.a: it contains the invisible character U+000A; write ordinary spaces, or delete it",
+            None,
+            None,
+        ),
     ],
 )
 def test_unknown_keys(marked: str, message: str, help: str | None, path: str | None) -> None:
@@ -82,7 +88,7 @@ def test_unknown_keys(marked: str, message: str, help: str | None, path: str | N
         text, spans = unmarked(marked)
         (found,) = problems(text)
         assert (found.code, found.message, found.span) == ("MSAA902", message, spans[0])
-        assert found.help.startswith("the keys are arrayLayers, ")
+        assert found.help == ""
     else:
         check(marked, "MSAA902", message, help, path)
 
@@ -91,7 +97,7 @@ def test_unknown_command_without_a_near_one() -> None:
     text, spans = unmarked("commands: [{⟦xyz⟧: {}}]")
     (found,) = problems(text)
     assert found.span == spans[0]
-    assert found.help.startswith("the commands are beginRenderPass, nextSubpass, ")
+    assert found.message.startswith("unknown command `xyz`: expected one of beginRenderPass, nextSubpass, ")
 
 
 IS_NO = "MSAA903"
@@ -101,36 +107,57 @@ IS_NO = "MSAA903"
     ("marked", "message", "help"),
     [
         # Of another kind.
-        ("images: ⟦[⟧]", "`images` must be a mapping by name, found a list", ""),
+        ("images: ⟦[⟧]", "`images` must be a mapping by name, found a list; write `name: {...}` for each entry, without `- `", ""),
         ("images: ⟦4⟧", "`images` must be a mapping by name, found `4`", ""),
-        ("images: {a: ⟦[⟧{}]}", "`images.a` must be a mapping, found a list", ""),
+        (
+            "images: {a: ⟦[⟧{}]}",
+            "`images.a` must be a mapping, found a list; its keys are format, samples, usage, memory, "
+            "presentable, extent, mipLevels, arrayLayers, imageType, tiling, flags, sharingMode, initialLayout, encoding",
+            "",
+        ),
         ("images: {a: {usage: ⟦{⟧}}}", "`usage` must be a list of VkImageUsageFlagBits, found a mapping", ""),
         ("images: {a: {usage: {⟦SAMPLED⟧: true}}}", "`usage` must be a list of VkImageUsageFlagBits, found a mapping", ""),
-        ("images: {a: {usage: [⟦[⟧SAMPLED]]}}", "`usage[0]` must be a VkImageUsageFlagBits, found a list", ""),
-        ("images: {a: {format: ⟦[⟧D16_UNORM]}}", "`format` must be a VkFormat, found a list", ""),
-        ("renderPasses: {r: {subpasses: {⟦a⟧: 1}}}", "`renderPasses.r.subpasses` must be a list, found a mapping; write `[{...}]`", ""),
+        (
+            "images: {a: {usage: [⟦[⟧SAMPLED]]}}",
+            "`usage[0]` must be a VkImageUsageFlagBits, found a list; write `SAMPLED`, without brackets",
+            "",
+        ),
+        ("images: {a: {format: ⟦[⟧D16_UNORM]}}", "`format` must be a VkFormat, found a list; write `D16_UNORM`, without brackets", ""),
+        (
+            "renderPasses: {r: {subpasses: {⟦a⟧: 1}}}",
+            "`renderPasses.r.subpasses` must be a list, found a mapping; begin each item with `- `, or write `[{...}]`",
+            "",
+        ),
         ("commands: ⟦draw⟧", "`commands` must be a list, found `draw`; write `[draw]`", ""),
         ("commands: [⟦4⟧]", "`commands[0]` must be one command, found `4`", ""),
-        ("commands: [{⟦draw⟧: {}, present: {}}]", "`commands[0]` must be one command, found a mapping", ""),
-        ("device: ⟦[⟧]", "`device` must be a mapping or a string, found a list", ""),
+        ("commands: [{⟦draw⟧: {}, present: {}}]", "`commands[0]` must be one command, found a mapping; write `- ` before `present`", ""),
+        ("device: ⟦[⟧]", "`device` must be a mapping or a string, found a list; write one value, without brackets", ""),
         ("device: ⟦4⟧", "`device` must be a mapping or a string, found `4`", ""),
         # Null is no value, and no unknown one.
-        ("frame: ⟦null⟧", "`frame` must be a mapping, found null", ""),
-        ("images: {a: {samples: ⟦~⟧}}", "`samples` must be 1, 2, 4, 8, 16, 32 or 64, found null", ""),
-        ("images: {a: {format: ⟦null⟧}}", "`format` must be a VkFormat, found null", ""),
-        ("images: {a: {usage: ⟦null⟧}}", "`usage` must be a list of VkImageUsageFlagBits, found null", ""),
-        ("images: {a: {usage: [⟦null⟧]}}", "`usage[0]` must be a VkImageUsageFlagBits, found null", ""),
-        ("renderPasses: {r: {attachments: [⟦null⟧]}}", "`renderPasses.r.attachments[0]` must be a mapping, found null", ""),
-        ("renderPasses: {r: {subpasses: [⟦null⟧]}}", "`renderPasses.r.subpasses[0]` must be a mapping, found null", ""),
+        ("frame: ⟦null⟧", "`frame` must be a mapping, found null; leave it out if it is unknown", ""),
+        ("images: {a: {samples: ⟦~⟧}}", "`samples` must be 1, 2, 4, 8, 16, 32 or 64, found null; leave it out if it is unknown", ""),
+        ("images: {a: {format: ⟦null⟧}}", "`format` must be a VkFormat, found null; leave it out if it is unknown", ""),
+        ("images: {a: {usage: ⟦null⟧}}", "`usage` must be a list of VkImageUsageFlagBits, found null; leave it out if it is unknown", ""),
+        ("images: {a: {usage: [⟦null⟧]}}", "`usage[0]` must be a VkImageUsageFlagBits, found null; leave it out if it is unknown", ""),
+        (
+            "renderPasses: {r: {attachments: [⟦null⟧]}}",
+            "`renderPasses.r.attachments[0]` must be a mapping, found null; leave it out if it is unknown",
+            "",
+        ),
+        (
+            "renderPasses: {r: {subpasses: [⟦null⟧]}}",
+            "`renderPasses.r.subpasses[0]` must be a mapping, found null; leave it out if it is unknown",
+            "",
+        ),
         ("commands: [⟦null⟧]", "`commands[0]` must be one command, found null", ""),
-        ("commands: [⟦draw⟧: null]", "the command `draw` needs parameters", ""),
-        ("commands: [⟦draw⟧]", "the command `draw` needs parameters", ""),
-        ("scene: {depth: ⟦null⟧}", "`depth` must be STANDARD or REVERSED, found null", ""),
+        ("commands: [⟦draw⟧: null]", "the command `draw` needs parameters; write `draw: {pipeline: ...}`", ""),
+        ("commands: [⟦draw⟧]", "the command `draw` needs parameters; write `draw: {pipeline: ...}`", ""),
+        ("scene: {depth: ⟦null⟧}", "`depth` must be STANDARD or REVERSED, found null; leave it out if it is unknown", ""),
         # Booleans of YAML 1.1, and numbers where texts are due.
         ("images: {a: {presentable: ⟦yes⟧}}", "`presentable` must be true or false, found `yes`; write `true`", ""),
         ("images: {a: {presentable: ⟦Off⟧}}", "`presentable` must be true or false, found `Off`; write `false`", ""),
-        ("images: {a: {presentable: ⟦'no'⟧}}", "`presentable` must be true or false, found `no`", ""),
-        ("images: {a: {presentable: ⟦1⟧}}", "`presentable` must be true or false, found `1`", ""),
+        ("images: {a: {presentable: ⟦'no'⟧}}", "`presentable` must be true or false, found `no`; write `false`", ""),
+        ("images: {a: {presentable: ⟦1⟧}}", "`presentable` must be true or false, found `1`; write `true`", ""),
         ("enabled: {apiVersion: ⟦1.2⟧}", '`apiVersion` must be a string, found `1.2`; write "1.2"', ""),
         ("enabled: {extensions: [⟦true⟧]}", '`extensions[0]` must be a string, found `true`; write "true"', ""),
         (
@@ -139,32 +166,36 @@ IS_NO = "MSAA903"
             "",
         ),
         # Names that no enum, and words that no list has.
-        ("images: {a: {format: ⟦RGBA8⟧}}", "`RGBA8` is not a VkFormat; did you mean `R8G8B8A8_UNORM`?", ""),
-        ("images: {a: {format: ⟦r8g8b8a8_unorm⟧}}", "`r8g8b8a8_unorm` is not a VkFormat; did you mean `R8G8B8A8_UNORM`?", ""),
-        ("images: {a: {format: ⟦37⟧}}", "`37` is not a VkFormat", ""),
+        ("images: {a: {format: ⟦RGBA8⟧}}", "`format` must be a VkFormat, found `RGBA8`; did you mean `R8G8B8A8_UNORM`?", ""),
+        (
+            "images: {a: {format: ⟦r8g8b8a8_unorm⟧}}",
+            "`format` must be a VkFormat, found `r8g8b8a8_unorm`; did you mean `R8G8B8A8_UNORM`?",
+            "",
+        ),
+        ("images: {a: {format: ⟦37⟧}}", "`format` must be a VkFormat, found `37`; did you mean `R8G8B8A8_UNORM`?", ""),
         (
             "images: {a: {usage: [SAMPLED, ⟦TRANSIENT⟧]}}",
-            "`TRANSIENT` is not a VkImageUsageFlagBits; did you mean `TRANSIENT_ATTACHMENT`?",
+            "`usage[1]` must be a VkImageUsageFlagBits, found `TRANSIENT`; did you mean `TRANSIENT_ATTACHMENT`?",
             "",
         ),
         (
             "images: {a: {usage: ⟦SAMPLED | TRANSIENT⟧}}",
-            "`TRANSIENT` is not a VkImageUsageFlagBits; did you mean `TRANSIENT_ATTACHMENT`?",
+            "`usage` must be a VkImageUsageFlagBits, found `TRANSIENT`; did you mean `TRANSIENT_ATTACHMENT`?",
             "",
         ),
         ("images: {a: {usage: ⟦16⟧}}", "`usage` must be a list of VkImageUsageFlagBits, found `16`", ""),
-        ("images: {a: {encoding: ⟦SRGB⟧}}", "`encoding` must be one of LINEAR, GAMMA, DATA, found `SRGB`", ""),
+        ("images: {a: {encoding: ⟦SRGB⟧}}", "`encoding` must be one of LINEAR, GAMMA, DATA, found `SRGB`; did you mean `GAMMA`?", ""),
         ("scene: {depth: ⟦reversed⟧}", "`depth` must be STANDARD or REVERSED, found `reversed`; did you mean `REVERSED`?", ""),
         ("device: {vendor: ⟦ARMM⟧}", None, ""),
         ("device: {vendor: ⟦Arm Ltd⟧}", None, ""),
         (
             "renderPasses: {r: {attachments: [{storeOp: ⟦DONT_CAER⟧}]}}",
-            "`DONT_CAER` is not a VkAttachmentStoreOp; did you mean `DONT_CARE`?",
+            "`storeOp` must be a VkAttachmentStoreOp, found `DONT_CAER`; did you mean `DONT_CARE`?",
             "",
         ),
         (
             "commands: [readImage: {stage: ⟦FRAGMNT⟧}]",
-            "`FRAGMNT` is not a VkShaderStageFlagBits or VkPipelineStageFlagBits2; did you mean `FRAGMENT`?",
+            "`stage` must be a VkShaderStageFlagBits or VkPipelineStageFlagBits2, found `FRAGMNT`; did you mean `FRAGMENT`?",
             "",
         ),
         (
@@ -175,7 +206,7 @@ IS_NO = "MSAA903"
         # Numbers out of their range.
         ("images: {a: {samples: ⟦3⟧}}", "`samples` must be 1, 2, 4, 8, 16, 32 or 64, found `3`", ""),
         ("images: {a: {samples: ⟦SAMPLE_COUNT_٤⟧}}", "`samples` must be 1, 2, 4, 8, 16, 32 or 64, found `SAMPLE_COUNT_٤`", ""),
-        ("images: {a: {samples: ⟦4.0⟧}}", "`samples` must be 1, 2, 4, 8, 16, 32 or 64, found `4.0`", ""),
+        ("images: {a: {samples: ⟦4.0⟧}}", "`samples` must be 1, 2, 4, 8, 16, 32 or 64, found `4.0`; write `4`", ""),
         ("images: {a: {samples: ⟦true⟧}}", "`samples` must be 1, 2, 4, 8, 16, 32 or 64, found `true`", ""),
         ("images: {a: {mipLevels: ⟦0⟧}}", "`mipLevels` must be an integer from 1 to 2147483647, found `0`", ""),
         ("images: {a: {mipLevels: ⟦1.0⟧}}", "`mipLevels` must be an integer from 1 to 2147483647, found `1.0`", ""),
@@ -209,7 +240,7 @@ IS_NO = "MSAA903"
         ),
         (
             "renderPasses: {r: {attachments: [{}], subpasses: [{colorAttachments: [⟦-1⟧]}]}}",
-            "`colorAttachments[0]` must be an integer from 0 to 4294967295, found `-1`",
+            "`colorAttachments[0]` must be an attachment (a name, an index, {attachment, layout} or null), found `-1`",
             "",
         ),
         (
@@ -219,7 +250,7 @@ IS_NO = "MSAA903"
         ),
         (
             "renderPasses: {r: {attachments: [{}, {}]}}\nframebuffers: {f: {renderPass: r, attachments: ⟦[a]⟧}}\nimages: {a: {}}",
-            "this framebuffer has 1 attachment, but render pass `r` has 2",
+            "`attachments` has 1 image, but render pass `r` has 2 attachments (0, 1); list one image for each",
             "",
         ),
     ],
@@ -234,9 +265,12 @@ def test_wrong_values(marked: str, message: str | None, help: str) -> None:
     assert found[0].help == help
 
 
+SECTIONS = f"its keys are {', '.join(Description.SHAPE)}"
+
+
 def test_a_document_that_is_no_mapping() -> None:
-    check("⟦[⟧1, 2]", "MSAA903", "the description must be a mapping, found a list", "", "")
-    check("⟦just words⟧", "MSAA903", "the description must be a mapping, found `just words`", "", "")
+    check("⟦[⟧1, 2]", "MSAA903", f"the description must be a mapping, found a list; {SECTIONS}", "", "")
+    check("⟦just words⟧", "MSAA903", f"the description must be a mapping, found `just words`; {SECTIONS}", "", "")
 
 
 R = "renderPasses: {r: {attachments: {color: {}, depth: {}}, subpasses: [{}], dependencies: []}}\n"
@@ -254,8 +288,8 @@ R = "renderPasses: {r: {attachments: {color: {}, depth: {}}, subpasses: [{}], de
         ),
         (
             "images: {a: {}, b: {}}\nrenderPasses: {r: {attachments: [{image: ⟦xyz⟧}]}}",
-            "`image` names `xyz`, which is not in `images`",
-            "`images` has a, b",
+            "`image` names `xyz`, which is not in `images`; `images` has a, b",
+            "",
             "renderPasses.r.attachments[0].image",
         ),
         (
@@ -266,14 +300,14 @@ R = "renderPasses: {r: {attachments: {color: {}, depth: {}}, subpasses: [{}], de
         ),
         (
             f"{R}framebuffers: {{f: {{renderPass: ⟦rr⟧}}}}",
-            "`renderPass` names `rr`, which is not in `renderPasses`",
-            "`renderPasses` has r",
+            "`renderPass` names `rr`, which is not in `renderPasses`; `renderPasses` has r",
+            "",
             "framebuffers.f.renderPass",
         ),
         (
             "images: {i0: {}}\nframebuffers: {f: {attachments: [i0, ⟦i1⟧, null]}}",
-            "`attachments[1]` names `i1`, which is not in `images`",
-            "`images` has i0",
+            "`attachments[1]` names `i1`, which is not in `images`; `images` has i0",
+            "",
             "framebuffers.f.attachments[1]",
         ),
         (
@@ -302,8 +336,8 @@ R = "renderPasses: {r: {attachments: {color: {}, depth: {}}, subpasses: [{}], de
         ),
         (
             f"{R}framebuffers: {{f0: {{}}}}\ncommands: [beginRenderPass: {{renderPass: r, framebuffer: [f0, ⟦f1⟧]}}]",
-            "`framebuffer[1]` names `f1`, which is not in `framebuffers`",
-            "`framebuffers` has f0",
+            "`framebuffer[1]` names `f1`, which is not in `framebuffers`; `framebuffers` has f0",
+            "",
             "commands[0].beginRenderPass.framebuffer[1]",
         ),
         (
@@ -320,75 +354,76 @@ R = "renderPasses: {r: {attachments: {color: {}, depth: {}}, subpasses: [{}], de
         ),
         (
             "images: {i: {}}\ncommands: [beginRendering: {depthAttachment: {image: i, resolveImage: ⟦j⟧}}]",
-            "`resolveImage` names `j`, which is not in `images`",
-            "`images` has i",
+            "`resolveImage` names `j`, which is not in `images`; `images` has i",
+            "",
             "commands[0].beginRendering.depthAttachment.resolveImage",
         ),
         (
             "images: {i: {}}\ncommands: [resolveImage: {srcImage: i, dstImage: ⟦j⟧}]",
-            "`dstImage` names `j`, which is not in `images`",
-            "`images` has i",
+            "`dstImage` names `j`, which is not in `images`; `images` has i",
+            "",
             None,
         ),
         (
             "images: {i: {}}\ncommands: [pipelineBarrier: {images: [i, ⟦j⟧]}]",
-            "`images[1]` names `j`, which is not in `images`",
-            "`images` has i",
+            "`images[1]` names `j`, which is not in `images`; `images` has i",
+            "",
             None,
         ),
         (
             "images: {i: {}}\ncommands: [pipelineBarrier: {images: [{image: ⟦j⟧}]}]",
-            "`image` names `j`, which is not in `images`",
-            "`images` has i",
+            "`image` names `j`, which is not in `images`; `images` has i",
+            "",
             "commands[0].pipelineBarrier.images[0].image",
         ),
         # Attachments of the pass.
         (
             "renderPasses: {r: {attachments: {color: {}}, subpasses: [{colorAttachments: [⟦colour⟧]}]}}",
-            "render pass `r` has no attachment `colour`; did you mean `color`?",
+            "`colorAttachments[0]` names `colour`, which is not an attachment of render pass `r`; did you mean `color`?",
             "",
             "renderPasses.r.subpasses[0].colorAttachments[0]",
         ),
         (
             "renderPasses: {r: {attachments: [{}, {}], subpasses: [{resolveAttachments: [⟦2⟧]}]}}",
-            "render pass `r` has no attachment 2; it has 2 attachments, counted from 0",
+            "`resolveAttachments[0]` is 2, but render pass `r` has 2 attachments, counted from 0",
             "",
             "renderPasses.r.subpasses[0].resolveAttachments[0]",
         ),
         (
             "renderPasses: {r: {attachments: [{}], subpasses: [{inputAttachments: [{attachment: ⟦1⟧}]}]}}",
-            "render pass `r` has no attachment 1; it has 1 attachment, counted from 0",
+            "`inputAttachments[0]` is 1, but render pass `r` has 1 attachment, counted from 0",
             "",
             None,
         ),
         (
             "renderPasses: {r: {subpasses: [{depthStencilAttachment: ⟦depth⟧}]}}",
-            "render pass `r` has no attachment `depth`; the description has no `renderPasses.r.attachments`",
+            "`depthStencilAttachment` names `depth`, which is not an attachment of render pass `r`; the "
+            "description has no `renderPasses.r.attachments`",
             "",
             "renderPasses.r.subpasses[0].depthStencilAttachment",
         ),
         (
             "renderPasses: {r: {attachments: {d: {}}, subpasses: [{depthStencilResolve: {attachment: ⟦e⟧}}]}}",
-            "render pass `r` has no attachment `e`",
-            "`renderPasses.r.attachments` has d",
+            "`attachment` names `e`, which is not an attachment of render pass `r`; `renderPasses.r.attachments` has d",
+            "",
             "renderPasses.r.subpasses[0].depthStencilResolve.attachment",
         ),
         (
             "renderPasses: {r: {attachments: {d: {}}, subpasses: [{preserveAttachments: [d, ⟦e⟧]}]}}",
-            "render pass `r` has no attachment `e`",
-            "`renderPasses.r.attachments` has d",
+            "`preserveAttachments[1]` names `e`, which is not an attachment of render pass `r`; `renderPasses.r.attachments` has d",
+            "",
             "renderPasses.r.subpasses[0].preserveAttachments[1]",
         ),
         # Subpasses.
         (
             f"{R}pipelines: {{p: {{renderPass: r, subpass: ⟦1⟧}}}}",
-            "render pass `r` has no subpass 1; it has 1 subpass, counted from 0",
+            "`subpass` is 1, but render pass `r` has 1 subpass, counted from 0",
             "",
             "pipelines.p.subpass",
         ),
         (
             "renderPasses: {r: {subpasses: [{}], dependencies: [{srcSubpass: EXTERNAL, dstSubpass: ⟦1⟧}]}}",
-            "render pass `r` has no subpass 1; it has 1 subpass, counted from 0",
+            "`dstSubpass` is 1, but render pass `r` has 1 subpass, counted from 0",
             "",
             "renderPasses.r.dependencies[0].dstSubpass",
         ),
@@ -403,8 +438,7 @@ def test_dangling_references(marked: str, message: str, help: str, path: str | N
 def test_a_device_that_nothing_is_near_to() -> None:
     (found,) = problems("device: qqqqqq")
     assert found.code == "MSAA904"
-    assert found.help.startswith("built-in devices: ")
-    assert "mali-g76" in found.help
+    assert found.message.startswith("unknown device `qqqqqq`; built-in devices are mali-g76, ")
 
 
 @pytest.mark.parametrize(
@@ -514,9 +548,9 @@ def test_flags_are_read_in_every_spelling() -> None:
 
 def test_long_words_are_shortened() -> None:
     (found,) = problems(f"images: {{a: {{{'x' * 200}: 1}}}}")
-    assert found.message == f"unknown key `{'x' * 79}…` in images.a"
+    assert found.message == f"unknown key `{'x' * 79}…` in images.a: expected one of {', '.join(Image.SHAPE)}"
     (found,) = problems(f"images: {{a: {{format: {'x' * 200}}}}}")
-    assert found.message == f"`{'x' * 79}…` is not a VkFormat"
+    assert found.message == f"`format` must be a VkFormat, found `{'x' * 79}…`"
 
 
 def test_an_alias_is_wrong_at_its_own_place() -> None:

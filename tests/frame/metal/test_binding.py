@@ -18,9 +18,15 @@ from tests.marked import unmarked
 @pytest.mark.parametrize(
     ("marked", "code", "message", "help"),
     [
-        ("metal: ⟦3⟧", "MSAA903", "`metal` must be a mapping, found `3`", ""),
+        (
+            "metal: ⟦3⟧",
+            "MSAA903",
+            "`metal` must be a mapping, found `3`; its keys are family, supportedSampleCounts, textures, "
+            "renderPasses, renderPipelines, commands",
+            "",
+        ),
         ("metal: {⟦texturs⟧: {}}", "MSAA902", "unknown key `texturs` in metal: did you mean `textures`?", ""),
-        ("metal: {family: ⟦aple7⟧}", "MSAA903", "`aple7` is not an MTLGPUFamily; did you mean `apple7`?", ""),
+        ("metal: {family: ⟦aple7⟧}", "MSAA903", "`family` must be an MTLGPUFamily, found `aple7`; did you mean `apple7`?", ""),
         (
             "metal: {supportedSampleCounts: [1, ⟦3⟧]}",
             "MSAA903",
@@ -30,37 +36,37 @@ from tests.marked import unmarked
         (
             "metal: {textures: {a: {pixelFormat: ⟦brga8Unorm_srgb⟧}}}",
             "MSAA903",
-            "`brga8Unorm_srgb` is not an MTLPixelFormat; did you mean `rgba8Unorm_srgb`?",
+            "`pixelFormat` must be an MTLPixelFormat, found `brga8Unorm_srgb`; did you mean `rgba8Unorm_srgb`?",
             "",
         ),
         (
             "metal: {textures: {a: {⟦samples⟧: 4}}}",
             "MSAA902",
-            "unknown key `samples` in metal.textures.a",
+            "unknown key `samples` in metal.textures.a: did you mean `sampleCount`?",
             None,
         ),
         (
             "metal: {textures: {a: {usage: [renderTarget, ⟦.shaderReed⟧]}}}",
             "MSAA903",
-            "`.shaderReed` is not an MTLTextureUsage; did you mean `shaderRead`?",
+            "`usage[1]` must be an MTLTextureUsage, found `.shaderReed`; did you mean `shaderRead`?",
             "",
         ),
         (
             "metal: {textures: {a: {storageMode: ⟦MTLStorageModeMemoryles⟧}}}",
             "MSAA903",
-            "`MTLStorageModeMemoryles` is not an MTLStorageMode; did you mean `memoryless`?",
+            "`storageMode` must be an MTLStorageMode, found `MTLStorageModeMemoryles`; did you mean `memoryless`?",
             "",
         ),
         (
             "metal: {textures: {a: {textureType: ⟦2DMultisample⟧}}}",
             "MSAA903",
-            "`2DMultisample` is not an MTLTextureType; did you mean `type2DMultisample`?",
+            "`textureType` must be an MTLTextureType, found `2DMultisample`; did you mean `type2DMultisample`?",
             "",
         ),
         (
             "metal: {renderPasses: {p: {colorAttachments: [{storeAction: ⟦DONT_CARE⟧}]}}}",
             "MSAA903",
-            "`DONT_CARE` is not an MTLStoreAction; did you mean `dontCare`?",
+            "`storeAction` must be an MTLStoreAction, found `DONT_CARE`; did you mean `dontCare`?",
             "",
         ),
         (
@@ -108,16 +114,16 @@ from tests.marked import unmarked
         (
             "metal: {renderPasses: {forward: {}}, renderPipelines: {a: {renderPass: ⟦other⟧}}}",
             "MSAA904",
-            "`renderPass` names `other`, which is not in `metal.renderPasses`",
-            "`metal.renderPasses` has forward",
+            "`renderPass` names `other`, which is not in `metal.renderPasses`; `metal.renderPasses` has forward",
+            "",
         ),
         (
             "metal: {commands: [{⟦blit⟧: {}}]}",
             "MSAA902",
-            "unknown command `blit`",
-            "the commands are renderPass, readTexture, writeTexture, copy, present",
+            "unknown command `blit`: expected one of renderPass, readTexture, writeTexture, copy, present",
+            "",
         ),
-        ("metal: {commands: [⟦present⟧]}", "MSAA903", "the command `present` needs parameters", ""),
+        ("metal: {commands: [⟦present⟧]}", "MSAA903", "the command `present` needs parameters; write `present: ...`", ""),
         (
             "metal: {commands: [{readTexture: {stage: ⟦FRAGMENT⟧}}]}",
             "MSAA903",
