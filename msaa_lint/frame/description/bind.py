@@ -30,7 +30,7 @@ class Binder(ValueBinder):
         """The record of that class that a mapping states."""
         record = kind(node, path, key, head if head is not None else head_of(node))
         if node.kind != "mapping":
-            self.wrong_structure(node, path, "a mapping", mapping_hint(("record", kind), node))
+            self.wrong_structure(node, path, "a mapping", "" if self.dumped else mapping_hint(("record", kind), node))
             return record
         self.members(record, node, path)
         if self.dumped and "pNext" in node.value:

@@ -45,10 +45,18 @@ def loads(text: bytes, line: int, column: int = 1, call: int | None = None) -> A
         except orjson.JSONDecodeError:
             within = error.lineno - 1
             place = Place(line + within, error.colno if within else column + error.colno - 1, call)
-            raise CaptureError(f"invalid JSON: {error.msg}", place) from None
+            raise CaptureError(f"invalid JSON: {_mistake(text, error)}", place) from None
     if text.count(b"{") + text.count(b"[") > MAX_DEPTH and is_too_deep(value):
         raise CaptureError(TOO_DEEP, Place(line, column, call))
     return value
+
+
+def _mistake(text: bytes, error: orjson.JSONDecodeError) -> str:
+    """What is wrong with a text that is not JSON."""
+    from msaa_lint.core.text.json_errors import json_problem
+
+    # Places in the message would count from the beginning of the value.
+    return re.sub(r" at line \d+, column \d+", "", json_problem(text.decode("utf-8", "replace"), error.pos).message)
 
 
 def parse_call(text: bytes, kind: str) -> tuple[Any, str | None] | None:

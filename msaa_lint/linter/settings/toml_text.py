@@ -49,16 +49,15 @@ def parsed(text: str, name: str) -> dict[str, Any] | Finding:
     except RecursionError:
         return diagnostic("MSAA921", "the configuration is nested too deeply", name)
     except ValueError as error:
-        message = str(error)
-        at = _AT.search(message)
-        if at is None:
-            return diagnostic("MSAA921", f"the configuration is not valid TOML: {message[:200]}", name)
+        at = _AT.search(str(error))
         start = len(text)
-        if at[1]:
+        if at is not None and at[1]:
             lines = text.split("\n")
             start = min(len(text), sum(len(line) + 1 for line in lines[: int(at[1]) - 1]) + int(at[2]) - 1)
-        end = start + (text[start : start + 1] not in ("", "\n", "\r"))
-        return diagnostic("MSAA921", f"the configuration is not valid TOML: {message[: at.start()]}", name, Span(start, end))
+        from .toml_errors import mistake
+
+        message, span = mistake(text, start, str(error))
+        return diagnostic("MSAA921", f"the configuration is not valid TOML: {message}", name, span)
 
 
 @lru_cache(maxsize=4)

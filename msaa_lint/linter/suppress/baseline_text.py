@@ -29,7 +29,7 @@ def read_entries(source: Source, schema: str) -> tuple[dict[str, dict[str, int]]
 
     files = value.get("entries") if isinstance(value, dict) else None
     if not isinstance(value, dict):
-        problem((), "expected an object")
+        problem((), "expected an object with `schema` and `entries`; `msaa-lint baseline` writes one")
     elif value.get("schema") != schema:
         problem(("schema",), f'expected the schema "{schema}"')
     elif not isinstance(files, dict):
@@ -67,13 +67,14 @@ def _parse(source: Source) -> Any:
     try:
         return json.loads(source.text, object_pairs_hook=unique_keys)
     except json.JSONDecodeError as error:
-        start = min(error.pos, len(source.text))
-        span = Span(start, min(start + 1, len(source.text)))
-        return diagnostic("MSAA921", f"invalid baseline: not valid JSON: {error.msg}", source.name, span)
+        from msaa_lint.core.text.json_errors import json_problem
+
+        problem = json_problem(source.text, error.pos)
+        return diagnostic("MSAA921", f"invalid baseline: {problem.message}", source.name, problem.span, labels=problem.labels)
     except RecursionError:
         return diagnostic("MSAA921", "invalid baseline: nested too deeply", source.name)
     except ValueError as error:
-        return diagnostic("MSAA921", f"invalid baseline: {str(error)[:200]}", source.name)
+        return diagnostic("MSAA921", f"invalid baseline: {str(error)[:200]}; remove one of the two", source.name)
 
 
 def _location(source: Source, path: tuple[str, ...]) -> Span | None:
