@@ -11,8 +11,10 @@ from msaa_lint.core.finding import CONFIDENCES, Finding, RuleInfo, Suppressed, U
 from msaa_lint.core.text.source import Source, Unreadable, decode
 from msaa_lint.core.text.span import Span
 from msaa_lint.core.text.tree import Limits, parse
+from msaa_lint.core.text.tree import Problem as TextProblem
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import ShaderStage
+from msaa_lint.frame.description.problems import Problem as DocumentProblem
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.profiles import Problem, device_for
 
@@ -98,6 +100,8 @@ class Engine:
             findings.append(diagnostic("MSAA901", "the input is empty; it must contain a description", file, Span(0, 0)))
         for number, root in enumerate(parsed.documents):
             document = readers.read(source, root, options.format)
+            if parsed.problems and document.problems:
+                document = document._replace(problems=_apart(document.problems, parsed.problems))
             if modules is not None:
                 document = _with_modules(document, modules, options.device)
             prefix = f"documents[{number}]." if len(parsed.documents) > 1 else ""
@@ -165,7 +169,8 @@ class Engine:
         device = device_for(document.description, file, options.device)
         if isinstance(device, Problem):
             span = document.description.place("device")
-            return Verdicts([diagnostic(device.code, device.message, file, span, "device", help=device.help)], [], {}, False), None
+            message = f"{device.message}; {device.help}" if device.help else device.message
+            return Verdicts([diagnostic(device.code, message, file, span, "device")], [], {}, False), None
 
         # Both are imported only if a rule asks: for a sample count above what devices do efficiently, and for a shader.
         def study(frame: Frame) -> Studied:
@@ -227,6 +232,12 @@ def rule_infos(registry: Registry, severity: Severity, full: bool) -> list[RuleI
     """The enabled rules by code, as reports describe them; `full` includes their pages."""
     severities = [(rule, severity(rule, rule.severity, None)) for rule in registry.rules]
     return [info(rule, level, full) for rule, level in severities if level is not None]
+
+
+def _apart(problems: Sequence[DocumentProblem], others: Sequence[TextProblem]) -> tuple[DocumentProblem, ...]:
+    """The problems of a document at places of which its text has no problem."""
+    spans = [other.span for other in others]
+    return tuple(found for found in problems if not any(span.start <= found.span.start <= span.end for span in spans))
 
 
 def _undecodable(data: bytes, file: str, error: Unreadable) -> FileResult:

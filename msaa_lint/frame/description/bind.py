@@ -13,7 +13,7 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
 
 from .dumps import PNEXT, WITHIN, is_null, is_number, member_name, structure_type
-from .hints import commands_hint, has_no_value, items_hint, key_below, key_hint, mapping_hint, meant, question_or_names
+from .hints import commands_hint, has_no_value, hidden_character, items_hint, key_below, key_hint, mapping_hint, meant, question_or_names
 from .members import MAX_UINT32
 from .models import AttachmentReference, Command, DepthStencilResolve
 from .problems import found, head_of, structure_of
@@ -53,10 +53,17 @@ class Binder(ValueBinder):
             shape = kind.SHAPE.get(name)
             key = node.keys[key_text]
             if shape is None:
-                self.unknown_key(kind, key, path)
-            elif has_no_value(value) and not self.dumped and (below := key_below(shape, kind, node, key_text)) is not None:
-                self.unindented(key_text, below, path)
+                self.unknown_key(kind, key, value, path)
+                if hidden_character(key_text):
+                    # The keys below it are indented by such characters too.
+                    break
+            elif not self.dumped and has_no_value(value) and key.start < key.end == value.start == value.end:
+                self.report("MSAA901", f"`:` is missing after the key {quoted(key_text)}", key.span, f"{path}.{name}".lstrip("."))
                 break
+            elif has_no_value(value) and not self.dumped and (below := key_below(shape, kind, node, key_text)) is not None:
+                if not hidden_character(below.text):
+                    self.unindented(key_text, below, path)
+                    break
             elif not (self.dumped and is_null(value)):
                 record.spelled[name] = (key, value)
                 setattr(record, name, self.value(shape, value, f"{path}.{key_text}" if path else key_text, key_text, key.span))
@@ -84,10 +91,10 @@ class Binder(ValueBinder):
         message = f"{quoted(key.text)} must be indented deeper than {quoted(above)}, which has no value without it"
         self.report("MSAA903", message, key.span, f"{path}.{shortened(above)}".lstrip("."))
 
-    def unknown_key(self, kind: type[Record], key: Node, path: str) -> None:
+    def unknown_key(self, kind: type[Record], key: Node, value: Node, path: str) -> None:
         if not self.is_full:
             key_path = f"{path}.{shortened(key.text)}".lstrip(".")
-            message = f"unknown key {quoted(key.text)} in {path or 'the description'}{key_hint(kind, key.text)}"
+            message = f"unknown key {quoted(key.text)} in {path or 'the description'}{key_hint(kind, key.text, value)}"
             self.report("MSAA902", message, key.span, key_path)
 
     def value(self, shape: Shape, node: Node, path: str, key: str, head: Span | None = None) -> Any:

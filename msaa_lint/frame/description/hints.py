@@ -92,14 +92,21 @@ def question_or_names(candidate: str | None, names: Sequence[str], separator: st
     return f"{separator}expected one of {', '.join(names[:MAX_LISTED])}{more}" if names else ""
 
 
-def key_hint(kind: type[Record], name: str) -> str:
+def hidden_character(name: str) -> str | None:
+    """The first character of a name that cannot be seen, but for ordinary spaces; None if all can."""
+    return next((char for char in name if char != " " and (char.isspace() or not char.isprintable())), None)
+
+
+def key_hint(kind: type[Record], name: str, value: Node) -> str:
     """What to write for a key that a structure does not have."""
     stated = entry(name)
     if stated is not None and stated.partition(":")[0] in kind.SHAPE:
         return f"; write `{stated}`, with a space after the `:`"
-    hidden = next((char for char in name if char != " " and (char.isspace() or not char.isprintable())), None)
+    hidden = hidden_character(name)
     if hidden is not None:
         return f": it contains the invisible character U+{ord(hidden):04X}; write ordinary spaces, or delete it"
+    if value.kind == "mapping" and value.value and all(key in kind.SHAPE for key in value.value):
+        return f": write its keys {', '.join(value.value)} directly"
     for member, shape in kind.SHAPE.items():
         if shape[0] == "record" and name in shape[1].SHAPE:
             return f": it is a key of `{member}`; write `{member}: {{{name}: ...}}`"
@@ -114,6 +121,9 @@ def joined_flags(enum: str, text: str) -> str:
 
 def enumerant_hint(enums: str, text: str) -> str:
     """What to write for a word that is not an enumerant."""
+    joined = joined_flags(enums, text)
+    if joined:
+        return f"; write `{joined}`"
     if text.isascii() and text.isdigit() and len(text) < 20:
         named = from_value(enums.partition("|")[0], int(text)) if not enums.startswith("MTL") else None
         if named is not None:
@@ -223,6 +233,8 @@ def key_below(shape: Shape, kind: type[Record], node: Node, name: str) -> Node |
     below = next((next(names, None) for key in names if key == name), None)
     if below is None or below in kind.SHAPE:
         return None
+    if hidden_character(below[:1]):
+        return node.keys[below]
     is_member = below in shape[1].SHAPE if shape[0] == "record" else shape[0] in ("map", "counted") and node.value[below].kind == "mapping"
     return node.keys[below] if is_member else None
 

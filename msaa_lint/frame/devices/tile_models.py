@@ -86,7 +86,7 @@ def stated_tile(mapping: Mapping[str, float | str | None] | None) -> TileModel |
             return Misstated(extra, f"`{extra[:40]}` cannot be combined with `model`; state `kind` instead of `model`", "")
         name = mapping["model"]
         found = MODELS.get(name) if isinstance(name, str) else None
-        return found or Misstated("model", f"unknown tile model `{str(name)[:40]}`", f"tile models: {', '.join(MODELS)}")
+        return found or Misstated("model", f"unknown tile model `{str(name)[:40]}`", f"write one of {', '.join(MODELS)}")
     kind = mapping.get("kind")
     numbers = _NUMBERS.get(kind) if isinstance(kind, str) else None
     if numbers is None:

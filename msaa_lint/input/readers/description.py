@@ -102,7 +102,7 @@ def _report_unknown(binder: Binder, message: str, name: str, names: Collection[s
     if not names:
         hint = f"; the description has no `{section}`"
     elif not hint:
-        hint = f"; `{section}` has {', '.join(map(shortened, islice(names, 8)))}{', …' if len(names) > 8 else ''}"
+        hint = f"; write one of {', '.join(map(shortened, islice(names, 8)))}{', …' if len(names) > 8 else ''}"
     binder.report("MSAA904", f"{message}{hint}", span, path)
 
 
@@ -118,7 +118,7 @@ def _device(binder: Binder, description: Description) -> None:
     name = description.device
     if builtin(name) is not None or is_path(name):
         return
-    hint = binder.suggestion(name, names()) or f"; built-in devices are {', '.join(names())}"
+    hint = binder.suggestion(name, names()) or f"; write one of {', '.join(names())}, or the path of a device report"
     binder.report("MSAA904", f"unknown device {quoted(name)}{hint}", description.place("device"), "device")
 
 
@@ -150,7 +150,7 @@ def _attachments(binder: Binder, name: str, render_pass: RenderPass) -> None:
                 continue
             at = reference.place("attachment")
             if isinstance(attachment, int):
-                has = f"render pass {quoted(name)} has {_count(count, 'attachment')}, counted from 0"
+                has = f"render pass {quoted(name)} has {_indices(count, 'attachment')}"
                 message = f"{member_of(reference.path)} is {attachment}, but {has}"
                 binder.report("MSAA904", message, at, reference.path)
             else:
@@ -168,8 +168,12 @@ def _attachments(binder: Binder, name: str, render_pass: RenderPass) -> None:
 
 
 def _no_subpass(member: str, name: str, index: int, render_pass: RenderPass) -> str:
-    count = _count(len(render_pass.subpasses), "subpass")
-    return f"`{member}` is {index}, but render pass {quoted(name)} has {count}, counted from 0"
+    return f"`{member}` is {index}, but render pass {quoted(name)} has {_indices(len(render_pass.subpasses), 'subpass')}"
+
+
+def _indices(number: int, noun: str) -> str:
+    hint = f"; write 0 to {number - 1}" if number > 1 else "; write 0" if number else ""
+    return f"{_count(number, noun)}, counted from 0{hint}"
 
 
 def _count(number: int, noun: str) -> str:

@@ -169,7 +169,11 @@ def _read(path: str, text: str, table: dict[str, Any] | Finding) -> Loaded:
         origin = Origin(source, ("tool", "msaa-lint") if os.path.basename(current) == NAMES[1] else ())
         keys = _tool(table).get("msaa-lint") if origin.table else table
         if not isinstance(keys, dict):
-            message = "the configuration has no table [tool.msaa-lint]" if keys is None else "[tool.msaa-lint] is not a table"
+            message = (
+                "the configuration has no table [tool.msaa-lint]"
+                if keys is None
+                else "[tool.msaa-lint] is not a table; write `[tool.msaa-lint]` and its keys below"
+            )
             findings.append(origin.finding((), message))
             break
         reader = TableReader(origin, os.path.dirname(current), lambda target: inside(target, root))
@@ -195,7 +199,7 @@ def _extended(reader: TableReader, table: Mapping[str, Any], chain: list[str]) -
     if text is None:
         return None
     if not text.endswith(".toml"):
-        reader.problem(("extends",), f"{quoted(text)} is not a .toml file")
+        reader.problem(("extends",), f"{quoted(text)} is not a .toml file", "write a name that ends in .toml")
         return None
     path = reader.project_path(("extends",), text)
     if path is None:
@@ -207,7 +211,7 @@ def _extended(reader: TableReader, table: Mapping[str, Any], chain: list[str]) -
     elif len(chain) >= MAX_CHAIN:
         reader.problem(("extends",), f"chain of more than {MAX_CHAIN} files")
     elif not os.path.isfile(path):
-        reader.problem(("extends",), f"no such file {quoted(text)}")
+        reader.problem(("extends",), f"no such file {quoted(text)}", "write a path relative to the folder of the configuration")
     else:
         return path
     return None

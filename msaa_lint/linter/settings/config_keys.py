@@ -72,7 +72,7 @@ class TableReader:
             return
         hint = near_or_all(path[-1], known)
         if path == ("tool",) and not self.origin.table:
-            hint = "in this file the keys are at the top level, without [tool.msaa-lint]"
+            hint = "in this file the keys are at the top level, without [tool.msaa-lint]; remove that line"
         self.findings.append(self.origin.finding(path, f"unknown key {quoted(path[-1])} in {where}: {hint}", at_key=True))
 
     def has_type(self, path: Path, value: object, type_: type, expected: str) -> bool:
@@ -212,7 +212,7 @@ class TableReader:
             if full is not None and os.path.exists(full):
                 paths.append(full)
             elif full is not None:
-                self.problem(at, f"no such file or folder {quoted(item)}")
+                self.problem(at, f"no such file or folder {quoted(item)}", "write a path relative to the folder of the configuration")
         return tuple(paths)
 
     def baseline(self, path: Path, value: Any) -> str | None:
@@ -220,7 +220,7 @@ class TableReader:
         if text is None:
             return None
         if not text.endswith(".json"):
-            self.problem(path, f"{quoted(text)} is not a .json file")
+            self.problem(path, f"{quoted(text)} is not a .json file", "write a name that ends in .json")
             return None
         return self.project_path(path, text)
 

@@ -79,7 +79,10 @@ def _mistake(text: str, at: int, start: int, rest: str, said: str) -> tuple[str,
 def _value(text: str, at: int, rest: str) -> tuple[str, int, int | None]:
     word = re.split(r"[\s,\]}#]", rest, maxsplit=1)[0]
     if not word:
-        return "a value is missing", at, None
+        char = rest[:1]
+        if char and char != "#":
+            return f"a value is missing before `{char}`; remove the `,` before it, or add the value", at, None
+        return "a value is missing after the `=`", at, None
     if word.lower() in ("true", "false"):
         return f"{quoted(word)} is not a value in TOML; write `{word.lower()}`", at, at + len(word)
     if word.lower() in ("null", "none", "nil"):

@@ -70,7 +70,9 @@ def _parse(source: Source) -> Any:
         from msaa_lint.core.text.json_errors import json_problem
 
         problem = json_problem(source.text, error.pos)
-        return diagnostic("MSAA921", f"invalid baseline: {problem.message}", source.name, problem.span, labels=problem.labels)
+        return diagnostic(
+            "MSAA921", f"invalid baseline: not valid JSON: {problem.message}", source.name, problem.span, labels=problem.labels
+        )
     except RecursionError:
         return diagnostic("MSAA921", "invalid baseline: nested too deeply", source.name)
     except ValueError as error:

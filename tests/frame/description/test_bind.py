@@ -288,7 +288,7 @@ R = "renderPasses: {r: {attachments: {color: {}, depth: {}}, subpasses: [{}], de
         ),
         (
             "images: {a: {}, b: {}}\nrenderPasses: {r: {attachments: [{image: ⟦xyz⟧}]}}",
-            "`image` names `xyz`, which is not in `images`; `images` has a, b",
+            "`image` names `xyz`, which is not in `images`; write one of a, b",
             "",
             "renderPasses.r.attachments[0].image",
         ),
@@ -300,13 +300,13 @@ R = "renderPasses: {r: {attachments: {color: {}, depth: {}}, subpasses: [{}], de
         ),
         (
             f"{R}framebuffers: {{f: {{renderPass: ⟦rr⟧}}}}",
-            "`renderPass` names `rr`, which is not in `renderPasses`; `renderPasses` has r",
+            "`renderPass` names `rr`, which is not in `renderPasses`; write one of r",
             "",
             "framebuffers.f.renderPass",
         ),
         (
             "images: {i0: {}}\nframebuffers: {f: {attachments: [i0, ⟦i1⟧, null]}}",
-            "`attachments[1]` names `i1`, which is not in `images`; `images` has i0",
+            "`attachments[1]` names `i1`, which is not in `images`; write one of i0",
             "",
             "framebuffers.f.attachments[1]",
         ),
@@ -336,7 +336,7 @@ R = "renderPasses: {r: {attachments: {color: {}, depth: {}}, subpasses: [{}], de
         ),
         (
             f"{R}framebuffers: {{f0: {{}}}}\ncommands: [beginRenderPass: {{renderPass: r, framebuffer: [f0, ⟦f1⟧]}}]",
-            "`framebuffer[1]` names `f1`, which is not in `framebuffers`; `framebuffers` has f0",
+            "`framebuffer[1]` names `f1`, which is not in `framebuffers`; write one of f0",
             "",
             "commands[0].beginRenderPass.framebuffer[1]",
         ),
@@ -354,25 +354,25 @@ R = "renderPasses: {r: {attachments: {color: {}, depth: {}}, subpasses: [{}], de
         ),
         (
             "images: {i: {}}\ncommands: [beginRendering: {depthAttachment: {image: i, resolveImage: ⟦j⟧}}]",
-            "`resolveImage` names `j`, which is not in `images`; `images` has i",
+            "`resolveImage` names `j`, which is not in `images`; write one of i",
             "",
             "commands[0].beginRendering.depthAttachment.resolveImage",
         ),
         (
             "images: {i: {}}\ncommands: [resolveImage: {srcImage: i, dstImage: ⟦j⟧}]",
-            "`dstImage` names `j`, which is not in `images`; `images` has i",
+            "`dstImage` names `j`, which is not in `images`; write one of i",
             "",
             None,
         ),
         (
             "images: {i: {}}\ncommands: [pipelineBarrier: {images: [i, ⟦j⟧]}]",
-            "`images[1]` names `j`, which is not in `images`; `images` has i",
+            "`images[1]` names `j`, which is not in `images`; write one of i",
             "",
             None,
         ),
         (
             "images: {i: {}}\ncommands: [pipelineBarrier: {images: [{image: ⟦j⟧}]}]",
-            "`image` names `j`, which is not in `images`; `images` has i",
+            "`image` names `j`, which is not in `images`; write one of i",
             "",
             "commands[0].pipelineBarrier.images[0].image",
         ),
@@ -385,13 +385,13 @@ R = "renderPasses: {r: {attachments: {color: {}, depth: {}}, subpasses: [{}], de
         ),
         (
             "renderPasses: {r: {attachments: [{}, {}], subpasses: [{resolveAttachments: [⟦2⟧]}]}}",
-            "`resolveAttachments[0]` is 2, but render pass `r` has 2 attachments, counted from 0",
+            "`resolveAttachments[0]` is 2, but render pass `r` has 2 attachments, counted from 0; write 0 to 1",
             "",
             "renderPasses.r.subpasses[0].resolveAttachments[0]",
         ),
         (
             "renderPasses: {r: {attachments: [{}], subpasses: [{inputAttachments: [{attachment: ⟦1⟧}]}]}}",
-            "`inputAttachments[0]` is 1, but render pass `r` has 1 attachment, counted from 0",
+            "`inputAttachments[0]` is 1, but render pass `r` has 1 attachment, counted from 0; write 0",
             "",
             None,
         ),
@@ -404,26 +404,26 @@ R = "renderPasses: {r: {attachments: {color: {}, depth: {}}, subpasses: [{}], de
         ),
         (
             "renderPasses: {r: {attachments: {d: {}}, subpasses: [{depthStencilResolve: {attachment: ⟦e⟧}}]}}",
-            "`attachment` names `e`, which is not an attachment of render pass `r`; `renderPasses.r.attachments` has d",
+            "`attachment` names `e`, which is not an attachment of render pass `r`; write one of d",
             "",
             "renderPasses.r.subpasses[0].depthStencilResolve.attachment",
         ),
         (
             "renderPasses: {r: {attachments: {d: {}}, subpasses: [{preserveAttachments: [d, ⟦e⟧]}]}}",
-            "`preserveAttachments[1]` names `e`, which is not an attachment of render pass `r`; `renderPasses.r.attachments` has d",
+            "`preserveAttachments[1]` names `e`, which is not an attachment of render pass `r`; write one of d",
             "",
             "renderPasses.r.subpasses[0].preserveAttachments[1]",
         ),
         # Subpasses.
         (
             f"{R}pipelines: {{p: {{renderPass: r, subpass: ⟦1⟧}}}}",
-            "`subpass` is 1, but render pass `r` has 1 subpass, counted from 0",
+            "`subpass` is 1, but render pass `r` has 1 subpass, counted from 0; write 0",
             "",
             "pipelines.p.subpass",
         ),
         (
             "renderPasses: {r: {subpasses: [{}], dependencies: [{srcSubpass: EXTERNAL, dstSubpass: ⟦1⟧}]}}",
-            "`dstSubpass` is 1, but render pass `r` has 1 subpass, counted from 0",
+            "`dstSubpass` is 1, but render pass `r` has 1 subpass, counted from 0; write 0",
             "",
             "renderPasses.r.dependencies[0].dstSubpass",
         ),
@@ -438,7 +438,7 @@ def test_dangling_references(marked: str, message: str, help: str, path: str | N
 def test_a_device_that_nothing_is_near_to() -> None:
     (found,) = problems("device: qqqqqq")
     assert found.code == "MSAA904"
-    assert found.message.startswith("unknown device `qqqqqq`; built-in devices are mali-g76, ")
+    assert found.message.startswith("unknown device `qqqqqq`; write one of mali-g76, ")
 
 
 @pytest.mark.parametrize(

@@ -114,7 +114,7 @@ from tests.marked import unmarked
         (
             "metal: {renderPasses: {forward: {}}, renderPipelines: {a: {renderPass: ⟦other⟧}}}",
             "MSAA904",
-            "`renderPass` names `other`, which is not in `metal.renderPasses`; `metal.renderPasses` has forward",
+            "`renderPass` names `other`, which is not in `metal.renderPasses`; write one of forward",
             "",
         ),
         (

@@ -231,7 +231,8 @@ def test_any_symbols(text: bytes) -> None:
     ('[{"apiCalls":[{"name":"vkCmdDraw","args":5}]}]', "invalid call: expected an array of arguments, members or elements", (1, 15)),
     ('[{"apiCalls":[{"name":"vkCmdDraw","args":[5]}]}]', "invalid call: expected an object with a type and a name", (1, 15)),
     ('[{"apiCalls":[{"name":"vkCmdDraw","args":[{"value":"5"}]}]}]', "invalid call: a member has no name", (1, 15)),
-    ('[{"apiCalls":[\n{"name":"vkCmdDraw","args":[,]}]}]', "invalid JSON: unexpected character, expected a JSON value", (2, 29)),
+    ('[{"apiCalls":[\n{"name":"vkCmdDraw","args":[,]}]}]',
+     "invalid JSON: expected a value or a key after `[`, found `,`; remove one of them", (2, 29)),
 ])  # fmt: skip
 def test_what_is_no_dump(text: str, message: str, place: tuple[int, int]) -> None:
     found = broken(text.encode())

@@ -132,10 +132,14 @@ HEAD = '{"schema": "msaa-lint/baseline-v1", "entries": '
 @pytest.mark.parametrize(
     ("text", "at", "message"),
     [
-        ("{,}", (1, ","), "not valid JSON: Expecting property name enclosed in double quotes"),
-        ("", (0, ""), "not valid JSON: Expecting value"),
-        (HEAD + "{", (48, ""), "not valid JSON: Expecting property name enclosed in double quotes"),
-        ("[]", (0, "[]"), "expected an object"),
+        ("{,}", (1, ","), "not valid JSON: expected a value or a key after `{`, found `,`; remove one of them"),
+        ("", (0, ""), "not valid JSON: the text ends where a value is expected; the file may be truncated"),
+        (
+            HEAD + "{",
+            (47, "{"),
+            "not valid JSON: `{` is never closed, nor is the bracket around it: the text ends at line 1, column 49 before its `}`",
+        ),
+        ("[]", (0, "[]"), "expected an object with `schema` and `entries`; `msaa-lint baseline` writes one"),
         ("{}", (0, "{}"), 'expected the schema "msaa-lint/baseline-v1"'),
         (
             '{"schema": "msaa-lint/baseline-v2"}',

@@ -53,7 +53,10 @@ def _found(text: str) -> list[Found]:
     except RecursionError:
         raise NotAReport("its JSON is nested too deeply") from None
     except json.JSONDecodeError as error:
-        raise NotAReport(f"its JSON is broken at line {error.lineno}, column {error.colno}: {error.msg}") from None
+        from msaa_lint.core.text.json_errors import json_problem
+
+        said = json_problem(text, error.pos).message
+        raise NotAReport(f"its JSON is broken at line {error.lineno}, column {error.colno}: {said}") from None
     except ValueError:
         raise NotAReport("its JSON has a number that is too long") from None
     module = next((module for module in JSON if isinstance(root, dict) and module.claims(root)), None)
