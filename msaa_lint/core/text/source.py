@@ -18,7 +18,7 @@ _NAMES = {"utf-8": "UTF-8", "utf-16-le": "UTF-16", "utf-16-be": "UTF-16"}
 
 
 class Unreadable(ValueError):
-    """An input that is not text or is too large. `offset` is that of the invalid byte, if there is one, and `before` the text before it."""
+    """An input that is not text or is too large. `offset` is that of the invalid byte, if there is one, and `before` the text in UTF-8 before it."""
 
     def __init__(self, message: str, offset: int | None = None, before: str | None = None) -> None:
         super().__init__(message)
@@ -107,7 +107,7 @@ def decode(data: bytes) -> str:
         message = (
             f"the input is not {_NAMES[encoding]}: byte {offset} (line {place.line}, column {place.column}) {_invalid(body, error.start)}"
         )
-        raise Unreadable(message, offset, before.text) from None
+        raise Unreadable(message, offset, before.text if encoding == "utf-8" else None) from None
 
 
 def _invalid(body: bytes, at: int) -> str:
