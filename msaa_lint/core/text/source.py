@@ -18,7 +18,7 @@ _NAMES = {"utf-8": "UTF-8", "utf-16-le": "UTF-16", "utf-16-be": "UTF-16"}
 
 
 class Unreadable(ValueError):
-    """An input that is not text or is too large. `offset` is that of the invalid byte, if there is one, and `before` the text in UTF-8 before it."""
+    """An input that is not text or is too large. `offset` is that of the invalid byte, `before` the text before it, if it is UTF-8."""
 
     def __init__(self, message: str, offset: int | None = None, before: str | None = None) -> None:
         super().__init__(message)
