@@ -49,7 +49,7 @@ def explain_rule(name: str, workspace: Workspace, output: str) -> int:
         if wanted in (diagnostic.name.upper(), diagnostic.code):
             _print_diagnostic(diagnostic, output)
             return 0
-    pages = [page.page for page in registry.broken if wanted in (page.name.upper(), page.code.upper())]
+    pages = [page.page for page in registry.broken if wanted in (page.name.upper(), page.code.upper() or None)]
     _warn_of_problems(workspace, pages)
     if not pages:
         close = RuleNames(registry.names).suggestions.nearest(name)

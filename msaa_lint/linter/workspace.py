@@ -4,6 +4,7 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding, rank
 from msaa_lint.core.project import shown
 from msaa_lint.core.quote import quoted
@@ -22,7 +23,7 @@ from .rules.rule_file import EDITIONS
 from .settings.config import Configurations, Loaded
 from .settings.selection import Selection
 from .settings.selectors import unknown_selectors
-from .settings.settings import Settings, override
+from .settings.settings import COMMAND_LINE, Settings, override
 
 if TYPE_CHECKING:
     from msaa_lint.input.capture_input import CaptureInput
@@ -230,5 +231,6 @@ def _invalid_values(settings: Settings) -> list[Finding]:
     profile = profile_of(settings.profile) if settings.profile is not None else None
     if isinstance(profile, Problem):
         findings.append(settings.problem("profile", profile.message, profile.help))
-    missing = [path for path in settings.rules if not os.path.exists(path)]
-    return findings + [settings.problem("rules", f"no rule page or folder {quoted(os.path.relpath(path), 200)}") for path in missing]
+    # Those of a configuration are checked where it is read.
+    missing = [quoted(os.path.relpath(path), 200) for path in settings.rules if not os.path.exists(path)]
+    return findings + [diagnostic("MSAA921", f"no such file or folder {path} in `--rules`", COMMAND_LINE) for path in missing]

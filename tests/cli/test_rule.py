@@ -139,3 +139,13 @@ def test_the_list_fits_a_terminal_with_whole_names(tmp_path: Path, width: int) -
     assert max(map(len, lines)) <= max(width, 62)
     assert {name for name in NAMES if not any(name in line.split() for line in lines)} == set()
     assert "…" not in shown.decode()
+
+
+def test_a_missing_folder_of_rules_is_said_where_it_is_named(project: Path) -> None:
+    unknown = "msaa-lint: unknown rule `x`: `msaa-lint rule --all` lists the rules\n"
+    stated = "msaa-lint: <command line>: no such file or folder `nope` in `--rules`\n"
+    assert run(project, "rule", "x", "--rules", "nope").stderr == f"{stated}{unknown}"
+    (project / "msaa-lint.toml").write_text('rules = ["tean"]\n', encoding="utf-8")
+    assert run(project, "rule", "x").stderr.startswith("msaa-lint: msaa-lint.toml:1:10: no such file or folder `tean`")
+    (project / "msaa-lint.toml").write_text("", encoding="utf-8")
+    assert run(project, "rule", "").stderr == unknown.replace("`x`", "``")
