@@ -1,15 +1,18 @@
-"""The first command of the README and the steps of a release, as CONTRIBUTING.md states them, in a clone of the working tree."""
+"""What the documentation tells to install, from a clone of the working tree: README, docs/ci.md, and the steps of a release."""
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import subprocess
+import sys
 import tarfile
 import zipfile
 from pathlib import Path
 
 import pytest
+import yaml
 
 from msaa_lint import __version__
 from tests.doc_blocks import blocks
@@ -39,7 +42,7 @@ def clone(tmp_path: Path) -> Path:
     for name in tracked():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, folder / name)
-    execute(folder, 'git init --quiet && git add . && git commit --quiet --message "The working tree"')
+    execute(folder, 'git init --quiet --initial-branch main && git add . && git commit --quiet --message "The working tree"')
     return folder
 
 
@@ -81,3 +84,30 @@ def test_the_steps_of_a_release(clone: Path) -> None:
         unpacked = {name.partition("/")[2] for name in sdist.getnames()}
     left_out = {name for name in tracked() if not name.startswith((".ci/", ".github/"))} - unpacked
     assert left_out == set()
+
+
+def test_the_snippets_for_ci(clone: Path, tmp_path: Path) -> None:
+    """In a project with a copy of the clone, as docs/ci.md says: GitLab's script and the pre-commit hooks."""
+    named = {block.file_name or block.language: block.text for block in blocks("docs/ci.md")}
+    project = tmp_path / "project"
+    project.mkdir()
+    execute(project, "git init --quiet --initial-branch main && git commit --quiet --allow-empty --message Start")
+    added = execute(project, named["sh"].replace("URL", str(clone)))
+    assert added.returncode == 0, added.stderr
+
+    install, check = yaml.safe_load(named[".gitlab-ci.yml"])["msaa-lint"]["script"]
+    activated = f"{sys.executable} -m venv ../venv && . ../venv/bin/activate && "
+    installed = execute(project, f"{activated}{install} && msaa-lint init renderer/descriptions")
+    assert installed.returncode == 0, installed.stderr
+    done = execute(project, f". ../venv/bin/activate && {check}")
+    assert done.returncode == 1, done.stderr
+    assert len(json.loads((project / "gl-code-quality-report.json").read_text(encoding="utf-8"))) == 2
+
+    head = execute(clone, "git rev-parse HEAD").stdout.strip()
+    hooks = named[".pre-commit-config.yaml"].replace("file:///path/to/msaa-lint", clone.as_uri()).replace("COMMIT", head)
+    (project / ".pre-commit-config.yaml").write_text(hooks, encoding="utf-8")
+    (project / "renderer" / "pass.cpp").write_text("int main() {}\n", encoding="utf-8")
+    done = execute(project, f"git add renderer && PRE_COMMIT_HOME=$PWD/../cache {sys.executable} -m pre_commit run --color never")
+    assert done.returncode == 1, done.stdout + done.stderr
+    assert "renderer/descriptions/frame.msaa.yaml:24:18: warning[multisampled-attachment-stored]" in done.stdout
+    assert "No findings in 1 file" in done.stdout
