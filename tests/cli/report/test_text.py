@@ -157,7 +157,7 @@ def test_statistics_are_sorted_by_count_then_severity() -> None:
 
 
 def test_statistics_add_up_prices_and_say_what_fixes_save() -> None:
-    stored = finding(price=Price(0.0, 2247.78, 31.6, 224.8))
+    stored = finding(price=Price(0.0, 2247.78, 31.6, 224.8), fix=Fix("fix it", True))
     run = result(stored, stored._replace(message="other"), finding(code="MSAA1", rule="x"))
     safe, everything = Saving(1, Price(0.0, 2247.78, 31.6, 224.8)), Saving(3, Price(100.0, 2247.78, 31.6, 234.8))
     run = run._replace(savings={"frame.yaml": Savings(safe, everything), "a.jsonl": Savings(Saving(), safe, True)})
