@@ -34,6 +34,9 @@ fail-on = "warning"
 # The lowest confidence that does: low, medium, or high. Findings in source code have low confidence.
 # fail-confidence = "medium"
 
+# Whether an input that creates multisampled images but shows no pass to check makes the exit code 2.
+# strict-inputs = true
+
 # Pages with custom rules, or folders of pages.
 # rules = ["ci/msaa-rules"]
 

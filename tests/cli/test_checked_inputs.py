@@ -47,6 +47,11 @@ CREATES = {
         "1:16",
         "samples = count",
     ),
+    "initializer.cpp": (
+        "void f() { VkAttachmentDescription a = {0, format, self->msaaSamples, VK_ATTACHMENT_LOAD_OP_CLEAR}; createRenderPass(a); }\n",
+        "1:52",
+        "samples = self->msaaSamples",
+    ),
     "pipeline.cpp": (
         "void f() { multisampling->rasterizationSamples = caps.count; vkCreateGraphicsPipelines(d, c, 1, get(), 0, &p); }\n",
         "1:25",
@@ -86,6 +91,7 @@ CREATES_NOTHING = {
         "struct ImageCreateInfo { ImageCreateInfo &setSamples(SampleCountFlagBits samples_) { samples = samples_; return *this; } };\n"
         "Image createImage(const ImageCreateInfo &info);\n"
     ),
+    "audio.cpp": "VkImageCreateInfo info; void f() { spec.samples = 4096; texture = SDL_CreateTexture(r, f, a, w, h); }\n",
     "declared.glsl": "uniform sampler2DMS unused;\n",
     "one.swift": "func f(view: MTKView) { view.sampleCount = 1 }\n",
 }

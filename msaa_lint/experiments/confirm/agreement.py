@@ -162,7 +162,7 @@ def _explanation(family: Family, scope: _Scope) -> str:
             return explanation.reason
     for rule in scope.undecided:
         if rule.rule in family.rules:
-            missing = ", ".join(rule.missing) or "the required facts"
+            missing = ", ".join(key.path for key in rule.keys) or "the required facts"
             return f"{rule.rule} is undecided: the description does not state {missing}"
     return ""
 

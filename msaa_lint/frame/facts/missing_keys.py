@@ -11,9 +11,9 @@ from functools import cached_property
 from msaa_lint.core.finding import MissingKey
 from msaa_lint.frame.description.models import BeginRenderPass, Description, Device, Image, Pipeline, ReadImage
 from msaa_lint.frame.description.record import Record
-from msaa_lint.frame.description.shapes import Shape
 
 from .facts import Subject
+from .key_values import spelled, values
 from .parts import RENDERING, Attachment, Pass, Resolve, Target
 from .pipeline import Draw, draws_of
 from .subjects import FrameAnalysis
@@ -331,75 +331,10 @@ def _unstated(record: Record, path: str) -> MissingKey | None:
     if shape is None:
         return None
     if not record.states(name):
-        return MissingKey(record.path, path, _IN_WORDS.get(path.rpartition(".")[2]) or _values(shape, rest), record.head)
+        return MissingKey(record.path, spelled(record, path), values(shape, path), record.head)
     value = getattr(record, name)
     parts = value if isinstance(value, tuple) else (value,)
     if not rest:
         return None
     inner = (_unstated(part, rest) for part in parts if isinstance(part, Record))
     return next((missing for missing in inner if missing is not None), None)
-
-
-_IN_WORDS = {
-    "device": "a device's name, or a mapping of what it supports",
-    "commands": "the recorded commands of a whole frame",
-    "dependencies": "a list of VkSubpassDependency",
-    "module": "the path of a SPIR-V file",
-    "memoryTypes": "a list of lists of VkMemoryPropertyFlagBits",
-    "sampleCounts": "a mapping of lists of sample counts",
-    "tests": "a list of the bits that are tested",
-}
-"""What keys hold that no Vulkan type tells."""
-
-MAX_WORDS = 7
-
-
-def _values(shape: Shape, rest: str = "") -> str:
-    """What a key may hold, in words."""
-    kind = shape[0]
-    if kind == "record":
-        name, _, below = rest.partition(".")
-        inner = shape[1].SHAPE.get(name)
-        return _values(inner, below) if inner is not None else "a mapping"
-    if kind == "list" and rest:
-        return _values(shape[1], rest)
-    if kind == "null":
-        return _values(shape[1], rest)
-    if kind == "either":
-        return " or ".join(dict.fromkeys(_values(each, rest) for each in shape[1:]))
-    if kind in ("enum", "word", "caseless"):
-        words = list(map(str, shape[1])) if kind != "enum" else _enumerants(shape[1])
-        return f"{', '.join(words[:-1])} or {words[-1]}" if 1 < len(words) <= MAX_WORDS else _type(shape)
-    return _type(shape)
-
-
-def _enumerants(enums: str) -> list[str]:
-    if enums.startswith("MTL"):
-        from msaa_lint.frame.metal.names import ENUMS
-
-        return list(ENUMS.get(enums, ()))
-    from msaa_lint.frame.vulkan.enums import VALUES
-
-    return [name for enum in enums.split("|") for name in VALUES[enum]]
-
-
-def _type(shape: Shape) -> str:
-    kind = shape[0]
-    if kind == "enum":
-        return f"{'an' if shape[1].startswith('MTL') else 'a'} {shape[1].split('|')[0]}"
-    if kind == "flags":
-        return f"a list of {shape[1]}"
-    if kind == "name":
-        return f"the name of an entry of `{shape[1]}`"
-    words = {
-        "bool": "true or false",
-        "samples": "1, 2, 4, 8, 16, 32 or 64",
-        "int": "an integer",
-        "number": "a number",
-        "text": "a string",
-        "list": "a list",
-        "map": "a mapping by name",
-        "numbered": "a mapping by number",
-        "counted": "a list",
-    }
-    return words.get(kind, "one of the documented values")

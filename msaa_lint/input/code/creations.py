@@ -6,6 +6,8 @@ from typing import NamedTuple
 
 from .parsing import Code
 
+COUNTS = ("2", "4", "8", "16", "32", "64")
+
 IMAGES = "images"
 PIPELINES = "pipelines"
 READS = "reads"
@@ -21,6 +23,7 @@ _ONE = re.compile(
 """A sample count of one, or no value."""
 
 _COUNT = r"(?:VK_SAMPLE_COUNT_(?:2|4|8|16|32|64)_BIT|(?:\w+::){0,9}SampleCountFlagBits::e(?:2|4|8|16|32|64)\b)"
+_NAMED = r"\b(?:\w{1,80}(?:\.|->|::)){0,5}\w{0,80}(?i:sample|msaa)\w{0,80}"
 _VALUE = r"(?P<value>[^,;{}\n]{1,200}|\{\s*\})"
 
 _VULKAN = re.compile(
@@ -28,7 +31,7 @@ _VULKAN = re.compile(
     rf"(?:\.|->)\s*(?P<member>samples|rasterizationSamples)\s*=(?!=)\s*{_VALUE}"
     rf"|(?:\.|->)\s*set(?P<setter>Samples|RasterizationSamples)\s*\((?P<argument>[^;{{}}\n]{{1,200}}?)\)"
     # Its place in the initializer of an image or an attachment, and a function that creates one.
-    rf"|(?P<initializer>{_COUNT})\s*,\s*(?:VK_ATTACHMENT_LOAD_OP_|VK_IMAGE_TILING_|(?:\w+::){{0,9}}(?:AttachmentLoadOp|ImageTiling)::)"
+    rf"|(?P<initializer>{_COUNT}|{_NAMED})\s*,\s*(?:VK_ATTACHMENT_LOAD_OP_|VK_IMAGE_TILING_|(?:\w+::){{0,9}}(?:AttachmentLoadOp|ImageTiling)::)"
     rf"|\b\w{{0,80}}(?i:create|make|alloc|init)\w{{0,80}}\s*\([^;{{}}]{{0,300}}?(?P<passed>{_COUNT})"
 )
 _VULKAN_IMAGES = re.compile(
@@ -66,9 +69,12 @@ def creations(codes: Iterable[Code]) -> Iterator[Creation]:
 
 
 def _is_one(value: str, text: str) -> bool:
-    """Whether an expression is a sample count of one: a literal, or a name that the text gives no other value."""
+    """Whether an expression is a sample count of one, or not a sample count: a literal, or a name that the text gives no other value."""
     if _ONE.fullmatch(value) is not None:
         return True
+    if value.isdecimal():
+        # Audio devices have samples, too.
+        return value not in COUNTS
     if not value.isidentifier():
         return False
     values = re.findall(rf"(?<![.>\w]){value}\s*(?:=(?!=)|\{{)\s*([^;,{{}}\n]{{0,200}})|#\s*define\s+{value}[ \t]+([^\n]{{0,200}})", text)
