@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 from markdown_it import MarkdownIt
 
+from msaa_lint.cli.options import COMMANDS
 from tests.paths import ROOT
 
 PAGES = tuple(
@@ -83,7 +84,12 @@ def _not_run(command: str) -> str:
         return "inline: a script of the repository, or another tool"
     if PLACEHOLDER.search(command):
         return "inline: with a placeholder"
-    return "" if len(command.split()) > 2 else "inline: the name of a command"
+    _, name, *words = command.split()
+    if not words:
+        return "inline: the name of a command"
+    flags = {word[2:].replace("-", "_") for word in words if word.startswith("--")}
+    needs_path = name in COMMANDS and COMMANDS[name].paths.min > 0 and not flags & {*COMMANDS[name].standalone}
+    return "inline: without the input that it needs" if needs_path and len(flags) == len(words) else ""
 
 
 def main() -> None:
