@@ -20,6 +20,7 @@ from .common import (
     Target,
     input_options,
     note,
+    output_width,
     overrides,
     parse_outputs,
     report_options,
@@ -164,13 +165,13 @@ def _render(format: str, outcome: Outcome, arguments: Arguments, out: IO[str]) -
         explain_undecided=bool(arguments.get("explain_undecided")),
     )
     if arguments.get("statistics") and text and out in (sys.stdout, sys.stderr) and outcome.result.findings:
+        from .report import statistics
         from .report.concise import line
-        from .report.statistics import table
 
         for finding in outcome.result.findings:
             if finding.fatal:
                 print(line(finding, outcome.result, options), file=sys.stderr)
-        out.write(table(outcome.result))
+        statistics.render(outcome.result, out.write, options._replace(width=output_width(out)))
     else:
         render(format, outcome.result, out.write, options._replace(statistics=bool(arguments.get("statistics"))))
 

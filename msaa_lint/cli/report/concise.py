@@ -9,7 +9,6 @@ from .color import BOLD, SEVERITY, paint
 from .escape import display
 from .paths import display_path
 from .place import place
-from .statistics import table
 from .summary import summary
 from .undecided import explanation
 
@@ -47,6 +46,8 @@ def render_end(result: Result, out: Write, options: Options) -> None:
         for text in explanation(result, options):
             out(text + "\n")
     if options.statistics:
-        out(table(result))
+        from . import statistics
+
+        statistics.render(result, out, options)
     for text in () if options.quiet else summary(result, options):
         out(text + "\n")

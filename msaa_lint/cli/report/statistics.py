@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from rich.text import Text
+
 from msaa_lint.core.finding import Finding, Price, Result, rank
 
+from . import Options, Write
 from .escape import display
 from .summary import converted_saving, files_saving, is_summed, usable_price
+from .tables import FIGURE, NAME, TEXT, Column, Table, print_tables
 
 UNITS = ("MB/s", "MiB", "mW")
+_KINDS = {"code": TEXT, "rule": NAME, "severity": TEXT}
 
 
-def table(result: Result) -> str:
-    """The table, the most frequent rule first; empty if there is no finding. A rule has a line for each severity of its findings.
+def render(result: Result, out: Write, options: Options) -> None:
+    """Prints the table, the most frequent rule first; nothing if there is no finding. A rule has a line for each severity of its findings.
 
     If findings have prices, more columns have their sums, without those of choices and of fixes that cannot be made. The last lines have
     what `--fix` and `--fix --unsafe-fixes` save, which is less than the sums if findings are about the same bytes.
@@ -22,7 +27,7 @@ def table(result: Result) -> str:
     for finding in result.findings:
         groups.setdefault((display(finding.code), display(finding.rule), finding.severity), []).append(finding)
     if not groups:
-        return ""
+        return
     rows = sorted(groups.items(), key=lambda item: (-len(item[1]), -rank(item[0][2]), item[0]))
     cells = [["count", "code", "rule", "severity", *UNITS]]
     for (code, rule, severity), findings in rows:
@@ -35,12 +40,9 @@ def table(result: Result) -> str:
     if all(cell == "" for row in cells[1:] for cell in row[4:]):
         cells = [row[:4] for row in cells]
     # The count comes first, so that no line begins with text from an input.
-    widths = [max(len(row[column]) for row in cells) for column in range(len(cells[0]))]
-    return "".join("  ".join(map(_aligned, row, widths, range(len(row)))).rstrip() + "\n" for row in cells)
-
-
-def _aligned(cell: str, width: int, column: int) -> str:
-    return f"{cell:<{width}}" if column in (1, 2, 3) else f"{cell:>{width}}"
+    columns = [Column(title, _KINDS.get(title, FIGURE)) for title in cells[0]]
+    lines = [("", [Text(cell) for cell in row]) for row in cells[1:]]
+    print_tables(out, options, [Table(columns, lines)], [Table(columns, lines, 1)])
 
 
 def _figures(prices: Sequence[Price]) -> list[str]:

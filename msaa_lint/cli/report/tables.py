@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -60,7 +61,7 @@ def _rendered(table: Table, width: int, color: bool) -> str:
         file=buffer, width=_total(table, widths), color_system="standard" if color else None, force_terminal=color, no_color=not color,
         markup=False, highlight=False, emoji=False, legacy_windows=False, _environ={},
     ).print(layout)  # fmt: skip
-    return escape_commands("\n".join(line if color else line.rstrip(" ") for line in buffer.getvalue().split("\n")))
+    return escape_commands(re.sub(r"(?m)(?:\x1b\[[0-9;]*m| )+$", lambda end: end[0].replace(" ", ""), buffer.getvalue()))
 
 
 def _shrunk(table: Table, width: int) -> list[int]:

@@ -11,7 +11,6 @@ from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from msaa_lint.cli.report.escape import escape_surrogates
-from msaa_lint.cli.report.statistics import table
 from msaa_lint.core.finding import Result
 from msaa_lint.core.text.span import Label, Span
 from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
@@ -27,7 +26,7 @@ EVERYTHING = {"show_suppressed": True, "statistics": True, "edition": "2026.1", 
 @examples(0.8, suppress_health_check=[HealthCheck.too_slow])
 @given(results(), st.integers(0, 80))
 def test_text_outputs_are_harmless(run: Result, width: int) -> None:
-    outputs = {name: printed(name, run, width=width, **EVERYTHING) for name in TEXT_FORMATS} | {"statistics": table(run)}
+    outputs = {name: printed(name, run, width=width, **EVERYTHING) for name in TEXT_FORMATS}
     for name, text in outputs.items():
         for line in text.split("\n"):
             assert line.isprintable(), line

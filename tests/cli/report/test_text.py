@@ -2,13 +2,19 @@
 
 import pytest
 
-from msaa_lint.cli.report import Options, render
-from msaa_lint.cli.report.statistics import table
-from msaa_lint.core.finding import Fix, MissingKey, Price, Saving, Savings, Undecided
+from msaa_lint.cli.report import Options, render, statistics
+from msaa_lint.core.finding import Fix, MissingKey, Price, Result, Saving, Savings, Undecided
 from msaa_lint.core.text.span import Edit, Label, Span
 from tests.cli.report.sample import finding, frame, printed, result, span
 
 TEXT = "a: 4\nb: STORE\n"
+
+
+def table(run: Result, width: int = 140) -> str:
+    """The table of `--statistics`."""
+    parts: list[str] = []
+    statistics.render(run, parts.append, Options(width=width))
+    return "".join(parts)
 
 
 def test_concise_is_one_line_a_finding_and_a_summary() -> None:
@@ -154,6 +160,16 @@ def test_statistics_are_sorted_by_count_then_severity() -> None:
     ]
     assert table(run) in printed("concise", run, statistics=True)
     assert table(result()) == ""
+
+
+def test_statistics_fit_80_columns() -> None:
+    name = "depth-resolve-mode-against-depth-direction-and-more"
+    run = result(*[finding(rule=name, price=Price(0.0, 12345678.9, 1234.5, 123456.7))] * 12345)
+    lines = table(run, 80).splitlines()
+    assert max(map(len, lines)) <= 80
+    assert (lines[1].split()[0] == "12345" and {"12345678.9", "1234.5"} <= {*lines[1].split()}) or "152407405" in lines[1]
+    assert "".join(line[14:60].split()[0] for line in lines[1:]).startswith(name[:20])
+    assert len(table(run, 200).splitlines()) == 2
 
 
 def test_statistics_add_up_prices_and_say_what_fixes_save() -> None:
