@@ -1,5 +1,7 @@
 """The full and the concise output, the summary, the statistics."""
 
+import re
+
 import pytest
 
 from msaa_lint.cli.report import Options, render, statistics
@@ -164,11 +166,12 @@ def test_statistics_are_sorted_by_count_then_severity() -> None:
 
 def test_statistics_fit_80_columns() -> None:
     name = "depth-resolve-mode-against-depth-direction-and-more"
-    run = result(*[finding(rule=name, price=Price(0.0, 12345678.9, 1234.5, 123456.7))] * 12345)
+    price = Price(0.0, 12345678.9, 1234.5, 123456.7)
+    run = result(finding(rule=name, price=price, fix=Fix("x", True, (Edit(Span(0, 1), "5"),))))
     lines = table(run, 80).splitlines()
     assert max(map(len, lines)) <= 80
-    assert (lines[1].split()[0] == "12345" and {"12345678.9", "1234.5"} <= {*lines[1].split()}) or "152407405" in lines[1]
-    assert "".join(line[14:60].split()[0] for line in lines[1:]).startswith(name[:20])
+    assert lines[1].split()[-3:] == ["12345678.9", "1234.5", "123456.7"]
+    assert "".join(re.findall("[a-z]+-[-a-z]+", " ".join(lines))) == name
     assert len(table(run, 200).splitlines()) == 2
 
 
