@@ -92,6 +92,8 @@ def _at_colon(text: str, at: int, outline: Outline) -> Problem:
     if type(last) is not ScalarToken:
         if type(last) in (FlowEntryToken, FlowMappingStartToken, FlowSequenceStartToken):
             return syntax("expected a key before this `:`", at, at + 1)
+        if type(last) is ValueToken:
+            return syntax("expected a value, found another `:`; remove one of them", at, at + 1)
         return syntax("this `:` has no key; a key must be on the line of its `:` and have at most 1024 characters", at, at + 1)
     value = text[start:end]
     match = re.compile(r"(?<=\s)(?:\"[^\"]*\"|'[^']*'|\S+)\Z").search(value, max(0, len(value) - MAX_KEY))

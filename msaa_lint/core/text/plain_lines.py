@@ -29,7 +29,7 @@ def keyless(text: str, at: int) -> Problem | None:
     comment = next((mark for mark in _COMMENTS if line.startswith(mark)), None)
     if comment is not None:
         return syntax(f"`{comment}` does not begin a comment; write `#`", at, at + len(comment))
-    item = re.match(r"(?:- +)+", line)
+    item = re.match(r"(?:- +)++", line)
     if item is not None:
         at += item.end()
         line = line[item.end() :]
@@ -56,5 +56,5 @@ def keyless(text: str, at: int) -> Problem | None:
 def word_at(text: str, at: int) -> tuple[str, int | None]:
     """The key with its `:` that a line states from an offset, after any `- `, and its place; the line and None if it states none."""
     line = text[at : line_end(text, at)]
-    match = re.match(r"(?:- +)*((?:\"[^\"]*\"|'[^']*'|[^\s:#][^:#]*):)(?:\s|$)", line)
+    match = re.match(r"(?:- +)*+((?:\"[^\"]*\"|'[^']*'|[^\s:#][^:#]*):)(?:\s|$)", line)
     return (match[1], at + match.start(1)) if match is not None else (line, None)

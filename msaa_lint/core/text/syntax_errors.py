@@ -148,7 +148,7 @@ def _second_colon(text: str, at: int) -> Problem:
     start = line_start(text, at)
     line = text[start:at]
     body = start + len(line) - len(line.lstrip(" "))
-    same = re.match(r"(?:- +)*(\"[^\"]*\"|'[^']*'|[^\s:#][^:#]*): +(\S.*)", text[body:at])
+    same = re.match(r"(?:- +)*+(\"[^\"]*\"|'[^']*'|[^\s:#][^:#]*): +(\S.*)", text[body:at])
     if same is not None:
         words = same[2].split()
         key, last = quoted(same[1].strip("\"'"), MAX_SHOWN), quoted(words[-1], MAX_SHOWN)
@@ -158,6 +158,9 @@ def _second_colon(text: str, at: int) -> Problem:
             else f"put the value in quotes, or {last} on a line of its own"
         )
         return syntax(f"a second `:` on the line of {key}: {hint}", at)
+    if re.match(r"(?:- +)*+[A-Za-z_]\w*:[^\s:/\\]", text[body:at]):
+        # `frame:{width: 1920}`.
+        return keyless(text, body) or syntax("a space is missing after this `:`", at)
     before = _line_before(text, start)
     if before is None:
         return syntax("this `:` is not expected; put the value in quotes if it is part of it", at)
@@ -217,6 +220,9 @@ def _after_document(text: str, at: int) -> Problem:
         if char == ",":
             return syntax("this `,` follows the end of the JSON value; remove it, or put the values in one", at)
         return syntax(f"{shown(text, at)} follows the end of the value that `{text[begin]}` begins at {place(text, begin)}; remove it", at)
+    found = keyless(text, begin)
+    if found is not None:
+        return found
     column, least = at - line_start(text, at), begin - line_start(text, begin)
     if column < least:
         message = f"{shown(text, at)} is indented less than the first line, {shown(text, begin)}; align them"
@@ -228,6 +234,16 @@ def _stray_item(text: str, at: int, outline: Outline) -> Problem:
     """A list item that begins at an offset where keys, or items in another column, are expected."""
     column = at - line_start(text, at)
     items = next((block for block in outline.closed if block.is_list), None)
+    if items is None and outline.blocks and outline.blocks[-1].is_list:
+        items = outline.blocks[-1]
+    elif (
+        items is None
+        and len(outline.blocks) > 1
+        and outline.blocks[-2].is_list
+        and outline.blocks[-1].column == outline.blocks[-2].column + 2
+    ):
+        # The item above is a mapping that begins on the line of its `- `.
+        items = outline.blocks[-2]
     if items is not None:
         first = f"the item of its list at {place(text, items.start)} by {items.column}"
         message = f"this `- ` is indented by {column} spaces, but {first}; align them"
@@ -251,6 +267,10 @@ def _indentation(text: str, at: int, outline: Outline) -> Problem:
             f"at {place(text, deeper.start)} has, or {above.column}"
         )
         return syntax(message, at, None, Label(Span(deeper.start, deeper.start + 1), f"indented by {deeper.column}"))
+    if above is not None and not above.is_list and column > above.column and deeper is None:
+        beside = f"the keys beside it, as {shown(text, above.start)} at {place(text, above.start)}, by {above.column}"
+        label = Label(Span(above.start, above.start + 1), f"indented by {above.column}")
+        return syntax(f"{shown(text, at)} is indented by {column} spaces, but {beside}; align them", at, None, label)
     if at >= len(text.rstrip()):
         return syntax("the text ends where a value or a key is expected", at, at)
     return syntax(f"expected a line with `key: value`, found {shown(text, at)}; check its indentation", at)

@@ -201,7 +201,7 @@ MISTAKES = [
         "`depthFormat` must be one of kS8UInt, kD24UnormS8Uint, kD32FloatS8UInt, found `kD32Float`; did you mean `kD32FloatS8UInt`?",
         "",
     ),
-    ("renderTargets: {a: {api: vulkan, enableStencil: ⟦1⟧}}", "`enableStencil` must be true or false, found `1`", ""),
+    ("renderTargets: {a: {api: vulkan, enableStencil: ⟦1⟧}}", "`enableStencil` must be true or false, found `1`; write `true`", ""),
     (
         "renderTargets: {a: {api: vulkan, depthFormat: kS8UInt, enableStencil: ⟦false⟧}}",
         "`kS8UInt` has only stencil, but `enableStencil` is false",

@@ -57,7 +57,7 @@ CASES: list[tuple[tuple[str, str] | str, str, str]] = [
     (and_also("zzz: 1"), "4:1-4", f"unknown key `zzz`: expected one of {KEYS}"),
     ((f"{WARNING}\n", ""), "1:1-4", "missing `severity` in the front matter"),
     ("---\ncode: ACME001\nsubject: image\n---\n", "1:1-4", "missing `severity`, `when`, `message` in the front matter"),
-    (and_also(WARNING), "4:1-9", "duplicate key `severity`"),
+    (and_also(WARNING), "4:1-9", "duplicate key `severity`; remove one of the two"),
     # Values.
     ((WARNING, "severity: warn"), "3:11-15", "`severity`: expected one of note, warning, error, found `warn`; did you mean `warning`?"),
     ((WARNING, "severity: [warning]"), "3:11-20", "`severity`: expected one of note, warning, error, found a list"),
@@ -186,7 +186,7 @@ def test_a_mistake_in_a_page_is_one_finding(tmp_path: Path, change: tuple[str, s
 @pytest.mark.parametrize(
     ("change", "line"),
     [
-        ((WHEN, "when image.samples > 2"), 6),
+        ((WHEN, "when image.samples > 2"), 5),
         ((MESSAGE, "message: {image.name} has too many samples"), 6),
         ((MESSAGE, "message: `{image.name}` has too many samples"), 6),
         ((MESSAGE, "message: too many samples: at most two"), 6),
