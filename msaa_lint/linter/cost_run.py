@@ -13,7 +13,7 @@ from msaa_lint.frame.cost.variants import variants
 from msaa_lint.frame.facts.frame import Frame
 
 from .fixes.fixer import FixResult
-from .results import DocumentResult, FileResult
+from .results import DocumentResult, FileResult, can_try_fixes
 from .savings import Trials
 from .workspace import InputFile, Request, Workspace
 
@@ -39,6 +39,7 @@ def run_costs(request: Request, terms: Terms, counts: Sequence[int]) -> CostResu
     discovered = workspace.discover()
     findings = workspace.findings
     frames: list[CostedFrame] = []
+    notes = list(discovered.notes)
     for path in discovered.files:
         file = workspace.open(path)
         if file is None:
@@ -50,11 +51,13 @@ def run_costs(request: Request, terms: Terms, counts: Sequence[int]) -> CostResu
             continue
         workspace.sources[result.file] = result.source
         documents = _valid_documents(result) if errors else list(result.documents)
-        trials = _trials(file, result) if not errors else None
+        trials = _trials(file, result) if not errors and can_try_fixes(result) else None
+        if not can_try_fixes(result):
+            notes.append(f"{result.file} is too large to try fixes: costs are those of the frame as written")
         frames += (_costed(result, document, trials, terms, counts) for document in documents)
     errors = [finding for finding in dict.fromkeys(findings) if finding.fatal]
     files = dict.fromkeys([*map(request.input_name, discovered.files), *(finding.file for finding in errors)])
-    return CostResult(frames, Result(errors, [], [], list(files), workspace.sources, []), discovered.notes)
+    return CostResult(frames, Result(errors, [], [], list(files), workspace.sources, []), notes)
 
 
 def _valid_documents(result: FileResult) -> list[DocumentResult]:

@@ -14,6 +14,10 @@ from .rules.rule_runner import FixSpecs
 _INDEX = re.compile(r"\[[0-9]+\]")
 
 
+MAX_TRIED = 1 << 20
+"""Characters of a text up to which its fixes are tried for a summary; `--fix`, `--diff`, and `--fail-on-cost` try them for any."""
+
+
 class DocumentResult(NamedTuple):
     """One document of an input, with the fixes of its findings by finding.
 
@@ -43,6 +47,11 @@ class FileResult(NamedTuple):
     documents: Sequence[DocumentResult] = ()
     is_code: bool = False
     description: "FileResult | None" = None
+
+
+def can_try_fixes(result: FileResult) -> bool:
+    """Whether the text that was linted, of a capture its description, is small enough to try its fixes for a summary."""
+    return result.source is not None and len(result.source.text) <= MAX_TRIED
 
 
 def finding_kind(finding: Finding) -> tuple[str, str]:

@@ -11,7 +11,7 @@ from msaa_lint.input.file_types import STDIN
 
 from .engine import rule_infos
 from .input_summary import input_summary
-from .results import FileResult, finding_kind
+from .results import FileResult, can_try_fixes, finding_kind
 from .settings.settings import Settings
 from .workspace import InputFile, Request, Workspace
 
@@ -68,6 +68,7 @@ class _Run:
         self.accepted: list[Suppressed] = []
         self.inputs: list[InputSummary] = []
         self.savings: dict[str, Savings] = {}
+        self.untried: list[str] = []
         self.failing: dict[str, Savings] = {}
         self.fixed: list[FixedText] = []
         self.notes: list[str] = []
@@ -113,6 +114,7 @@ class _Run:
             self.savings,
             self.baseline is not None,
             self.inputs,
+            self.untried,
         )
         return Outcome(result, self.settings, notes, self.fixed, self.failing)
 
@@ -166,7 +168,10 @@ class _Run:
             self.findings.append(diagnostic("MSAA931", summary.unread.message, result.file, summary.unread.span, help=help))
         settled = [found for found in map(file.resolved.selection.settle, result.findings) if found is not None]
         if self.with_savings and any(found.fix is not None for found in settled):
-            settled = self._try_fixes(file, result, settled)
+            if can_try_fixes(result) or self.settings.fail_on_cost is not None:
+                settled = self._try_fixes(file, result, settled)
+            else:
+                self.untried.append(result.file)
         findings, accepted = self._apply_baseline(settled)
         self.findings.extend(findings)
         self.suppressed.extend(result.suppressed)

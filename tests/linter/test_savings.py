@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from msaa_lint import lint
 from msaa_lint.core.finding import Price, Savings
+from msaa_lint.linter.results import MAX_TRIED
 from tests.command import run
 from tests.pages import all_examples
 from tests.paths import ROOT
@@ -187,3 +188,13 @@ def test_fail_on_cost_says_what_fixes_save(limit: str, code: int, tmp_path: Path
     )
     assert done.returncode == code
     assert (f"frame.msaa.yaml: fixes save 960 MB/s, which reaches --fail-on-cost {limit}" in done.stderr) == (code == 1)
+
+
+def test_a_large_file_says_that_its_fixes_are_not_tried(tmp_path: Path) -> None:
+    (tmp_path / "frame.msaa.yaml").write_text(KIND.format(share=1) + "#\n" * (MAX_TRIED // 2))
+    done = run(tmp_path, "check", "--isolated", "--output", "concise", ".")
+    assert "\n1 file is too large to try fixes here; `check --diff` tries them\n" in done.stdout
+    assert "fixable" not in done.stdout
+    assert "would be fixed" in run(tmp_path, "check", "--isolated", "--diff", ".").stderr
+    assert "fixes save" in run(tmp_path, "check", "--isolated", "--fail-on-cost", "1MB/s", ".").stderr
+    assert "frame.msaa.yaml is too large to try fixes" in run(tmp_path, "cost", "--isolated", "frame.msaa.yaml").stderr

@@ -114,6 +114,7 @@ def _summary(result: Result) -> Json:
             "unsafe_fixes": _saving(files.all),
             "converted_fix": _saving(converted.safe),
             "converted_unsafe_fixes": _saving(converted.all),
+            "untried": len(result.untried),
         },
     }
 

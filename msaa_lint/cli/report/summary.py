@@ -94,7 +94,11 @@ def sentence(result: Result, options: Options) -> str:
 def fixable(result: Result) -> list[str]:
     """How many findings fixes remove, and what that saves; empty if no finding has a fix that can be made."""
     files, converted = files_saving(result), converted_saving(result)
-    return [*_fixable(files, "fixable with"), *_fixable(converted, "fixable in the description that `msaa-lint convert` writes, with")]
+    lines = [*_fixable(files, "fixable with"), *_fixable(converted, "fixable in the description that `msaa-lint convert` writes, with")]
+    if result.untried:
+        verb = "is" if len(result.untried) == 1 else "are"
+        lines.append(f"{plural(len(result.untried), 'file')} {verb} too large to try fixes here; `check --diff` tries them")
+    return lines
 
 
 def _fixable(savings: Savings, words: str) -> list[str]:

@@ -24,6 +24,10 @@ MAX_ROUNDS = 10
 MAX_TRIALS = 60
 """How often a text is linted at most: a hostile text may have thousands of failing fixes, each found by bisection."""
 
+MIN_TRIALS = 20
+MAX_TRIAL_SIZE = 16 << 20
+"""Characters of all trials together, beyond `MIN_TRIALS`."""
+
 UNUSED_SUPPRESSION = "MSAA911"
 """A fix may leave a suppression without a finding. That is not the fix's fault, and the next round removes the suppression."""
 
@@ -72,6 +76,7 @@ class _Fixer:
         self.unsafe = unsafe
         self.selects = selects
         self.trials = 0
+        self.max_trials = min(MAX_TRIALS, max(MIN_TRIALS, MAX_TRIAL_SIZE // (len(self.text) or 1)))
         self.failed_fixes: list[FailedFix] = []
 
     def run(self) -> FixResult:
@@ -135,7 +140,7 @@ class _Fixer:
 
         `text` and `result` are those before the round. Failing fixes are found by bisection.
         """
-        if self.trials >= MAX_TRIALS:
+        if self.trials >= self.max_trials:
             self.fail(group, "too many fixes of this input failed")
             return applied
         self.trials += 1

@@ -69,6 +69,7 @@ def test_frame_is_valid_and_states_places_and_prices() -> None:
             },
             "converted_fix": {"findings": 0, "price": None},
             "converted_unsafe_fixes": {"findings": 0, "price": None},
+            "untried": 0,
         },
     }
 
