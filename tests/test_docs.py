@@ -15,6 +15,7 @@ from tests.paths import ROOT
 GENERATED = {
     "rules/README.md": ["-m", "msaa_lint", "rule", "--all", "--output", "markdown"],
     "docs/facts.md": ["-m", "msaa_lint", "facts", "--output", "markdown"],
+    "docs/commands.md": ["-m", "docs.commands"],
 }
 
 
