@@ -28,6 +28,7 @@ EXPLAINED = "explained"
 NOISE = "noise"
 
 NO_CHECK = "the layer has no such check"
+NOT_BEGUN = "no command begins the pass"
 SILENT = "the layer should have reported this"
 
 _LIKELIHOOD = (BOTH, NOISE, EXPLAINED, THEIRS)
@@ -164,7 +165,8 @@ def _explanation(family: Family, scope: _Scope) -> str:
         if rule.rule in family.rules:
             missing = ", ".join(key.path for key in rule.keys) or "the required facts"
             return f"{rule.rule} is undecided: the description does not state {missing}"
-    return ""
+    passes = [subject for subject in scope.subjects if subject.kind == "pass"]
+    return NOT_BEGUN if passes and all(subject.facts.values["pass.begun"] == "NO" for subject in passes) else ""
 
 
 def _not_checked(family: Family, about: Sequence[Subject], layer: LayerScope, kind: str) -> str:
@@ -182,6 +184,8 @@ def _not_checked(family: Family, about: Sequence[Subject], layer: LayerScope, ki
         return f"it checks against {layer.device} and what is enabled there, not against the device that the description is for"
     if scope.instead:
         return f"it checks {scope.instead}"
+    if any(subject.facts.values.get("pass.begun") == "NOT_STATED" and subject.facts.values["frame.has_commands"] for subject in about):
+        return NOT_BEGUN
     for subject_kind, when, text in scope.when:
         if not any(_holds(when, subject) for subject in about if subject.kind == subject_kind):
             return text

@@ -127,6 +127,12 @@ EXPLANATIONS = (
         wrong=True,
     ),
     Explanation(
+        "rasterization-samples",
+        "pipeline",
+        "device.single_sampled_render && pipeline.attachment_samples == 1",
+        "the described device supports VK_EXT_multisampled_render_to_single_sampled, which allows it if it is enabled",
+    ),
+    Explanation(
         "resolve-source-samples",
         "resolve",
         "resolve.single_sampled_render",
