@@ -290,9 +290,9 @@ COMMANDS = {
         ("list_scenes",),
     ),
     "rule": Command(
-        """Explain a rule, or list all rules, custom ones of the configuration included.
+        """Explain a rule, or list all rules.
 
-        A custom rule is a page like those that this command prints; `msaa-lint facts` lists what its condition can use.
+        Custom rules of the configuration are included. A custom rule is a page like those that this command prints; `msaa-lint facts` lists what its condition can use.
         """,
         {
             "Options": (
@@ -362,7 +362,7 @@ COMMANDS = {
         Paths("PATH...", "Files and folders to lint."),
     ),
     "init": Command(
-        """Write a commented configuration, a first description, and its JSON Schema.""",
+        """Write a configuration, a first description, and its schema.""",
         {"Options": GLOBAL},
         Paths("FOLDER", "Folder to write to; none: the current one.", 0, 1),
     ),

@@ -119,6 +119,7 @@ def test_help_of_the_program(tmp_path: Path) -> None:
     assert shown.returncode == 0
     assert [run(tmp_path, *words).stdout for words in (["-h"], ["help"])] == [shown.stdout] * 2
     assert all(f"\n  {name} " in shown.stdout for name in COMMANDS)
+    assert "..." not in shown.stdout.replace("[ARGS]...", "")
 
 
 def test_no_two_options_of_a_command_have_one_name() -> None:
