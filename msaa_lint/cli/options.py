@@ -292,7 +292,8 @@ COMMANDS = {
     "rule": Command(
         """Explain a rule, or list all rules.
 
-        Custom rules of the configuration are included. A custom rule is a page like those that this command prints; `msaa-lint facts` lists what its condition can use.
+        Custom rules of the configuration are included. A custom rule is a page like those that this command prints; `msaa-lint facts`
+        lists what its condition can use.
         """,
         {
             "Options": (
