@@ -86,7 +86,7 @@ def _unread_frame(documents: Iterable[Document], help: str) -> Unread | None:
 
 def _unread_code(code: SourceFile, documents: Iterable[Document], reads: bool) -> Unread | None:
     """The first code that creates something multisampled of which no pass, or no pipeline, was read."""
-    from msaa_lint.input.code.creations import IMAGES, READS, creations
+    from msaa_lint.input.code.creations import IMAGES, READS, Creation, creations
 
     passes = unknown = pipelines = 0
     for document in documents:
@@ -96,7 +96,11 @@ def _unread_code(code: SourceFile, documents: Iterable[Document], reads: bool) -
         pipelines += len(document.description.pipelines)
     if passes:
         return None
-    found = {creation.kind: creation for creation in reversed(list(creations(code.program.codes)))}
+    found: dict[str, Creation] = {}
+    for creation in creations(code.program.codes):
+        found.setdefault(creation.kind, creation)
+        if creation.kind == IMAGES:
+            break
     for kind, creation in sorted(found.items()):
         quote = quoted(creation.text)
         if kind == READS:

@@ -95,6 +95,16 @@ def test_a_capture_is_converted_first(tmp_path: Path) -> None:
     assert lines and all(" in what `msaa-lint convert` writes: " in line for line in lines)
 
 
+def test_a_pipeline_dump_has_no_place_for_images(tmp_path: Path) -> None:
+    from tests.paths import ROOT
+
+    lines = explained(tmp_path, str(ROOT / "tests" / "data" / "vulkan_sc_renderpass.json"))
+    assert lines
+    assert all(
+        ": no single key decides it for " in line or "add `device` to the description (or use `--profile`)" in line for line in lines
+    )
+
+
 def test_undecided_rules_of_source_code_are_not_listed(tmp_path: Path) -> None:
     pytest.importorskip("tree_sitter_cpp")
     (tmp_path / "a.cpp").write_text("VkAttachmentDescription a{};\nvoid f() { a.samples = VK_SAMPLE_COUNT_4_BIT; }\n")

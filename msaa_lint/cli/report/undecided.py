@@ -83,7 +83,7 @@ def explanation(result: Result, options: Options) -> Iterator[str]:
 def _line(file: str, entry: Undecided, key: MissingKey | None, rule: str, result: Result, options: Options) -> str:
     where = display_path(file, options.root)
     if key is None:
-        return f"{where}: undecided: {rule}: no key states what it takes for `{display(entry.subject)}`"
+        return f"{where}: undecided: {rule}: no single key decides it for `{display(entry.subject)}`"
     at = place(result, file, key.span)
     if at is not None:
         where += f":{at.line}:{at.column}"

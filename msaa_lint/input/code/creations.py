@@ -23,7 +23,7 @@ _ONE = re.compile(
 """A sample count of one, or no value."""
 
 _COUNT = r"(?:VK_SAMPLE_COUNT_(?:2|4|8|16|32|64)_BIT|(?:\w+::){0,9}SampleCountFlagBits::e(?:2|4|8|16|32|64)\b)"
-_NAMED = r"\b(?:\w{1,80}(?:\.|->|::)){0,5}\w{0,80}(?i:sample|msaa)\w{0,80}"
+_NAMED = r"\b(?:\w{1,80}(?:\.|->|::)){0,2}\w{0,80}(?i:sample|msaa)\w{0,80}"
 _VALUE = r"(?P<value>[^,;{}\n]{1,200}|\{\s*\})"
 
 _VULKAN = re.compile(
@@ -32,7 +32,7 @@ _VULKAN = re.compile(
     rf"|(?:\.|->)\s*set(?P<setter>Samples|RasterizationSamples)\s*\((?P<argument>[^;{{}}\n]{{1,200}}?)\)"
     # Its place in the initializer of an image or an attachment, and a function that creates one.
     rf"|(?P<initializer>{_COUNT}|{_NAMED})\s*,\s*(?:VK_ATTACHMENT_LOAD_OP_|VK_IMAGE_TILING_|(?:\w+::){{0,9}}(?:AttachmentLoadOp|ImageTiling)::)"
-    rf"|\b\w{{0,80}}(?i:create|make|alloc|init)\w{{0,80}}\s*\([^;{{}}]{{0,300}}?(?P<passed>{_COUNT})"
+    rf"|\b\w{{0,80}}(?i:create|make|alloc|init)\w{{0,80}}\s*\((?:[^;{{}}()]|\([^;{{}}()]{{0,80}}\)){{0,200}}?(?P<passed>{_COUNT})"
 )
 _VULKAN_IMAGES = re.compile(
     r"(?i:create)\w{0,80}(?:Image|Texture|RenderPass|Attachment|Target)\w{0,80}\s*\(|raii::(?:Image|RenderPass)\b|[bB]eginRendering"
