@@ -20,12 +20,16 @@ def syntax(message: str, start: int, end: int | None = None, *labels: Label) -> 
 
 def line_start(text: str, at: int) -> int:
     """The offset at which the line of an offset begins."""
-    return max(text.rfind("\n", 0, at), text.rfind("\r", 0, at)) + 1
+    start = text.rfind("\n", 0, at) + 1
+    return max(start, text.rfind("\r", start, at) + 1)
 
 
 def line_end(text: str, at: int) -> int:
     """The offset at which the line of an offset ends."""
-    return min(end for end in (text.find("\n", at), text.find("\r", at), len(text)) if end >= 0)
+    end = text.find("\n", at)
+    end = len(text) if end < 0 else end
+    carriage = text.find("\r", at, end)
+    return end if carriage < 0 else carriage
 
 
 def indent_of(text: str, at: int) -> int:

@@ -13,7 +13,18 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
 
 from .dumps import PNEXT, WITHIN, is_null, is_number, member_name, structure_type
-from .hints import commands_hint, has_no_value, hidden_character, items_hint, key_below, key_hint, mapping_hint, meant, question_or_names
+from .hints import (
+    commands_hint,
+    has_no_value,
+    hidden_character,
+    items_hint,
+    key_below,
+    key_hint,
+    lacks_colon,
+    mapping_hint,
+    meant,
+    question_or_names,
+)
 from .members import MAX_UINT32
 from .models import AttachmentReference, Command, DepthStencilResolve
 from .problems import found, head_of, structure_of
@@ -162,6 +173,11 @@ class Binder(ValueBinder):
             if not is_number(key.text) or (highest is not None and (int(key.text) > highest or len(key.text) > len(str(highest)))):
                 expected = "integers" if highest is None else f"integers from 0 to {highest}"
                 self.report("MSAA903", f"the keys of {structure_of(path)} must be {expected}, found {found(key)}", key.span, path)
+        for key in node.keys.values() if not self.dumped else ():
+            if lacks_colon(key):
+                name = key.text.split(" ")[0]
+                self.report("MSAA901", f"`:` is missing after the key {quoted(name)}; write {quoted(f'{name}:')}", key.span, path)
+                return {}
         item = shape[1]
         if item[0] == "record" and not self.dumped:
             names = list(node.value)

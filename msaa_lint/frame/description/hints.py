@@ -102,7 +102,10 @@ def key_hint(kind: type[Record], name: str, value: Node) -> str:
     """What to write for a key that a structure does not have."""
     stated = entry(name)
     if stated is not None and stated.partition(":")[0] in kind.SHAPE:
-        return f"; write `{stated}`, with a space after the `:`"
+        return f"; write `{stated}`" + (", with a space after the `:`" if ":" in name else "")
+    first, _, rest = name.partition(" ")
+    if first in kind.SHAPE and rest:
+        return f"; write {quoted(f'{first}: {rest}')}"
     hidden = hidden_character(name)
     if hidden is not None:
         return f": it contains the invisible character U+{ord(hidden):04X}; write ordinary spaces, or delete it"
@@ -211,6 +214,11 @@ def mapping_hint(shape: Shape, node: Node) -> str:
         return null_hint(node)
     names = list(kind.SHAPE)
     return f"; its keys are {', '.join(names[:MAX_LISTED])}"
+
+
+def lacks_colon(key: Node) -> bool:
+    """Whether a key was read that begins with a key, no `:`, and the bracket of its value: `color {samples`."""
+    return key.plain and re.match(r"[\w.-]+ +[\[{]", key.text[:200]) is not None
 
 
 def null_hint(node: Node) -> str:
