@@ -152,12 +152,9 @@ def _second_colon(text: str, at: int) -> Problem:
     if same is not None:
         bare = re.match(r"([\w.-]+) +[\[{]", same[1])
         if bare is not None:
-            key = body + same.start(1)
-            return syntax(
-                f"`:` is missing after the key {quoted(bare[1], MAX_SHOWN)}; write {quoted(f'{bare[1]}:', MAX_SHOWN)}",
-                key,
-                key + len(bare[1]),
-            )
+            head = body + same.start(1)
+            written = quoted(f"{bare[1]}:", MAX_SHOWN)
+            return syntax(f"`:` is missing after the key {quoted(bare[1], MAX_SHOWN)}; write {written}", head, head + len(bare[1]))
         words = same[2].split()
         key, last = quoted(same[1].strip("\"'"), MAX_SHOWN), quoted(words[-1], MAX_SHOWN)
         hint = (
