@@ -21,8 +21,9 @@ class CommandUses:
     def __init__(self, frame: Frame) -> None:
         self._usages: dict[str, Counter[str]] = {}
         self._positions: dict[str, list[int]] = {}
-        self.in_barriers: set[str] = set()
-        """The images that barriers name."""
+        self._command_positions: dict[str, list[int]] = {}
+        self.barriers: dict[str, list[int]] = {}
+        """The positions of the barriers that name an image."""
         self.complete = uses_at_most(frame) <= MAX_USES
         self.positions: dict[int, int] = {}
         """The position of each command, by the identity of its parameters."""
@@ -30,13 +31,13 @@ class CommandUses:
         for position, command in enumerate(frame.commands if self.complete else ()):
             self.positions[id(command.body)] = position
             names = {name for _, name in naming_records(command)}
-            if command.kind == "pipelineBarrier":
-                self.in_barriers |= names
             if position in begins:
                 attachments = begins[position].attachments
                 names.update(target.name for attachment in attachments for target in targets_at(frame, attachment, position))
+            by_kind = self.barriers if command.kind == "pipelineBarrier" else self._command_positions
             for name in names:
                 self._positions.setdefault(name, []).append(position)
+                by_kind.setdefault(name, []).append(position)
             for name, usage in _needed_usages(command):
                 self._usages.setdefault(name, Counter())[usage] += 1
 
@@ -49,15 +50,22 @@ class CommandUses:
 
     def next_use(self, name: str, position: int) -> int | None:
         """The position of the first command after `position` that uses an image."""
-        positions = self._positions.get(name, [])
-        following = bisect_right(positions, position)
-        return positions[following] if following < len(positions) else None
+        return _following(self._positions.get(name, []), position)
+
+    def next_use_of_commands(self, name: str, position: int) -> int | None:
+        """The same, without barriers."""
+        return _following(self._command_positions.get(name, []), position)
 
     def used_between(self, name: str, start: int, end: int) -> bool:
-        """Whether a command from `start` up to, but not including, `end` uses an image."""
-        positions = self._positions.get(name, [])
+        """Whether a command other than a barrier, from `start` up to, but not including, `end`, uses an image."""
+        positions = self._command_positions.get(name, [])
         first = bisect_left(positions, start)
         return first < len(positions) and positions[first] < end
+
+
+def _following(positions: list[int], position: int) -> int | None:
+    following = bisect_right(positions, position)
+    return positions[following] if following < len(positions) else None
 
 
 def _needed_usages(command: Command) -> Iterator[tuple[str, str]]:

@@ -1,8 +1,8 @@
 """`do: resolve-in-pass` and `do: resolve-before-read`: the pass that draws the samples resolves them.
 
 The first replaces a vkCmdResolveImage. The second replaces a shader that averages the samples it reads: the shader reads an image with one
-sample instead and has to be rewritten for it, so that this fix is only shown and priced. Both refuse a frame in which other uses or
-barriers come in between, or framebuffers, sizes or formats are ambiguous.
+sample instead and has to be rewritten for it, so that this fix is only shown and priced. Both refuse a frame in which other uses come in
+between, or framebuffers, sizes or formats are ambiguous.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from msaa_lint.frame.facts.pass_begin import targets_at
 
 from .changes import Change, NoFix
 from .context import FixContext
+from .resolve_barriers import moved_barriers
 from .resolve_targets import new_attachment, new_image, next_use, rendering_resolve, target_usage, unused_name
 from .subject_parts import present, read_of, resolve_of
 from .transient import lazy_memory, transient_usage
@@ -51,17 +52,19 @@ def resolve_in_pass(subject: Subject, context: FixContext) -> list[Change]:
     if (source.samples or 0) < 2 or target.samples != 1 or source.format is None or source.format != target.format:
         raise NoFix("the sample counts and formats do not show that a pass can resolve the image")
     drawing = _find_drawing(source, position, context)
-    if uses.used_between(target.name, drawing.begin, position) or uses.in_barriers & {source.name, target.name}:
-        raise NoFix("other commands or barriers use the images between the pass and the resolve")
+    if uses.used_between(target.name, drawing.begin, position):
+        raise NoFix("other commands use the images between the pass and the resolve")
+    barriers, takes_over = moved_barriers(source.name, target.name, drawing.begin, position, drawing.render_pass, context)
     mode = "SAMPLE_ZERO" if source.format.numeric in ("UINT", "SINT") else "AVERAGE"
-    final_layout = _FINAL_LAYOUTS.get(next_use(target.image, position, context))
+    next_layout = _FINAL_LAYOUTS.get(next_use(target.image, position, context, barriers=False))
+    final_layout = "COLOR_ATTACHMENT_OPTIMAL" if takes_over else next_layout
     changes = _color_resolve(drawing, target.name, mode, final_layout, context)
     if _has_other_readers(drawing, context):
         if source.image.usage is not None and "TRANSFER_SRC" not in uses.needed_usages(source.name, drawing.command):
             changes.append(Change(source.image, "usage", "remove", "TRANSFER_SRC"))
     else:
         changes += _without_reader(drawing, "TRANSFER_SRC_OPTIMAL", subject, context)
-    return [*changes, *target_usage(target.image, drawing.command, context), context.drop_command(position)]
+    return [*changes, *barriers, *target_usage(target.image, drawing.command, context), context.drop_command(position)]
 
 
 def resolve_before_read(subject: Subject, context: FixContext) -> list[Change]:

@@ -79,9 +79,13 @@ def target_usage(image: Image, command: Command, context: FixContext) -> list[Ch
     return [*removed, Change(image, "usage", "add", "COLOR_ATTACHMENT")]
 
 
-def next_use(image: Image, position: int, context: FixContext) -> str:
-    """The kind of the first command after a position that uses an image: `present` for an unused presentable image, else empty."""
-    following = context.uses.next_use(image.key, position)
+def next_use(image: Image, position: int, context: FixContext, barriers: bool = True) -> str:
+    """The kind of the first command after a position that uses an image: `present` for an unused presentable image, else empty.
+
+    Without `barriers`, those are skipped.
+    """
+    uses = context.uses
+    following = uses.next_use(image.key, position) if barriers else uses.next_use_of_commands(image.key, position)
     if following is None:
         return "present" if image.presentable else ""
     return context.frame.commands[following].kind
