@@ -40,7 +40,22 @@ def joined(description: Json) -> Json:
         within = fitted.get("renderPasses", {}).get(pipeline.get("renderPass"))
         if within is not None and "subpass" in pipeline:
             pipeline["subpass"] %= max(len(within.get("subpasses", [])), 1)
+    if isinstance(fitted.get("commands"), list):
+        fitted["commands"] = _in_order(fitted["commands"])
     return fitted
+
+
+def _in_order(commands: list[Json]) -> list[Json]:
+    """The commands without those that begin a pass within another one, and those that end none."""
+    ends = {"beginRenderPass": "endRenderPass", "beginRendering": "endRendering"}
+    kept, opened = [], None
+    for command in commands:
+        kind = command if isinstance(command, str) else next(iter(command), "")
+        if (kind in ends and opened is not None) or (kind in ends.values() and kind != opened):
+            continue
+        opened = ends.get(kind, None if kind == opened else opened)
+        kept.append(command)
+    return kept
 
 
 def _fitted(value: Json, names: dict[str, list[str]], own: dict[str, str], member: str = "") -> Json:
@@ -75,6 +90,8 @@ def _slots(render_pass: dict[str, Any]) -> None:
         for member in ("inputAttachments", "colorAttachments", "resolveAttachments", "preserveAttachments"):
             if member in subpass:
                 subpass[member] = [_slot(each, count) for each in subpass[member]]
+        if {"colorAttachments", "resolveAttachments"} <= subpass.keys():
+            subpass["resolveAttachments"] = subpass["resolveAttachments"][: len(subpass["colorAttachments"])]
         if "depthStencilAttachment" in subpass:
             subpass["depthStencilAttachment"] = _slot(subpass["depthStencilAttachment"], count)
         if "attachment" in subpass.get("depthStencilResolve", {}):

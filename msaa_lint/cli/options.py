@@ -156,7 +156,7 @@ COMMANDS = {
             "Exit code": (
                 Option("fail_on", "choice", "Lowest severity that exits with 1.", "SEVERITY", SEVERITIES, default="warning"),
                 Option("fail_confidence", "choice", "Lowest confidence that exits with 1.", "LEVEL", CONFIDENCES, default="medium"),
-                Option("fail_on_cost", "text", "Exit with 1 if an input's findings cost this much: 50MB/s, 100mW, 16MiB.", "COST"),
+                Option("fail_on_cost", "text", "Exit with 1 if fixes would save this much of an input: 50MB/s, 100mW, 16MiB.", "COST"),
                 Option("strict_inputs", "flag", "Exit with 2 if an input creates multisampled images but shows no pass to check."),
                 Option("exit_zero", "flag", "Exit with 0 even if there are findings."),
             ),

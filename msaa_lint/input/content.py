@@ -39,6 +39,8 @@ _LEAVES = frozenset({"enum", "flags", "bool", "samples", "int", "number", "text"
 _CAMEL_CASE = re.compile(r"[a-z][A-Z]")
 _RASTER_SAMPLES = re.compile(r"(?:rasterizationSamples|rasterSampleCount)\Z", re.IGNORECASE)
 
+_TARGET_API = re.compile(r"renderTargets\..*\.api\Z")
+
 _JSON_START = (b"{", b"[")
 _OWN_JSON = (
     (re.compile(rb'"schema"\s*:\s*"msaa-lint/baseline-v'), "an msaa-lint baseline"),
@@ -144,6 +146,9 @@ class _Fit(Binder):
     def report(self, *problem: object, **_: object) -> None:
         self.misfits += 1
 
+    def unknown_key(self, *key: object) -> None:
+        self.misfits += 1
+
     def value(self, shape: Shape, node: Node, path: str, key: str, head: Any = None) -> Any:
         misfits = self.misfits
         value = super().value(shape, node, path, key, head)
@@ -162,7 +167,8 @@ class _Fit(Binder):
 
     def word(self, words: tuple[Any, ...], node: Node, path: str) -> Any:
         word = super().word(words, node, path)
-        self.evidence += isinstance(word, str) and _CAMEL_CASE.search(word) is not None
+        is_target_api = word is not None and _TARGET_API.match(path) is not None
+        self.evidence += is_target_api or (isinstance(word, str) and _CAMEL_CASE.search(word) is not None)
         return word
 
     def samples(self, node: Node, path: str) -> int | None:

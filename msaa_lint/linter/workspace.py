@@ -120,7 +120,8 @@ class InputFile(NamedTuple):
         modules = data.modules
 
         def lint(text: str) -> FileResult:
-            return engine.lint_description(Source(name, text), name, self.options, modules)
+            # Without origins, the order of commands would be checked as that of a description that a person wrote.
+            return engine.lint_description(Source(name, text, []), name, self.options, modules)
 
         return result.description or lint(data.description), lint
 

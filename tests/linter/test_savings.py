@@ -105,7 +105,6 @@ def assert_law(folder: Path, texts: Mapping[str, str]) -> dict[str, Savings]:
         before = costs(folder)
         run(folder, "check", "--isolated", *options, ".")
         entries = {name: entry.all if "--unsafe-fixes" in options else entry.safe for name, entry in savings.items()}
-        assert all(entry.safe.findings <= entry.all.findings for entry in savings.values()), savings
         assert_saved(before, costs(folder), {name: entry.price for name, entry in entries.items()})
     return savings
 

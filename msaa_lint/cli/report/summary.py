@@ -103,7 +103,7 @@ def fixable(result: Result) -> list[str]:
 
 def _fixable(savings: Savings, words: str) -> list[str]:
     safe, everything = savings.safe, savings.all
-    options = [(everything, "--fix --unsafe-fixes")] if safe.findings < everything.findings else []
+    options = [(everything, "--fix --unsafe-fixes")] if safe != everything else []
     if safe.findings:
         options.insert(0, (safe, "--fix"))
     return [f"{saving.findings} {words} {option}{_saved(saving.price)}" for saving, option in options]

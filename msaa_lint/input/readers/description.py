@@ -140,7 +140,9 @@ def _attachments(binder: Binder, name: str, render_pass: RenderPass) -> None:
     names = dict.fromkeys(attachment.key for attachment in render_pass.attachments if attachment is not None)
     count = len(render_pass.attachments)
     for subpass in render_pass.subpasses:
-        colors, resolves = len(subpass.colorAttachments), len(subpass.resolveAttachments)
+        colors = len(subpass.colorAttachments)
+        # Unused entries beyond the color attachments resolve nothing.
+        resolves = max((n for n, reference in enumerate(subpass.resolveAttachments, 1) if reference.attachment is not None), default=0)
         if resolves > colors and subpass.states("colorAttachments") and not binder.dumped:
             message = f"`resolveAttachments` has {_count(resolves, 'item')}, but `colorAttachments` {colors}; list at most one for each"
             binder.report("MSAA903", message, subpass.place("resolveAttachments"), f"{subpass.path}.resolveAttachments")

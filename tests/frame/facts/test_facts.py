@@ -63,7 +63,7 @@ CASES = (
 
 def texts() -> Iterator[str]:
     yield from CASES
-    for path in [*(ROOT / "examples").rglob("*.msaa.*"), *(ROOT / "tests" / "data").iterdir()]:
+    for path in [*(ROOT / "examples").rglob("*.msaa.*"), *(ROOT / "tests" / "data").glob("*.*")]:
         yield path.read_text(encoding="utf-8")
     for example in all_examples():
         yield example.text

@@ -188,7 +188,7 @@ def test_every_finding_of_code_is_of_low_confidence_and_without_edits(tmp_path: 
     assert {each["confidence"] for each in found} == {"low"}
     assert not any(each["fixable"] for each in found)
     (own,) = (each for each in found if each["rule"] == RULE)
-    assert own["fix"] == {"title": "set storeOp to STORE", "safe": False, "shown": True}
+    assert own["fix"] == {"title": "set storeOp to STORE", "safe": False, "shown": True, "choice": False, "refusal": None}
 
 
 def test_undecided_rules_are_not_told(tmp_path: Path) -> None:
