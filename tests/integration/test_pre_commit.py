@@ -131,7 +131,7 @@ def test_files_of_ones_own(scratch: Scratch) -> None:
     done = scratch.pre_commit("run")
     assert done.returncode == 1, done.stdout + done.stderr
     assert f"renderer/deep/bad.yml:{PLACE}" in done.stdout
-    assert "in 1 file;" in done.stdout
+    assert "in 1 file (" in done.stdout
     assert "elsewhere" not in done.stdout
 
 
@@ -153,7 +153,7 @@ def test_source_code_fails_where_it_is_asked_to(scratch: Scratch) -> None:
     assert done.returncode == 0, done.stdout + done.stderr
     assert f"renderer/pass.cpp:{source.PLACE}: {source.FOUND}" in done.stdout
     assert "of low confidence, below --fail-confidence" in done.stdout
-    assert "in 1 file;" in done.stdout
+    assert "in 1 file (" in done.stdout
     scratch.configure("args: [--fail-confidence, low]", hook="msaa-lint-source")
     done = scratch.pre_commit("run")
     assert done.returncode == 1, done.stdout + done.stderr

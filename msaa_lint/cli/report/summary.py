@@ -103,7 +103,8 @@ def fixable(result: Result) -> list[str]:
 
 def _fixable(savings: Savings, words: str) -> list[str]:
     safe, everything = savings.safe, savings.all
-    options = [(everything, "--fix --unsafe-fixes")] if safe != everything else []
+    saves_more = everything.findings > safe.findings or everything.price not in (None, safe.price)
+    options = [(everything, "--fix --unsafe-fixes")] if saves_more else []
     if safe.findings:
         options.insert(0, (safe, "--fix"))
     return [f"{saving.findings} {words} {option}{_saved(saving.price)}" for saving, option in options]
