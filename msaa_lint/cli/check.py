@@ -66,6 +66,9 @@ def _check(arguments: Arguments) -> int:
     code = exit_code(outcome, bool(arguments.get("exit_zero")))
     for line in _over_budget(outcome) if code == 1 else ():
         warn(line)
+    for file, savings in outcome.failing.items():
+        if savings.all.findings and savings.all.price is None:
+            note(f"{file}: it does not state the sizes or formats that tell what fixes save, so --fail-on-cost cannot fail it")
     return code
 
 

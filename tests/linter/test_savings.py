@@ -189,6 +189,13 @@ def test_fail_on_cost_says_what_fixes_save(limit: str, code: int, tmp_path: Path
     assert (f"frame.msaa.yaml: fixes save 960 MB/s, which reaches --fail-on-cost {limit}" in done.stderr) == (code == 1)
 
 
+def test_fail_on_cost_says_where_it_cannot_tell(tmp_path: Path) -> None:
+    (tmp_path / "frame.msaa.yaml").write_text(KIND.format(share=1).replace("width: 1000, height: 1000, ", ""))
+    done = run(tmp_path, "check", "--isolated", "--fail-on", "error", "--fail-on-cost", "1MB/s", ".")
+    assert done.returncode == 0
+    assert "frame.msaa.yaml: it does not state the sizes or formats that tell what fixes save" in done.stderr
+
+
 def test_a_large_file_says_that_its_fixes_are_not_tried(tmp_path: Path) -> None:
     (tmp_path / "frame.msaa.yaml").write_text(KIND.format(share=1) + "#\n" * (MAX_TRIED // 2))
     done = run(tmp_path, "check", "--isolated", "--output", "concise", ".")
