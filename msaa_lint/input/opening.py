@@ -85,7 +85,7 @@ def _load(
     output = own_output(head) if format is None else None
     if output is not None:
         raise NotAnInput(output)
-    unusual = b"vk" in head or b"\0" in head[:512] or not head[:1].isascii()
+    unusual = b"vk" in head or b"VULKANINFO" in head[:512] or b"\0" in head[:512] or not head[:1].isascii()
     form = hint(head) if unusual and format is None and language is None else None
     if form is not None:
         raise UnsupportedFormat(form)
@@ -137,6 +137,8 @@ def hint(head: bytes) -> str | None:
         return _dump("HTML")
     if re.match(rb"\s*(?:Thread \d+, Frame \d+|vk[A-Z]\w{1,80}\([\w, ]{0,500}\) returns )", head[:4096]):
         return _dump("text")
+    if re.match(rb"[=\s]*VULKANINFO\s", head):
+        return "a device report of vulkaninfo: use it with `--profile FILE`, or name it as the `device` of a description"
     for magic, command in _COMPRESSED:
         if head.startswith(magic):
             return f"a compressed file: decompress it with `{command} FILE`"

@@ -12,7 +12,7 @@ from msaa_lint.core.text.tree import Node
 from msaa_lint.frame.description.bind import Binder
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import AttachmentReference, BeginRenderPass, Description, Device, Framebuffer, RenderPass, Subpass
-from msaa_lint.frame.description.problems import member_of
+from msaa_lint.frame.description.problems import Problem, member_of
 
 SECTIONS = frozenset(Description.SHAPE)
 
@@ -29,6 +29,9 @@ def read(source: Source, root: Node) -> Document:
         description: Description = binder.record(Description, root, "", "", Span(root.start, root.start))
     else:
         description = binder.record(Description, root, "", "", root.span)
+    if not any(map(description.states, SECTIONS)) and root.kind == "mapping" and _is_device_report(source.text):
+        message = "this is a device report, not a frame; use it with `--profile FILE`, or name it as the `device` of a description"
+        return Document(source, description, (Problem("MSAA901", message, Span(root.start, root.start), ""),))
     if description.states("renderTargets"):
         return _of_render_targets(source, description, binder)
     check_names(binder, description)
@@ -44,6 +47,17 @@ def read(source: Source, root: Node) -> Document:
     metal.check(binder, description)
     lowered = None if binder.problems else metal.lower(description)
     return Document(source, description, tuple(binder.problems), metal=lowered)
+
+
+def _is_device_report(text: str) -> bool:
+    from msaa_lint.frame.devices import reports
+
+    if len(text) > reports.MAX_BYTES:
+        return False
+    try:
+        return bool(reports.read(text))
+    except reports.NotAReport:
+        return False
 
 
 def _of_render_targets(source: Source, description: Description, binder: Binder) -> Document:
