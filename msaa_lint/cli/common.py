@@ -209,6 +209,7 @@ def input_options(arguments: Arguments) -> dict[str, Any]:
         "format": arguments.get("input_format"),
         "stdin_filename": arguments.get("stdin_filename"),
         "log": log(arguments),
+        "traceback": bool(arguments.get("traceback")),
     }
 
 

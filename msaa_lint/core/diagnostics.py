@@ -17,6 +17,11 @@ _TEXTS = {
     "MSAA913": ("blanket-suppression", "warning", "A suppression comment that names no rule: it silences nothing."),
     "MSAA921": ("configuration", "error", "The configuration, a rule page, a baseline or a path cannot be used."),
     "MSAA931": ("unread-input", "error", "With `--strict-inputs`: the input creates something multisampled, but shows no pass to check."),
+    "MSAA941": (
+        "internal-error",
+        "error",
+        "msaa-lint failed on an input, which is a mistake in msaa-lint. The other inputs are still linted.",
+    ),
 }
 
 DIAGNOSTICS: dict[str, RuleInfo] = {

@@ -41,23 +41,29 @@ def run_costs(request: Request, terms: Terms, counts: Sequence[int]) -> CostResu
     frames: list[CostedFrame] = []
     notes = list(discovered.notes)
     for path in discovered.files:
-        file = workspace.open(path)
-        if file is None:
-            continue
-        result = file.lint()
-        errors = [finding for finding in result.findings if finding.fatal]
-        findings.extend(errors)
-        if result.source is None:
-            continue
-        workspace.sources[result.file] = result.source
-        documents = _valid_documents(result) if errors else list(result.documents)
-        trials = _trials(file, result) if not errors and can_try_fixes(result) else None
-        if not can_try_fixes(result):
-            notes.append(f"{result.file} is too large to try fixes: costs are those of the frame as written")
-        frames += (_costed(result, document, trials, terms, counts) for document in documents)
+        with workspace.guard(path):
+            frames += _frames(workspace, path, terms, counts, notes)
     errors = [finding for finding in dict.fromkeys(findings) if finding.fatal]
     files = dict.fromkeys([*map(request.input_name, discovered.files), *(finding.file for finding in errors)])
     return CostResult(frames, Result(errors, [], [], list(files), workspace.sources, []), notes)
+
+
+def _frames(workspace: Workspace, path: str, terms: Terms, counts: Sequence[int], notes: list[str]) -> list[CostedFrame]:
+    """The frames of one input."""
+    file = workspace.open(path)
+    if file is None:
+        return []
+    result = file.lint()
+    errors = [finding for finding in result.findings if finding.fatal]
+    workspace.findings.extend(errors)
+    if result.source is None:
+        return []
+    workspace.sources[result.file] = result.source
+    documents = _valid_documents(result) if errors else list(result.documents)
+    trials = _trials(file, result) if not errors and can_try_fixes(result) else None
+    if not can_try_fixes(result):
+        notes.append(f"{result.file} is too large to try fixes: costs are those of the frame as written")
+    return [_costed(result, document, trials, terms, counts) for document in documents]
 
 
 def _valid_documents(result: FileResult) -> list[DocumentResult]:

@@ -22,11 +22,18 @@ from .fixes.document_fixes import DocumentFixes
 from .savings import difference
 
 
+MAX_REREAD = 2 << 20
+"""Characters that are read again for the prices of one document's fixes: each structural one is priced by reading the text that it gives."""
+
+
 class Part(NamedTuple):
     """The part of a document whose cost changes may alter: passes by path, images by name."""
 
     passes: frozenset[str]
     images: frozenset[str]
+
+
+NOT_PRICED = "the input has too many such findings to estimate the cost of each; the sums have what fixes save"
 
 
 class Prices:
@@ -39,6 +46,9 @@ class Prices:
         self._owners = dict(_owners(Frame(self.document)))
         self._costs: dict[Part | None, FrameCost] = {}
         self._images: dict[Part, set[str]] = {}
+        self._reread = 0
+        self.exhausted = False
+        """Whether a fix was not priced because too much text would have been read again."""
 
     def of(self, changes: Sequence[Change]) -> Price | None:
         """The saving from some changes; None if a size or format that this depends on is unknown.
@@ -69,6 +79,10 @@ class Prices:
             with apply_temporarily(changes):
                 return self._cost(self.document, part)
         except StructuralChange:
+            self._reread += len(self.document.source.text)
+            if self._reread > MAX_REREAD:
+                self.exhausted = True
+                return None
             document = self._fixes.reread(changes)
             # New passes and images belong to no part of the original frame.
             return None if document is None else self._cost(document, None)
@@ -174,4 +188,6 @@ def _priced(documents: Sequence[DocumentFixes], prices: Sequence[Prices], findin
         price = prices[number].of(documents[number].changes(finding))
     except NoFix:
         return finding
-    return finding if price is None else finding._replace(price=price, notes=(*finding.notes, *prices[number].notes(price)))
+    if price is None:
+        return finding._replace(notes=(*finding.notes, NOT_PRICED)) if prices[number].exhausted else finding
+    return finding._replace(price=price, notes=(*finding.notes, *prices[number].notes(price)))

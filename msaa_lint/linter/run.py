@@ -90,7 +90,11 @@ class _Run:
         for number, path in enumerate(discovered.files):
             if progress is not None:
                 progress(number, len(discovered.files), path)
-            self._run_input(path)
+            summaries = len(self.inputs)
+            with self.workspace.guard(path):
+                self._run_input(path)
+            if len(self.inputs) == summaries:
+                self.inputs.append(InputSummary(self.request.input_name(path), failed=True))
             if gc.get_count()[0] > MAX_GARBAGE:
                 gc.collect()
         files = [self.request.input_name(path) for path in discovered.files]
@@ -121,7 +125,6 @@ class _Run:
     def _run_input(self, path: str) -> None:
         file = self.workspace.open(path)
         if file is None:
-            self.inputs.append(InputSummary(self.request.input_name(path), failed=True))
             return
         result = file.lint(prices=self.with_prices)
         if not isinstance(file.data, bytes):

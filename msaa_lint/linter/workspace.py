@@ -1,7 +1,8 @@
 """The settings, rules and inputs of one run: settings are resolved for a file before it is opened."""
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
@@ -38,7 +39,7 @@ class Request(NamedTuple):
     names one: findings get prices only if an output shows them. `by_price` sorts findings by price, highest first. `fix` is `write` to
     fix files in place, or `show` to compute the fixes only; `unsafe_fixes` includes fixes that may change the picture. Standard input is
     never written. `all_keys` finds all keys that undecided rules lack, and not only the next one. `log` is called with a line for each
-    configuration and each input that is used.
+    configuration and each input that is used. `traceback` raises an exception that linting an input causes, instead of reporting it.
     """
 
     paths: Sequence[str]
@@ -58,6 +59,7 @@ class Request(NamedTuple):
     unsafe_fixes: bool = False
     all_keys: bool = False
     log: Callable[[str], None] | None = None
+    traceback: bool = False
 
     def input_name(self, path: str) -> str:
         """The name of an input in findings."""
@@ -196,6 +198,18 @@ class Workspace:
         found = discover(self.request.paths, self.settings, sources, self.request.log)
         self.findings.extend(found.findings)
         return found
+
+    @contextmanager
+    def guard(self, path: str) -> Iterator[None]:
+        """Reports an exception that an input causes as a finding of that input, so that the others are still linted."""
+        try:
+            yield
+        except Exception as error:
+            if self.request.traceback:
+                raise
+            name = self.request.input_name(path)
+            message = f"internal error: {type(error).__name__}: {quoted(str(error), 300)}; please report it with the output of --traceback"
+            self.findings.append(diagnostic("MSAA941", message, name))
 
     def open(self, path: str) -> InputFile | None:
         """Reads an input; None, after adding a finding, if it cannot be read."""

@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from msaa_lint.core.finding import Price
+from msaa_lint.linter import prices as price
 from msaa_lint.linter.engine import Engine, LintOptions
 from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.registry import load
@@ -119,3 +120,22 @@ def test_pricing_restores_records() -> None:
     assert [found._replace(price=None) for found in result.findings] == [
         found._replace(price=None) for found in ENGINE.lint(ATTACHED.encode(), "frame.yaml", LintOptions(as_written)).findings
     ]
+
+
+def test_structural_fixes_beyond_the_budget_are_not_priced_and_say_so() -> None:
+    """Each is priced by reading the text again, so that their number would make the time quadratic."""
+    parts = [
+        (
+            f"  ms{n}: {{format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT, TRANSFER_SRC]}}\n"
+            f"  r{n}: {{format: R8G8B8A8_UNORM, samples: 1, usage: [TRANSFER_DST, SAMPLED]}}\n",
+            f"  p{n}: {{attachments: {{c: {{image: ms{n}, loadOp: CLEAR, storeOp: STORE}}}}, subpasses: [{{colorAttachments: [c]}}]}}\n",
+            f"  - beginRenderPass: {{renderPass: p{n}}}\n  - endRenderPass\n  - resolveImage: {{srcImage: ms{n}, dstImage: r{n}}}\n",
+        )
+        for n in range(20)
+    ]
+    images, passes, commands = ("".join(column) for column in zip(*parts, strict=True))
+    text = f"frame: {{width: 64, height: 64, fps: 60}}\nimages:\n{images}renderPasses:\n{passes}commands:\n{commands}"
+    text += "#" * (price.MAX_REREAD // 10 - len(text))
+    resolves = [found for found in lint(text).findings if found.code == "MSAA301"]
+    assert [found.price is not None for found in resolves] == [True] * 10 + [False] * 10
+    assert [price.NOT_PRICED in found.notes for found in resolves] == [False] * 10 + [True] * 10

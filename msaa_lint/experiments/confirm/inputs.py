@@ -57,7 +57,10 @@ def inputs(request: Request) -> Inputs:
     """The documents of a request, in the order of the files."""
     workspace = Workspace(request)
     discovered = workspace.discover()
-    found = [document for path in discovered.files for document in _of_file(workspace, path)]
+    found: list[Input] = []
+    for path in discovered.files:
+        with workspace.guard(path):
+            found += _of_file(workspace, path)
     errors = [finding for finding in dict.fromkeys(workspace.findings) if finding.fatal]
     return Inputs(found, errors, list(discovered.notes))
 

@@ -196,7 +196,7 @@ class Structures(Evaluator):
             index = path[0] if path else len(array.items)
             if isinstance(index, str):
                 index = sole_value(self.value((NAME, index.removeprefix("["), term[-1]), scope))
-            if not isinstance(index, int) or index > 64:
+            if not isinstance(index, int) or not 0 <= index <= 64:
                 array.complete = False
                 continue
             while len(array.items) < index:

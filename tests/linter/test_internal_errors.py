@@ -1,0 +1,86 @@
+"""A mistake in msaa-lint that one input meets never takes down the rest."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+from unittest import mock
+
+import pytest
+
+from msaa_lint.linter.engine import Engine
+from tests.command import run
+
+STORED = """\
+renderPasses:
+  main:
+    attachments:
+      color: {format: R8G8B8A8_UNORM, samples: 4, loadOp: CLEAR, storeOp: STORE}
+      output: {format: R8G8B8A8_UNORM, samples: 1, loadOp: DONT_CARE, storeOp: STORE}
+    subpasses:
+      - {colorAttachments: [color], resolveAttachments: [output]}
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    for name in ("a", "b", "c"):
+        (tmp_path / f"{name}.msaa.yaml").write_text(STORED)
+    return tmp_path
+
+
+def failing_on(name: str) -> Any:
+    """An engine that fails on one input."""
+    lint = Engine.lint
+
+    def failing(self: Engine, data: Any, file: str, options: Any) -> Any:
+        if file == name:
+            raise IndexError("list index\x1b[31m out of range")
+        return lint(self, data, file, options)
+
+    return mock.patch.object(Engine, "lint", failing)
+
+
+@pytest.mark.parametrize("format", ["json", "sarif", "gitlab"])
+def test_the_other_inputs_are_linted_and_machine_formats_are_whole(folder: Path, format: str) -> None:
+    with failing_on("b.msaa.yaml"):
+        done = run(folder, "check", "--isolated", "--output", format, ".")
+    assert done.returncode == 2
+    text = json.dumps(json.loads(done.stdout))
+    assert text.count("multisampled-attachment-stored") >= 2 and "internal-error" in text
+    assert "\x1b" not in done.stdout + done.stderr
+
+
+def test_it_is_a_finding_of_its_input(folder: Path) -> None:
+    with failing_on("b.msaa.yaml"):
+        done = run(folder, "check", "--isolated", "--output", "concise", ".")
+    (line,) = [line for line in done.stdout.splitlines() if line.startswith("b.msaa.yaml")]
+    assert line.startswith("b.msaa.yaml: error[internal-error] internal error: IndexError: ")
+    assert "(MSAA941)" in line and "in 3 files" in done.stdout
+
+
+def test_traceback_shows_where(folder: Path) -> None:
+    with failing_on("b.msaa.yaml"), pytest.raises(IndexError):
+        run(folder, "check", "--isolated", "--traceback", ".")
+
+
+def test_cost_shows_the_other_frames(folder: Path) -> None:
+    with failing_on("b.msaa.yaml"):
+        done = run(folder, "cost", "--isolated", "--size", "640x480", "--output", "json", ".")
+    output = json.loads(done.stdout)
+    assert done.returncode == 2
+    assert [frame["file"] for frame in output["frames"]] == ["a.msaa.yaml", "c.msaa.yaml"]
+    assert [error["code"] for error in output["errors"]] == ["MSAA941"]
+
+
+def test_a_designator_with_a_negative_index(tmp_path: Path) -> None:
+    """C refuses it; the value of the enumerator may be wrong, or unknown."""
+    (tmp_path / "a.c").write_text(
+        "#include <vulkan/vulkan.h>\nenum { A = -1, B };\nvoid f(void) {\n"
+        "  VkAttachmentDescription at[2] = {[A] = {.samples = VK_SAMPLE_COUNT_4_BIT}, [B] = {.samples = VK_SAMPLE_COUNT_1_BIT}};\n"
+        "  VkRenderPassCreateInfo info = {.attachmentCount = 2, .pAttachments = at};\n"
+        "  VkRenderPass pass;\n  vkCreateRenderPass(device, &info, 0, &pass);\n}\n"
+    )
+    done = run(tmp_path, "check", "--isolated", "--output", "concise", "a.c")
+    assert done.returncode == 0, done.stdout
