@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 from typing import IO, Any, NamedTuple, TypeVar
 
+from msaa_lint.core import atomic_write
 from msaa_lint.core.extras import needs_extra
 from msaa_lint.core.package import VERSION
 from msaa_lint.core.quote import quoted
@@ -125,7 +126,7 @@ def write_output(path: str | None, render: Callable[[IO[str]], None]) -> None:
         sys.stdout.flush()
         return
     try:
-        with open(path, "w", encoding="utf-8", newline="\n") as file:
+        with atomic_write.new_text(path) as file:
             render(file)
     except OSError as error:
         raise UsageError(f"cannot write {path}: {error.strerror}") from None
@@ -140,8 +141,7 @@ def write_chart(path: str, option: str, draw: Callable[[str], bytes]) -> None:
             raise
         raise UsageError(needs_extra(option, "chart")) from None
     try:
-        with open(path, "wb") as file:
-            file.write(data)
+        atomic_write.write_file(path, data)
     except OSError as error:
         raise UsageError(f"cannot write {path}: {error.strerror}") from None
 

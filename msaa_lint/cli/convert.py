@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Mapping
 
+from msaa_lint.core import atomic_write
 from msaa_lint.core.text.emitter import emit
 from msaa_lint.core.text.source import Source, Unreadable, decode
 from msaa_lint.core.text.tree import Limits, parse
@@ -108,7 +109,6 @@ def _write(text: str, modules: Mapping[str, bytes], output: str | None, force: b
         for path, data in files.items():
             if path != output:
                 os.makedirs(os.path.dirname(path) or os.curdir, exist_ok=True)
-            with open(path, "wb") as file:
-                file.write(data)
+            atomic_write.write_file(path, data)
     except OSError as error:
         raise _ConvertError(f"cannot write {output}: {error.strerror or error}") from None

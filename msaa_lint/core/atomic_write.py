@@ -5,9 +5,12 @@ The new contents are written to a file in the same folder, which is then renamed
 
 from __future__ import annotations
 
+import errno
 import os
 import stat
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from typing import IO
 
 _NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
 
@@ -17,7 +20,14 @@ class NotWritten(Exception):
 
 
 def write_file(path: str, data: bytes) -> None:
-    """Creates a file or replaces its contents; a symbolic link is replaced itself. Raises OSError, and leaves no other file behind."""
+    """Creates a file or replaces its contents; a symbolic link is replaced itself. Raises OSError, and leaves no other file behind.
+
+    What is no file, such as `/dev/stdout`, is written to.
+    """
+    if _is_device(path):
+        with open(path, "wb") as device:
+            device.write(data)
+        return
     temporary = _temporary(path)
     try:
         descriptor = os.open(temporary, _NEW, 0o666)
@@ -25,6 +35,32 @@ def write_file(path: str, data: bytes) -> None:
             _write_all(descriptor, data)
         finally:
             os.close(descriptor)
+        os.replace(temporary, path)
+    except BaseException:
+        _remove(temporary)
+        raise
+
+
+@contextmanager
+def new_text(path: str) -> Iterator[IO[str]]:
+    """Opens a file for UTF-8 text that gets its name only when all of it is written; a file that it replaces keeps its mode.
+
+    A symbolic link to a file is replaced itself, so that nothing is written through it; what is no file, such as `/dev/stdout`, is written
+    to. Raises OSError, and leaves an old file as it was.
+    """
+    if _is_device(path):
+        with open(path, "w", encoding="utf-8", newline="\n") as device:
+            yield device
+        return
+    old = os.lstat(path) if os.path.lexists(path) and not os.path.islink(path) else None
+    if old is not None and not os.access(path, os.W_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), path)
+    temporary = _temporary(path)
+    try:
+        with open(os.open(temporary, _NEW, 0o666), "w", encoding="utf-8", newline="\n") as file:
+            yield file
+            if old is not None:
+                os.chmod(temporary, stat.S_IMODE(old.st_mode))
         os.replace(temporary, path)
     except BaseException:
         _remove(temporary)
@@ -60,6 +96,12 @@ def replace(path: str, before: bytes, after: bytes) -> None:
     finally:
         if temporary:
             _remove(temporary)
+
+
+def _is_device(path: str) -> bool:
+    """Whether a path is no file, or, as `/dev/stdout` and `/dev/fd/3` are, a link to whatever a stream goes to."""
+    folder = os.path.realpath(os.path.dirname(os.path.abspath(path)))
+    return folder.startswith(("/dev/", "/proc/")) or folder == "/dev" or (os.path.exists(path) and not os.path.isfile(path))
 
 
 def _temporary(path: str) -> str:

@@ -21,9 +21,8 @@ from .fixes.changes import Change, NoFix, StructuralChange, apply_temporarily
 from .fixes.document_fixes import DocumentFixes
 from .savings import difference
 
-
 MAX_REREAD = 2 << 20
-"""Characters that are read again for the prices of one document's fixes: each structural one is priced by reading the text that it gives."""
+"""Characters that are read again for the prices of one document's fixes: a structural one is priced by reading the text that it gives."""
 
 
 class Part(NamedTuple):
