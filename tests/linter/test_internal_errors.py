@@ -84,3 +84,13 @@ def test_a_designator_with_a_negative_index(tmp_path: Path) -> None:
     )
     done = run(tmp_path, "check", "--isolated", "--output", "concise", "a.c")
     assert done.returncode == 0, done.stdout
+
+
+@pytest.mark.parametrize("call", ["modf(1.0)", "frexp(1.0)", "textureSamples()", "texelFetch(s).x", "interpolateAtSample(v)", "clamp(1.0)"])
+def test_calls_with_too_few_arguments(call: str, tmp_path: Path) -> None:
+    (tmp_path / "a.frag").write_text(
+        "#version 450\nlayout(binding = 0) uniform sampler2DMS s;\nlayout(location = 0) in vec4 v;\nlayout(location = 0) out vec4 o;\n"
+        f"void main() {{ o = texelFetch(s, ivec2(0), 0); float q = float({call}); o.x += q; }}\n"
+    )
+    done = run(tmp_path, "check", "--isolated", "--output", "concise", "a.frag")
+    assert done.returncode == 0, done.stdout

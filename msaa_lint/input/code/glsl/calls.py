@@ -116,7 +116,7 @@ def _built_in(expressions: Expressions, node: SyntaxNode, name: str, arguments: 
         ids = [expressions.as_type(value, values[0].type).id for value in values]
         return expressions.result(op.EXT_INST, values[0].type, expressions.out.extended, FUSED, *ids)
     if name in _OUT:
-        target = expressions.place(arguments[1], depth)
+        target = expressions.place(arguments[_OUT[name]], depth) if len(arguments) > _OUT[name] else None
         if target is None:
             raise expressions.unsupported(node, "is not supported")
         expressions.store(target, expressions.opaque(name, target.type, values[:1]))
