@@ -68,7 +68,7 @@ def _check(arguments: Arguments) -> int:
         warn(line)
     for file, savings in outcome.failing.items():
         if savings.all.findings and savings.all.price is None:
-            note(f"{file}: it does not state the sizes or formats that tell what fixes save, so --fail-on-cost cannot fail it")
+            note(f"{file}: the sizes or formats that price its fixes are unknown, so --fail-on-cost does not apply to it")
     return code
 
 

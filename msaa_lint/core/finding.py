@@ -181,7 +181,8 @@ class Result(NamedTuple):
     """The result of a lint run. Findings are sorted by file, location and code; `rules` are the enabled rules by code.
 
     `savings` are those of each file with findings that have fixes, if the run determined them. `has_baseline` is whether the findings were
-    compared with a baseline. `inputs` says what of each file was checked. `untried` are the files that are too large to try their fixes.
+    compared with a baseline. `inputs` says what of each file was checked. `untried` are the files that are too large to try their fixes,
+    each with whether it has to be converted first.
     """
 
     findings: Sequence[Finding]
@@ -193,7 +194,7 @@ class Result(NamedTuple):
     savings: Mapping[str, Savings] = {}
     has_baseline: bool = False
     inputs: Sequence[InputSummary] = ()
-    untried: Sequence[str] = ()
+    untried: Mapping[str, bool] = {}
 
 
 def is_confident(finding: Finding, confidence: str) -> bool:

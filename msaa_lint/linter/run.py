@@ -68,7 +68,7 @@ class _Run:
         self.accepted: list[Suppressed] = []
         self.inputs: list[InputSummary] = []
         self.savings: dict[str, Savings] = {}
-        self.untried: list[str] = []
+        self.untried: dict[str, bool] = {}
         self.failing: dict[str, Savings] = {}
         self.fixed: list[FixedText] = []
         self.notes: list[str] = []
@@ -174,7 +174,7 @@ class _Run:
             if can_try_fixes(result) or self.settings.fail_on_cost is not None:
                 settled = self._try_fixes(file, result, settled)
             else:
-                self.untried.append(result.file)
+                self.untried[result.file] = not isinstance(file.data, bytes)
         findings, accepted = self._apply_baseline(settled)
         self.findings.extend(findings)
         self.suppressed.extend(result.suppressed)

@@ -193,7 +193,7 @@ def test_fail_on_cost_says_where_it_cannot_tell(tmp_path: Path) -> None:
     (tmp_path / "frame.msaa.yaml").write_text(KIND.format(share=1).replace("width: 1000, height: 1000, ", ""))
     done = run(tmp_path, "check", "--isolated", "--fail-on", "error", "--fail-on-cost", "1MB/s", ".")
     assert done.returncode == 0
-    assert "frame.msaa.yaml: it does not state the sizes or formats that tell what fixes save" in done.stderr
+    assert "frame.msaa.yaml: the sizes or formats that price its fixes are unknown" in done.stderr
 
 
 def test_a_large_file_says_that_its_fixes_are_not_tried(tmp_path: Path) -> None:

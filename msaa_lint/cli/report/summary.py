@@ -95,9 +95,11 @@ def fixable(result: Result) -> list[str]:
     """How many findings fixes remove, and what that saves; empty if no finding has a fix that can be made."""
     files, converted = files_saving(result), converted_saving(result)
     lines = [*_fixable(files, "fixable with"), *_fixable(converted, "fixable in the description that `msaa-lint convert` writes, with")]
-    if result.untried:
-        verb = "is" if len(result.untried) == 1 else "are"
-        lines.append(f"{plural(len(result.untried), 'file')} {verb} too large to try fixes here; `check --diff` tries them")
+    for is_converted, first in ((False, ""), (True, "`msaa-lint convert`, then ")):
+        count = list(result.untried.values()).count(is_converted)
+        if count:
+            verb = "is" if count == 1 else "are"
+            lines.append(f"{plural(count, 'file')} {verb} too large to try fixes here; {first}`check --diff` tries them")
     return lines
 
 
