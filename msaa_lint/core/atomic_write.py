@@ -28,17 +28,8 @@ def write_file(path: str, data: bytes) -> None:
         with open(path, "wb") as device:
             device.write(data)
         return
-    temporary = _temporary(path)
-    try:
-        descriptor = os.open(temporary, _NEW, 0o666)
-        try:
-            _write_all(descriptor, data)
-        finally:
-            os.close(descriptor)
-        os.replace(temporary, path)
-    except BaseException:
-        _remove(temporary)
-        raise
+    with _renamed(path) as descriptor:
+        _write_all(descriptor, data)
 
 
 @contextmanager
@@ -55,12 +46,23 @@ def new_text(path: str) -> Iterator[IO[str]]:
     old = os.lstat(path) if os.path.lexists(path) and not os.path.islink(path) else None
     if old is not None and not os.access(path, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), path)
+    with _renamed(path) as descriptor:
+        with open(descriptor, "w", encoding="utf-8", newline="\n", closefd=False) as file:
+            yield file
+        if old is not None and hasattr(os, "fchmod"):
+            os.fchmod(descriptor, stat.S_IMODE(old.st_mode))
+
+
+@contextmanager
+def _renamed(path: str) -> Iterator[int]:
+    """The descriptor of a new file beside a path, which gets the path's name at the end, unless an exception ends it."""
     temporary = _temporary(path)
     try:
-        with open(os.open(temporary, _NEW, 0o666), "w", encoding="utf-8", newline="\n") as file:
-            yield file
-            if old is not None:
-                os.chmod(temporary, stat.S_IMODE(old.st_mode))
+        descriptor = os.open(temporary, _NEW, 0o666)
+        try:
+            yield descriptor
+        finally:
+            os.close(descriptor)
         os.replace(temporary, path)
     except BaseException:
         _remove(temporary)

@@ -48,7 +48,8 @@ class LintOptions(NamedTuple):
     """How to lint one input.
 
     `format` forces a reader; None detects the format from content. `device` is the profile for descriptions that do not name a device.
-    `ignores` applies suppression comments, `prices` computes the prices of findings, `all_keys` all keys that undecided rules lack.
+    `ignores` applies suppression comments, `prices` computes the prices of findings. `keys` finds a key that each undecided rule lacks,
+    and `all_keys` all of them.
     """
 
     severity: Severity
@@ -57,6 +58,7 @@ class LintOptions(NamedTuple):
     device: DeviceProfile | None = None
     ignores: bool = True
     prices: bool = False
+    keys: bool = True
     all_keys: bool = False
 
 
@@ -189,7 +191,7 @@ class Engine:
 
         analysis = FrameAnalysis(Frame(document), profile(document.description, device), study, shader)
         # Nobody writes keys into source code.
-        missing_keys = MissingKeys(analysis).of if document.whole or document.format else None
+        missing_keys = MissingKeys(analysis).of if options.keys and (document.whole or document.format) else None
         verdicts = self._runner.run(analysis.subjects(), file, options.severity, document.api, missing_keys, options.all_keys)
         for loaded in modules:
             verdicts.findings.extend(loaded.findings)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.finding import Finding, Price
-from msaa_lint.frame.cost.amounts import FrameCost, Terms
+from msaa_lint.frame.cost.amounts import FrameCost
 from msaa_lint.frame.cost.input_cost import input_total
 from msaa_lint.frame.cost.model import frame_cost
 from msaa_lint.frame.cost.power import ASSUMED_FPS
@@ -32,22 +32,24 @@ class Part(NamedTuple):
     images: frozenset[str]
 
 
-NOT_PRICED = "the input has too many such findings to estimate the cost of each; the sums have what fixes save"
+NOT_PRICED = "the input has too many findings of this kind to price each of them; the totals include what its fix saves"
 
 
 class Prices:
     """The prices of one document's findings. Costs that several findings have in common are computed once."""
 
-    def __init__(self, fixes: DocumentFixes, terms: Terms | None = None) -> None:
+    def __init__(self, fixes: DocumentFixes) -> None:
         self.document = fixes.result.document
-        self.terms = terms
         self._fixes = fixes
         self._owners = dict(_owners(Frame(self.document)))
         self._costs: dict[Part | None, FrameCost] = {}
         self._images: dict[Part, set[str]] = {}
         self._reread = 0
-        self.exhausted = False
+
+    @property
+    def exhausted(self) -> bool:
         """Whether a fix was not priced because too much text would have been read again."""
+        return self._reread > MAX_REREAD
 
     def of(self, changes: Sequence[Change]) -> Price | None:
         """The saving from some changes; None if a size or format that this depends on is unknown.
@@ -79,8 +81,7 @@ class Prices:
                 return self._cost(self.document, part)
         except StructuralChange:
             self._reread += len(self.document.source.text)
-            if self._reread > MAX_REREAD:
-                self.exhausted = True
+            if self.exhausted:
                 return None
             document = self._fixes.reread(changes)
             # New passes and images belong to no part of the original frame.
@@ -92,7 +93,7 @@ class Prices:
             # An image takes its memory even if a change leaves it without a use.
             self._images.setdefault(part, images)
             document = document._replace(description=description)
-        return frame_cost(Frame(document), self._fixes.result.device, self.terms)
+        return frame_cost(Frame(document), self._fixes.result.device)
 
     def _part(self, changes: Sequence[Change]) -> Part | None:
         """The part whose cost changes may alter. None, for the whole frame, if one of them concerns neither a pass nor an image."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -13,13 +12,10 @@ from msaa_lint.frame.cost.model import frame_cost
 from msaa_lint.frame.facts.frame import Frame
 
 from .fixes.fixer import FixResult, Lint, fix_text
-from .results import FileResult
+from .results import FileResult, finding_kind
 
 _DECIMALS = 6
 """Smaller differences are rounding errors: a MB has 10^6 bytes."""
-
-
-_INDEX = re.compile(r"documents\[[0-9]+\]\.|\[[0-9]+\]")
 
 
 class Trials(NamedTuple):
@@ -51,7 +47,7 @@ def savings(result: FileResult, trials: Trials, prices: bool, converted: bool = 
 def _saving(fixes: FixResult, before: InputTotal | None, converted: bool) -> Saving:
     findings = fixes.fixed_findings
     # A capture's kinds of frame share findings, and so do the parts of a program.
-    count = len({(finding.code, finding.message, _INDEX.sub("", finding.subject)) for finding in findings} if converted else findings)
+    count = len({(finding_kind(finding), finding.message) for finding in findings} if converted else findings)
     return Saving(count, difference(before, total(fixes.result)) if before is not None and count else None)
 
 

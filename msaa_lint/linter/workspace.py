@@ -112,18 +112,20 @@ class InputFile(NamedTuple):
         return lambda finding: finding_kind(finding) in reported and is_shown(finding)
 
     def description(self, result: FileResult) -> tuple[FileResult, Lint]:
-        """The result of linting the text that fixes edit, and a function that lints other contents of that text.
+        """The result of linting the text that fixes edit, and a function that lints other contents of that text, to try fixes.
 
         The text is the input itself or, if `result` is that of a capture or source code, the description that `convert` writes of it.
         """
         data, engine, name = self.data, self.resolved.engine, self.name
+        # Of a trial, only the findings count.
+        options = self.options._replace(prices=False, keys=False)
         if isinstance(data, bytes):
-            return result, lambda text: self.lint(encode(text, data))
+            return result, lambda text: engine.lint(encode(text, data), name, options)
         modules = data.modules
 
         def lint(text: str) -> FileResult:
             # Without origins, the order of commands would be checked as that of a description that a person wrote.
-            return engine.lint_description(Source(name, text, []), name, self.options, modules)
+            return engine.lint_description(Source(name, text, []), name, options, modules)
 
         return result.description or lint(data.description), lint
 

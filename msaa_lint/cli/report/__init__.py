@@ -21,8 +21,8 @@ class Options(NamedTuple):
     `max_undecided` is the number of missing keys that a summary names, `max_unread` that of inputs without a pass to check.
     `step_summary` is the file that the GitHub output appends a table to: None uses GITHUB_STEP_SUMMARY, empty writes none.
     `fail_confidence` is the confidence that findings need to fail the run; summaries count those below it. `explain_undecided` lists the
-    keys that undecided rules lack. `quiet` leaves out summaries and
-    remarks; `verbose` adds to the text of `confirm` what only msaa-lint reports, and noise of the layer.
+    keys that undecided rules lack. `quiet` leaves out summaries and remarks; `verbose` adds to the text of `confirm` what only msaa-lint
+    reports, and noise of the layer.
     """
 
     color: bool = False
