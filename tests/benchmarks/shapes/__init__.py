@@ -1,6 +1,8 @@
 """The shapes that `scaling.py` doubles, a module for each kind of input."""
 
+from .capture_texts import SHAPES as CAPTURE_TEXTS
+from .captures import SHAPES as CAPTURES
 from .descriptions import SHAPES as DESCRIPTIONS
 from .shape import Shape
 
-SHAPES: tuple[Shape, ...] = (*DESCRIPTIONS,)
+SHAPES: tuple[Shape, ...] = (*DESCRIPTIONS, *CAPTURES, *CAPTURE_TEXTS)
