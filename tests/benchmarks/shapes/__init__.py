@@ -3,6 +3,7 @@
 from .capture_texts import SHAPES as CAPTURE_TEXTS
 from .captures import SHAPES as CAPTURES
 from .descriptions import SHAPES as DESCRIPTIONS
+from .rules import SHAPES as RULES
 from .shape import Shape
 
-SHAPES: tuple[Shape, ...] = (*DESCRIPTIONS, *CAPTURES, *CAPTURE_TEXTS)
+SHAPES: tuple[Shape, ...] = (*DESCRIPTIONS, *CAPTURES, *CAPTURE_TEXTS, *RULES)
