@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 
+from msaa_lint.core.project import project_root
 from msaa_lint.linter.run import run
 from msaa_lint.linter.suppress import baseline as baselines
 from msaa_lint.linter.workspace import Request
@@ -26,11 +27,12 @@ def _baseline(arguments: Arguments) -> int:
     request = Request(
         arguments["paths"], overrides(arguments), arguments.get("config"), isolated, without_baseline=True, log=log(arguments)
     )
-    return write_baseline(request, arguments.get("file", FILE), bool(arguments.get("prune")))
+    return write_baseline(request, arguments.get("file"), bool(arguments.get("prune")))
 
 
-def write_baseline(request: Request, file: str, prune: bool) -> int:
+def write_baseline(request: Request, stated: str | None, prune: bool) -> int:
     """Writes the baseline of the current findings of a request, or with `prune` removes fixed findings from it; returns 2 if it cannot."""
+    file = stated or FILE
     result = run(request).result
     fatal = [finding for finding in result.findings if finding.fatal]
     for finding in fatal:
@@ -40,7 +42,7 @@ def write_baseline(request: Request, file: str, prune: bool) -> int:
         return 2
     before = 0
     if prune:
-        loaded = baselines.load(file)
+        loaded = baselines.load(file, project_root(os.curdir) if stated is None else None)
         if isinstance(loaded, baselines.Refused):
             warn(loaded.findings[0].message)
             return 2

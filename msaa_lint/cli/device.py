@@ -73,7 +73,7 @@ def _named(name: str) -> list[Offer]:
     elif os.path.isfile(name) or is_path(name):
         if os.path.isfile(name):
             path, selector = name, ""
-        devices = _usable(reports(path, path))
+        devices = _usable(reports(path, path, None))
     else:
         return [Offer(Report(_usable(profile_of(name))), name)]
     if selector:

@@ -1,7 +1,7 @@
 """The project that contains a path, and paths as outputs show them.
 
 The project is the nearest folder upward with the data of a version control system; if there is none, the outermost folder upward with a
-configuration file, or else the folder itself. A path from an untrusted file must stay in the project.
+configuration file, or else the folder itself. A path that a file or a link of the project states must stay in it.
 """
 
 from __future__ import annotations
@@ -14,13 +14,20 @@ NAMES = ("msaa-lint.toml", "pyproject.toml")
 _VCS_DATA = (".git", ".hg", ".jj", ".svn", ".bzr", "_darcs", ".fslckout")
 
 
+class Outside(OSError):
+    """A path that content states leads out of the project. Nothing there is looked at, not even whether it exists."""
+
+    def __init__(self) -> None:
+        super().__init__("it is outside the project")
+
+
 def project_root(folder: str) -> str:
-    """The project of a configuration or an input in `folder`: files that it names, and targets of links, must be inside."""
-    at = outermost = os.path.abspath(folder)
+    """The project of a configuration or an input in `folder`, with all symbolic links resolved."""
+    at = outermost = os.path.realpath(folder)
     while True:
         if any(os.path.lexists(os.path.join(at, name)) for name in _VCS_DATA):
             return at
-        if any(os.path.isfile(os.path.join(at, name)) for name in NAMES):
+        if any(os.path.lexists(os.path.join(at, name)) for name in NAMES):
             outermost = at
         above = os.path.dirname(at)
         if above == at:
@@ -28,13 +35,24 @@ def project_root(folder: str) -> str:
         at = above
 
 
-def inside(path: str, root: str) -> bool:
-    """Whether a path is in a folder, with all symbolic links resolved."""
+def folder_of(file: str) -> str:
+    """The folder that the paths in an input are relative to: the file's; the current one for standard input, a pipe, and a device."""
+    is_stream = os.path.exists(file) and not os.path.isfile(file)
+    return os.curdir if is_stream else os.path.dirname(file) or os.curdir
+
+
+def real_path(path: str, project: str) -> str:
+    """A path that content states, with all symbolic links resolved. Raises Outside if it leaves the project, and OSError for a URL."""
+    if "://" in path:
+        raise OSError("it is a URL; name a file in the project")
     try:
-        full, base = os.path.realpath(path), os.path.realpath(root)
-    except (OSError, ValueError):
-        return False
-    return full == base or full.startswith(base if base.endswith(os.sep) else base + os.sep)
+        real, root = os.path.realpath(path), os.path.realpath(project)
+    except ValueError as error:
+        raise OSError(f"invalid file name: {error}") from None
+    below = root if root.endswith(os.sep) else root + os.sep
+    if real != root and not os.path.normcase(real).startswith(os.path.normcase(below)):
+        raise Outside
+    return real
 
 
 def shown(path: str) -> str:

@@ -5,13 +5,13 @@ A name is a built-in device's, a class of devices', a vendor's, or the path of a
 """
 
 import os
+import stat
 from typing import TYPE_CHECKING, NamedTuple
 
-from msaa_lint.core.project import inside, project_root
+from msaa_lint.core.project import Outside, folder_of, project_root, real_path
 from msaa_lint.core.quote import quoted_path
 from msaa_lint.core.suggestions import nearest
 from msaa_lint.core.text.files import read
-from msaa_lint.core.text.node import Limits
 from msaa_lint.core.text.source import Unreadable, decode
 
 from .devices import DeviceProfile, builtin, names
@@ -40,15 +40,18 @@ def device_of(name: str | None) -> DeviceProfile | None:
     return found if isinstance(found, DeviceProfile) else None
 
 
-def profile_of(name: str) -> DeviceProfile | Problem:
-    """The device that `--profile` or a configuration names; of a vendor's only that is known. Paths count from the current folder."""
+def profile_of(name: str, project: str | None = None) -> DeviceProfile | Problem:
+    """The device that `--profile` or a configuration names; of a vendor's only that is known. Paths count from the current folder.
+
+    `project` is that of the configuration, in which a report must be; None for `--profile`.
+    """
     found = builtin(name)
     if found is not None:
         return found
     if name in WORDS["vendor"]:
         return DeviceProfile(name=name, vendor=name, minimum=True, source="only the vendor is known")
     if is_path(name):
-        return _reported(name, os.curdir)
+        return _reported(name, os.curdir, project)
     close = nearest(name, known_profiles())
     help = f"did you mean `{close}`?" if close else f"there are {', '.join(known_profiles())}, and paths of device reports"
     return Problem("MSAA904", f"no profile {quoted_path(name)}", help)
@@ -63,8 +66,7 @@ def device_for(description: "Description", file: str, default: DeviceProfile | N
     """The device that a description names or describes, or the family of Metal's GPUs that it states, else the given one.
 
     A path counts from the folder of the description's `file` (a name that is no path, such as `<stdin>`: from the current folder) and must
-    stay in its project with all symbolic links followed: a description may come from a stranger's branch. A Problem is one of the
-    description, at its `device`.
+    stay in its project: a description may come from a stranger's branch. A Problem is one of the description, at its `device`.
     """
     from .description.models import Device
     from .facts.global_facts import described, of_family
@@ -78,18 +80,15 @@ def device_for(description: "Description", file: str, default: DeviceProfile | N
     if found is not None:
         return found
     if is_path(stated):
-        folder = os.path.dirname(file) or os.curdir
+        folder = folder_of(file)
         return _reported(stated, folder, project_root(folder))
     return Problem("MSAA904", f"no device {quoted_path(stated)}", f"built-in devices: {', '.join(names())}")
 
 
-def _reported(name: str, folder: str, within: str | None = None) -> DeviceProfile | Problem:
-    """The device of a report that a name is the path of, `within` a folder that it must not leave."""
+def _reported(name: str, folder: str, project: str | None) -> DeviceProfile | Problem:
+    """The device of a report that a name is the path of. `project` is None for a path of the command line."""
     path, which = split(name)
-    full = os.path.join(folder, path)
-    if within is not None and not inside(full, within):
-        return Problem("MSAA903", f"{quoted_path(path)} leaves the project", "--profile on the command line can name what lies outside")
-    found = reports(full, path)
+    found = reports(os.path.join(folder, path), path, project)
     if isinstance(found, Problem):
         return found
     from .devices.reports import pick
@@ -103,16 +102,24 @@ def _reported(name: str, folder: str, within: str | None = None) -> DeviceProfil
     return Problem("MSAA903", f"{quoted_path(path)} has {len(found)} devices: say which", there)
 
 
-def reports(path: str, called: str) -> "list[Report] | Problem":
-    """The devices of a report's file. `called` is what messages and the profiles' sources call it."""
+def reports(path: str, called: str, project: str | None) -> "list[Report] | Problem":
+    """The devices of a report's file. `called` is what messages and the profiles' sources call it; `project` is None for a path of the
+    command line."""
     from .devices.reports import EXPECTED, MAX_BYTES, NotAReport
 
     try:
-        status = os.stat(path)
-        key = (os.path.realpath(path), called, status.st_mtime_ns, status.st_size)
+        real = os.path.realpath(path) if project is None else real_path(path, project)
+        status = os.stat(real)
+        # A pipe changes as it is read.
+        version = (status.st_mtime_ns, status.st_size) if stat.S_ISREG(status.st_mode) else (0, 0)
+        key = (real, called, *version)
         if key not in _read:
-            _read[key] = parsed(read(path, Limits(bytes=MAX_BYTES)), called)
+            _read[key] = parsed(read(path, MAX_BYTES, project), called)
         return _read[key]
+    except Outside:
+        return Problem(
+            "MSAA903", f"{quoted_path(called)} is outside the project", "only --profile on the command line can name such a file"
+        )
     except FileNotFoundError:
         return Problem("MSAA904", f"no file {quoted_path(called)}", _near(path, called))
     except Unreadable:

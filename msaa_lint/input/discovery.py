@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
 from typing import NamedTuple, Protocol
@@ -11,7 +11,7 @@ from typing import NamedTuple, Protocol
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.globs import Glob, excluding
-from msaa_lint.core.project import inside, project_root, shown
+from msaa_lint.core.project import project_root, real_path, shown
 from msaa_lint.core.quote import quoted
 
 from .file_types import DATA, DESCRIPTIONS, INPUT, LANGUAGES, NEAR, OTHER, SOURCES, STDIN, missing_extra
@@ -35,11 +35,15 @@ class Scope(Protocol):
 
 
 class Discovered(NamedTuple):
-    """The input files, each once and sorted, as findings name them; findings about paths; notes for the user."""
+    """The input files, each once and sorted, as findings name them; findings about paths; notes for the user.
+
+    `projects` has the projects in which the files of folders must be; a file that is named may be anywhere.
+    """
 
     files: list[str]
     findings: list[Finding]
     notes: list[str]
+    projects: Mapping[str, str] = {}
 
 
 def discover(
@@ -78,7 +82,8 @@ def discover(
         walk.skip(name, "it looks a little like a description")
     if near:
         walk.notes.append(_nearly(near))
-    return Discovered(sorted(walk.files, key=_by_folder), walk.findings, list(dict.fromkeys(walk.notes)))
+    projects = {file: project for file, project in walk.files.items() if project is not None}
+    return Discovered(sorted(walk.files, key=_by_folder), walk.findings, list(dict.fromkeys(walk.notes)), projects)
 
 
 def _by_folder(name: str) -> tuple[list[str], str]:
@@ -96,6 +101,14 @@ def _nearly(names: Sequence[str]) -> str:
 
 def _count(number: int, noun: str) -> str:
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def _is_file_inside(path: str, project: str) -> bool:
+    """Whether a link leads to a file of the project."""
+    try:
+        return os.path.isfile(real_path(path, project))
+    except OSError:
+        return False
 
 
 def _excluded(path: str, glob: Glob) -> str:
@@ -121,14 +134,14 @@ class _Search:
 
 
 class _Walk:
-    """The files found so far. `near` has the files that are nearly inputs, in order."""
+    """The files found so far, with their projects (None for a named file). `near` has the files that are nearly inputs, in order."""
 
     def __init__(self, settings_for: Callable[[str], Scope], sources: bool, log: Callable[[str], None] | None) -> None:
         self.settings_for = settings_for
         self.sources = sources
         self.log = log
         self.unreadable_sources = 0
-        self.files: dict[str, None] = {}
+        self.files: dict[str, str | None] = {}
         self.near: dict[str, None] = {}
         self.findings: list[Finding] = []
         self.notes: list[str] = []
@@ -212,13 +225,13 @@ class _Walk:
             self.skip(path, "not an input")
         if kind == NEAR:
             self.near[shown(path)] = None
-        elif kind == INPUT and entry.is_symlink() and not (os.path.isfile(path) and inside(path, search.project)):
+        elif kind == INPUT and entry.is_symlink() and not _is_file_inside(path, search.project):
             self.notes.append(f"{shown(path)} is a link that is broken or leaves the project: name it to lint it")
         elif kind == INPUT and os.path.isfile(path):
             if entry.name.lower().endswith((*SOURCES, *LANGUAGES["markdown"])) and not self._can_read_sources:
                 self.unreadable_sources += 1
             else:
-                self.files[shown(path)] = None
+                self.files.setdefault(shown(path), search.project)
                 search.inputs += 1
 
     def _kind(self, entry: os.DirEntry[str], path: str, include: Sequence[Glob]) -> str:

@@ -14,13 +14,12 @@ from typing import NamedTuple
 
 from msaa_lint.core.globs import compiled
 from msaa_lint.core.text.files import read
-from msaa_lint.core.text.node import Limits
 from msaa_lint.core.text.source import Unreadable
 
 MAX_PATTERNS = 4096
 """The number of patterns of a file that are used: every path is compared with all of them."""
 
-_LIMITS = Limits(bytes=1 << 20)
+_MAX_BYTES = 1 << 20
 _REPOSITORIES = (".git", ".jj")
 
 
@@ -69,7 +68,7 @@ class IgnoreFiles(NamedTuple):
         ignore, git, in_repository = self
         repository = next((name for name in _REPOSITORIES if name in names), None)
         if repository is not None:
-            git, in_repository = _rules(_exclude_file(os.path.join(folder, repository)), folder), True
+            git, in_repository = _rules(_exclude_file(folder), folder) if repository == ".git" else (), True
         if in_repository and ".gitignore" in names:
             git = (*_rules(os.path.join(folder, ".gitignore"), folder), *git)
         if ".ignore" in names:
@@ -95,7 +94,7 @@ def _rules(path: str, folder: str) -> tuple[Rules, ...]:
     if os.path.islink(path):
         return ()
     try:
-        data = read(path, _LIMITS)
+        data = read(path, _MAX_BYTES, os.path.dirname(path))
     except (OSError, Unreadable):
         return ()
     lines: dict[bool, list[tuple[int, str]]] = {False: [], True: []}
@@ -129,8 +128,9 @@ def _pattern(line: str) -> str:
     return "" if text.startswith(("#", "./", "!./")) else text
 
 
-def _exclude_file(repository: str) -> str:
-    """`info/exclude` of a repository, whose `.git` may be a file that names the folder, as in a worktree."""
+def _exclude_file(folder: str) -> str:
+    """`info/exclude` of a repository. In a worktree, `.git` is a file that names the folder; nobody can commit a file of that name."""
+    repository = os.path.join(folder, ".git")
     if os.path.isfile(repository):
         repository = os.path.join(os.path.dirname(repository), _line(repository).removeprefix("gitdir:").strip())
         repository = os.path.join(repository, _line(os.path.join(repository, "commondir")))
@@ -139,6 +139,6 @@ def _exclude_file(repository: str) -> str:
 
 def _line(path: str) -> str:
     try:
-        return os.fsdecode(read(path, Limits(bytes=1 << 16))).strip()
+        return os.fsdecode(read(path, 1 << 16, os.path.dirname(path))).strip()
     except (OSError, Unreadable):
         return ""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, BinaryIO
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
-from msaa_lint.core.text.files import open_regular
+from msaa_lint.core.text.files import open_file
 from msaa_lint.core.text.node import Limits
 from msaa_lint.core.text.source import Unreadable
 
@@ -52,20 +52,26 @@ def unreadable(error: OSError | Unreadable, name: str) -> Finding:
 
 
 def load(
-    path: str, limits: Limits, name: str | None = None, format: str | None = None, data: bytes | None = None
+    path: str,
+    limits: Limits,
+    name: str | None = None,
+    format: str | None = None,
+    data: bytes | None = None,
+    project: str | None = None,
 ) -> bytes | CaptureInput | SourceFile:
     """The bytes of a text, source code read as documents, or a capture read as far as possible.
 
-    `path` is `-` for standard input, which `data` replaces. `name` is the input's name in findings; `format` forces a reader. Raises
-    OSError if the file cannot be read or is not a regular file, and Unreadable if a text is larger than the limit, if the format is not
-    supported, or if the extra for source code is missing.
+    `path` is `-` for standard input, which `data` replaces. `name` is the input's name in findings; `format` forces a reader. `project` is
+    that of a file in a named folder, None for a named file. Raises OSError if the file cannot be read, and Unreadable if a text is larger
+    than the limit, if the format is not supported, or if the extra for source code is missing.
     """
     if path == STDIN:
         stream: BinaryIO = sys.stdin.buffer if data is None else io.BytesIO(data)
         return _load(stream, None, limits, name or "<stdin>", format, None)
-    file, size = open_regular(path)
+    file, size = open_file(path, project)
     with file:
-        return _load(file, size, limits, name or path, format, os.path.abspath(path))
+        # Other files belong to a file only: there is no folder beside a pipe.
+        return _load(file, size, limits, name or path, format, None if size is None else os.path.abspath(path))
 
 
 def _load(
@@ -78,7 +84,7 @@ def _load(
     if capture is not None:
         from .capture_input import read_capture
 
-        if path is not None and stream.seekable():
+        if path is not None:
             stream.seek(0)
             return read_capture(stream, capture, name, path)
         return read_capture(io.BufferedReader(_Rejoined(head, stream), HEAD_BYTES), capture, name, path)
@@ -89,11 +95,12 @@ def _load(
     form = hint(head) if unusual and format is None and language is None else None
     if form is not None:
         raise UnsupportedFormat(form)
-    data = head if size is None else head + stream.read(max(min(size, limits.bytes) + 1 - len(head), 0))
+    too_large = size is not None and size > limits.bytes
+    data = head if size is None or too_large else head + stream.read(max(size + 1 - len(head), 0))
     if len(data) > (size or 0):
         # Standard input, a file that grows, or one of a virtual file system.
         data += stream.read(max(limits.bytes + 1 - len(data), 0))
-    if len(data) > limits.bytes:
+    if too_large or len(data) > limits.bytes:
         raise Unreadable(f"the input is larger than the limit of {limits.bytes} bytes")
     return data if language is None else _source_file(data, name, language)
 

@@ -1,18 +1,17 @@
 """Loads the SPIR-V or GLSL of shader stages, and extracts what matters for multisampling.
 
-A module comes with the input (a capture), or is a file: its path is relative to the folder of the description and must stay inside the
-project after symbolic links are resolved. Files are untrusted: their size is limited and they are only read as data. A problem with a
-module is a warning at its `module`; rules that need the shader stay undecided.
+A module comes with the input (a capture), or is a file of the project: its path is relative to the folder of the description. Files are
+untrusted: their size is limited and they are only read as data. A problem with a module is a warning at its `module`; rules that need the
+shader stay undecided.
 """
 
 import os
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
-from msaa_lint.core.project import inside, project_root
+from msaa_lint.core.project import Outside, folder_of, project_root
 from msaa_lint.core.quote import quoted_path
 from msaa_lint.core.text.files import read
-from msaa_lint.core.text.node import Limits
 from msaa_lint.core.text.source import Unreadable
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import Document
@@ -55,7 +54,7 @@ class Modules:
         self.findings: list[Finding] = []
         self._own = document.modules
         self._file = file
-        self._folder = os.path.dirname(file) or os.curdir
+        self._folder = folder_of(file)
         self._left = MAX_WORK
         self._warned: set[tuple[str, str]] = set()
         self._kept: dict[str, Module | _Unusable] = {}
@@ -148,15 +147,13 @@ class Modules:
             ) from None
 
     def _bytes(self, name: str) -> bytes:
-        path = os.path.join(self._folder, name)
-        if not inside(path, project_root(self._folder)):
-            raise _Unusable("MSAA903", f"{quoted_path(name)} is outside the project")
         try:
-            return read(path, Limits(bytes=MAX_BYTES))
+            return read(os.path.join(self._folder, name), MAX_BYTES, project_root(self._folder))
+        except Outside:
+            raise _Unusable("MSAA903", f"{quoted_path(name)} is outside the project") from None
         except FileNotFoundError:
             raise _Unusable("MSAA904", f"file not found: {quoted_path(name)}", "rules that need the shader stay undecided") from None
         except Unreadable:
             raise _Unusable("MSAA903", f"{quoted_path(name)} cannot be read: it is larger than {MAX_BYTES >> 20} MiB") from None
-        except (OSError, ValueError) as error:
-            reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
-            raise _Unusable("MSAA903", f"{quoted_path(name)} cannot be read: {reason}") from None
+        except OSError as error:
+            raise _Unusable("MSAA903", f"{quoted_path(name)} cannot be read: {error.strerror or error}") from None

@@ -219,15 +219,15 @@ class Engine:
         return [*remaining, *about_comments], suppressed
 
 
-def load_rules(paths: Sequence[str] = ()) -> Registry:
-    """The built-in rules and the user's own rules at `paths`, the latter checked."""
+def load_rules(paths: Sequence[str] = (), projects: Mapping[str, str] = {}) -> Registry:
+    """The built-in rules and the user's own rules at `paths`, the latter checked. `projects` has those of paths in a configuration."""
 
     def check_fixes(rule: Rule) -> list[Finding]:
         from .fixes.fix_checks import problems
 
         return problems(rule)
 
-    return load(paths, check_fixes)
+    return load(paths, check_fixes, projects)
 
 
 def rule_infos(registry: Registry, severity: Severity, full: bool) -> list[RuleInfo]:

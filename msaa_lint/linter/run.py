@@ -78,7 +78,7 @@ class _Run:
             return None
         from .suppress import baseline
 
-        loaded = baseline.load(self.settings.baseline)
+        loaded = baseline.load(self.settings.baseline, self.settings.project("baseline"))
         if isinstance(loaded, baseline.Baseline):
             return loaded
         self.workspace.findings.extend(loaded.findings)

@@ -135,16 +135,14 @@ def _canonical(value: object) -> object:
 
 def _read(path: str) -> list[Entry]:
     """The studies of a record. Raises Unusable if it is invalid."""
-    from msaa_lint.core.project import inside, project_root
+    from msaa_lint.core.project import project_root
     from msaa_lint.core.text.files import read
     from msaa_lint.core.text.source import Source, Unreadable, decode
     from msaa_lint.core.text.tree import Limits, parse
 
     name = os.path.basename(path)
-    if not inside(path, project_root(os.path.dirname(path) or os.curdir)):
-        raise Unusable(f"{name} leaves the project")
     try:
-        source = Source(name, decode(read(path, Limits(bytes=MAX_BYTES))))
+        source = Source(name, decode(read(path, MAX_BYTES, project_root(os.path.dirname(path) or os.curdir))))
     except Unreadable as error:
         raise Unusable(f"{name}: {str(error).replace('the input', 'it')}") from None
     except OSError as error:

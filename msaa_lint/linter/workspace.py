@@ -144,7 +144,8 @@ class Workspace:
         self._configurations = Configurations(request.config, request.isolated)
         self._settings: dict[str | None, Settings] = {}
         self._resolved: dict[str | None, ResolvedSettings] = {}
-        self._engines: dict[tuple[str, ...], Engine] = {}
+        self._engines: dict[object, Engine] = {}
+        self._projects: Mapping[str, str] = {}
         self.current = self.resolve(os.curdir)
 
     def settings(self, path: str) -> Settings:
@@ -165,9 +166,9 @@ class Workspace:
         loaded = self._configurations.load(path)
         if loaded.path not in self._resolved:
             settings = self._override(loaded)
-            engine = self._engine(settings.rules)
+            engine = self._engine(settings)
             self.findings.extend(unknown_selectors(settings, engine.registry.names))
-            device = profile_of(settings.profile) if settings.profile is not None else None
+            device = profile_of(settings.profile, settings.project("profile")) if settings.profile is not None else None
             selection = Selection(settings, engine.registry.rules)
             if self.request.log is not None:
                 enabled = sum(map(selection.enabled, engine.registry.rules))
@@ -183,13 +184,15 @@ class Workspace:
             )
         return self._resolved[loaded.path]
 
-    def _engine(self, paths: tuple[str, ...]) -> Engine:
-        if paths not in self._engines:
-            registry = load_rules([path for path in paths if os.path.exists(path)])
+    def _engine(self, settings: Settings) -> Engine:
+        projects = settings.page_projects()
+        key = settings.rules, tuple(sorted(projects.items()))
+        if key not in self._engines:
+            registry = load_rules([path for path in settings.rules if os.path.exists(path)], projects)
             self.findings.extend(registry.problems)
             self.sources.update(registry.sources)
-            self._engines[paths] = Engine(registry)
-        return self._engines[paths]
+            self._engines[key] = Engine(registry)
+        return self._engines[key]
 
     def broken_pages(self) -> list[str]:
         """The files of the custom rules that cannot be used."""
@@ -199,6 +202,7 @@ class Workspace:
         """The inputs that the request names; `sources` includes the source code in folders."""
         found = discover(self.request.paths, self.settings, sources, self.request.log)
         self.findings.extend(found.findings)
+        self._projects = found.projects
         return found
 
     @contextmanager
@@ -218,7 +222,7 @@ class Workspace:
         request, name = self.request, self.request.input_name(path)
         resolved = self.resolve(request.stdin_filename or os.curdir if path == STDIN else path)
         try:
-            data = opening.load(path, resolved.limits, name, request.format, request.data)
+            data = opening.load(path, resolved.limits, name, request.format, request.data, self._projects.get(path))
         except (OSError, Unreadable) as error:
             self.findings.append(opening.unreadable(error, name))
             return None
@@ -245,7 +249,7 @@ def _invalid_values(settings: Settings) -> list[Finding]:
     if settings.edition is not None and settings.edition not in EDITIONS:
         message = f"unknown edition {quoted(settings.edition)}: expected one of {', '.join(EDITIONS)}"
         findings.append(settings.problem("edition", message))
-    profile = profile_of(settings.profile) if settings.profile is not None else None
+    profile = profile_of(settings.profile, settings.project("profile")) if settings.profile is not None else None
     if isinstance(profile, Problem):
         findings.append(settings.problem("profile", profile.message, profile.help))
     # Those of a configuration are checked where it is read.

@@ -1,4 +1,4 @@
-"""The bytes of regular files, up to a limit."""
+"""Opens files: as named by the command line, or as named by content, which may come from a stranger."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ import os
 import stat
 from typing import BinaryIO
 
-from .node import Limits
+from msaa_lint.core.project import real_path
+
 from .source import Unreadable
 
 _KINDS = {
@@ -15,39 +16,83 @@ _KINDS = {
     stat.S_IFSOCK: "a socket",
     stat.S_IFCHR: "a device",
     stat.S_IFBLK: "a device",
+    stat.S_IFLNK: "a link that leads back to itself",
 }
 
-# O_NONBLOCK: a pipe that replaces a file after the check must not block.
+# O_NONBLOCK: opening a pipe must not wait for a writer.
 _FLAGS = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
+_NO_LINK = getattr(os, "O_NOFOLLOW", 0)
+_FOLDER = getattr(os, "O_PATH", os.O_RDONLY) | getattr(os, "O_DIRECTORY", 0) | getattr(os, "O_CLOEXEC", 0)
 
 
-def open_regular(path: str) -> tuple[BinaryIO, int]:
-    """A file, open for reading, and its size in bytes. Raises OSError if it cannot be opened or is not a regular file."""
+def open_file(path: str, project: str | None) -> tuple[BinaryIO, int | None]:
+    """A file, open for reading, and its size in bytes; None for a pipe or a device.
+
+    `project` is None for a path of the command line, which is read as named: a file, a pipe, or a device. A path that a file, a folder, or
+    a link states must be a regular file in the project, with all symbolic links resolved. Raises OSError, and Outside without looking at
+    what is there.
+    """
     try:
-        _check_regular(os.stat(path).st_mode)
+        descriptor = _open_named(path) if project is None else _open_inside(path, project)
     except ValueError as error:
         raise OSError(f"invalid file name: {error}") from None
-    file = open(os.open(path, _FLAGS), "rb")  # noqa: SIM115 - the caller closes it
-    status = os.fstat(file.fileno())
+    file = open(descriptor, "rb")  # noqa: SIM115 - the caller closes it
     try:
-        _check_regular(status.st_mode)
-    except OSError:
+        status = os.fstat(descriptor)
+        if stat.S_ISREG(status.st_mode):
+            return file, status.st_size
+        if project is not None:
+            _check_regular(status.st_mode)
+        if os.name == "posix":
+            os.set_blocking(descriptor, True)
+        if stat.S_ISFIFO(status.st_mode) and not file.peek(1):
+            raise OSError("it is a pipe that nothing writes to")
+    except BaseException:
         file.close()
         raise
-    return file, status.st_size
+    return file, None
 
 
-def read(path: str, limits: Limits) -> bytes:
-    """The bytes of a file. Raises OSError if it cannot be read or is not a regular file, and Unreadable if it exceeds the limit."""
-    file, size = open_regular(path)
+def read(path: str, max_bytes: int, project: str | None) -> bytes:
+    """The bytes of a file, which is opened as by `open_file`. Raises OSError, and Unreadable if the file is larger than `max_bytes`."""
+    file, size = open_file(path, project)
     with file:
         # Python allocates as much memory as it is asked to read. Files in /proc, and files that grow, have more than their stated size.
-        data = file.read(min(size, limits.bytes) + 1)
-        if len(data) > size:
-            data += file.read(limits.bytes + 1 - len(data))
-    if len(data) > limits.bytes:
-        raise Unreadable(f"the input is larger than the limit of {limits.bytes} bytes")
+        data = b"" if (size or 0) > max_bytes else file.read((size or 0) + 1)
+        if len(data) > (size or 0):
+            data += file.read(max(max_bytes + 1 - len(data), 0))
+    if max(len(data), size or 0) > max_bytes:
+        raise Unreadable(f"it is larger than the limit of {max_bytes} bytes")
     return data
+
+
+def _open_named(path: str) -> int:
+    mode = os.stat(path).st_mode
+    if stat.S_ISDIR(mode) or stat.S_ISSOCK(mode):
+        _check_regular(mode)
+    return os.open(path, _FLAGS)
+
+
+def _open_inside(path: str, project: str) -> int:
+    """Opens a regular file of a project.
+
+    The real path is opened folder by folder, none of which may be a link, so that nothing that changes in between can lead elsewhere.
+    """
+    real, root = real_path(path, project), os.path.realpath(project)
+    *folders, name = os.path.relpath(real, root).split(os.sep)
+    if os.open not in os.supports_dir_fd or os.stat not in os.supports_follow_symlinks:
+        _check_regular(os.lstat(real).st_mode)
+        return os.open(real, _FLAGS)
+    parent = os.open(root, _FOLDER)
+    try:
+        for folder in folders:
+            above, parent = parent, os.open(folder, _FOLDER | _NO_LINK, dir_fd=parent)
+            os.close(above)
+        # Opening a device may have an effect.
+        _check_regular(os.stat(name, dir_fd=parent, follow_symlinks=False).st_mode)
+        return os.open(name, _FLAGS | _NO_LINK, dir_fd=parent)
+    finally:
+        os.close(parent)
 
 
 def _check_regular(mode: int) -> None:

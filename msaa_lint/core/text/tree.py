@@ -24,13 +24,12 @@ from yaml.events import (
 from msaa_lint.core.quote import quoted
 
 from .events import ERRORS, events, problem_of
-from .files import read
 from .node import NO_KEYS, Limits, Node, Parsed, Problem, Stop
 from .scalars import WORDS, resolve
 from .source import Source, forbidden, forbidden_message
 from .span import Label, Span
 
-__all__ = ["Limits", "Node", "Parsed", "Problem", "parse", "read"]
+__all__ = ["Limits", "Node", "Parsed", "Problem", "parse"]
 
 MAX_PROBLEMS = 50
 """Duplicate keys and wrong tags that are reported for one text; more would only bury the first ones."""

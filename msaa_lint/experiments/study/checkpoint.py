@@ -17,6 +17,8 @@ from typing import Any, get_args, get_type_hints
 
 from msaa_lint.core.atomic_write import write_file
 from msaa_lint.core.package import VERSION
+from msaa_lint.core.text.files import read
+from msaa_lint.core.text.source import Unreadable
 
 from .points import Point, Technique
 from .tasks import Task, Unusable
@@ -64,8 +66,7 @@ class Checkpoint:
 
     def _read(self, key: Mapping[str, Any], name: str, kind: type[Point] | type[Cost]) -> dict[str, Any] | None:
         try:
-            with open(self._path(key, name), encoding="utf-8") as file:
-                data = json.loads(file.read(MAX_BYTES))
+            data = json.loads(read(self._path(key, name), MAX_BYTES, self.folder))
         except (OSError, ValueError, RecursionError):
             return None
         values = data.get("values") if isinstance(data, dict) and data.get("schema") == SCHEMA and data.get("key") == key else None
@@ -117,10 +118,11 @@ def _key(task: Task) -> dict[str, Any]:
 
 @functools.lru_cache(maxsize=4)
 def _contents(path: str) -> bytes:
+    from .scenes import mesh
+
     try:
-        with open(path, "rb") as file:
-            return file.read()
-    except OSError:
+        return read(path, mesh.MAX_BYTES, None)
+    except (OSError, Unreadable):
         return b""
 
 

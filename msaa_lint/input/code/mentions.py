@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import re
+
+from msaa_lint.core.text.files import open_file
 
 MAX_BYTES = 1 << 20
 """The number of bytes of a file that are searched."""
@@ -28,7 +31,8 @@ def speaks(text: str) -> bool:
 
 def file_speaks(path: str) -> bool:
     """Returns whether the first MiB of a file does. Raises OSError if it cannot be read."""
-    with open(path, "rb") as file:
+    file, _ = open_file(path, os.path.dirname(path))
+    with file:
         data = file.read(MAX_BYTES)
     encoding = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "latin-1"
     return speaks(data.decode(encoding, "replace"))

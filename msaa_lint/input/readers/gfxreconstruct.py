@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import os
 import re
-import stat
 from collections.abc import Iterator
 from typing import Any, BinaryIO, NamedTuple
 
+from msaa_lint.core.text.files import read
+from msaa_lint.core.text.source import Unreadable
 from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place, is_wanted
 from msaa_lint.input.captures.json_stream import BYTE_ORDER_MARK, TRUNCATED, Blocks, Cursor, PeekedStream, loads, parse_call
 from msaa_lint.input.captures.values import chain, items, record
@@ -62,24 +63,16 @@ def calls(stream: BinaryIO, wanted: frozenset[str], name: str | None) -> Iterato
 
 
 def _file_beside(capture: str | None, path: str) -> bytes | None:
-    """The contents of a regular file at a path relative to a capture; None if it is outside the capture's folder, unreadable, or larger
-    than 16 MiB."""
+    """The contents of a file at a path relative to a capture; None if it is outside the capture's folder, unreadable, or larger than 16
+    MiB."""
     if not capture or not 0 < len(path) <= MAX_PATH:
         return None
+    folder = os.path.dirname(os.path.abspath(capture))
     try:
-        folder = os.path.realpath(os.path.dirname(os.path.abspath(capture)))
         # A converter on Windows writes backslashes.
-        target = os.path.realpath(os.path.join(folder, path.replace("\\", "/")), strict=True)
-        if os.path.commonpath((folder, target)) != folder:
-            return None
-        status = os.stat(target)
-        if not stat.S_ISREG(status.st_mode) or status.st_size > MAX_FILE:
-            return None
-        with open(target, "rb") as file:
-            content = file.read(MAX_FILE + 1)
-    except (OSError, ValueError):
+        return read(os.path.join(folder, path.replace("\\", "/")), MAX_FILE, folder)
+    except (OSError, Unreadable):
         return None
-    return content if len(content) <= MAX_FILE else None
 
 
 CachedLine = tuple[bytes, int, str, Any, str | None]

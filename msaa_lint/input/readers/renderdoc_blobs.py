@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
-import stat
-from typing import Any
+from typing import Any, BinaryIO
+
+from msaa_lint.core.project import project_root
+from msaa_lint.core.text.files import open_file
 
 MAX_BLOB = 16 << 20
 """Maximum total size of the buffers of a chunk, in bytes."""
@@ -24,6 +26,7 @@ class Blobs:
     def __init__(self, name: str | None) -> None:
         self.path = _zip_path(name)
         self.zip: Any = None
+        self.file: BinaryIO | None = None
         self.capture_budget = MAX_ALL
         self.chunk_budget = MAX_BLOB
 
@@ -47,12 +50,14 @@ class Blobs:
     def open(self) -> bool:
         """Opens the zip, at most once."""
         path, self.path = self.path, None
+        if path is None:
+            return False
         try:
-            # Opening a pipe or a device could block.
-            if path is not None and stat.S_ISREG(os.stat(path).st_mode) and _directory_size(path) <= MAX_DIRECTORY:
+            self.file, _ = open_file(path, project_root(os.path.dirname(path) or os.curdir))
+            if _directory_size(self.file) <= MAX_DIRECTORY:
                 from zipfile import ZipFile
 
-                self.zip = ZipFile(path)
+                self.zip = ZipFile(self.file)
                 self.path = path
         except Exception:  # zipfile raises many types of exceptions for damaged files
             self.zip = None
@@ -73,8 +78,8 @@ class Blobs:
 
     def close(self) -> None:
         """Closes the zip."""
-        if self.zip is not None:
-            self.zip.close()
+        if self.file is not None:
+            self.file.close()
 
 
 def _zip_path(name: str | None) -> str | None:
@@ -84,11 +89,10 @@ def _zip_path(name: str | None) -> str | None:
     return stem if stem.endswith(".zip") else stem + ".zip"
 
 
-def _directory_size(path: str) -> int:
+def _directory_size(file: BinaryIO) -> int:
     """The size of a zip's directory in bytes, from its end-of-central-directory record."""
-    with open(path, "rb") as file:
-        size = file.seek(0, os.SEEK_END)
-        file.seek(max(0, size - (1 << 16) - 22))
-        tail = file.read((1 << 16) + 22)
+    size = file.seek(0, os.SEEK_END)
+    file.seek(max(0, size - (1 << 16) - 22))
+    tail = file.read((1 << 16) + 22)
     at = tail.rfind(_END_RECORD)
     return int.from_bytes(tail[at + 12 : at + 16], "little") if at >= 0 else 1 << 32

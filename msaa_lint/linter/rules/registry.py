@@ -9,6 +9,7 @@ from typing import NamedTuple
 from msaa_lint.core import package
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding, RuleInfo
+from msaa_lint.core.project import project_root
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Span
 
@@ -63,32 +64,33 @@ CheckFixes = Callable[[Rule], list[Finding]]
 """The problems of a rule's fixes."""
 
 
-def load(paths: Sequence[str] = (), check_fixes: CheckFixes = lambda _: []) -> Registry:
+def load(paths: Sequence[str] = (), check_fixes: CheckFixes = lambda _: [], projects: Mapping[str, str] = {}) -> Registry:
     """The built-in rules, and the rules of the given rule pages and folders of rule pages.
 
-    Only the user's own rules are checked here, fixes with `check_fixes`; the test suite checks the built-in rules. A rule with a problem
-    is left out.
+    `projects` has the projects of the paths that a configuration names. The pages of a folder must be in its project. Only the user's own
+    rules are checked here, fixes with `check_fixes`; the test suite checks the built-in rules. A rule with a problem is left out.
     """
     rules: list[Rule] = []
     problems: list[Finding] = []
     sources: dict[str, Source] = {}
     broken: list[BrokenPage] = []
     for path in pages(folder()):
-        page = read_page(path, f"rules/{os.path.basename(path)}")
+        page = read_page(path, f"rules/{os.path.basename(path)}", None)
         problems.extend(page.problems)
         if page.rule is not None:
             rules.append(page.rule)
-    user_pages: dict[str, None] = {}
+    user_pages: dict[str, str | None] = {}
     for path in paths:
         found = pages(path)
-        user_pages.update(dict.fromkeys(map(os.path.normpath, found)))
+        project = projects.get(path) or (None if found == [path] else project_root(path))
+        user_pages.update(dict.fromkeys(map(os.path.normpath, found), project))
         if not found:
             shown = os.path.relpath(path).replace(os.sep, "/")
             problems.append(diagnostic("MSAA921", "no rule pages in this folder", shown))
     names = {rule.name for rule in rules}.union(map(_name, user_pages))
-    for path in user_pages:
+    for path, project in user_pages.items():
         shown = os.path.relpath(path).replace(os.sep, "/")
-        page = read_page(path, shown)
+        page = read_page(path, shown, project)
         if page.source is not None:
             sources[shown] = page.source
         of_page = list(page.problems)

@@ -6,10 +6,12 @@ from typing import NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import CONFIDENCES, SEVERITIES, Finding
+from msaa_lint.core.project import Outside
 from msaa_lint.core.quote import quoted
+from msaa_lint.core.text.files import read
 from msaa_lint.core.text.source import Source, Unreadable, decode
 from msaa_lint.core.text.span import Span
-from msaa_lint.core.text.tree import Limits, Node, parse, read
+from msaa_lint.core.text.tree import Limits, Node, parse
 
 from .front_matter import FENCE, first_sentence, mistake, split
 
@@ -149,13 +151,16 @@ KEYS = (
 REQUIRED = ("code", "severity", "subject", "when", "message")
 
 
-def read_page(path: str, shown: str) -> Page:
-    """Reads a rule page. `shown` is the path in messages."""
+def read_page(path: str, shown: str, project: str | None) -> Page:
+    """Reads a rule page. `shown` is the path in messages; `project` is None for a built-in page, and for a page of the command line."""
     name = os.path.basename(path).removesuffix(".md")
     try:
-        text = decode(read(path, Limits(bytes=MAX_PAGE_BYTES)))
+        text = decode(read(path, MAX_PAGE_BYTES, project))
+    except Outside as error:
+        return Page(None, (diagnostic("MSAA921", f"cannot read the rule page: {error}; only `--rules` can name such a page", shown),))
     except (OSError, Unreadable) as error:
-        return Page(None, (diagnostic("MSAA921", f"cannot read the rule page: {error}", shown),))
+        reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
+        return Page(None, (diagnostic("MSAA921", f"cannot read the rule page: {reason}", shown),))
     source = Source(shown, text)
     front, body = split(text)
     if front is None:

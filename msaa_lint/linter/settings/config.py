@@ -4,8 +4,8 @@ The nearest folder upward with a `msaa-lint.toml`, or a `pyproject.toml` with `[
 former. Configurations of outer folders are not merged in. `extends` names another file of the same project: its keys are the defaults of
 the file that extends it, and the tables `severity`, `limits` and `per-file-ignores` are merged key by key.
 
-A configuration may come from an untrusted branch. The files that it names (`extends`, `rules`, `baseline`) must be in the project
-(`project.project_root`) with all symbolic links resolved, and so must the file itself unless the user named it.
+A configuration may come from an untrusted branch. The files that it names (`extends`, `rules`, `baseline`, `profile`) must be in its
+project (`project.project_root`), and so must the file itself unless the user named it.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
-from msaa_lint.core.project import NAMES, inside, project_root, shown
+from msaa_lint.core.project import NAMES, Outside, folder_of, project_root, shown
 from msaa_lint.core.quote import quoted
 from msaa_lint.core.text.span import Span
 
@@ -84,7 +84,7 @@ class Configurations:
 
 
 def _read_named(path: str) -> Loaded:
-    text = _text(path)
+    text = _text(path, None)
     if isinstance(text, Finding):
         return Loaded(Settings(root=os.path.dirname(path)), path, (text,))
     from .toml_text import parsed
@@ -96,14 +96,11 @@ def read_folder(folder: str) -> Loaded | None:
     """The configuration in a folder itself; None if it has none."""
     for name in NAMES:
         path = os.path.join(folder, name)
-        if not os.path.isfile(path):
+        if not os.path.lexists(path) or (os.path.isdir(path) and not os.path.islink(path)):
             continue
-        if os.path.islink(path) and not inside(path, project_root(folder)):
-            message = "the configuration is a link that leaves the project: pass it with --config to use it"
-            return Loaded(Settings(root=folder), path, (diagnostic("MSAA921", message, shown(path)),))
-        text = _text(path)
+        text = _text(path, project_root(folder))
         if isinstance(text, Finding):
-            if name == NAMES[0]:
+            if name == NAMES[0] or os.path.islink(path):
                 return Loaded(Settings(root=folder), path, (text,))
             continue
         if name == NAMES[1] and not ("msaa-lint" in text and re.search(_TABLE, text)):
@@ -123,18 +120,17 @@ def _has_table(text: str, table: Mapping[str, Any] | Finding) -> bool:
     return "msaa-lint" in _tool(table)
 
 
-def _text(path: str) -> str | Finding:
-    """The text of a configuration file, or a finding that says why it cannot be read."""
-    from msaa_lint.core.text.source import Unreadable, decode
+def _text(path: str, project: str | None) -> str | Finding:
+    """The text of a configuration file, or a finding that says why it cannot be read. `project` is None for one that the user named."""
+    from msaa_lint.core.text.files import read
+    from msaa_lint.core.text.source import decode
 
     try:
-        with open(path, "rb") as file:
-            data = file.read(MAX_BYTES + 1)
-        if len(data) > MAX_BYTES:
-            raise Unreadable(f"it is larger than the limit of {MAX_BYTES} bytes")
-        return decode(data)
+        return decode(read(path, MAX_BYTES, project))
     except FileNotFoundError:
         reason = "no such file"
+    except Outside as error:
+        reason = f"{error}; pass it with --config to use it"
     except (OSError, ValueError) as error:
         reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
     return diagnostic("MSAA921", f"cannot read the configuration: {reason}", shown(path))
@@ -152,7 +148,7 @@ def _read(path: str, text: str, table: dict[str, Any] | Finding) -> Loaded:
     from .config_keys import TableReader
     from .toml_text import parsed
 
-    folder = os.path.dirname(path)
+    folder = os.path.abspath(folder_of(path))
     root = project_root(folder)
     layers: list[tuple[dict[str, Any], Origin]] = []
     findings: list[Finding] = []
@@ -176,13 +172,13 @@ def _read(path: str, text: str, table: dict[str, Any] | Finding) -> Loaded:
             )
             findings.append(origin.finding((), message))
             break
-        reader = TableReader(origin, os.path.dirname(current), lambda target: inside(target, root))
+        reader = TableReader(origin, folder if current == path else os.path.dirname(current), root)
         reader.read(keys)
         current = _extended(reader, keys, chain)
         findings.extend(sorted(reader.findings, key=lambda finding: finding.span or Span(0, 0)))
         layers.append((reader.values, origin))
         if current is not None:
-            extended = _text(current)
+            extended = _text(current, root)
             if isinstance(extended, Finding):
                 findings.append(origin.finding(("extends",), f"{extended.message}: {shown(current)}"))
                 break
@@ -210,7 +206,7 @@ def _extended(reader: TableReader, table: Mapping[str, Any], chain: list[str]) -
         reader.problem(("extends",), f"cycle {cycle}")
     elif len(chain) >= MAX_CHAIN:
         reader.problem(("extends",), f"chain of more than {MAX_CHAIN} files")
-    elif not os.path.isfile(path):
+    elif not os.path.lexists(path):
         reader.problem(("extends",), f"no such file {quoted(text)}", "write a path relative to the folder of the configuration")
     else:
         return path

@@ -10,6 +10,7 @@ from typing import Any
 
 from msaa_lint.core.finding import CONFIDENCES, SEVERITIES, Finding
 from msaa_lint.core.globs import Glob
+from msaa_lint.core.project import Outside, real_path
 from msaa_lint.core.quote import quoted
 from msaa_lint.core.suggestions import near_or_all
 from msaa_lint.core.text.tree import Limits
@@ -36,13 +37,13 @@ Path = tuple[str | int, ...]
 class TableReader:
     """Reads the table of one configuration file: valid values go to `values` by key, and problems to `findings`.
 
-    `root` is the folder that paths are relative to. `in_project` says whether a path stays in the project.
+    `root` is the folder that paths are relative to, and `project` the one that they must stay in.
     """
 
-    def __init__(self, origin: Origin, root: str, in_project: Callable[[str], bool]) -> None:
+    def __init__(self, origin: Origin, root: str, project: str) -> None:
         self.origin = origin
         self.root = root
-        self.in_project = in_project
+        self.project = project
         self.values: dict[str, Any] = {}
         self.findings: list[Finding] = []
 
@@ -151,10 +152,14 @@ class TableReader:
 
     def project_path(self, path: Path, item: str) -> str | None:
         """The absolute path of a file that must be in the project."""
-        full = os.path.normpath(os.path.join(self.root, item))
-        if self.in_project(full):
-            return full
-        self.problem(path, f"{quoted(item)} leaves the project", "only the command line can name files outside of it")
+        try:
+            real_path(os.path.join(self.root, item), self.project)
+        except Outside:
+            self.problem(path, f"{quoted(item)} is outside the project", "only the command line can name such a file")
+        except OSError as error:
+            self.problem(path, f"{quoted(item)} cannot be used: {error}")
+        else:
+            return os.path.normpath(os.path.join(self.root, item))
         return None
 
     def severities(self, path: Path, value: Any) -> dict[str, str]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.globs import Glob
+from msaa_lint.core.project import project_root
 
 if TYPE_CHECKING:
     from msaa_lint.core.text.source import Source
@@ -39,12 +40,14 @@ class Origin(NamedTuple):
 
 
 class Choice(NamedTuple):
-    """The rules that the command line selects. They take precedence over those of a file; `select` replaces them."""
+    """The rules that the command line selects. They take precedence over those of a file; `select` replaces them. `pages` are the rule
+    pages, and folders of rule pages, that it names."""
 
     select: tuple[str, ...] | None = None
     extend_select: tuple[str, ...] = ()
     ignore: tuple[str, ...] = ()
     severity: Mapping[str, str] = {}
+    pages: tuple[str, ...] = ()
 
 
 class Settings(NamedTuple):
@@ -89,6 +92,15 @@ class Settings(NamedTuple):
     root: str = ""
     command_line: Choice = Choice()
     origin: Mapping[tuple[str, ...], Origin] = {}
+
+    def project(self, key: str) -> str | None:
+        """The project in which the file that `key` names must be; None if the command line names it."""
+        return project_root(self.root) if (key,) in self.origin else None
+
+    def page_projects(self) -> dict[str, str]:
+        """The projects of the rule pages, and folders of rule pages, that only a configuration names."""
+        project = self.project("rules")
+        return {} if project is None else dict.fromkeys(set(self.rules).difference(self.command_line.pages), project)
 
     def problem(self, key: str, message: str, hint: str = "") -> Finding:
         """A finding about the value of `key`, spelled as in a file (`fail-on`), wherever it was set."""
@@ -136,11 +148,12 @@ def override(
         "limits": {**settings.limits, **limits} if limits else None,
     }
     stated = {name: value for name, value in values.items() if value is not None}
+    pages = tuple(map(os.path.abspath, rules))
     replaced = {name.replace("_", "-") for name in stated}
     return settings._replace(
         **stated,
-        rules=(*settings.rules, *(os.path.abspath(path) for path in rules)),
+        rules=(*settings.rules, *pages),
         exclude=(*settings.exclude, *(Glob(pattern, here) for pattern in globs["exclude"])),
-        command_line=Choice(None if select is None else tuple(select), tuple(extend_select), tuple(ignore), dict(severity or {})),
+        command_line=Choice(None if select is None else tuple(select), tuple(extend_select), tuple(ignore), dict(severity or {}), pages),
         origin={path: origin for path, origin in settings.origin.items() if path[0] not in replaced},
     )

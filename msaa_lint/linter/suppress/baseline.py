@@ -52,18 +52,15 @@ class Stale(NamedTuple):
         return f"the baseline counts {self.counted} of {self.rule} in {self.file}, but there {verb} {self.reported}"
 
 
-def load(path: str) -> Baseline | Refused:
-    """The baseline at a path, or its problems (MSAA921)."""
-    from msaa_lint.core.project import shown
-    from msaa_lint.core.text.source import Source, Unreadable, decode
+def load(path: str, project: str | None) -> Baseline | Refused:
+    """The baseline at a path, or its problems (MSAA921). `project` is None for a path of the command line."""
+    from msaa_lint.core.project import folder_of, shown
+    from msaa_lint.core.text.files import read
+    from msaa_lint.core.text.source import Source, decode
 
     name = shown(path)
     try:
-        with open(path, "rb") as file:
-            data = file.read(MAX_BYTES + 1)
-        if len(data) > MAX_BYTES:
-            raise Unreadable(f"it is larger than the limit of {MAX_BYTES} bytes")
-        source = Source(name, decode(data))
+        source = Source(name, decode(read(path, MAX_BYTES, project)))
     except FileNotFoundError:
         return Refused((diagnostic("MSAA921", f"no such baseline {quoted(name)}: `msaa-lint baseline` writes one", name),))
     except (OSError, ValueError) as error:
@@ -74,7 +71,7 @@ def load(path: str) -> Baseline | Refused:
     entries, findings = read_entries(source, SCHEMA)
     if findings:
         return Refused(tuple(findings), {name: source})
-    return Baseline(entries, os.path.dirname(os.path.abspath(path)))
+    return Baseline(entries, os.path.abspath(folder_of(path)))
 
 
 def apply(findings: Iterable[Finding], baseline: Baseline) -> tuple[list[Finding], list[Suppressed]]:

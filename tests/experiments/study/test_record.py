@@ -338,7 +338,7 @@ def test_what_is_no_file_is_not_read(beside: Path, tmp_path_factory: pytest.Temp
     assert "it is a pipe, not a regular file" in of(beside).says
     record.unlink()
     record.symlink_to(tmp_path_factory.mktemp("elsewhere") / "secret")
-    assert of(beside).says == "frame.msaa.yaml.msaa-study.json leaves the project"
+    assert of(beside).says == "frame.msaa.yaml.msaa-study.json cannot be read: it is outside the project"
     record.unlink()
     record.symlink_to("nowhere")
     assert "cannot be read: No such file or directory" in of(beside).says

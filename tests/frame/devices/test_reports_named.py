@@ -99,13 +99,13 @@ def test_a_file_that_is_missing(project: Path) -> None:
 
 
 def test_what_leaves_the_project_is_not_looked_at(project: Path) -> None:
-    left = "--profile on the command line can name what lies outside"
+    help = "only --profile on the command line can name such a file"
     for name in ("../outside.json", "../nothing.json", str(project.parent / "outside.json"), "/etc/hostname.txt"):
-        assert named(project, name) == Problem("MSAA903", f"`{name}` leaves the project", left)
+        assert named(project, name) == Problem("MSAA903", f"`{name}` is outside the project", help)
     (project / "link.json").symlink_to(project.parent / "outside.json")
-    assert named(project, "link.json") == Problem("MSAA903", "`link.json` leaves the project", left)
+    assert named(project, "link.json") == Problem("MSAA903", "`link.json` is outside the project", help)
     (project / "folder").symlink_to(project.parent)
-    assert named(project, "folder/outside.json") == Problem("MSAA903", "`folder/outside.json` leaves the project", left)
+    assert named(project, "folder/outside.json") == Problem("MSAA903", "`folder/outside.json` is outside the project", help)
     (project / "inner.json").symlink_to("phone.json")
     assert isinstance(named(project, "inner.json"), DeviceProfile)
     assert isinstance(profile_of(str(project / "link.json")), DeviceProfile), "who types the command line may"

@@ -304,14 +304,14 @@ def test_a_folder_without_pages_is_told(tmp_path: Path) -> None:
 def test_what_is_no_page(tmp_path: Path, data: bytes) -> None:
     path = tmp_path / "page.md"
     path.write_bytes(data)
-    page = read_page(str(path), "page.md")
+    page = read_page(str(path), "page.md", None)
     assert page.rule is None
     assert {found.code for found in page.problems} == {"MSAA921"}
 
 
 def test_a_page_that_is_not_there(tmp_path: Path) -> None:
     for path in (tmp_path / "none.md", tmp_path):
-        page = read_page(str(path), "none.md")
+        page = read_page(str(path), "none.md", None)
         assert [found.code for found in page.problems] == ["MSAA921"]
 
 

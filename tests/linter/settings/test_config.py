@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.globs import Glob
-from msaa_lint.core.project import inside, project_root, shown
+from msaa_lint.core.project import Outside, project_root, real_path, shown
 from msaa_lint.linter.settings import config
 from msaa_lint.linter.settings.config import Configurations, Loaded
 from msaa_lint.linter.settings.selectors import unknown_selectors
@@ -142,7 +142,7 @@ RELATIVE = "write a path relative to the folder of the configuration"
     ("name", "text", "message"),
     [
         ("none.toml", None, "cannot read the configuration: no such file"),
-        (".", None, "cannot read the configuration: Is a directory"),
+        (".", None, "cannot read the configuration: it is a folder, not a regular file"),
         ("bad.toml", "x = '\ufffd'".encode("latin-1", "replace") + b"\xff", "cannot read the configuration: the input is not UTF-8"),
         ("pyproject.toml", b"[project]\n", "the configuration has no table [tool.msaa-lint]"),
         ("pyproject.toml", b"[tool]\nmsaa-lint = 1\n", "[tool.msaa-lint] is not a table"),
@@ -283,12 +283,12 @@ resolve-outside-pass = "off"
         (
             'rules = ["../../etc"]\n',
             (1, 10, 1, 21, '"../../etc"'),
-            "`../../etc` leaves the project in `rules` of msaa-lint.toml: only the command line can name files outside of it",
+            "`../../etc` is outside the project in `rules` of msaa-lint.toml: only the command line can name such a file",
         ),
         (
             'baseline = "/b.json"\n',
             (1, 12, 1, 21, '"/b.json"'),
-            "`/b.json` leaves the project in `baseline` of msaa-lint.toml: only the command line can name files outside of it",
+            "`/b.json` is outside the project in `baseline` of msaa-lint.toml: only the command line can name such a file",
         ),
         (
             'baseline = "a.sh"\n',
@@ -436,11 +436,11 @@ def test_a_chain_is_bounded() -> None:
         ("none.toml", f"no such file `none.toml` in `extends` of msaa-lint.toml: {RELATIVE}"),
         (
             "../other.toml",
-            "`../other.toml` leaves the project in `extends` of msaa-lint.toml: only the command line can name files outside of it",
+            "`../other.toml` is outside the project in `extends` of msaa-lint.toml: only the command line can name such a file",
         ),
-        ("link.toml", "`link.toml` leaves the project in `extends` of msaa-lint.toml: only the command line can name files outside of it"),
+        ("link.toml", "`link.toml` is outside the project in `extends` of msaa-lint.toml: only the command line can name such a file"),
         ("/etc/passwd", "`/etc/passwd` is not a .toml file in `extends` of msaa-lint.toml: write a name that ends in .toml"),
-        ("folder.toml", f"no such file `folder.toml` in `extends` of msaa-lint.toml: {RELATIVE}"),
+        ("folder.toml", "cannot read the configuration: it is a folder, not a regular file: folder.toml"),
     ],
 )
 def test_what_cannot_be_extended(target: str, message: str, project: Path) -> None:
@@ -467,7 +467,10 @@ def test_a_found_file_that_links_out_of_the_project_is_not_read(project: Path) -
     outside.write_text("token = 'hidden'\n")
     Path("msaa-lint.toml").symlink_to(outside)
     found = only(load("x.yaml"))
-    assert (found.message, found.span) == ("the configuration is a link that leaves the project: pass it with --config to use it", None)
+    assert (found.message, found.span) == (
+        "cannot read the configuration: it is outside the project; pass it with --config to use it",
+        None,
+    )
     assert (
         load("x.yaml", explicit="msaa-lint.toml").findings[0].message.startswith("unknown key `token` in msaa-lint.toml: expected one of ")
     )
@@ -481,8 +484,9 @@ def test_the_project_is_the_repository_or_the_outermost_configuration(project: P
     assert project_root("a/b/c") == str(project)
     write("a/b/.git", "gitdir: elsewhere")
     assert project_root("a/b/c") == str(project / "a/b")
-    assert inside("a/b/../x", str(project))
-    assert not inside(f"{project}-other/x", str(project))
+    assert real_path("a/b/../x", str(project)) == str(project / "a/x")
+    with pytest.raises(Outside):
+        real_path(f"{project}-other/x", str(project))
 
 
 def test_paths_are_shown_from_the_current_folder(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -563,7 +567,7 @@ def test_the_command_line_overrides(project: Path) -> None:
     assert after.exclude == (Glob("a", str(project)), Glob("b", str(project)))
     assert after.limits == {"depth": 9, "nodes": 5}
     assert (after.rules, after.baseline) == ((str(project / "sub"),), str(project / "b.json"))
-    assert after.command_line == Choice(("ALL",), (), ("MSAA3",), {})
+    assert after.command_line == Choice(("ALL",), (), ("MSAA3",), {}, (str(project / "sub"),))
     assert override(before) == before
     with pytest.raises(ValueError, match="empty name"):
         override(before, exclude=["a//b"])

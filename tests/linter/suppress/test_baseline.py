@@ -75,7 +75,7 @@ def test_files_are_named_from_the_baselines_folder(folder: Path, monkeypatch: py
     save(made, "ci/baseline.json")
     (folder / "frames").mkdir()
     monkeypatch.chdir("frames")
-    read = load("../ci/baseline.json")
+    read = load("../ci/baseline.json", None)
     assert read == made
     assert isinstance(read, Baseline)
     assert apply([finding("a.yaml")], read)[0] == []
@@ -110,7 +110,7 @@ def test_saving_replaces_whole_and_leaves_nothing_beside(folder: Path) -> None:
     save(baseline(a_yaml={"x": 1}), "b.json")
     save(baseline(a_yaml={"x": 2}), "b.json")
     assert os.listdir(folder) == ["b.json"]
-    assert load("b.json") == baseline(a_yaml={"x": 2})
+    assert load("b.json", None) == baseline(a_yaml={"x": 2})
     with pytest.raises(OSError):
         save(baseline(), "no/b.json")
 
@@ -118,7 +118,7 @@ def test_saving_replaces_whole_and_leaves_nothing_beside(folder: Path) -> None:
 def test_a_name_that_is_no_utf_8_is_written_and_read() -> None:
     name = os.fsdecode(b"caf\xe9.yaml")
     save(build([finding(name)]), "b.json")
-    read = load("b.json")
+    read = load("b.json", None)
     assert isinstance(read, Baseline)
     assert apply([finding(name)], read)[0] == []
 
@@ -167,7 +167,7 @@ HEAD = '{"schema": "msaa-lint/baseline-v1", "entries": '
 )
 def test_a_mistake_is_at_its_place(text: str, at: tuple[int, str], message: str) -> None:
     Path("b.json").write_text(text)
-    read = load("b.json")
+    read = load("b.json", None)
     assert isinstance(read, Refused)
     (found,) = read.findings
     assert found.span is not None
@@ -190,14 +190,14 @@ def test_a_mistake_is_at_its_place(text: str, at: tuple[int, str], message: str)
 def test_what_cannot_be_read_is_one_error(data: bytes | None, message: str) -> None:
     if data is not None:
         Path("b.json").write_bytes(data)
-    read = load("b.json")
+    read = load("b.json", None)
     assert isinstance(read, Refused)
     assert [each.message.startswith(message) for each in read.findings] == [True], read.findings
 
 
 def test_the_mistakes_of_a_file_are_bounded() -> None:
     Path("b.json").write_text(HEAD + json.dumps({f"f{i}": 0 for i in range(1000)}) + "}")
-    read = load("b.json")
+    read = load("b.json", None)
     assert isinstance(read, Refused)
     assert len(read.findings) == 50
 
@@ -255,4 +255,4 @@ def test_every_finding_is_kept_or_silenced_in_order(base: Baseline, found: list[
 def test_what_is_saved_is_what_is_read(entries: dict[str, Any]) -> None:
     made = Baseline(entries, os.getcwd())
     save(made, "b.json")
-    assert load("b.json") == made
+    assert load("b.json", None) == made

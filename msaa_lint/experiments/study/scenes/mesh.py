@@ -6,6 +6,7 @@ January 2024, and plyfile reads only PLY.
 
 from __future__ import annotations
 
+import io
 import os
 from typing import Any
 
@@ -13,6 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from msaa_lint.core.extras import needs_extra
+from msaa_lint.core.text.files import read
+from msaa_lint.core.text.source import Unreadable
 from msaa_lint.experiments.study.exact_area import areas_of
 from msaa_lint.experiments.study.resolve import from_srgb
 
@@ -71,16 +74,17 @@ def _read(path: str) -> tuple[Floats, Floats | None]:
     format = FORMATS.get(os.path.splitext(path)[1].lower())
     if format is None:
         raise ValueError(f"a mesh must be a {' or '.join(FORMATS)} file")
-    with open(path, "rb") as file:
-        if os.fstat(file.fileno()).st_size > MAX_BYTES:
-            raise ValueError(f"the file is larger than {MAX_BYTES >> 20} MiB")
-        try:
-            # Read from the open file, so that no other file that it names (materials, textures) is opened.
-            mesh = trimesh.load_mesh(file, file_type=format, process=False, skip_materials=True)
-            corners = np.asarray(mesh.triangles, np.float64)
-            colors = _colors(mesh)
-        except Exception as error:
-            raise ValueError(f"the file is not a valid {format.upper()} mesh: {type(error).__name__}: {str(error)[:200]}") from None
+    try:
+        data = read(path, MAX_BYTES, None)
+    except Unreadable:
+        raise ValueError(f"the file is larger than {MAX_BYTES >> 20} MiB") from None
+    try:
+        # Bytes have no folder in which trimesh would look for other files that the mesh names (materials, textures).
+        mesh = trimesh.load_mesh(io.BytesIO(data), file_type=format, process=False, skip_materials=True)
+        corners = np.asarray(mesh.triangles, np.float64)
+        colors = _colors(mesh)
+    except Exception as error:
+        raise ValueError(f"the file is not a valid {format.upper()} mesh: {type(error).__name__}: {str(error)[:200]}") from None
     if not len(corners):
         raise ValueError("the file has no triangles")
     if len(corners) > MAX_TRIANGLES:
