@@ -96,7 +96,7 @@ def test_a_link_that_takes_the_place_of_a_file_or_folder_is_not_followed(project
     (project / "folder").symlink_to("../outside")
     monkeypatch.setattr(files, "real_path", lambda path, _: path)
     for path in ("file", "folder/secret"):
-        with pytest.raises(OSError, match="not a regular file|Not a directory|symbolic links"):
+        with pytest.raises(OSError, match=r"not a regular file|Not a directory|symbolic links"):
             inside(project.resolve(), path)
 
 
