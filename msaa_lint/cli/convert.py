@@ -43,7 +43,7 @@ def convert_input(path: str, output: str | None, format: str | None, force: bool
             _convert_source(data, output, force)
         else:
             _write(data.source.text, data.modules, output, force)
-            for text in data.notes:
+            for text in (*data.notes, *(f"{name}: limit exceeded: {limit}" for limit, _ in data.limits)):
                 note(text)
             if data.broken:
                 raise _ConvertError(f"{name}: the capture is truncated: {data.broken}")

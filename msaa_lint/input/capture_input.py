@@ -23,7 +23,8 @@ class CaptureInput(NamedTuple):
 
     `format` is one of `readers.CAPTURES`. `source` is the text of the description, whose origins are the captured calls; `modules` is the
     code of its shaders by name. `broken` says why the rest of the capture could not be read, which the last line of the text stands for;
-    empty if all was read. `notes` are lines for the user about what is missing.
+    empty if all was read. `limits` say what is not checked because it exceeds a limit, with the lines of the text that stand for it.
+    `notes` are lines for the user about what is missing.
     """
 
     format: str
@@ -31,6 +32,7 @@ class CaptureInput(NamedTuple):
     modules: Mapping[str, bytes]
     frames: int
     broken: str
+    limits: tuple[tuple[str, Span], ...]
     notes: tuple[str, ...]
 
     @property
@@ -61,15 +63,21 @@ def read_capture(stream: BinaryIO, format: str, name: str, path: str | None) -> 
     if tracker.frames.dropped:
         count = f"{tracker.frames.dropped} of {tracker.frames.total} frames"
         notes.append(f"{name}: {count} were not linted because the capture has too many kinds of frames")
+    limits = []
+    for limit, place in tracker.frames.limits.items():
+        comment = f"# {limit}"
+        limits.append((limit, Span(len(text), len(text) + len(comment))))
+        text += f"{comment}\n"
+        origins.append(Origin(*place, ""))
     if broken is not None:
         text += "# the capture is readable up to here\n"
         origins.append(Origin(*broken.place, ""))
     message = broken.message if broken is not None else ""
-    return CaptureInput(format, Source(name, text, origins), modules, tracker.frames.total, message, tuple(notes))
+    return CaptureInput(format, Source(name, text, origins), modules, tracker.frames.total, message, tuple(limits), tuple(notes))
 
 
 def capture_findings(capture: CaptureInput, findings: Sequence[Finding]) -> list[Finding]:
-    """The findings with their locations in the capture, merged across kinds of frames. A truncated capture has one more, at its end."""
+    """The findings with their locations in the capture, merged across kinds of frames, and those about what is not checked."""
     merged: dict[Hashable, Finding] = {}
     for finding in findings:
         found = _located(capture, finding)
@@ -82,12 +90,17 @@ def capture_findings(capture: CaptureInput, findings: Sequence[Finding]) -> list
             merged[key if first is None else (key, len(merged))] = found
         else:
             merged[key] = _of_both_kinds(first, found)
-    result = list(merged.values())
+    result = [*merged.values(), *limit_findings(capture)]
     if capture.broken:
         text = capture.source.text
         start = text.rfind("\n", 0, len(text) - 1) + 1
         result.append(diagnostic("MSAA901", f"the capture ends here: {capture.broken}", capture.source.name, Span(start, len(text) - 1)))
     return result
+
+
+def limit_findings(capture: CaptureInput) -> list[Finding]:
+    """The findings about what of a capture is not checked because it exceeds a limit."""
+    return [diagnostic("MSAA906", f"limit exceeded: {limit}", capture.source.name, span) for limit, span in capture.limits]
 
 
 def _of_both_kinds(first: Finding, other: Finding) -> Finding:

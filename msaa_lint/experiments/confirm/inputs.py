@@ -13,6 +13,7 @@ from msaa_lint.frame.facts.commands import accesses
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.global_facts import profile
 from msaa_lint.frame.facts.parts import Pass
+from msaa_lint.input.capture_input import limit_findings
 from msaa_lint.input.source_file import SourceFile
 from msaa_lint.linter.fixes.file_fixes import FixedText, fix_input
 from msaa_lint.linter.results import DocumentResult, FileResult
@@ -78,6 +79,7 @@ def _of_file(workspace: Workspace, path: str) -> list[Input]:
         # What is confirmed is the description that a capture is converted to.
         if data.broken:
             workspace.findings.append(diagnostic("MSAA901", f"the capture ends in the middle: {data.broken}", file.name))
+        workspace.findings.extend(limit_findings(data))
         data = data.source.text.encode()
         file = file._replace(data=data, options=file.options._replace(format=None))
     result = file.lint()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from .call import Call, Place, without_vendor
 from .objects import DescriptorSet, Framebuffer, Image, Pipeline, RenderPass
@@ -41,6 +41,13 @@ class DescriptorReads(NamedTuple):
     stage: str
 
 
+class Execution(NamedTuple):
+    """The first `length` commands of a list: what a secondary command buffer had recorded when vkCmdExecuteCommands was recorded."""
+
+    commands: list[RecordedCommand | Execution]
+    length: int
+
+
 class RenderPassBegin(NamedTuple):
     """vkCmdBeginRenderPass. `images` come from the framebuffer, or from the call if the framebuffer is imageless."""
 
@@ -70,12 +77,20 @@ class CommandCache:
 class CommandBuffer:
     """A command buffer: its state during recording, and its commands."""
 
-    __slots__ = ("bound", "commands", "compute_bound", "fresh", "many", "pipeline", "reads", "samples", "subpass_commands")
+    __slots__ = ("bound", "commands", "compute_bound", "counted", "fresh", "many", "omitted", "pipeline", "reads", "samples",
+                 "submission", "submitted_length", "subpass_commands")  # fmt: skip
 
     def __init__(self) -> None:
-        self.commands: list[RecordedCommand] = []
+        self.commands: list[RecordedCommand | Execution] = []
         self.reads = False
         """Whether `commands` contains DescriptorReads."""
+        self.omitted = False
+        """Whether commands were left out, or those of a secondary command buffer."""
+        self.counted = False
+        """Whether it was submitted."""
+        self.submission: Any = None
+        """The Submission of its first `submitted_length` commands, if it does not depend on the frame."""
+        self.submitted_length = 0
         self.pipeline: Pipeline | None = None
         self.bound: dict[int, DescriptorSet] = {}
         self.compute_bound: dict[int, DescriptorSet] = {}
@@ -92,10 +107,12 @@ class CommandBuffer:
         """The sample count that commands set, if the pipeline leaves it dynamic."""
         return self.samples if self.pipeline is not None and self.pipeline.dynamic_samples else None
 
-    def record(self, command: RecordedCommand) -> None:
+    def record(self, command: RecordedCommand | Execution) -> None:
         """Adds a command."""
         if len(self.commands) < MAX_COMMANDS:
             self.commands.append(command)
+        else:
+            self.omitted = True
 
     def record_once(self, command: RecordedCommand) -> None:
         """Adds a command unless the current subpass already has it."""

@@ -12,7 +12,7 @@ from .command_buffers import (
     MAX_FULLSCREEN_VERTICES,
     CommandBuffer,
     DescriptorReads,
-    RecordedCommand,
+    Execution,
     RenderPassBegin,
     kind_of,
 )
@@ -22,8 +22,11 @@ from .structures import Tree, to_tree
 
 GRAPHICS = ("VK_PIPELINE_BIND_POINT_GRAPHICS", 0, "0")
 
-BOUNDARIES = ("beginRenderPass", "beginRendering", "nextSubpass", "endRenderPass", "endRendering")
-"""Commands that begin or end a pass or subpass."""
+MAX_BOUND = 64
+"""Maximum number of descriptor sets that are bound at a time; devices allow 32."""
+
+MAX_PUSHED = 256
+"""Maximum number of images that are pushed at a time; devices allow a few dozen descriptors."""
 
 COUNTED = {"vkCmdDraw": "vertexCount", "vkCmdDrawIndexed": "indexCount"}
 """The parameter with the number of vertices or indices of a draw; other draws have it in a buffer."""
@@ -61,6 +64,12 @@ class CommandTracker(Descriptors):
     def on_DestroyCommandPool(self, call: Call) -> None:
         for handle in self.pools.pop(values.handle(call.args.get("commandPool")), ()):
             self.buffers.pop(handle, None)
+
+    def on_FreeCommandBuffers(self, call: Call) -> None:
+        pool = self.pools.get(values.handle(call.args.get("commandPool")), set())
+        for handle in map(values.handle, values.items(call.args.get("pCommandBuffers"))):
+            self.buffers.pop(handle, None)
+            pool.discard(handle)
 
     def on_BeginCommandBuffer(self, call: Call) -> None:
         self.buffers[values.handle(call.args.get("commandBuffer"))] = CommandBuffer()
@@ -134,8 +143,9 @@ class CommandTracker(Descriptors):
             secondary = self.buffers.get(values.handle(item))
             if secondary is not None and secondary is not buffer:
                 buffer.reads = buffer.reads or secondary.reads
-                for command in secondary.commands:
-                    buffer.record(command)
+                buffer.omitted = buffer.omitted or secondary.omitted
+                if secondary.commands:
+                    buffer.record(Execution(secondary.commands, len(secondary.commands)))
         # vkCmdExecuteCommands makes all bound state undefined.
         buffer.pipeline = None
         buffer.bound.clear()
@@ -163,7 +173,7 @@ class CommandTracker(Descriptors):
         point = call.args.get("pipelineBindPoint")
         bound = buffer.bound if point in GRAPHICS else buffer.compute_bound
         slot = values.integer(call.args.get("firstSet")) or 0
-        for item in values.items(call.args.get("pDescriptorSets"))[:64]:
+        for item in values.items(call.args.get("pDescriptorSets"))[: max(MAX_BOUND - slot, 0) if slot >= 0 else 0]:
             descriptors = self.sets.get(values.handle(item))
             if descriptors is not bound.get(slot):
                 # Rebinding the same set with other offsets does not change its images.
@@ -180,17 +190,24 @@ class CommandTracker(Descriptors):
         bound = buffer.bound if point in GRAPHICS else buffer.compute_bound
         pushed = DescriptorSet()
         index = values.integer(call.args.get("set")) or 0
+        if not 0 <= index < MAX_BOUND:
+            return
         before = bound.get(index)
         if before is not None:
-            pushed.images.update(before.images)
+            for slot, use in before.images.items():
+                pushed.put(slot, *use)
             pushed.opaque = before.opaque
         for item in values.items(call.args.get("pDescriptorWrites")):
             self.write(pushed, values.record(item))
+        for slot in list(pushed.images)[:-MAX_PUSHED]:
+            pushed.remove(slot)
         bound[index] = pushed
         buffer.fresh = True
 
     def on_CmdPushDescriptorSetWithTemplate(self, call: Call) -> None:
-        self._opaque(call, values.integer(call.args.get("set")) or 0)
+        index = values.integer(call.args.get("set")) or 0
+        if 0 <= index < MAX_BOUND:
+            self._opaque(call, index)
 
     def on_CmdBindDescriptorBuffers(self, call: Call) -> None:
         self._opaque(call, -1)
@@ -248,43 +265,17 @@ class CommandTracker(Descriptors):
     def on_QueueSubmit(self, call: Call) -> None:
         for item in values.items(call.args.get("pSubmits")):
             for handle in values.items(values.record(item).get("pCommandBuffers")):
-                self._submit(handle)
+                self._submit(handle, call)
 
     def on_QueueSubmit2(self, call: Call) -> None:
         for item in values.items(call.args.get("pSubmits")):
             for info in values.items(values.record(item).get("pCommandBufferInfos")):
-                self._submit(values.record(info).get("commandBuffer"))
+                self._submit(values.record(info).get("commandBuffer"), call)
 
-    def _submit(self, handle: object) -> None:
+    def _submit(self, handle: object, call: Call) -> None:
         buffer = self.buffers.get(values.handle(handle))
         if buffer is not None:
-            self.frames.submit(self._resolve_reads(buffer.commands) if buffer.reads else buffer.commands)
-
-    def _resolve_reads(self, commands: list[RecordedCommand]) -> list[RecordedCommand]:
-        """The commands, with descriptor sets replaced by reads of the images that they hold at submission."""
-        resolved: list[RecordedCommand] = []
-        section_reads: set[RecordedCommand] = set()
-        for command in commands:
-            if not isinstance(command.key, DescriptorReads):
-                if command.kind in BOUNDARIES:
-                    section_reads.clear()
-                resolved.append(command)
-                continue
-            for descriptors in command.key.sets:
-                for image, storage in self._images_of(descriptors):
-                    for kind in ("readImage", "writeImage") if storage else ("readImage",):
-                        read = self.commands.command(kind, (image, command.key.stage), Call(command.by, {}, command.at))
-                        if read not in section_reads:
-                            section_reads.add(read)
-                            resolved.append(read)
-        return resolved
-
-    def _images_of(self, descriptors: DescriptorSet) -> list[tuple[Image, bool]]:
-        """The images of a set, and whether shaders may write them; all possible images if its contents are unknown."""
-        if not descriptors.opaque:
-            return list(descriptors.images.values())
-        readable = [image for image in self.images.values() if "SAMPLED" in image.tree.get("usage", ("SAMPLED",)) and image.attachable]
-        return [*descriptors.images.values(), *((image, False) for image in dict.fromkeys(readable))]
+            self.frames.submit(buffer, call.at, self.commands, self.readable)
 
 
 def area_of(value: object) -> tuple[int, int, int, int] | None:

@@ -9,8 +9,9 @@ from msaa_lint.core.text.source import Origin
 
 from .command_buffers import RecordedCommand, RenderPassBegin
 from .frame_boundary import AspectUse, aspect_uses
-from .frames import PASS_BEGINS, FrameKind, Role
+from .frame_kinds import FrameKind, Role
 from .objects import CapturedObject, Framebuffer, Image, RenderPass
+from .submissions import PASS_BEGINS
 from .yaml_text import Alias, Lines
 
 SOMETIMES = "SOMETIMES"
@@ -22,7 +23,8 @@ class Names:
 
     def __init__(self) -> None:
         self._of: dict[Hashable, str] = {}
-        self._taken: set[tuple[str, str]] = set()
+        self._taken: dict[tuple[str, str], int] = {}
+        """The names, each with the number of the last name that starts with it."""
 
     def of(self, kind: str, created: CapturedObject) -> str:
         """The name of a render pass or a pipeline."""
@@ -42,11 +44,12 @@ class Names:
 
     def _name(self, kind: str, key: Hashable, base: str) -> str:
         if key not in self._of:
-            name, number = base, 1
+            name, number = base, self._taken.get((kind, base), 1)
             while (kind, name) in self._taken:
                 number += 1
                 name = f"{base}_{number}"
-            self._taken.add((kind, name))
+            self._taken[kind, base] = number
+            self._taken.setdefault((kind, name), 1)
             self._of[key] = name
         return self._of[key]
 
@@ -68,6 +71,7 @@ class CommandWriter:
         self.framebuffers = framebuffers
         self.total = total
         self.renderings: dict[Hashable, str] = {}
+        self.roles = {image: Role(number) for number, image in enumerate(kind.images)}
 
     def write(self) -> None:
         """Writes the `commands` section."""
@@ -177,10 +181,11 @@ class CommandWriter:
 
     def _from_earlier_frames(self, uses_by_image: dict[Image, dict[str, AspectUse]]) -> Iterator[Image]:
         """Images written by an earlier frame of another kind, which a repetition of this frame would read after discarding them."""
+        defined = self.kind.defined - self.kind.undefined
         for image, uses in uses_by_image.items():
             discarded = [aspect for aspect, use in uses.items() if use.first == "read" and use.last == "discarded"]
             roles = {(self._role(image), aspect) for aspect in discarded}
-            if image in self.described_images and roles & self.kind.defined - self.kind.undefined:
+            if image in self.described_images and roles & defined:
                 yield image
 
     def _for_later_frames(self, uses_by_image: dict[Image, dict[str, AspectUse]]) -> Iterator[Image]:
@@ -192,7 +197,7 @@ class CommandWriter:
 
     def _role(self, image: Image) -> Hashable:
         """The role of an image in the frame; the image itself if it has none."""
-        return next((Role(number) for number, other in enumerate(self.kind.images) if other is image), image)
+        return self.roles.get(image, image)
 
 
 def thaw(value: Any) -> Any:

@@ -5,15 +5,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator
+from collections.abc import Hashable
 from typing import Any
 
 from msaa_lint.core.text.source import Origin
 
 from .command_buffers import RenderPassBegin
 from .command_writer import CommandWriter, Names, commands_of
-from .frames import FrameKind
-from .objects import CapturedObject, Image, Pipeline, RenderPass, freeze
+from .frame_kinds import FrameKind
+from .objects import CapturedObject, Image, Pipeline, RenderPass, freeze, images_in
 from .tracker import Tracker
 from .yaml_text import Lines
 
@@ -71,9 +71,9 @@ class _Writer:
         pipelines = [item for item in dict.fromkeys(draw_counts) if isinstance(item, Pipeline)]
         images = _images(kind)
         if first:
-            images += [item for item in self.unused_images if item not in images]
-            passes += [item for item in self.unused_passes if item not in passes]
-            pipelines += [item for item in self.unused_pipelines if item not in pipelines]
+            images = list(dict.fromkeys([*images, *self.unused_images]))
+            passes += self.unused_passes
+            pipelines = list(dict.fromkeys([*pipelines, *self.unused_pipelines]))
         passes = list(dict.fromkeys([*passes, *_render_passes_of(pipelines)]))
         self._head(kind)
         self._images(images)
@@ -173,13 +173,5 @@ def _images(kind: FrameKind) -> list[Image]:
             images.update(dict.fromkeys(image for image in begin.images if image is not None))
     for command, _ in commands_of(kind):
         if command.kind not in ("beginRenderPass", "pipelineBarrier"):
-            images.update(dict.fromkeys(_images_in(command.key)))
+            images.update(dict.fromkeys(images_in(command.key)))
     return list(images)
-
-
-def _images_in(key: Any) -> Iterator[Image]:
-    if isinstance(key, Image):
-        yield key
-    elif isinstance(key, tuple):
-        for item in key:
-            yield from _images_in(item)

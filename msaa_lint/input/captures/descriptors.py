@@ -9,6 +9,10 @@ from .call import Call
 from .images import Images
 from .objects import DescriptorSet
 
+MAX_COPIED = 64
+"""Maximum number of images that copies always copy."""
+
+_ENDS = ("src", "dst")
 _STORAGE_IMAGE = 3
 _IMAGES = (1, 2, _STORAGE_IMAGE)
 """VkDescriptorType: COMBINED_IMAGE_SAMPLER, SAMPLED_IMAGE, STORAGE_IMAGE. Input attachments are read on the tile and omitted."""
@@ -41,6 +45,12 @@ class Descriptors(Images):
 
     on_DestroyDescriptorPool = on_ResetDescriptorPool
 
+    def on_FreeDescriptorSets(self, call: Call) -> None:
+        pool = self.set_pools.get(values.handle(call.args.get("descriptorPool")), set())
+        for handle in map(values.handle, values.items(call.args.get("pDescriptorSets"))):
+            self.sets.pop(handle, None)
+            pool.discard(handle)
+
     def on_UpdateDescriptorSets(self, call: Call) -> None:
         for item in values.items(call.args.get("pDescriptorWrites")):
             write = values.record(item)
@@ -51,9 +61,27 @@ class Descriptors(Images):
             copy = values.record(item)
             source, target = (self.sets.get(values.handle(copy.get(name))) for name in ("srcSet", "dstSet"))
             if source is not None and target is not None:
-                # Copies all images, whichever descriptors are copied: the rules only ask what may be read.
-                target.images.update(source.images)
-                target.opaque = target.opaque or source.opaque
+                self._copy(source, target, copy)
+
+    def _copy(self, source: DescriptorSet, target: DescriptorSet, copy: dict[str, Any]) -> None:
+        """Applies a VkCopyDescriptorSet.
+
+        More than one descriptor may continue in the next binding, so all images are copied then: the rules only ask what may be read.
+        """
+        target.opaque = target.opaque or source.opaque
+        if values.integer(copy.get("descriptorCount")) == 1:
+            ends = [(values.integer(copy.get(f"{end}Binding")) or 0, values.integer(copy.get(f"{end}ArrayElement")) or 0) for end in _ENDS]
+            use = source.images.get(ends[0])
+            if use is not None:
+                target.put(ends[1], *use)
+            else:
+                target.remove(ends[1])
+        elif len(source.images) > MAX_COPIED and not self.frames.spend(len(source.images) - MAX_COPIED):
+            # Copies of copies multiply: beyond the budget, the contents are unknown.
+            target.opaque = True
+        else:
+            for slot, (image, storage) in list(source.images.items()):
+                target.put(slot, image, storage)
 
     def on_UpdateDescriptorSetWithTemplate(self, call: Call) -> None:
         target = self.sets.get(values.handle(call.args.get("descriptorSet")))
@@ -71,9 +99,9 @@ class Descriptors(Images):
             image = self.views.get(values.handle(values.record(item).get("imageView")))
             slot = (binding, first + offset)
             if image is not None and image.attachable:
-                target.images[slot] = (image, storage)
+                target.put(slot, image, storage)
             else:
-                target.images.pop(slot, None)
+                target.remove(slot)
 
 
 def _storage(kind: object) -> bool | None:

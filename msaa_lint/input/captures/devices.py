@@ -13,6 +13,12 @@ from msaa_lint.frame.devices.reports.reading import report
 from . import values
 from .call import Call
 
+MAX_DEVICES = 256
+"""Maximum number of physical devices."""
+
+MAX_STRUCTURES = 256
+"""Maximum number of different structures that the queries of a physical device return."""
+
 
 class Devices:
     """The physical devices that the application queried, and the device that it created."""
@@ -26,7 +32,10 @@ class Devices:
         self.features: list[str] | None = None
 
     def _queried(self, physical_device: object) -> dict[str, Any]:
-        return self.queried.setdefault(values.handle(physical_device), {"properties": [], "features": []})
+        handle = values.handle(physical_device)
+        if handle not in self.queried and len(self.queried) >= MAX_DEVICES:
+            return {"properties": [], "features": []}
+        return self.queried.setdefault(handle, {"properties": [], "features": []})
 
     def on_CreateInstance(self, call: Call) -> None:
         info = values.record(values.record(call.args.get("pCreateInfo")).get("pApplicationInfo"))
@@ -37,15 +46,16 @@ class Devices:
     def on_GetPhysicalDeviceProperties(self, call: Call) -> None:
         structures = self._queried(call.args.get("physicalDevice"))["properties"]
         for structure in values.chain(call.args.get("pProperties")):
-            structures.append({key: item for key, item in structure.items() if key != "pNext"})
+            _add(structures, {key: item for key, item in structure.items() if key != "pNext"})
 
     on_GetPhysicalDeviceProperties2 = on_GetPhysicalDeviceProperties
 
     def on_GetPhysicalDeviceFeatures(self, call: Call) -> None:
-        self._queried(call.args.get("physicalDevice"))["features"].append(values.record(call.args.get("pFeatures")))
+        _add(self._queried(call.args.get("physicalDevice"))["features"], values.record(call.args.get("pFeatures")))
 
     def on_GetPhysicalDeviceFeatures2(self, call: Call) -> None:
-        self._queried(call.args.get("physicalDevice"))["features"].extend(_features_in(call.args.get("pFeatures")))
+        for structure in _features_in(call.args.get("pFeatures")):
+            _add(self._queried(call.args.get("physicalDevice"))["features"], structure)
 
     def on_GetPhysicalDeviceMemoryProperties(self, call: Call) -> None:
         properties = values.record(call.args.get("pMemoryProperties"))
@@ -71,7 +81,7 @@ class Devices:
         args = call.args
         properties = {"vendorID": args.get("vendor_id"), "deviceName": args.get("device_name"), "apiVersion": args.get("api_version")}
         stated = {key: item for key, item in properties.items() if item is not None}
-        self._queried(args.get("physical_device_id"))["properties"].append(stated)
+        _add(self._queried(args.get("physical_device_id"))["properties"], stated)
 
     def memory_properties_command(self, call: Call) -> None:
         types = values.items(call.args.get("memory_types"))
@@ -132,6 +142,12 @@ class Devices:
         if self.features is not None:
             section["features"] = self.features
         return section or None
+
+
+def _add(structures: list[dict[str, Any]], structure: dict[str, Any]) -> None:
+    """Adds a structure unless an earlier query returned it."""
+    if len(structures) < MAX_STRUCTURES and structure not in structures:
+        structures.append(structure)
 
 
 def _spelled(member: str, value: object) -> object:

@@ -6,24 +6,19 @@ over all frames of a kind; between passes, the most frequent sequence of command
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable
-from typing import Any, NamedTuple
+from collections.abc import Hashable
+from itertools import count
 
-from .command_buffers import RecordedCommand, RenderPassBegin
+from .call import Place
+from .command_buffers import MAX_COMMANDS, CommandBuffer, CommandCache, RecordedCommand
 from .frame_boundary import aspect_uses
-from .objects import Image, freeze
+from .frame_kinds import MAX_PASS_COMMANDS, AspectState, DistinctFrame, FrameKind, Role, add_counts, merge, segments_of, shape_of
+from .objects import DescriptorSet, Image
+from .set_reads import SetReads
+from .submissions import MAX_REPEATED, Executions, Submission
 
 MAX_KINDS = 32
 """Maximum number of frame kinds."""
-
-MAX_ALTERNATES = 8
-"""Maximum number of framebuffers that a pass alternates between."""
-
-MAX_GAP_VARIANTS = 8
-"""Maximum number of different command sequences between two passes."""
-
-MAX_PASS_COMMANDS = 4096
-"""Maximum number of different draws, reads and clears in a pass."""
 
 MAX_SIMILAR_SUBMISSIONS = 8
 """Maximum number of similar submissions, each on other images, that count as one frame if nothing marks the end of a frame."""
@@ -31,82 +26,37 @@ MAX_SIMILAR_SUBMISSIONS = 8
 MAX_DISTINCT_FRAMES = 1024
 """Maximum number of different frames in the cache."""
 
+MAX_RECENT_FRAMES = 64
+"""Maximum number of frames that are recognized by their submissions."""
+
 MAX_STORED_COMMANDS = 1_000_000
 """Maximum total number of commands of these frames."""
 
 MAX_FRAME_COMMANDS = 1_000_000
 """Maximum number of commands per frame."""
 
-PASS_BEGINS = ("beginRenderPass", "beginRendering")
-PASS_ENDS = ("endRenderPass", "endRendering")
+MAX_DESCRIBED = 100_000
+"""Maximum number of commands of all kinds of frames, beyond those that the capture records: frames that share commands repeat them."""
 
+WORK = 2_000_000
+WORK_PER_SUBMISSION = 2048
+WORK_PER_COMMAND = 16
+"""The number of commands, and of images in descriptor sets, that are looked at: so many, and so many more for each submission of a command
+buffer and for each command that it records. Further frames are not linted: command buffers that execute others, and sets that are bound
+again, can make them grow faster than the capture."""
 
-class Role(int):
-    """Stands for the image that a frame's passes use at this position, in order of first use."""
-
-    __slots__ = ()
-
-
-Segment = tuple[RecordedCommand | None, list[RecordedCommand]]
-"""The commands within a pass, after the command that begins it, or between two passes, after None."""
-
-
-class GapVariant:
-    """A command sequence between two passes, and the number of frames that contain it."""
-
-    def __init__(self, items: list[RecordedCommand]) -> None:
-        self.items = items
-        self.count = 0
-
-
-class FrameKind:
-    """Frames of the same kind: the passes and images of the first, the number of frames, and the merged contents."""
-
-    def __init__(self, number: int, images: list[Image], passes: list[RecordedCommand]) -> None:
-        self.number = number
-        self.count = 0
-        self.images = images
-        self.passes = passes
-        self.alternates: list[dict[Hashable, RenderPassBegin]] = [{} for _ in passes]
-        self.pass_commands: list[dict[Hashable, RecordedCommand]] = [{} for _ in passes]
-        self.gaps: list[dict[Hashable, GapVariant]] = [{} for _ in range(len(passes) + 1)]
-        self.later: set[tuple[Hashable, str]] = set()
-        """Images and aspects whose contents a later frame reads."""
-        self.defined: set[tuple[Hashable, str]] = set()
-        self.undefined: set[tuple[Hashable, str]] = set()
-        """Images and aspects that the frame reads first: `defined` if an earlier frame stored them, `undefined` if it discarded them."""
-
-
-class AspectState(NamedTuple):
-    """The state in which a frame left an aspect of an image, with the frame's kind and the image's role in it."""
-
-    state: str
-    kind: FrameKind
-    role: Hashable
-
-
-class DistinctFrame:
-    """A frame with a distinct command sequence: its kind (None above MAX_KINDS), and how often it occurred since the last count."""
-
-    def __init__(
-        self, kind: FrameKind | None, commands: list[RecordedCommand], roles: Iterable[Image], gaps: list[list[RecordedCommand]]
-    ) -> None:
-        self.kind = kind
-        self.gaps = gaps
-        self.commands = commands
-        self.count = 0
-        self.images = list(roles)
-        begins = [command.key for command in commands if isinstance(command.key, RenderPassBegin)]
-        pipelines = [command.key[0] for command in commands if command.kind == "draw" and isinstance(command.key, tuple)]
-        self.used: list[Any] = list(dict.fromkeys((*roles, *(begin.render_pass for begin in begins), *filter(None, pipelines))))
-        """The images, render passes and pipelines."""
+REPEATED = f"a frame executes command buffers again that have {MAX_REPEATED:,} commands together; further repetitions are not checked"
+TOO_LONG = f"a frame has more than {MAX_FRAME_COMMANDS:,} commands; those after them are not checked"
+TOO_MANY_RECORDED = f"a command buffer records more than {MAX_COMMANDS:,} commands; those after them are not checked"
+TOO_MANY_IN_PASS = f"a pass has more than {MAX_PASS_COMMANDS:,} different commands; those after them are not checked"
+TOO_MUCH_WORK = "frames execute far more commands, or read far more images, than the capture records; some of them are not checked"
+"""The limits, as findings state them."""
 
 
 class Frames:
     """Collects the frames of a capture."""
 
     def __init__(self) -> None:
-        self.current: list[RecordedCommand] = []
         self.kinds: dict[Hashable, FrameKind] = {}
         self.total = 0
         self.dropped = 0
@@ -114,9 +64,27 @@ class Frames:
         self.presents = False
         self.frameless = False
         self.truncated = False
-        self._submissions: dict[Hashable, int] = {}
+        self.limits: dict[str, Place] = {}
+        """What is not checked because it exceeds a limit, with the first call that does."""
+        self._current: list[Submission] = []
+        self._length = 0
+        self._is_skipped = False
+        """Whether the current frame is not looked at."""
+        self._executions = Executions()
+        self._reads = SetReads(self.spend)
+        self._work_left = WORK
+        self._recorded = 0
+        """The number of commands in submitted command buffers, each counted once."""
+        self._described = 0
+        """The number of commands in the first frames of the kinds."""
+        self._submissions: dict[int, int] = {}
         """How often the current frame submitted the same passes, or similar ones."""
-        self._shapes: dict[Hashable, Hashable] = {}
+        self._shapes: dict[Hashable, int] = {}
+        """The numbers of the passes of submissions."""
+        self._shape_numbers = count()
+        self._recent: dict[tuple[Submission, ...], DistinctFrame] = {}
+        """Frames by what they submit, to recognize command buffers that are submitted in every frame."""
+        self._recent_commands = 0
         self._distinct: dict[Hashable, DistinctFrame] = {}
         self._stored_commands = 0
         """The number of commands in the cached frames."""
@@ -133,77 +101,140 @@ class Frames:
         elif kind == "frame" and not self.presents:
             self.end()
 
-    def submit(self, commands: list[RecordedCommand]) -> None:
-        """Adds the submitted commands of a command buffer."""
-        if not self.presents and not self.frameless:
-            self._split_frames(commands)
-        if len(self.current) < MAX_FRAME_COMMANDS:
-            self.current.extend(commands)
+    def spend(self, work: int) -> bool:
+        """Takes so much from the work that is left; False if there is none."""
+        self._work_left -= work
+        return self._work_left >= 0
 
-    def _split_frames(self, commands: list[RecordedCommand]) -> None:
+    def submit(self, buffer: CommandBuffer, at: Place, cache: CommandCache, unknown: DescriptorSet) -> None:
+        """Adds what a command buffer executes. `unknown` has the images that may be in a set whose contents are unknown."""
+        self._work_left += WORK_PER_SUBMISSION
+        if not buffer.counted:
+            buffer.counted = True
+            self._recorded += len(buffer.commands)
+            self._work_left += WORK_PER_COMMAND * len(buffer.commands)
+        if not self.presents and not self.frameless:
+            self._split_frames(Executions().submission(buffer))
+        submission = self._executions.submission(buffer)
+        if buffer.omitted:
+            self.limits.setdefault(TOO_MANY_RECORDED, at)
+        if not self._executions.is_complete:
+            self.limits.setdefault(REPEATED, at)
+        if submission is not buffer.submission and not self.spend(len(submission.commands)):
+            return self._skip(at)
+        if buffer.reads:
+            commands = self._reads.resolve(submission.commands, cache, unknown)
+            if commands is None:
+                return self._skip(at)
+            submission = Submission(commands)
+        self.add(submission, at)
+
+    def add(self, submission: Submission, at: Place) -> None:
+        """Adds commands to the current frame."""
+        self._length += len(submission.commands)
+        if self._length > MAX_FRAME_COMMANDS:
+            self.limits.setdefault(TOO_LONG, at)
+        else:
+            self._current.append(submission)
+
+    def _skip(self, at: Place) -> None:
+        """Gives up the current frame: looking at it would take too long."""
+        self._is_skipped = True
+        self.limits.setdefault(TOO_MUCH_WORK, at)
+
+    def _split_frames(self, submission: Submission) -> None:
         """Ends the frame if this submission starts a new one. Without presents, that is a submission that repeats the frame's passes on the
         same images, or repeatedly on new images."""
-        begins = [command for command in commands if command.kind in PASS_BEGINS]
-        if not begins:
+        if not submission.begins:
             return
-        same = tuple(map(id, begins))
-        similar = self._shapes.get(same)
-        if similar is None:
-            if len(self._shapes) > MAX_DISTINCT_FRAMES:
+        if submission.shape is None:
+            same = tuple(map(id, submission.begins))
+            similar = tuple(shape_of(command, {}) for command in submission.begins)
+            if len(self._shapes) > MAX_DISTINCT_FRAMES and not self._submissions:
                 self._shapes.clear()
-            similar = self._shapes[same] = tuple(_shape(command, {}) for command in begins)
-        if same in self._submissions or self._submissions.get(similar, 0) >= MAX_SIMILAR_SUBMISSIONS:
+            numbers = [self._shapes.setdefault(shape, next(self._shape_numbers)) for shape in (same, similar)]
+            submission.shape = (numbers[0], numbers[1])
+        same_number, similar_number = submission.shape
+        if same_number in self._submissions or self._submissions.get(similar_number, 0) >= MAX_SIMILAR_SUBMISSIONS:
             self.end()
-        for shape in (same, similar):
-            self._submissions[shape] = self._submissions.get(shape, 0) + 1
+        for number in submission.shape:
+            self._submissions[number] = self._submissions.get(number, 0) + 1
 
     def end_of_capture(self) -> None:
         """Ends the capture. The remaining commands are a frame if they begin a pass."""
-        if any(command.kind in PASS_BEGINS for command in self.current):
+        if any(submission.begins for submission in self._current):
             self.end()
         for frame in self._distinct.values():
-            _add_counts(frame)
+            add_counts(frame)
 
     def end(self) -> None:
         """Ends the frame."""
-        commands, self.current = self.current, []
+        submissions, is_skipped = tuple(self._current), self._is_skipped
+        self._current = []
+        self._length = 0
+        self._is_skipped = False
+        self._executions = Executions()
+        self._reads = SetReads(self.spend)
         self._submissions.clear()
         self.total += 1
-        key = tuple(map(id, commands))
-        frame = self._distinct.get(key)
+        if is_skipped:
+            return
+        frame = self._recent.get(submissions)
         if frame is None:
-            frame = self._classify(commands)
+            frame = self._frame_of([command for submission in submissions for command in submission.commands])
             if frame is None:
                 return
-            self._stored_commands += len(commands)
-            if len(self._distinct) >= MAX_DISTINCT_FRAMES or self._stored_commands > MAX_STORED_COMMANDS:
-                for other in self._distinct.values():
-                    _add_counts(other)
-                self._distinct.clear()
-                self._stored_commands = len(commands)
-            self._distinct[key] = frame
+            self._recent_commands += len(frame.commands)
+            if len(self._recent) >= MAX_RECENT_FRAMES or self._recent_commands > MAX_STORED_COMMANDS:
+                self._recent.clear()
+                self._recent_commands = len(frame.commands)
+            self._recent[submissions] = frame
         elif frame.kind is not None and self._repetitions < 2:
-            self._track_contents(frame.kind, commands, {image: Role(number) for number, image in enumerate(frame.images)})
+            self._track_contents(frame.kind, frame.commands, {image: Role(number) for number, image in enumerate(frame.images)})
         frame.count += 1
         self.dropped += frame.kind is None
         self._repetitions = self._repetitions + 1 if frame is self._last else 0
         self._last = frame
 
+    def _frame_of(self, commands: list[RecordedCommand]) -> DistinctFrame | None:
+        """The frame with these commands; None if it has no pass."""
+        key = tuple(map(id, commands))
+        frame = self._distinct.get(key)
+        if frame is not None:
+            if frame.kind is not None and self._repetitions < 2:
+                self._track_contents(frame.kind, commands, {image: Role(number) for number, image in enumerate(frame.images)})
+            return frame
+        frame = self._classify(commands)
+        if frame is not None:
+            self._stored_commands += len(commands)
+            if len(self._distinct) >= MAX_DISTINCT_FRAMES or self._stored_commands > MAX_STORED_COMMANDS:
+                for other in self._distinct.values():
+                    add_counts(other)
+                self._distinct.clear()
+                self._recent.clear()
+                self._stored_commands = len(commands)
+            self._distinct[key] = frame
+        return frame
+
     def _classify(self, commands: list[RecordedCommand]) -> DistinctFrame | None:
         """Classifies a new frame; None if it has no pass."""
-        segments = _segments(commands)
-        passes = [begin for begin, _ in segments if begin is not None]
+        parts = segments_of(commands)
+        passes = [begin for begin, _ in parts if begin is not None]
         if not passes:
             return None
         self._repetitions = 0
         roles: dict[Image, Role] = {}
-        shape = tuple(_shape(begin, roles) for begin in passes)
+        shape = tuple(shape_of(begin, roles) for begin in passes)
         kind = self.kinds.get(shape)
-        if kind is None and len(self.kinds) < MAX_KINDS:
+        described = self._described + len(commands)
+        if kind is None and len(self.kinds) < MAX_KINDS and described <= MAX_DESCRIBED + self._recorded:
+            self._described = described
             kind = self.kinds[shape] = FrameKind(len(self.kinds), list(roles), passes)
         gaps: list[list[RecordedCommand]] = []
         if kind is not None:
-            gaps = _merge(kind, segments, roles)
+            gaps = merge(kind, parts, roles)
+            if not kind.is_complete:
+                self.limits.setdefault(TOO_MANY_IN_PASS, commands[0].at)
             self._track_contents(kind, commands, roles)
         return DistinctFrame(kind, commands, roles, gaps)
 
@@ -224,97 +255,3 @@ class Frames:
                     image.aspect_states[aspect] = AspectState(use.last, kind, role)
                 elif use.first == "read" and state is not None and state.state == "unread":
                     image.aspect_states[aspect] = state._replace(state="read")
-
-
-def _add_counts(frame: DistinctFrame) -> None:
-    """Adds a frame's count to its kind, its images, render passes and pipelines."""
-    for used in frame.used:
-        used.frames += frame.count
-    if frame.kind is not None:
-        frame.kind.count += frame.count
-        for variants, items in zip(frame.kind.gaps, frame.gaps, strict=True):
-            sequence = tuple((command.kind, command.key) for command in items)
-            if sequence in variants or len(variants) < MAX_GAP_VARIANTS:
-                variants.setdefault(sequence, GapVariant(items)).count += frame.count
-    frame.count = 0
-
-
-def _merge(kind: FrameKind, segments: list[Segment], roles: dict[Image, Role]) -> list[list[RecordedCommand]]:
-    """Merges the contents of a frame's passes into its kind, and returns the commands between them."""
-    number = 0
-    gaps: list[list[RecordedCommand]] = []
-    for begin, items in segments:
-        if begin is None:
-            gaps.append([_with_roles(command, roles) for command in items])
-            continue
-        if isinstance(begin.key, RenderPassBegin):
-            alternates = kind.alternates[number]
-            imageless = begin.key.framebuffer is None or begin.key.framebuffer.images is None
-            if len(alternates) < MAX_ALTERNATES:
-                alternates.setdefault(begin.key.images if imageless else begin.key.framebuffer, begin.key)
-        pass_commands = kind.pass_commands[number]
-        subpass = 0
-        for command in items:
-            subpass += command.kind == "nextSubpass"
-            command_with_roles = _with_roles(command, roles)
-            identity = (subpass, command_with_roles.kind, command_with_roles.key)
-            if identity not in pass_commands and len(pass_commands) < MAX_PASS_COMMANDS:
-                pass_commands[identity] = command_with_roles
-        number += 1
-    return gaps
-
-
-def _segments(commands: list[RecordedCommand]) -> list[Segment]:
-    """The commands before, within, between and after the passes of a frame."""
-    segments: list[Segment] = [(None, [])]
-    in_pass = False
-    for command in commands:
-        if command.kind in PASS_BEGINS:
-            if in_pass:
-                # The capture lacks the end of this pass.
-                segments.append((None, []))
-            segments.append((command, []))
-            in_pass = True
-        elif command.kind in PASS_ENDS:
-            if in_pass:
-                segments.append((None, []))
-            in_pass = False
-        elif in_pass or command.kind != "nextSubpass":
-            segments[-1][1].append(command)
-    if in_pass:
-        segments.append((None, []))
-    return segments
-
-
-def _shape(begin: RecordedCommand, roles: dict[Image, Role]) -> Hashable:
-    """The properties of a pass that define the kind of a frame. Images are replaced by their roles and creation parameters."""
-    if isinstance(begin.key, RenderPassBegin):
-        size = tuple(begin.key.framebuffer.tree.items()) if begin.key.framebuffer is not None else None
-        images = tuple(_role(image, roles) if image is not None else None for image in begin.key.images)
-        return ("renderPass", id(begin.key.render_pass), images, size, begin.key.area)
-    return ("rendering", _rendering_shape(begin.key, roles))
-
-
-def _role(image: Image, roles: dict[Image, Role]) -> Hashable:
-    if image not in roles:
-        roles[image] = Role(len(roles))
-    return (roles[image], image.swapchain is not None, freeze(image.tree))
-
-
-def _rendering_shape(key: Hashable, roles: dict[Image, Role]) -> Hashable:
-    """The key of a beginRendering command with images replaced by their roles and creation parameters."""
-    if isinstance(key, Image):
-        return _role(key, roles)
-    return tuple(_rendering_shape(item, roles) for item in key) if isinstance(key, tuple) else key
-
-
-def _with_roles(command: RecordedCommand, roles: dict[Image, Role]) -> RecordedCommand:
-    """A command with the images of passes replaced by their roles."""
-    key: Hashable
-    if isinstance(command.key, tuple) and not isinstance(command.key, RenderPassBegin):
-        key = tuple(roles.get(item, item) if isinstance(item, Image) else item for item in command.key)
-    elif isinstance(command.key, Image):
-        key = roles.get(command.key, command.key)
-    else:
-        return command
-    return RecordedCommand(command.kind, key, command.at, command.by, command.detail)

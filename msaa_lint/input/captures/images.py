@@ -13,8 +13,9 @@ from .call import Call
 from .command_buffers import CommandCache
 from .devices import Devices
 from .frames import Frames
-from .objects import Image, Swapchain, freeze
+from .objects import DescriptorSet, Image, Swapchain, freeze
 from .structures import to_tree
+from .submissions import Submission
 
 MAX_DISTINCT = 20_000
 """Maximum number of distinct objects that are described even if no frame uses them."""
@@ -30,6 +31,8 @@ class Images(Devices):
     def __init__(self) -> None:
         super().__init__()
         self.images: dict[int, Image] = {}
+        self.readable = DescriptorSet()
+        """The images that a set whose contents are unknown may have."""
         self.views: dict[int, Image] = {}
         self.swapchains: dict[int, Swapchain] = {}
         self.memory: dict[int, int] = {}
@@ -45,10 +48,25 @@ class Images(Devices):
         info = values.record(call.args.get("pCreateInfo"))
         handle = values.handle(call.args.get("pImage"))
         tree = to_tree(ImageRecord, info)
-        image = self.images[handle] = Image(call, next(self.numbers[Image]), tree)
+        image = Image(call, next(self.numbers[Image]), tree)
+        self._add(handle, image)
         if image.samples > 1 and len(self.multisampled) < MAX_DISTINCT:
             self.multisampled.setdefault(freeze(tree), image)
         image.shared = any(values.chained(info, kind) is not None for kind in EXTERNAL_MEMORY)
+
+    def _add(self, handle: int, image: Image) -> None:
+        self.images[handle] = image
+        if image.attachable and "SAMPLED" in image.tree.get("usage", ("SAMPLED",)):
+            self.readable.put((handle, 0), image, False)
+        else:
+            self.readable.remove((handle, 0))
+
+    def _forget(self, handle: int) -> None:
+        self.images.pop(handle, None)
+        self.readable.remove((handle, 0))
+
+    def on_DestroyImage(self, call: Call) -> None:
+        self._forget(values.handle(call.args.get("image")))
 
     def on_CreateImageView(self, call: Call) -> None:
         info = values.record(call.args.get("pCreateInfo"))
@@ -100,9 +118,9 @@ class Images(Devices):
 
     def on_DestroySwapchain(self, call: Call) -> None:
         swapchain = self.swapchains.pop(values.handle(call.args.get("swapchain")), None)
-        for image in swapchain.images if swapchain is not None else ():
-            for handle in [handle for handle, other in self.images.items() if other is image]:
-                del self.images[handle]
+        for handle, image in zip(swapchain.handles, swapchain.images, strict=True) if swapchain is not None else ():
+            if self.images.get(handle) is image:
+                self._forget(handle)
 
     def on_GetSwapchainImages(self, call: Call) -> None:
         swapchain = self.swapchains.get(values.handle(call.args.get("swapchain")))
@@ -117,7 +135,8 @@ class Images(Devices):
             image.by, image.at = swapchain.by, swapchain.at
             image.swapchain = swapchain
             swapchain.images.append(image)
-            self.images[handle] = image
+            swapchain.handles.append(handle)
+            self._add(handle, image)
 
     def on_QueuePresent(self, call: Call) -> None:
         info = values.record(call.args.get("pPresentInfo"))
@@ -126,8 +145,15 @@ class Images(Devices):
             swapchain = self.swapchains.get(values.handle(swapchain_handle))
             number = values.integer(index)
             if swapchain is not None and number is not None and 0 <= number < len(swapchain.images):
-                self.frames.submit([self.commands.command("present", swapchain.images[number], call)])
+                self.frames.add(self._present(swapchain.images[number], call), call.at)
         self.frames.end()
+
+    def _present(self, image: Image, call: Call) -> Submission:
+        """The present of an image, one object for all of its presents."""
+        if image.present is None:
+            image.present = Submission([self.commands.command("present", image, call)])
+        present: Submission = image.present
+        return present
 
     def on_FrameBoundaryANDROID(self, call: Call) -> None:
         if not self.frames.presents:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterator
 from typing import Any
 
 from msaa_lint.frame.vulkan.formats import format_of
@@ -31,9 +31,10 @@ class CapturedObject:
 
 
 class Image(CapturedObject):
-    """An image, possibly of a swapchain. `aspect_states` holds the state of each aspect after its last use."""
+    """An image, possibly of a swapchain. `aspect_states` holds the state of each aspect after its last use, `present` the submission that
+    presents it."""
 
-    __slots__ = ("aspect_states", "aspects", "attachable", "shared", "swapchain")
+    __slots__ = ("aspect_states", "aspects", "attachable", "present", "shared", "swapchain")
 
     def __init__(self, call: Call, number: int, tree: Tree) -> None:
         super().__init__(call, number, tree)
@@ -46,6 +47,7 @@ class Image(CapturedObject):
         self.attachable = usage is None or self.samples > 1 or not ATTACHMENT_USAGES.isdisjoint(usage)
         """Whether a pass may draw to it. Other textures, which are most images of a program, are not tracked."""
         self.aspect_states: dict[str, Any] = {}
+        self.present: Any = None
 
     @property
     def samples(self) -> int:
@@ -56,11 +58,12 @@ class Image(CapturedObject):
 class Swapchain(CapturedObject):
     """A swapchain with its images, in order; its tree describes each of them."""
 
-    __slots__ = ("images",)
+    __slots__ = ("handles", "images")
 
     def __init__(self, call: Call, number: int, tree: Tree) -> None:
         super().__init__(call, number, tree)
         self.images: list[Image] = []
+        self.handles: list[int] = []
 
 
 class RenderPass(CapturedObject):
@@ -91,17 +94,49 @@ class Pipeline(CapturedObject):
         self.dynamic_samples = any(state.startswith("RASTERIZATION_SAMPLES") for state in tree.get("dynamicState", ()))
 
 
-class DescriptorSet:
-    """The attachable images of a descriptor set, by binding and element, and whether shaders may also write them.
+Use = tuple[Image, bool]
+"""An image in a descriptor set, and whether shaders may also write it."""
 
-    The contents of an `opaque` set are unknown.
+
+class DescriptorSet:
+    """The attachable images of a descriptor set, by binding and element.
+
+    The contents of an `opaque` set are unknown. `uses` counts the slots of an image. `log` has what was put into the set in order, so that
+    a reader finds what is new since it last read the set; when the log is shortened, `epoch` grows.
     """
 
-    __slots__ = ("images", "opaque")
+    __slots__ = ("epoch", "images", "log", "opaque", "uses")
 
     def __init__(self) -> None:
-        self.images: dict[tuple[int, int], tuple[Image, bool]] = {}
+        self.images: dict[tuple[int, int], Use] = {}
+        self.uses: dict[Use, int] = {}
+        self.log: list[Use] = []
+        self.epoch = 0
         self.opaque = False
+
+    def put(self, slot: tuple[int, int], image: Image, storage: bool) -> None:
+        """Writes an image to a slot."""
+        use = (image, storage)
+        before = self.images.get(slot)
+        if before == use:
+            return
+        if before is not None:
+            self.remove(slot)
+        self.images[slot] = use
+        if use not in self.uses:
+            if len(self.log) > 2 * len(self.uses) + 64:
+                self.log = list(self.uses)
+                self.epoch += 1
+            self.log.append(use)
+        self.uses[use] = self.uses.get(use, 0) + 1
+
+    def remove(self, slot: tuple[int, int]) -> None:
+        """Empties a slot."""
+        use = self.images.pop(slot, None)
+        if use is not None:
+            self.uses[use] -= 1
+            if not self.uses[use]:
+                del self.uses[use]
 
 
 def freeze(value: Any) -> Hashable:
@@ -112,3 +147,12 @@ def freeze(value: Any) -> Hashable:
         return tuple(map(freeze, value))
     made: Hashable = value
     return made
+
+
+def images_in(key: Any) -> Iterator[Image]:
+    """The images in the key of a command."""
+    if isinstance(key, Image):
+        yield key
+    elif isinstance(key, tuple):
+        for item in key:
+            yield from images_in(item)

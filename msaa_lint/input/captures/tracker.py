@@ -32,15 +32,12 @@ RECURRING = BOUNDARY | {name.replace("on_", "vk", 1) for name in vars(Transfers)
 """Commands whose effect depends only on their arguments."""
 
 DESTROYERS = {
-    "DestroyImage": ("image", "images"),
     "DestroyImageView": ("imageView", "views"),
     "FreeMemory": ("memory", "memory"),
     "DestroyRenderPass": ("renderPass", "render_passes"),
     "DestroyFramebuffer": ("framebuffer", "framebuffers"),
     "DestroyShaderModule": ("shaderModule", "modules"),
     "DestroyPipeline": ("pipeline", "pipelines"),
-    "FreeCommandBuffers": ("pCommandBuffers", "buffers"),
-    "FreeDescriptorSets": ("pDescriptorSets", "sets"),
 }
 """The calls that only destroy objects: the parameter with their handles, and the tracker's mapping that holds them."""
 
@@ -112,7 +109,7 @@ class Tracker(Transfers):
         buffer = self.buffer(call)
         start = len(buffer.commands)
         handler(call)
-        commands = buffer.commands[start:]
+        commands: list[RecordedCommand] = buffer.commands[start:]  # type: ignore[assignment]  # None of these executes others.
         if commands or boundary:
             if len(self._cache) >= MAX_CACHED_COMMANDS:
                 self._cache.clear()
@@ -122,7 +119,8 @@ class Tracker(Transfers):
         buffer = self.buffer(call)
         if cached.boundary:
             buffer.start_section()
-            buffer.commands.extend(cached.commands)
+            for command in cached.commands:
+                buffer.record(command)
             return
         for command in cached.commands:
             (buffer.record_once if command.kind == "clearAttachments" else buffer.record)(command)

@@ -89,7 +89,7 @@ def chain(number: int) -> bytes:
 SHAPES = (
     shape("a long string", "a.jsonl", lambda count: line(b'"%b"' % (b"a" * count))),
     shape("a long array", "a.jsonl", lambda count: line(b"[" + b"1," * count + b"1]", b"pQueueFamilyIndices")),
-    shape("deep nesting", "a.jsonl", lambda count: line(b"[" * count + b"]" * count), (2,)),
+    shape("deep nesting", "a.jsonl", lambda count: line(b"[" * count + b"]" * count), (0, 2)),
     shape("deep nesting without end", "a.jsonl", lambda count: line(b'{"a":' * count), (2,)),
     shape("a huge integer", "a.jsonl", lambda count: line(b"1" * (count + 1)), (0, 1, 2)),
     shape("stray backslashes", "a.jsonl", lambda count: line(b'"%b"' % (b"\\q" * count))),
@@ -113,9 +113,9 @@ SHAPES = (
         lambda count: XML % chunk(b"vkCreateImage", b"<uint %b>1</uint>" % b" ".join(b'a%d="1"' % number for number in range(count))),
         (0, 1, 2),
     ),
-    shape("xml: deep nesting", "a.xml", lambda count: XML % chunk(b"vkCreateImage", b"<struct>" * count), (2,)),
+    shape("xml: deep nesting", "a.xml", lambda count: XML % chunk(b"vkCreateImage", b"<struct>" * count), (0, 2)),
     shape(
-        "xml: references", "a.xml", lambda count: XML % chunk(b"vkCreateImage", b'<string name="x">%b</string>' % (b"&#1;&amp;" * count))
+        "xml: references", "a.xml", lambda count: XML % chunk(b"vkCreateImage", b'<string name="x">%b</string>' % (b"&#01;&amp;" * count))
     ),
     shape("fossilize: render passes", "a.foz", lambda count: database(count, 5, render_pass)),
     shape("fossilize: a shared module", "a.foz", shared_module),

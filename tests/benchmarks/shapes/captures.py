@@ -287,8 +287,6 @@ PROGRAMS: dict[str, Callable[[Program, int], None]] = {
     "pushed sets": pushed_sets,
     "bound sets": many_sets,
     "secondary command buffers, nested": nested_once,
-    "executions of a secondary": executions,
-    "submissions of many passes": submissions,
     "submissions of many passes as frames": submissions_as_frames,
     "submissions": one_pass_submissions,
     "resolves": resolves,
@@ -299,16 +297,23 @@ PROGRAMS: dict[str, Callable[[Program, int], None]] = {
     "equal names": names,
     "labels": labels,
     "barriers": barriers,
-    "clears": clears,
     "queries": queries,
     "unknown calls": unknown_calls,
     "imageless framebuffer": imageless,
     "chained structures": chained,
 }
 
+LIMITED: dict[str, Callable[[Program, int], None]] = {
+    "secondary command buffers, doubling": nested,
+    "executions of a secondary": executions,
+    "submissions of many passes": submissions,
+    "clears": clears,
+}
+"""What is not linear by nature: a limit ends it."""
+
 SHAPES = (
     *(shape(name, build) for name, build in PROGRAMS.items()),
-    shape("secondary command buffers, doubling", nested, codes=(0, 1, 2)),
+    *(shape(name, build, codes=(0, 1, 2)) for name, build in LIMITED.items()),
     *(shape(f"frames, {form}", frames, form) for form in ("array", "api_dump", "renderdoc")),
     *(shape(f"objects, {form}", unused, form) for form in ("api_dump", "renderdoc", "fossilize")),
     *(shape(f"sets, {form}", passes_of_sets, form) for form in ("api_dump", "renderdoc")),
