@@ -10,7 +10,7 @@ import pytest
 from msaa_lint.core.finding import Finding
 from msaa_lint.linter.engine import Engine, LintOptions
 from msaa_lint.linter.rules.registry import load
-from msaa_lint.linter.rules.rule_file import Rule
+from msaa_lint.linter.rules.rule import Rule
 
 ENGINE = Engine(load())
 

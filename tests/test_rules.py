@@ -14,7 +14,7 @@ from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.condition import Condition
 from msaa_lint.linter.rules.page_checks import check_rule
 from msaa_lint.linter.rules.registry import load, markdown
-from msaa_lint.linter.rules.rule_file import EDITIONS, Rule
+from msaa_lint.linter.rules.rule import EDITIONS, Rule
 from tests.pages import DESCRIPTIONS, PROGRAMS, RULES, Example, all_examples, examples
 
 CATALOGUE = load()

@@ -18,7 +18,7 @@ def rules() -> Values:
 
 def editions() -> Values:
     """The editions of the default rules."""
-    from msaa_lint.linter.rules.rule_file import EDITIONS
+    from msaa_lint.linter.rules.rule import EDITIONS
 
     return [(edition, "") for edition in EDITIONS]
 

@@ -6,7 +6,7 @@ import json
 import os
 import shlex
 
-from msaa_lint.linter.rules.rule_file import EDITIONS
+from msaa_lint.linter.rules.rule import EDITIONS
 from msaa_lint.linter.settings.config import read_folder
 
 from .common import note, run_command, warn

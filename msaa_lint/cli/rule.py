@@ -13,7 +13,7 @@ from msaa_lint.core.diagnostics import DIAGNOSTICS
 from msaa_lint.core.finding import RuleInfo
 from msaa_lint.core.quote import quoted
 from msaa_lint.linter.rules.registry import markdown
-from msaa_lint.linter.rules.rule_file import APIS, PASSES, Rule
+from msaa_lint.linter.rules.rule import APIS, PASSES, Rule
 from msaa_lint.linter.settings.selectors import RuleNames
 from msaa_lint.linter.workspace import Request, Workspace
 

@@ -19,8 +19,9 @@ from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.profiles import Problem, device_for
 
 from .results import DocumentResult, FileResult, location_order
+from .rules.budget import Budget
 from .rules.registry import Registry, info, load
-from .rules.rule_file import Rule
+from .rules.rule import Rule
 from .rules.rule_runner import RuleRunner, Severity, Verdicts, distinct
 
 if TYPE_CHECKING:
@@ -63,11 +64,11 @@ class LintOptions(NamedTuple):
 
 
 class Engine:
-    """A set of rules, compiled once for any number of inputs."""
+    """A set of rules, compiled once for any number of inputs. The `budget` of the run limits what custom rules take."""
 
-    def __init__(self, registry: Registry) -> None:
+    def __init__(self, registry: Registry, budget: Budget | None = None) -> None:
         self.registry = registry
-        self._runner = RuleRunner(registry.rules)
+        self._runner = RuleRunner(registry.rules, budget)
 
     def lint(self, data: bytes | CaptureInput | SourceFile, file: str, options: LintOptions) -> FileResult:
         """The findings of one input in order of location. `data` is a file's bytes, or a capture or source code already read."""
@@ -208,26 +209,27 @@ class Engine:
     ) -> tuple[list[Finding], list[Suppressed]]:
         """The findings that remain, with those about the comments, and the suppressed findings.
 
-        A suppression of a rule that is off or undecided is not reported as unused.
+        A suppression of a rule that is off, undecided or over budget is not reported as unused.
         """
         from .suppress.suppressions import apply
 
         enabled = {rule.name for rule in self.registry.rules if severity(rule, rule.severity, None) is not None}
         remaining, suppressed, about_comments = apply(
-            findings, comments, source, self.registry.names, enabled.difference(undecided), comment_lines
+            findings, comments, source, self.registry.names, enabled.difference(undecided, self._runner.turned_off()), comment_lines
         )
         return [*remaining, *about_comments], suppressed
 
 
-def load_rules(paths: Sequence[str] = (), projects: Mapping[str, str] = {}) -> Registry:
-    """The built-in rules and the user's own rules at `paths`, the latter checked. `projects` has those of paths in a configuration."""
+def load_rules(paths: Sequence[str] = (), projects: Mapping[str, str] = {}, budget: Budget | None = None) -> Registry:
+    """The built-in rules and the user's own rules at `paths`, the latter checked within the `budget` of the run. `projects` has those of
+    paths in a configuration."""
 
     def check_fixes(rule: Rule) -> list[Finding]:
         from .fixes.fix_checks import problems
 
         return problems(rule)
 
-    return load(paths, check_fixes, projects)
+    return load(paths, check_fixes, projects, budget)
 
 
 def rule_infos(registry: Registry, severity: Severity, full: bool) -> list[RuleInfo]:

@@ -20,7 +20,8 @@ from msaa_lint.input.file_types import STDIN
 from .engine import Engine, LintOptions, load_rules
 from .fixes.fixer import Lint
 from .results import FileResult, finding_kind
-from .rules.rule_file import EDITIONS
+from .rules.budget import Budget
+from .rules.rule import EDITIONS
 from .settings.config import Configurations, Loaded
 from .settings.selection import Selection
 from .settings.selectors import unknown_selectors
@@ -146,6 +147,7 @@ class Workspace:
         self._resolved: dict[str | None, ResolvedSettings] = {}
         self._engines: dict[object, Engine] = {}
         self._projects: Mapping[str, str] = {}
+        self._budget = Budget()
         self.current = self.resolve(os.curdir)
 
     def settings(self, path: str) -> Settings:
@@ -188,10 +190,10 @@ class Workspace:
         projects = settings.page_projects()
         key = settings.rules, tuple(sorted(projects.items()))
         if key not in self._engines:
-            registry = load_rules([path for path in settings.rules if os.path.exists(path)], projects)
+            registry = load_rules([path for path in settings.rules if os.path.exists(path)], projects, self._budget)
             self.findings.extend(registry.problems)
             self.sources.update(registry.sources)
-            self._engines[key] = Engine(registry)
+            self._engines[key] = Engine(registry, self._budget)
         return self._engines[key]
 
     def broken_pages(self) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.quote import quoted
@@ -12,7 +13,8 @@ from msaa_lint.frame.facts.table import FACTS, SUBJECTS
 from msaa_lint.frame.facts.words import WORDS
 from msaa_lint.frame.vulkan.names import nearest_name
 from msaa_lint.linter.rules.condition import unknown_fact
-from msaa_lint.linter.rules.rule_file import FixSpec, Rule, Setting
+from msaa_lint.linter.rules.rule import FixSpec, Rule, Setting
+from msaa_lint.linter.rules.rule_file import MAX_PROBLEMS
 
 from .actions import ACTIONS
 from .fact_sources import FACT_SOURCES, ONLY_VALUES
@@ -21,7 +23,8 @@ from .metal import METAL_ACTIONS, METAL_FACT_SOURCES
 
 def problems(rule: Rule) -> list[Finding]:
     """Unknown actions, facts that fixes cannot change, and values that facts cannot have (MSAA921)."""
-    messages = dict.fromkeys(problem for spec in rule.fix_specs for problem in _problems(spec, rule))
+    found = (problem for spec in rule.fix_specs for problem in _problems(spec, rule))
+    messages = dict.fromkeys(islice(found, MAX_PROBLEMS))
     return [rule.problem(message, span) for span, message in messages]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from msaa_lint.frame.facts.facts import Subject, Value
-from msaa_lint.linter.rules.rule_file import FixSpec, Setting
+from msaa_lint.linter.rules.rule import FixSpec, Setting
 
 from .actions import ACTIONS, Action
 from .changes import Change, NoFix

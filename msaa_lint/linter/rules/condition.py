@@ -8,13 +8,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from typing import Any
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 from cel_expr_python import cel
 
 from msaa_lint.frame.facts.facts import Value
 from msaa_lint.frame.facts.table import FACTS, SUBJECTS
 from msaa_lint.frame.facts.words import WORDS, Fact
+
+if TYPE_CHECKING:
+    from .condition_cost import ConditionCost
 
 # A string literal, or a comment, which may contain quotes.
 _STRING = re.compile(r'''//[^\n]*|(?:\b[rR])?(?P<quote>"""|\'{3}|"|')(?P<text>(?:[^\\]|\\.)*?)(?P=quote)''', re.DOTALL)
@@ -48,8 +52,6 @@ class Condition:
     before share one environment, which is faster to create than one for each kind.
     """
 
-    __slots__ = ("_program", "facts", "text")
-
     def __init__(self, text: str, subject: str | None = None) -> None:
         self.text = text
         self.facts = named(text)
@@ -58,8 +60,17 @@ class Condition:
         except RuntimeError as error:
             raise _condition_error(error, text, subject) from None
 
+    @cached_property
+    def cost(self) -> ConditionCost:
+        """What an evaluation takes at most."""
+        from .condition_cost import ConditionCost
+
+        return ConditionCost(self._program.serialize())
+
     def must_decide(self) -> None:
-        """Raises `ConditionError` if the condition is not a boolean."""
+        """Raises `ConditionError` if the condition is not a boolean, or takes an unknown pattern."""
+        if "matches" in self.text and not self.cost.literal_patterns:
+            raise ConditionError("the pattern of `matches` must be a text in quotes")
         if str(self._program.return_type()) != "BOOL":
             raise ConditionError(f"the condition must be a boolean expression, found {str(self._program.return_type()).lower()}")
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterator, Mapping
+from itertools import islice
 
 from msaa_lint.core.diagnostics import DIAGNOSTICS
 from msaa_lint.core.finding import Finding
@@ -13,18 +14,20 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.frame.facts.table import PASS_PARTS, SUBJECTS
 
 from .condition import ConditionError, check, unknown_fact
-from .rule_file import EDITIONS, Rule
+from .rule import EDITIONS, Rule
+from .rule_file import MAX_PROBLEMS
 
 _WHOLE_PAGE = Span(0, 3)
 _BRACES = re.compile(r"\{([^{}]*)(\}?)")
 
 
-def check_names(rule: Rule, others: Iterable[Rule], names: Collection[str]) -> list[Finding]:
-    """Problems of a page with a code, a name, or an edition that cannot be used or is taken. `names` are those of all rules."""
+def check_names(rule: Rule, others: Mapping[str, Rule], names: Collection[str]) -> list[Finding]:
+    """Problems of a page with a code, a name, or an edition that cannot be used or is taken. `others` are the rules so far by code and by
+    name; `names` are those of all rules."""
     return [rule.problem(message, span) for message, span in _names(rule, others, names)]
 
 
-def _names(rule: Rule, others: Iterable[Rule], names: Collection[str]) -> Iterator[tuple[str, Span]]:
+def _names(rule: Rule, others: Mapping[str, Rule], names: Collection[str]) -> Iterator[tuple[str, Span]]:
     usable = re.fullmatch(r"(?!MSAA)[A-Z]{2,12}-?[0-9]{1,6}", rule.code) is not None
     if not usable:
         form = "the code must be 2 to 12 capital letters other than MSAA and a number, for example ACME001"
@@ -35,12 +38,12 @@ def _names(rule: Rule, others: Iterable[Rule], names: Collection[str]) -> Iterat
         yield f"the file name must be lowercase words with hyphens{example}", _WHOLE_PAGE
     elif any(rule.name == info.name for info in DIAGNOSTICS.values()):
         yield f"the name {rule.name} is that of a diagnostic; rename the file", _WHOLE_PAGE
-    for other in others:
-        if usable and rule.code == other.code:
-            yield f"the code {rule.code} is already used by `{other.name}`", rule.places["code"]
-        elif rule.name == other.name:
-            owner = other.source.name if other.is_custom else "a built-in rule"
-            yield f"the name {rule.name} is already used by {owner}; rename the file", _WHOLE_PAGE
+    same_code, same_name = others.get(rule.code), others.get(rule.name)
+    if usable and same_code is not None:
+        yield f"the code {rule.code} is already used by `{same_code.name}`", rule.places["code"]
+    if same_name is not None and same_name is not same_code:
+        owner = same_name.source.name if same_name.is_custom else "a built-in rule"
+        yield f"the name {rule.name} is already used by {owner}; rename the file", _WHOLE_PAGE
     if rule.edition and rule.edition not in EDITIONS:
         yield f"unknown edition {quoted(rule.edition)}: expected one of {', '.join(EDITIONS)}", rule.places["edition"]
     for name in rule.supersedes:
@@ -55,20 +58,21 @@ def _names(rule: Rule, others: Iterable[Rule], names: Collection[str]) -> Iterat
 
 def check_rule(rule: Rule) -> list[Finding]:
     """The problems of a rule's conditions, and the facts its texts name that do not exist. Fixes are not checked."""
+    return [rule.problem(message, span) for message, span in islice(_mistakes(rule), MAX_PROBLEMS)]
+
+
+def _mistakes(rule: Rule) -> Iterator[tuple[str, Span]]:
     text = rule.source.text
-    found = []
     for when, at in ((rule.when, rule.condition_at), *((case.when, case.condition_at) for case in rule.cases)):
         try:
             check(when, rule.subject)
         except ConditionError as error:
-            found.append((str(error), _within(text, at, when, error)))
+            yield str(error), _within(text, at, when, error)
     facts = {fact.name for fact in SUBJECTS[rule.subject]}
-    found += [(unknown_fact(name, rule.subject), at) for name, at in rule.named if name not in facts]
+    yield from ((unknown_fact(name, rule.subject), at) for name, at in rule.named if name not in facts)
     for prose, at in rule.texts:
-        found += [
-            (message, _place(text, at, name, prose[:offset].count(name))) for message, name, offset in _braces(prose, rule.subject, facts)
-        ]
-    return [rule.problem(message, span) for message, span in found]
+        for message, name, offset in _braces(prose, rule.subject, facts):
+            yield message, _place(text, at, name, prose[:offset].count(name))
 
 
 def _braces(prose: str, subject: str, facts: Collection[str]) -> Iterator[tuple[str, str, int]]:

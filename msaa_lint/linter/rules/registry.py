@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core import package
@@ -13,8 +13,10 @@ from msaa_lint.core.project import project_root
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Span
 
+from .budget import COMPILE, MISTAKE, READ, Budget, OverBudget
 from .front_matter import split
-from .rule_file import Rule, read_page
+from .rule import Rule, page_problem
+from .rule_file import Page, read_page
 
 
 class BrokenPage(NamedTuple):
@@ -64,12 +66,19 @@ CheckFixes = Callable[[Rule], list[Finding]]
 """The problems of a rule's fixes."""
 
 
-def load(paths: Sequence[str] = (), check_fixes: CheckFixes = lambda _: [], projects: Mapping[str, str] = {}) -> Registry:
+def load(
+    paths: Sequence[str] = (),
+    check_fixes: CheckFixes = lambda _: [],
+    projects: Mapping[str, str] = {},
+    budget: Budget | None = None,
+) -> Registry:
     """The built-in rules, and the rules of the given rule pages and folders of rule pages.
 
     `projects` has the projects of the paths that a configuration names. The pages of a folder must be in its project. Only the user's own
-    rules are checked here, fixes with `check_fixes`; the test suite checks the built-in rules. A rule with a problem is left out.
+    rules are checked here, fixes with `check_fixes`, within the `budget` of the run; the test suite checks the built-in rules. A rule with
+    a problem is left out.
     """
+    budget = budget or Budget()
     rules: list[Rule] = []
     problems: list[Finding] = []
     sources: dict[str, Source] = {}
@@ -88,22 +97,49 @@ def load(paths: Sequence[str] = (), check_fixes: CheckFixes = lambda _: [], proj
             shown = os.path.relpath(path).replace(os.sep, "/")
             problems.append(diagnostic("MSAA921", "no rule pages in this folder", shown))
     names = {rule.name for rule in rules}.union(map(_name, user_pages))
+    others = {word: rule for rule in rules for word in (rule.code, rule.name)}
     for path, project in user_pages.items():
         shown = os.path.relpath(path).replace(os.sep, "/")
-        page = read_page(path, shown, project)
+        page = _user_page(path, shown, project, others, names, check_fixes, budget)
         if page.source is not None:
             sources[shown] = page.source
-        of_page = list(page.problems)
         if page.rule is not None:
-            from .page_checks import check_names, check_rule
-
-            of_page += [*check_names(page.rule, rules, names), *check_rule(page.rule), *check_fixes(page.rule)]
-        if page.rule is not None and not of_page:
             rules.append(page.rule)
+            others.update({page.rule.code: page.rule, page.rule.name: page.rule})
         else:
             broken.append(BrokenPage(page.code, _name(path), shown))
-        problems.extend(sorted(of_page, key=lambda found: found.span or Span(0, 0)))
+        problems.extend(sorted(page.problems, key=lambda found: found.span or Span(0, 0)))
     return Registry(tuple(sorted(rules, key=lambda rule: rule.code)), tuple(problems), sources, tuple(broken))
+
+
+def _user_page(path: str, shown: str, others: Mapping[str, Rule], names: Collection[str], check_fixes: CheckFixes, budget: Budget) -> Page:
+    """One of the user's pages, checked; without its rule if it has a problem."""
+    if not budget.left:
+        return Page(
+            None,
+            (
+                page_problem(
+                    _name(path),
+                    shown,
+                    f"it was not read: the pages before it took the {budget.steps} steps that the custom rules of a run may take",
+                    Span(0, 0),
+                ),
+            ),
+        )
+    page = read_page(path, shown, project)
+    rule, found = page.rule, [*page.problems]
+    if rule is not None:
+        from .page_checks import check_names, check_rule
+
+        conditions = [rule.when, *(case.when for case in rule.cases)]
+        texts = len(rule.source.text) + sum(len(text) for text, _ in rule.texts)
+        try:
+            budget.charge(path, READ * texts + COMPILE * sum(map(len, conditions)))
+            found += [*check_names(rule, others, names), *check_rule(rule), *check_fixes(rule)]
+        except OverBudget as error:
+            found.append(rule.problem(f"{error}; it was not checked, and is not used", rule.condition_at))
+    budget.spend(path, MISTAKE * len(found))
+    return page._replace(rule=None if found else rule, problems=tuple(found))
 
 
 def markdown(rule: Rule) -> str:

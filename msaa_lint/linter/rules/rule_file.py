@@ -14,125 +14,28 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.core.text.tree import Limits, Node, parse
 
 from .front_matter import FENCE, first_sentence, mistake, split
+from .rule import APIS, PASSES, SAFETIES, Case, FixSpec, Rule, Setting, page_problem
 
 MAX_PAGE_BYTES = 1 << 20
 MAX_CONDITION = 2000
 """Characters of a condition. A page may come from an untrusted branch, and the cost of a CEL expression grows with its length."""
 
-SAFETIES = ("safe", "unsafe", "shown")
-"""Of a fix: it cannot change the picture; it may change the picture or needs a decision; it is shown with its price, but never applied."""
+MAX_TEXT = 2000
+"""Characters of any other text of the front matter: every finding has a copy of it, with its facts filled in."""
 
+MAX_ITEMS = 100
+"""Of each list and mapping: cases, labels, references, the facts that a fix changes."""
 
-class Setting(NamedTuple):
-    """One change of a fix: a fact, the value to set, add or remove, and its location on the page.
+MAX_PROBLEMS = 50
+"""Problems of a page that are reported."""
 
-    A value in braces names another fact of the subject, whose value is used. `fact_at` is the location of the fact's name.
-    """
-
-    fact: str
-    value: str | bool | int | float
-    at: Span
-    fact_at: Span = Span(0, 0)
-
-
-class FixSpec(NamedTuple):
-    """A fix in terms of facts: `set` sets the member that a fact comes from, `add` and `remove` change a list, and `do` names an action of
-    `linter.fixes`. `at` is the location of that name, or of the fix."""
-
-    title: str
-    safety: str
-    set: tuple[Setting, ...] = ()
-    add: tuple[Setting, ...] = ()
-    remove: tuple[Setting, ...] = ()
-    do: str = ""
-    at: Span = Span(0, 0)
-
-    @property
-    def safe(self) -> bool:
-        return self.safety == "safe"
-
-
-EDITIONS = ("2026.1",)
-"""In order. A rule of an edition later than the pinned one is off by default."""
-
-APIS = ("vulkan", "metal")
-"""The APIs whose frames a rule may be about."""
-
-PASSES = ("begun", "all")
-"""The passes that a rule about parts of passes applies to: those that the frame begins, or also those that are only created."""
-
-
-class Case(NamedTuple):
-    """What differs if a rule fires and `when` is true as well. The first such case applies; its `fix` replaces the rule's."""
-
-    when: str
-    severity: str | None
-    confidence: str | None
-    message: str | None
-    condition_at: Span = Span(0, 0)
-    fix: FixSpec | None = None
-    help: str | None = None
-
-
-class Rule(NamedTuple):
-    """A rule as stated by the front matter of its page.
-
-    `when` is a CEL condition. `at` and `labels` name facts and refer to their locations. `apis` are those whose frames the rule applies to,
-    `passes` the passes (one of PASSES).
-    """
-
-    code: str
-    name: str
-    severity: str
-    confidence: str
-    subject: str
-    when: str
-    message: str
-    at: tuple[str, ...]
-    labels: tuple[tuple[str, str], ...]
-    cases: tuple[Case, ...]
-    help: str
-    fix: FixSpec | None
-    vendors: tuple[str, ...]
-    edition: str
-    references: tuple[str, ...]
-    supersedes: tuple[str, ...]
-    summary: str
-    path: str
-    condition_at: Span
-    source: Source
-    apis: tuple[str, ...] = APIS[:1]
-    passes: str = PASSES[0]
-    places: Mapping[str, Span] = {}
-    """The locations of the values of the front matter's keys."""
-    texts: tuple[tuple[str, Span], ...] = ()
-    """The texts with facts in braces, and their locations."""
-    named: tuple[tuple[str, Span], ...] = ()
-    """The facts that `at` and `labels` name, and their locations."""
-
-    @property
-    def is_custom(self) -> bool:
-        """Whether it is one of the user's own rules; their codes cannot begin with MSAA."""
-        return not self.code.startswith("MSAA")
-
-    @property
-    def fix_specs(self) -> "tuple[FixSpec, ...]":
-        """The fixes of the rule and of its cases."""
-        return tuple(dict.fromkeys(fix for fix in (self.fix, *(case.fix for case in self.cases)) if fix is not None))
-
-    def problem(self, message: str, span: Span) -> Finding:
-        """A finding about the rule's page (MSAA921)."""
-        return page_problem(self.name, self.source.name, message, span)
+FRONT_MATTER = Limits(depth=20, nodes=10_000)
+"""Aliases expanded."""
 
 
 def _in_front_matter(message: str) -> str:
     """The message of a YAML error, for a page: what begins with an exclamation mark there is a condition."""
     return f"{message}; put a condition that begins with `!` in quotes" if message.startswith("the tag `!") else message
-
-
-def page_problem(rule: str, page: str, message: str, span: Span) -> Finding:
-    """A finding about the page of a rule (MSAA921)."""
-    return diagnostic("MSAA921", f"rule page `{rule}`: {message}", page, span, rule)
 
 
 class Page(NamedTuple):
@@ -165,7 +68,7 @@ def read_page(path: str, shown: str, project: str | None) -> Page:
     front, body = split(text)
     if front is None:
         return Page(None, (page_problem(name, shown, *mistake(text)),), source)
-    parsed = parse(Source(shown, front), Limits())
+    parsed = parse(Source(shown, front), FRONT_MATTER)
     if parsed.problems:
         problems = [
             page_problem(name, shown, _in_front_matter(p.message), p.span)._replace(labels=tuple(p.labels)) for p in parsed.problems
@@ -194,7 +97,8 @@ class _PageReader:
         self.named: list[tuple[str, Span]] = []
 
     def problem(self, span: Span, message: str) -> None:
-        self.problems.append(page_problem(self.name, self.shown, message, span))
+        if len(self.problems) < MAX_PROBLEMS:
+            self.problems.append(page_problem(self.name, self.shown, message, span))
 
     def rule(self, root: Node, body: str, path: str) -> Rule | None:
         from msaa_lint.frame.facts.table import SUBJECTS
@@ -222,7 +126,7 @@ class _PageReader:
         when = members["when"]
         at = self.items(members.get("at"), "at", scalar=True)
         fix = self.fix(members["fix"], None) if "fix" in members else None
-        self.named += [(node.text, node.span) for node in at]
+        self.named += [(node.text, node.span) for node in at if len(node.text) <= MAX_TEXT]
         return Rule(
             code=self.text(members["code"], "code"),
             name=self.name,
@@ -255,26 +159,28 @@ class _PageReader:
         """Reports the keys of a mapping that are not known; returns the known ones that are likely meant by them."""
         from msaa_lint.core.suggestions import near_or_all, nearest
 
-        keys = [key for key in mapping.value if key not in known]
+        keys = [key for key in mapping.value if key not in known][: MAX_PROBLEMS - len(self.problems)]
         for key in keys:
             self.problem(mapping.keys[key].span, f"unknown key {quoted(key)}: {near_or_all(key, known)}")
         return {meant for key in keys if (meant := nearest(key, known)) is not None}
 
     def prose(self, node: Node, key: str) -> str:
         """A text with facts in braces."""
-        self.texts.append((node.text, node.span))
-        return self.text(node, key)
+        text = self.text(node, key)
+        self.texts.append((node.text if text else "", node.span))
+        return text
 
-    def text(self, node: Node, key: str = "") -> str:
+    def text(self, node: Node, key: str = "", what: str = "", limit: int = MAX_TEXT) -> str:
         if node.kind != "scalar" or node.value is None:
             self.problem(node.span, f"{_of(key)}expected a string, found {_kind(node)}")
+            return ""
+        if len(node.text) > limit:
+            self.problem(node.span, f"{what or f'`{key}`'} is longer than {limit} characters")
             return ""
         return node.text.strip()
 
     def condition(self, when: Node) -> str:
-        if len(when.text) > MAX_CONDITION:
-            self.problem(when.span, f"the condition is longer than {MAX_CONDITION} characters")
-        return self.text(when, "when")
+        return self.text(when, "when", "the condition", MAX_CONDITION)
 
     def one_of(self, node: Node, words: Sequence[str], key: str) -> None:
         if node.kind != "scalar" or node.text not in words:
@@ -288,12 +194,18 @@ class _PageReader:
         if node is None:
             return []
         if node.kind == "sequence":
-            return list(node.value)
+            return list(node.value) if self.at_most(node, key) else []
         if scalar:
             return [node]
         example = f"; write `[{node.text}]`" if node.kind == "scalar" and node.value is not None else ""
         self.problem(node.span, f"{_of(key)}expected a list, found {_kind(node)}{example}")
         return []
+
+    def at_most(self, node: Node, key: str) -> bool:
+        """Whether a list or mapping has no more items than the limit."""
+        if len(node.value) > MAX_ITEMS:
+            self.problem(node.span, f"`{key}`: expected at most {MAX_ITEMS} items, found {len(node.value)}")
+        return len(node.value) <= MAX_ITEMS
 
     def strings(self, members: Mapping[str, Node], key: str) -> tuple[str, ...]:
         return tuple(self.text(item, key) for item in self.items(members.get(key), key))
@@ -303,6 +215,8 @@ class _PageReader:
             return ()
         if node.kind != "mapping":
             self.problem(node.span, f"`labels`: expected a mapping, found {_kind(node)}")
+            return ()
+        if not self.at_most(node, "labels"):
             return ()
         self.named += [(key, node.keys[key].span) for key in node.value]
         return tuple((key, self.prose(value, key)) for key, value in node.value.items())
@@ -358,10 +272,12 @@ class _PageReader:
         if node.kind != "mapping":
             self.problem(node.span, f"expected a mapping of facts to values, found {_kind(node)}")
             return ()
+        if not self.at_most(node, action):
+            return ()
         found = []
         for fact, value in node.value.items():
-            many = value.kind == "sequence" and action != "set"
-            found += [self.setting(node.keys[fact], item, action) for item in (value.value if many else [value])]
+            items = self.items(value, fact) if value.kind == "sequence" and action != "set" else [value]
+            found += [self.setting(node.keys[fact], item, action) for item in items]
         return tuple(found)
 
     def setting(self, key: Node, value: Node, action: str) -> Setting:

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import CONFIDENCES, Finding, Fix, MissingKey, Undecided
+from msaa_lint.core.quote import shortened
 from msaa_lint.core.text.span import Label, Span
 from msaa_lint.frame.facts.facts import Facts, Subject, Value
 from msaa_lint.frame.facts.table import PASS_PARTS
 
+from .budget import REPORT, UNDECIDED, Budget, OverBudget
 from .condition import Condition, activation, named
-from .rule_file import PASSES, Case, FixSpec, Rule
+from .rule import PASSES, Case, FixSpec, Rule
 
 _PLACEHOLDER = re.compile(r"\{([a-z_.0-9]+)\}")
 _INTEGRAL = re.compile(r"\.0$")
@@ -38,6 +40,12 @@ RuleResult = tuple[Rule, "bool | ArithmeticError | None", tuple[str, ...]]
 MAX_CACHED = 4096
 """Sets of facts whose results are cached, in some 6 MB."""
 
+MAX_CACHED_CHARACTERS = 1 << 24
+"""Of the names in these sets."""
+
+MAX_VALUE = 500
+"""Characters of a fact's value in a text."""
+
 
 class Verdicts(NamedTuple):
     """The results of all rules for a document; `checked` is false if problems of the document kept them from running."""
@@ -54,7 +62,8 @@ class RuleRunner:
     Most attachments of a frame are alike, and evaluating conditions takes most of the time.
     """
 
-    def __init__(self, rules: Iterable[Rule]) -> None:
+    def __init__(self, rules: Iterable[Rule], budget: Budget | None = None) -> None:
+        self._budget = budget or Budget()
         self._by_subject: dict[str, dict[str, list[Rule]]] = {}
         """By API, then by kind of subject."""
         for rule in rules:
@@ -63,9 +72,18 @@ class RuleRunner:
         self._conditions: dict[str, Condition] = {}
         self._fact_names: dict[tuple[str, str], tuple[str, ...]] = {}
         self._cache: dict[tuple[object, ...], _Cached] = {}
+        self._cached_characters = 0
         self._severity: object = None
         self._enabled: dict[tuple[str, str, bool], Rules] = {}
         """The rules that the last `severity` enables, by API, kind of subject, and whether it is of a pass that is only created."""
+        self._off = 0
+        """The number of pages that were turned off when these rules were determined."""
+
+    def turned_off(self) -> set[str]:
+        """The names of the rules whose pages the budget of the run has turned off."""
+        off = self._budget.off
+        every = (rule for kinds in self._by_subject.values() for rules in kinds.values() for rule in rules) if off else ()
+        return {rule.name for rule in every if rule.path in off}
 
     def run(
         self,
@@ -95,24 +113,38 @@ class RuleRunner:
             fired: list[tuple[Rule, Finding]] = []
             fixes: dict[str, FixSpec] = {}
             for rule, value, missing in evaluation.results(rules):
-                if value is None:
-                    keys: Mapping[str, MissingKey] = {}
-                    if missing_keys is not None:
-                        blocking = evaluation.blocking(self._condition(rule.when), missing, all_keys)
-                        keys = {key.path: key for fact in blocking for key in missing_keys(subject, fact)}
-                    undecided.append(Undecided(rule.code, rule.name, file, subject.path, missing, tuple(keys.values())))
-                    continue
+                at = rule.condition_at
+                case: Case | None = None
+                found: Finding | None = None
                 try:
+                    if value is None:
+                        self._charge(rule, UNDECIDED)
+                        keys: Mapping[str, MissingKey] = {}
+                        if missing_keys is not None:
+                            blocking = evaluation.blocking(rule, self._condition(rule.when), missing, all_keys)
+                            keys = {key.path: key for fact in blocking for key in missing_keys(subject, fact)}
+                        undecided.append(Undecided(rule.code, rule.name, file, subject.path, missing, tuple(keys.values())))
+                        continue
                     if isinstance(value, ArithmeticError):
                         raise value
-                    case = next((case for case in rule.cases if evaluation.value(self._condition(case.when))), None)
-                except ArithmeticError as error:
-                    findings.append(_failed(rule, error, file))
+                    for each in rule.cases:
+                        at = each.condition_at
+                        if evaluation.value(rule, self._condition(each.when)):
+                            case = each
+                            break
+                    suggested = case.severity or rule.severity if case is not None else rule.severity
+                    level = severity(rule, suggested, vendor if isinstance(vendor, str) else None)
+                    if level is not None:
+                        at = rule.places.get("message", at)
+                        found = finding(rule, case, subject, file, level)
+                        self._charge(rule, REPORT + len(found.message) + len(found.help) + sum(len(each.text) for each in found.labels))
+                except OverBudget as error:
+                    findings.append(rule.problem(f"{error}; it was turned off at {shortened(file, 200)}, and not run from there on", at))
                     continue
-                suggested = case.severity or rule.severity if case is not None else rule.severity
-                level = severity(rule, suggested, vendor if isinstance(vendor, str) else None)
-                if level is not None:
-                    found = finding(rule, case, subject, file, level)
+                except ArithmeticError as error:
+                    findings.append(_failed(rule, error, file, at))
+                    continue
+                if found is not None:
                     fired.append((rule, _if_begun(found) if begun == "NOT_STATED" and rule.passes == PASSES[0] else found))
                     spec = rule.fix if case is None else case.fix
                     if spec is not None:
@@ -123,11 +155,18 @@ class RuleRunner:
                     fix_specs.setdefault(finding_key(found), []).append((fixes[found.code], subject))
         return Verdicts(distinct(findings), undecided, fix_specs)
 
+    def _charge(self, rule: Rule, steps: int) -> None:
+        """Counts steps of a custom rule. Raises: OverBudget."""
+        if rule.is_custom:
+            self._budget.charge(rule.path, steps)
+
     def _rules(self, kind: str, api: str, severity: Severity, only_created: bool) -> Rules:
-        key = (api, kind, only_created)
+        key, off = (api, kind, only_created), self._budget.off
+        if self._off != len(off):
+            self._off, self._enabled = len(off), {}
         if key not in self._enabled:
             rules = [rule for rule in self._by_subject.get(api, {}).get(kind, ()) if not only_created or rule.passes != PASSES[0]]
-            enabled = [rule for rule in rules if severity(rule, rule.severity, None) is not None]
+            enabled = [rule for rule in rules if rule.path not in off and severity(rule, rule.severity, None) is not None]
             self._enabled[key] = [(rule, self._condition(rule.when)) for rule in enabled]
         return self._enabled[key]
 
@@ -143,10 +182,12 @@ class RuleRunner:
         facts = (api, subject.kind, *[tuple(value) if type(value) is list else value for value in map(values.get, names)])
         cached = self._cache.get(facts)
         if cached is None:
-            if len(self._cache) >= MAX_CACHED:
+            self._cached_characters += sum(len(each) for each in facts if isinstance(each, str))
+            if len(self._cache) >= MAX_CACHED or self._cached_characters > MAX_CACHED_CHARACTERS:
                 self._cache.clear()
+                self._cached_characters = 0
             cached = self._cache[facts] = _Cached()
-        return _Evaluation(names, values, cached)
+        return _Evaluation(names, values, cached, self._budget)
 
     def _facts_used(self, api: str, kind: str) -> tuple[str, ...]:
         names = self._fact_names.get((api, kind))
@@ -171,24 +212,30 @@ class _Cached:
 class _Evaluation:
     """Evaluates conditions for one subject; `cached` is shared by the subjects with the same facts."""
 
-    __slots__ = ("_activation", "_cached", "_facts", "_names")
+    __slots__ = ("_activation", "_budget", "_cached", "_facts", "_names")
 
-    def __init__(self, names: Sequence[str], facts: Mapping[str, Value], cached: _Cached) -> None:
+    def __init__(self, names: Sequence[str], facts: Mapping[str, Value], cached: _Cached, budget: Budget) -> None:
+        self._budget = budget
         self._names = names
         self._facts = facts
         self._cached = cached
         self._activation: object = None
 
-    def value(self, condition: Condition) -> bool | None:
-        """The value of a condition; see `Condition.holds`."""
+    def value(self, rule: Rule, condition: Condition) -> bool | None:
+        """The value of a condition of a rule; see `Condition.holds`. Raises: OverBudget."""
         values = self._cached.values
         if condition.text not in values:
+            self._charge(rule, condition, self._facts)
             if self._activation is None:
                 self._activation = activation(None, {name: self._facts[name] for name in self._names if name in self._facts})
             values[condition.text] = condition.holds(self._activation)
         return values[condition.text]
 
-    def blocking(self, condition: Condition, missing: Sequence[str], every: bool) -> tuple[str, ...]:
+    def _charge(self, rule: Rule, condition: Condition, facts: Mapping[str, Value]) -> None:
+        if rule.is_custom:
+            self._budget.charge_evaluation(rule.path, condition.cost.steps(facts))
+
+    def blocking(self, rule: Rule, condition: Condition, missing: Sequence[str], every: bool) -> tuple[str, ...]:
         """A missing fact that an undecided condition depends on; if `every`, all that can decide it alone, or all if none can."""
         if len(missing) < 2:
             return tuple(missing)
@@ -196,11 +243,20 @@ class _Evaluation:
         if key not in self._cached.blocking:
             known = {name: self._facts[name] for name in self._names if name in self._facts}
             if every:
-                decisive = [name for name in missing if any(map(condition.decides, _trials(condition, name, known)))]
+                decisive = [name for name in missing if self._is_decisive(rule, condition, name, known)]
                 self._cached.blocking[key] = tuple(decisive or missing)
             else:
                 self._cached.blocking[key] = (condition.first_absent(activation(None, known)),)
         return self._cached.blocking[key]
+
+    def _is_decisive(self, rule: Rule, condition: Condition, fact: str, known: Mapping[str, Value]) -> bool:
+        """Whether one of the values of a fact that a condition tells apart decides it, with what is known."""
+        for value in condition.trials(fact):
+            facts = {**known, fact: value}
+            self._charge(rule, condition, facts)
+            if condition.decides(activation(None, facts)):
+                return True
+        return False
 
     def results(self, rules: Rules) -> list[RuleResult]:
         """The rules that fire, fail or are undecided, in order."""
@@ -210,7 +266,7 @@ class _Evaluation:
             for rule, condition in rules:
                 value: bool | ArithmeticError | None
                 try:
-                    value = self.value(condition)
+                    value = self.value(rule, condition)
                 except ArithmeticError as error:
                     value = error
                 if value is not False:
@@ -218,11 +274,6 @@ class _Evaluation:
                     results.append((rule, value, missing))
             cached = self._cached.results = (rules, results)
         return cached[1]
-
-
-def _trials(condition: Condition, fact: str, known: Mapping[str, Value]) -> Iterator[object]:
-    """What is known, with each of the values of a fact that a condition tells apart."""
-    return (activation(None, {**known, fact: value}) for value in condition.trials(fact))
 
 
 def finding_key(finding: Finding) -> Key:
@@ -264,7 +315,7 @@ def finding(rule: Rule, case: Case | None, subject: Subject, file: str, severity
 
 def fill_in(text: str, facts: Facts) -> str:
     """A page's text with the facts in braces replaced by their values."""
-    return _PLACEHOLDER.sub(lambda match: _format(facts.values.get(match[1])), text)
+    return _PLACEHOLDER.sub(lambda match: shortened(_format(facts.values.get(match[1])), MAX_VALUE), text)
 
 
 def _format(value: object) -> str:
@@ -273,7 +324,7 @@ def _format(value: object) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, list):
-        return ", ".join(str(item) for item in value)
+        return ", ".join(str(item) for item in value[:MAX_VALUE])
     return _INTEGRAL.sub("", str(value)) if isinstance(value, float) else str(value)
 
 
@@ -285,12 +336,13 @@ def _if_begun(found: Finding) -> Finding:
 
 def _without_superseded(fired: list[tuple[Rule, Finding]]) -> list[Finding]:
     """The findings of one subject without those that a more specific one supersedes, which says so in a note."""
-    names = {rule.name for rule, _ in fired}
-    superseded = {name for rule, _ in fired for name in rule.supersedes if name in names}
+    by_name = {rule.name: found for rule, found in fired}
+    superseded = {name for rule, _ in fired for name in rule.supersedes if name in by_name}
     findings = []
     for rule, found in fired:
         if rule.name not in superseded:
-            notes = tuple(f"covers {other.rule} ({other.code}) too" for each, other in fired if each.name in rule.supersedes)
+            others = sorted((by_name[name] for name in {*rule.supersedes} if name in by_name), key=lambda other: other.code)
+            notes = tuple(f"covers {other.rule} ({other.code}) too" for other in others)
             findings.append(found._replace(notes=(*found.notes, *notes)) if notes else found)
     return findings
 
@@ -303,6 +355,6 @@ def distinct(findings: Iterable[Finding]) -> list[Finding]:
     return list(by_key.values())
 
 
-def _failed(rule: Rule, error: ArithmeticError, file: str) -> Finding:
+def _failed(rule: Rule, error: ArithmeticError, file: str, at: Span) -> Finding:
     message = f"cannot evaluate the condition of `{rule.name}` for {file}: {str(error)[:200]}"
-    return diagnostic("MSAA921", message, rule.source.name, rule.condition_at, rule.name)
+    return diagnostic("MSAA921", message, rule.source.name, at, rule.name)

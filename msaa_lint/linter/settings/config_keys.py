@@ -179,7 +179,7 @@ class TableReader:
         return ignores
 
     def edition(self, path: Path, value: Any) -> str | None:
-        from msaa_lint.linter.rules.rule_file import EDITIONS
+        from msaa_lint.linter.rules.rule import EDITIONS
 
         if isinstance(value, float):
             self.problem(path, "expected a string, found a number", f'write edition = "{value}"')

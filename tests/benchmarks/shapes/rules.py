@@ -37,7 +37,7 @@ def few(size: int) -> str:
 
 def named(count: int, length: int) -> str:
     """Images with long names."""
-    rows = "".join(f"  {'n' * length}{number}: {{samples: 4}}\n" for number in range(count))
+    rows = "".join(f"  ? {'n' * length}{number}\n  : {{samples: 4}}\n" for number in range(count))
     return f"{FRAME}images:\n{rows}renderPasses: {{}}\n"
 
 

@@ -14,7 +14,7 @@ from msaa_lint.linter.fixes.changes import Change, NoFix, StructuralChange, appl
 from msaa_lint.linter.fixes.context import FixContext
 from msaa_lint.linter.fixes.planning import plan
 from msaa_lint.linter.fixes.text_edits import TextEditor
-from msaa_lint.linter.rules.rule_file import FixSpec, Setting
+from msaa_lint.linter.rules.rule import FixSpec, Setting
 from tests.command import run
 from tests.frame.metal.frames import ARTICLE, BEST, document
 from tests.linter.fixes.linting import fix_findings, kinds, lint

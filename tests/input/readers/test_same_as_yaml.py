@@ -12,7 +12,7 @@ from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.facts.subjects import subjects
 from msaa_lint.input import readers
 from msaa_lint.linter.rules.registry import load
-from msaa_lint.linter.rules.rule_file import Rule
+from msaa_lint.linter.rules.rule import Rule
 from msaa_lint.linter.rules.rule_runner import RuleRunner, Verdicts
 from tests.frame.description.test_schema import documents
 from tests.input.readers.vulkan_sc import Json, alone, dump, text

@@ -15,7 +15,7 @@ from msaa_lint.linter.engine import Engine, LintOptions
 from msaa_lint.linter.fixes.fixer import FixResult, fix_text
 from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.registry import load
-from msaa_lint.linter.rules.rule_file import Rule
+from msaa_lint.linter.rules.rule import Rule
 from tests.pages import RULES
 
 ENGINE = Engine(load())

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from msaa_lint.linter.fixes.changes import Change, NoFix, StructuralChange, apply_temporarily
 from msaa_lint.linter.fixes.context import FixContext
 from msaa_lint.linter.fixes.planning import plan
-from msaa_lint.linter.rules.rule_file import FixSpec, Setting
+from msaa_lint.linter.rules.rule import FixSpec, Setting
 from tests.linter.fixes.linting import lint, meaning
 
 TEXT = """\

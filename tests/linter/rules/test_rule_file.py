@@ -13,7 +13,8 @@ from msaa_lint.core.finding import Finding
 from msaa_lint.linter.engine import Engine, LintOptions
 from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.registry import Registry, load, markdown
-from msaa_lint.linter.rules.rule_file import KEYS, MAX_CONDITION, Rule, first_sentence, read_page, split
+from msaa_lint.linter.rules.rule import Rule
+from msaa_lint.linter.rules.rule_file import KEYS, MAX_CONDITION, first_sentence, read_page, split
 from tests.marked import unmarked
 from tests.strength import examples
 

@@ -9,7 +9,7 @@ from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules import rule_runner as judge
 from msaa_lint.linter.rules.condition import Condition
 from msaa_lint.linter.rules.registry import load
-from msaa_lint.linter.rules.rule_file import Rule
+from msaa_lint.linter.rules.rule import Rule
 from tests.pages import all_examples
 
 TEXTS = [example.text.encode() for example in all_examples()]
