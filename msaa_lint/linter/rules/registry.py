@@ -100,7 +100,10 @@ def load(
     others = {word: rule for rule in rules for word in (rule.code, rule.name)}
     for path, project in user_pages.items():
         shown = os.path.relpath(path).replace(os.sep, "/")
-        page = _user_page(path, shown, project, others, names, check_fixes, budget)
+        if budget.left:
+            page = _checked(read_page(path, shown, project), path, others, names, check_fixes, budget)
+        else:
+            page = _unread(path, shown, budget)
         if page.source is not None:
             sources[shown] = page.source
         if page.rule is not None:
@@ -112,21 +115,14 @@ def load(
     return Registry(tuple(sorted(rules, key=lambda rule: rule.code)), tuple(problems), sources, tuple(broken))
 
 
-def _user_page(path: str, shown: str, others: Mapping[str, Rule], names: Collection[str], check_fixes: CheckFixes, budget: Budget) -> Page:
-    """One of the user's pages, checked; without its rule if it has a problem."""
-    if not budget.left:
-        return Page(
-            None,
-            (
-                page_problem(
-                    _name(path),
-                    shown,
-                    f"it was not read: the pages before it took the {budget.steps} steps that the custom rules of a run may take",
-                    Span(0, 0),
-                ),
-            ),
-        )
-    page = read_page(path, shown, project)
+def _unread(path: str, shown: str, budget: Budget) -> Page:
+    """A page for which nothing of the budget is left."""
+    message = f"it was not read: the pages before it took the {budget.steps} steps that the custom rules of a run may take"
+    return Page(None, (page_problem(_name(path), shown, message, Span(0, 0)),))
+
+
+def _checked(page: Page, path: str, others: Mapping[str, Rule], names: Collection[str], check_fixes: CheckFixes, budget: Budget) -> Page:
+    """One of the user's pages with all its problems; without its rule if it has any."""
     rule, found = page.rule, [*page.problems]
     if rule is not None:
         from .page_checks import check_names, check_rule
