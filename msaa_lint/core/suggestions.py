@@ -38,6 +38,8 @@ def nearest(name: str, candidates: Iterable[str], simplify: Callable[[str], str]
     simplified: dict[str, str] = {}
     for candidate in known:
         simplified.setdefault(simplify(candidate), candidate)
+    # A name of separators alone is meant by no other.
+    simplified.pop("", None)
     if bare in simplified:
         return simplified[bare]
     if len(bare) >= 3:

@@ -20,6 +20,7 @@ from msaa_lint.core.suggestions import MAX_CANDIDATES, MAX_LENGTH, MAX_SEARCHES,
         ("NOPE", ["sample-count-not-portable", "nonlinear-values-averaged-for-people"], None),
         ("test", ["rasterization-samples-mismatch"], None),
         ("loadOp", [], None),
+        ("colorMS", ["\0", "--"], None),
     ],
 )
 def test_nearest_key(word: str, words: list[str], meant: str | None) -> None:
