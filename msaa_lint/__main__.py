@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import sys
+from typing import Any
 
 
 def main() -> None:
@@ -11,22 +12,42 @@ def main() -> None:
     # A run creates many small objects that live to its end, and collecting in between costs a third of the time of reading large inputs.
     # `linter.run` collects between inputs where garbage accumulates.
     gc.disable()
+    if sys.argv[1:] == ["--version"] and sys.stdout is not None:
+        # Needs no other module, unless it cannot be written.
+        try:
+            _run()
+            return
+        except OSError:
+            pass
+    from .cli.streams import run_with_streams
+
+    code = run_with_streams(_run)
+    # Spares the collection that Python does at exit.
+    gc.freeze()
+    sys.exit(code)
+
+
+def _run() -> int:
     words = sys.argv[1:]
     if words == ["--version"]:
         from . import __version__
 
-        print(f"msaa-lint {__version__}")
-        return
+        print(f"msaa-lint {__version__}", flush=True)
+        return 0
     from .cli.arguments import run_words
 
     code = run_words(words)
     if isinstance(code, int):
-        # Spares the collection that Python does at exit.
-        gc.freeze()
-        sys.exit(code)
-    from .cli.app import app
+        return code
+    from .cli.common import run_command
 
-    app(code, prog_name="msaa-lint")
+    def help_or_complete(arguments: dict[str, Any]) -> int:
+        from .cli.app import app
+
+        app(arguments["words"], prog_name="msaa-lint")
+        return 0
+
+    return run_command(help_or_complete, {"paths": [], "words": code})
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ from msaa_lint.linter.run import run
 from msaa_lint.linter.suppress import baseline as baselines
 from msaa_lint.linter.workspace import Request
 
-from .common import log, note, overrides, run_command, warn
+from .common import log, note, overrides, refuse_inputs, run_command, warn, writes
 from .options import Arguments
 from .report.summary import plural
 
@@ -31,9 +31,13 @@ def _baseline(arguments: Arguments) -> int:
 
 
 def write_baseline(request: Request, stated: str | None, prune: bool) -> int:
-    """Writes the baseline of the current findings of a request, or with `prune` removes fixed findings from it; returns 2 if it cannot."""
+    """Writes the baseline of the current findings of a request, or with `prune` removes fixed findings from it; returns 2 if it cannot.
+
+    A file that msaa-lint did not write is replaced only if it is `stated`.
+    """
     file = stated or FILE
     result = run(request).result
+    refuse_inputs([file], result.files)
     fatal = [finding for finding in result.findings if finding.fatal]
     for finding in fatal:
         warn(f"{finding.file}: {finding.message}")
@@ -50,11 +54,8 @@ def write_baseline(request: Request, stated: str | None, prune: bool) -> int:
         before = _count(loaded)
     else:
         new = baselines.build(result.findings, os.path.dirname(os.path.abspath(file)))
-    try:
-        baselines.save(new, file)
-    except OSError as error:
-        warn(f"cannot write {file}: {error.strerror}")
-        return 2
+    with writes(file):
+        baselines.save(new, file, force=stated is not None)
     after = _count(new)
     change = f"removed {before - after} of {before}" if prune else f"{plural(after, 'finding')} in {plural(len(new.entries), 'file')}"
     note(f"{file}: {change}. To use it: msaa-lint check --baseline {file} ...")

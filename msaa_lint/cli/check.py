@@ -23,9 +23,9 @@ from .common import (
     output_width,
     overrides,
     parse_outputs,
+    refuse_inputs,
     report_options,
     run_command,
-    set_utf_8,
     use_color,
     warn,
     write_output,
@@ -49,6 +49,7 @@ def check(arguments: Arguments) -> int:
 
 def _check(arguments: Arguments) -> int:
     targets = parse_outputs(arguments.get("output", ()), OUTPUT_FORMATS, EXAMPLE)
+    refuse_inputs([target.path for target in targets], arguments["paths"])
     fallback = "full" if sys.stdout.isatty() else "concise"
     start = perf_counter()
     outcome = run(request(arguments, targets, fallback), None if arguments.get("quiet") else _progress())
@@ -147,10 +148,10 @@ def _over_budget(outcome: Outcome) -> list[str]:
 
 
 def _print_reports(targets: Sequence[Target], outcome: Outcome, arguments: Arguments) -> None:
+    refuse_inputs([target.path for target in targets if target.path != STDERR], outcome.result.files)
     for target in targets:
         render = partial(_render, target.format, outcome, arguments)
         if target.path == STDERR:
-            set_utf_8(sys.stderr)
             render(sys.stderr)
         else:
             write_output(target.path, render)

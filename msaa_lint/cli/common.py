@@ -3,11 +3,13 @@
 import os
 import re
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from importlib import import_module
 from typing import IO, Any, NamedTuple, TypeVar
 
 from msaa_lint.core import atomic_write
+from msaa_lint.core.diagnostics import internal_error
 from msaa_lint.core.extras import needs_extra
 from msaa_lint.core.package import VERSION
 from msaa_lint.core.quote import quoted
@@ -15,9 +17,7 @@ from msaa_lint.core.quote import quoted
 from .options import Arguments
 from .report import Options
 from .report.escape import escape
-
-BROKEN_PIPE = 2
-"""The exit code if the reader of the output is gone."""
+from .streams import OutputError
 
 MAX_RENDER_SIDE = 16384
 """Width and height of a rendered picture, in pixels."""
@@ -25,8 +25,8 @@ MAX_RENDER_SIDE = 16384
 _OVERRIDES = ("edition", "profile", "fail_on", "fail_on_cost", "fail_confidence", "min_severity", "baseline", "rules", "strict_inputs")
 _SELECTORS = ("select", "extend_select", "ignore")
 
-_quiet = False
-"""Whether the command that runs is `--quiet`."""
+_quiet = _traceback = False
+"""Whether the command that runs has `--quiet`, and `--traceback`."""
 
 Value = TypeVar("Value")
 
@@ -58,27 +58,26 @@ def run_command(
 ) -> int:
     """Runs a command and returns its exit code, however it ends.
 
-    Returns 2 for a UsageError, for the given `errors`, whose texts are for the user too, and for any other exception unless `--traceback`
-    is given, which raises it; BROKEN_PIPE; 130 on an interrupt. If `terminable`, SIGTERM unwinds the stack, so that no child process and no
-    temporary file is left.
+    Returns 2 for a UsageError, for the given `errors`, whose texts are for the user too, and for any other exception but OutputError
+    unless `--traceback` is given, which raises it; 130 on an interrupt. If `terminable`, SIGTERM unwinds the stack, so that no child
+    process and no temporary file is left.
     """
-    global _quiet
-    _quiet = bool(arguments.get("quiet"))
+    global _quiet, _traceback
+    _quiet, _traceback = bool(arguments.get("quiet")), bool(arguments.get("traceback"))
     reported: tuple[type[Exception], ...] = (UsageError, *errors)
     previous = _unwind_on_sigterm() if terminable else None
     try:
+        _check_current_folder()
         return command(arguments)
     except reported as error:
         warn(str(error))
         return 2
-    except BrokenPipeError:
-        # Python would report the error again when it closes the stream.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return BROKEN_PIPE
+    except OutputError:
+        raise
     except KeyboardInterrupt:
         return 130
     except Exception as error:
-        if arguments.get("traceback"):
+        if _traceback:
             raise
         warn(f"internal error: {type(error).__name__}: {str(error)[:300]} (--traceback shows where)")
         return 2
@@ -87,6 +86,26 @@ def run_command(
             import signal
 
             signal.signal(signal.SIGTERM, previous)
+
+
+@contextmanager
+def internal_errors_of(name: str) -> Iterator[None]:
+    """UsageError, which names the input, for an exception that is a mistake in msaa-lint, unless `--traceback` is given."""
+    try:
+        yield
+    except (UsageError, OutputError):
+        raise
+    except Exception as error:
+        if _traceback:
+            raise
+        raise UsageError(f"{name}: {internal_error(error)}") from None
+
+
+def _check_current_folder() -> None:
+    try:
+        os.getcwd()
+    except OSError as error:
+        raise UsageError(f"the current folder cannot be used: {error.strerror}") from None
 
 
 def _unwind_on_sigterm() -> Any:
@@ -112,24 +131,51 @@ def parse_outputs(texts: Sequence[str], formats: Sequence[str], example: str) ->
             from msaa_lint.core.suggestions import near_or_all
 
             raise UsageError(f"unknown output format {quoted(name)}: {near_or_all(name, formats)}")
-        targets.append(Target(name, path if equals and path not in ("", "-") else None))
+        targets.append(Target(name, path if equals and path not in ("", "-", "/dev/stdout") else None))
     if sum(target.path is None for target in targets) > 1:
         raise UsageError(f"only one output can go to standard output; write the others to files, as in --output {example}")
     return targets
 
 
-def write_output(path: str | None, render: Callable[[IO[str]], None]) -> None:
+def refuse_inputs(outputs: Iterable[str | None], inputs: Sequence[str]) -> None:
+    """UsageError if two outputs would go to the same file, or one would replace an input. None is standard output."""
+    paths = [path for path in outputs if path is not None]
+    places = list(map(os.path.realpath, paths))
+    for number, (path, place) in enumerate(zip(paths, places, strict=True)):
+        if os.path.exists(path) and not os.path.isfile(path):
+            continue
+        if place in places[:number]:
+            raise UsageError(f"two outputs go to {path}; write each to a file of its own")
+        if os.path.isfile(path) and any(_is_same_file(path, each) for each in inputs):
+            raise UsageError(f"{path} is an input, which the output would replace; write it to another file")
+
+
+def _is_same_file(path: str, other: str) -> bool:
+    try:
+        return os.path.samefile(path, other)
+    except (OSError, ValueError):
+        return False
+
+
+def write_output(path: str | None, render: Callable[[IO[str]], object]) -> None:
     """Calls `render` with a file, or standard output, opened for UTF-8. UsageError if a file cannot be written."""
     if path is None:
-        set_utf_8(sys.stdout)
         render(sys.stdout)
         sys.stdout.flush()
         return
+    with writes(path), atomic_write.new_text(path) as file:
+        render(file)
+
+
+@contextmanager
+def writes(path: str) -> Iterator[None]:
+    """UsageError for an OSError: `path` cannot be written. OutputError if it is a pipe whose reader is gone."""
     try:
-        with atomic_write.new_text(path) as file:
-            render(file)
+        yield
+    except BrokenPipeError:
+        raise OutputError from None
     except OSError as error:
-        raise UsageError(f"cannot write {path}: {error.strerror}") from None
+        raise UsageError(f"cannot write {path}: {error.strerror or error}") from None
 
 
 def write_chart(path: str, option: str, draw: Callable[[str], bytes]) -> None:
@@ -140,10 +186,8 @@ def write_chart(path: str, option: str, draw: Callable[[str], bytes]) -> None:
         if (error.name or "").partition(".")[0] != "matplotlib":
             raise
         raise UsageError(needs_extra(option, "chart")) from None
-    try:
+    with writes(path):
         atomic_write.write_file(path, data)
-    except OSError as error:
-        raise UsageError(f"cannot write {path}: {error.strerror}") from None
 
 
 def chart_format(path: str, option: str) -> str:
@@ -152,13 +196,6 @@ def chart_format(path: str, option: str) -> str:
     if extension not in (".svg", ".png"):
         raise UsageError(f"`{option}` must be the name of an .svg or .png file, found {quoted(path)}")
     return extension[1:]
-
-
-def set_utf_8(out: IO[str]) -> None:
-    """Makes a stream accept all characters: its own encoding may lack some, and machine formats are UTF-8 whatever the locale."""
-    reconfigure = getattr(out, "reconfigure", None)
-    if reconfigure is not None:
-        reconfigure(encoding="utf-8", errors="backslashreplace")
 
 
 def parse_size(text: str, limit: int) -> tuple[int, int]:

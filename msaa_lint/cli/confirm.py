@@ -23,6 +23,7 @@ from .common import (
     overrides,
     parse_outputs,
     parse_size,
+    refuse_inputs,
     report_module,
     report_options,
     run_command,
@@ -52,6 +53,7 @@ def confirm(arguments: Arguments) -> int:
 
 def _confirm(arguments: Arguments) -> int:
     options = parse_options(arguments)
+    refuse_inputs([target.path for target in options.targets], arguments["paths"])
     if arguments.get("list_devices"):
         return _list_devices(options)
     if not arguments["paths"]:
@@ -75,7 +77,7 @@ def parse_options(arguments: Arguments) -> ConfirmOptions:
         Limits(seconds=_parse_seconds(arguments["timeout"])) if "timeout" in arguments else Limits(),
         not arguments.get("no_layer"),
         {
-            **{name: arguments[name] for name in ("image", "repeats", "samples", "resolves") if name in arguments},
+            **{name: arguments[name] for name in ("image", "force", "repeats", "samples", "resolves") if name in arguments},
             "gate": not arguments.get("no_gate"),
             "time": True if arguments.get("time") else False if arguments.get("no_time") else None,
             "size": parse_size(arguments["size"], MAX_RENDER_SIDE) if "size" in arguments else None,

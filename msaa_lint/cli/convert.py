@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Mapping
+from functools import partial
 
 from msaa_lint.core import atomic_write
 from msaa_lint.core.text.emitter import emit
@@ -13,7 +13,7 @@ from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.input.opening import load
 from msaa_lint.input.source_file import SourceFile
 
-from .common import note, run_command, warn
+from .common import UsageError, internal_errors_of, note, refuse_inputs, run_command, warn, write_output, writes
 from .options import Arguments
 from .report.escape import escape
 
@@ -35,6 +35,13 @@ def convert_input(path: str, output: str | None, format: str | None, force: bool
     part is still written.
     """
     name = "<stdin>" if path == "-" else path
+    if output is not None:
+        refuse_inputs([output], [path])
+    with internal_errors_of(name):
+        return _convert_file(name, path, output, format, force)
+
+
+def _convert_file(name: str, path: str, output: str | None, format: str | None, force: bool) -> int:
     try:
         data = load(path, Limits(), format=format)
         if isinstance(data, bytes):
@@ -96,19 +103,25 @@ def _convert_source(code: SourceFile, output: str | None, force: bool) -> None:
 
 def _write(text: str, modules: Mapping[str, bytes], output: str | None, force: bool) -> None:
     """Writes a description and the shader modules that it names, or prints it without them."""
-    if output is None or output == "-":
-        sys.stdout.write(text)
+    if output in (None, "-", "/dev/stdout"):
+        write_output(None, lambda out: out.write(text))
         if modules:
             note(f"{len(modules)} shaders are not written; -o FILE writes them next to the description")
         return
-    if os.path.lexists(output) and not force:
-        raise _ConvertError(f"{output} already exists; --force overwrites it")
+    if (os.path.isfile(output) or os.path.islink(output)) and not force:
+        raise UsageError(f"{output} already exists; --force overwrites it")
     folder = os.path.dirname(output)
-    files = {output: text.encode(), **{os.path.join(folder, *name.split("/")): code for name, code in modules.items()}}
-    try:
-        for path, data in files.items():
-            if path != output:
-                os.makedirs(os.path.dirname(path) or os.curdir, exist_ok=True)
-            atomic_write.write_file(path, data)
-    except OSError as error:
-        raise _ConvertError(f"cannot write {output}: {error.strerror or error}") from None
+    for name, code in modules.items():
+        path = os.path.join(folder, *name.split("/"))
+        with writes(path):
+            os.makedirs(os.path.dirname(path) or os.curdir, exist_ok=True)
+            atomic_write.write_file(path, code, None if force else partial(_holds, code))
+    # The description comes last: it is whole only with its shaders.
+    with writes(output):
+        atomic_write.write_file(output, text.encode())
+
+
+def _holds(data: bytes, path: str) -> bool:
+    """Whether a file holds these bytes."""
+    with open(path, "rb") as file:
+        return file.read(len(data) + 1) == data

@@ -27,10 +27,10 @@ from .common import (
     parse_list,
     parse_outputs,
     parse_size,
+    refuse_inputs,
     report_module,
     report_options,
     run_command,
-    set_utf_8,
     write_chart,
     write_output,
 )  # fmt: skip
@@ -61,6 +61,7 @@ def _cost(arguments: Arguments) -> int:
     _print_errors(result.errors, arguments)
     if comparison is not None:
         _require_figures(comparison)
+    refuse_inputs([*(target.path for target in targets), chart], result.errors.files)
     for target in targets:
         write_output(target.path, partial(_render, target.format, result, comparison, arguments))
     if chart is not None:
@@ -116,7 +117,6 @@ def _print_errors(errors: Result, arguments: Arguments) -> None:
     from .report import concise, full
 
     options = report_options(arguments, sys.stderr, width=0)
-    set_utf_8(sys.stderr)
     for finding in errors.findings:
         if sys.stderr.isatty():
             print(full.paragraph(finding, errors, options, set()) + "\n", file=sys.stderr)

@@ -18,7 +18,7 @@ from msaa_lint.frame.devices.reports import EXPECTED, MAX_BYTES, NotAReport, pic
 from msaa_lint.frame.devices.reports.members import Report
 from msaa_lint.frame.profiles import Problem, parsed, profile_of, reports
 
-from .common import UsageError, report_options, run_command, set_utf_8, warn
+from .common import UsageError, report_options, run_command, warn
 from .options import Arguments
 from .report.console import cell
 from .report.tables import Column, Table, print_tables
@@ -54,7 +54,6 @@ def print_devices(stated: Sequence[str], output: Output = "text", listing: bool 
     if output == "json":
         print(json.dumps({"schema": SCHEMA, "devices": [record(offer) for offer in offers]}, indent=2))
     elif output == "description":
-        set_utf_8(sys.stdout)
         print("---\n".join(description(offer) for offer in offers), end="")
     else:
         _print(offers)
@@ -122,13 +121,11 @@ def _list(output: Output) -> int:
         return 0
     columns = [Column("name"), Column("device"), Column("source")]
     lines = [("", list(map(cell, (key, profile.name, profile.source)))) for key, profile in profiles.items()]
-    set_utf_8(sys.stdout)
     print_tables(sys.stdout.write, report_options({}, sys.stdout), [Table(columns, lines)])
     return 0
 
 
 def _print(offers: Sequence[Offer]) -> None:
-    set_utf_8(sys.stdout)
     out, options = sys.stdout.write, report_options({}, sys.stdout)
     for number, offer in enumerate(offers):
         counts = words.table(offer)

@@ -15,7 +15,7 @@ from msaa_lint.frame.facts.words import Fact
 from msaa_lint.input.capture_input import CaptureInput
 from msaa_lint.input.opening import load
 
-from .common import run_command, warn
+from .common import UsageError, internal_errors_of, run_command, warn
 from .options import Arguments
 from .report.escape import escape
 
@@ -81,50 +81,61 @@ def _subjects(fact: Fact) -> list[str]:
 
 def print_facts(path: str, output: str, profile: str | None) -> int:
     """Prints the facts of every subject of an input; returns 2 if it, or a part of it, cannot be read."""
-    from msaa_lint.frame.facts.subjects import subjects
-    from msaa_lint.frame.profiles import Problem, device_for, device_of
     from msaa_lint.input import readers
-    from msaa_lint.input.shader_modules import Modules
     from msaa_lint.input.source_file import SourceFile
-    from msaa_lint.linter.study_record import studied
 
-    try:
-        data = load(path, Limits())
-        source = Source(path, decode(data)) if isinstance(data, bytes) else data.source
-    except (OSError, Unreadable) as error:
-        warn(f"{path}: {error}")
-        return 2
-    failed = False
-    documents: Iterable[Document]
-    if isinstance(data, SourceFile):
-        documents = data.program.documents
-    else:
-        parsed = parse(source, Limits())
-        for problem in parsed.problems:
-            warn(f"{path}: {problem.message}")
-        failed = bool(parsed.problems)
-        documents = (readers.read(source, root) for root in parsed.documents)
     rows: list[dict[str, object]] = []
-    for document in documents:
-        if isinstance(data, CaptureInput):
-            document = document._replace(modules=data.modules)
-        for mistake in document.problems:
-            where = source.position(mistake.span.start)
-            warn(f"{path}:{where.line}:{where.column}: {mistake.message}")
-        device = device_for(document.description, path, device_of(profile)) if not document.problems else None
-        if isinstance(device, Problem):
-            warn(f"{path}: {device.message}")
-        if document.problems or isinstance(device, Problem):
-            failed = True
-            continue
-        study = partial(studied, file=path)
-        rows.extend(_row(subject, source) for subject in subjects(document, device, study, Modules(document, path).reflected))
+    failed = False
+    with internal_errors_of(path):
+        try:
+            data = load(path, Limits())
+            source = Source(path, decode(data)) if isinstance(data, bytes) else data.source
+        except (OSError, Unreadable) as error:
+            warn(f"{path}: {getattr(error, 'strerror', None) or error}")
+            return 2
+        documents: Iterable[Document]
+        if isinstance(data, SourceFile):
+            documents = data.program.documents
+        else:
+            parsed = parse(source, Limits())
+            for problem in parsed.problems:
+                warn(f"{path}: {problem.message}")
+            failed = bool(parsed.problems)
+            documents = (readers.read(source, root) for root in parsed.documents)
+        for document in documents:
+            if isinstance(data, CaptureInput):
+                document = document._replace(modules=data.modules)
+            try:
+                rows += _rows(document, source, path, profile)
+            except UsageError as error:
+                failed = True
+                for line in error.args:
+                    warn(line)
     if output == "json":
         print(json.dumps(rows, indent=2, ensure_ascii=True))
     else:
         for line in _lines(rows):
             print(line)
     return 2 if failed else 0
+
+
+def _rows(document: Document, source: Source, path: str, profile: str | None) -> list[dict[str, object]]:
+    """The facts of every subject of a document. UsageError, with a line for each problem, if it has mistakes."""
+    from msaa_lint.frame.facts.subjects import subjects
+    from msaa_lint.frame.profiles import Problem, device_for, device_of
+    from msaa_lint.input.shader_modules import Modules
+    from msaa_lint.linter.study_record import studied
+
+    with internal_errors_of(path):
+        if document.problems:
+            places = [source.position(problem.span.start) for problem in document.problems]
+            lines = zip(document.problems, places, strict=True)
+            raise UsageError(*(f"{path}:{place.line}:{place.column}: {problem.message}" for problem, place in lines))
+        device = device_for(document.description, path, device_of(profile))
+        if isinstance(device, Problem):
+            raise UsageError(f"{path}: {device.message}")
+        study = partial(studied, file=path)
+        return [_row(subject, source) for subject in subjects(document, device, study, Modules(document, path).reflected)]
 
 
 def _row(subject: Subject, source: Source) -> dict[str, object]:

@@ -11,7 +11,6 @@ from msaa_lint.core.finding import Finding, Result
 from msaa_lint.linter.fixes.file_fixes import FixedText
 from msaa_lint.linter.run import Outcome
 
-from .common import set_utf_8
 from .report.color import paint
 from .report.escape import escape, escape_commands
 from .report.summary import files_saving
@@ -32,7 +31,6 @@ def print_text(outcome: Outcome, name: str) -> None:
 def print_diff(outcome: Outcome, color: bool) -> bool:
     """Prints what fixes would change; returns whether that is anything."""
     changed = [text for text in outcome.fixed if text.changed]
-    set_utf_8(sys.stdout)
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(newline="\n")
     for text in changed:

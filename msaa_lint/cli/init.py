@@ -6,6 +6,7 @@ import json
 import os
 import shlex
 
+from msaa_lint.core.atomic_write import write_file
 from msaa_lint.linter.rules.rule import EDITIONS
 from msaa_lint.linter.settings.config import read_folder
 
@@ -132,12 +133,11 @@ def write_files(folder: str, hints: bool) -> int:
             if os.path.lexists(path):
                 note(f"{path} already exists: left unchanged")
                 continue
-            with open(path, "x", encoding="utf-8", newline="\n") as file:
-                file.write(text)
+            write_file(path, text.encode(), lambda _: False)
             written.add(name)
             note(f"wrote {path}")
     except OSError as error:
-        warn(f"cannot write {path}: {error.strerror}")
+        warn(f"cannot write {path}: {error.strerror or error}")
         return 2
     if not hints:
         return 0

@@ -105,6 +105,7 @@ def _text_output(*formats: str) -> Option:
     return Option("output", "choice", "Output format.", "FORMAT", choices=formats, default="text")
 
 
+_FORCE = Option("force", "flag", "Overwrite files that msaa-lint did not write.")
 _COLOR = Option("color", "choice", "Color text output.", "WHEN", choices=("auto", "always", "never"), default="auto")
 GLOBAL = (
     Option("quiet", "flag", "Print results and errors only: no notes, no summary.", short="-q"),
@@ -236,6 +237,7 @@ COMMANDS = {
             "Output": (
                 _output(*TEXT_FORMATS),
                 Option("image", "text", "Write pictures to this folder: as written, fixed, difference, enlarged edge (PNG).", "DIR"),
+                _FORCE,
                 _COLOR,
             ),
             "Inputs": _INPUTS,
@@ -275,6 +277,7 @@ COMMANDS = {
                 Option("plot", "text", "Plot error against time to an .svg or .png file (extra `chart`).", "FILE"),
                 Option("crops", "text", "Write enlarged crops of each scene to this folder (PNG).", "DIR"),
                 Option("record", "flag", "Write a record next to each description, for rule sample-count-above-four."),
+                _FORCE,
                 _COLOR,
             ),
             "Execution": (

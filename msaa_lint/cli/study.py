@@ -30,12 +30,14 @@ from .common import (
     parse_list,
     parse_outputs,
     parse_size,
+    refuse_inputs,
     report_module,
     report_options,
     run_command,
     warn,
     write_chart,
     write_output,
+    writes,
 )  # fmt: skip
 from .options import TEXT_FORMATS, Arguments
 from .report.escape import escape
@@ -116,6 +118,7 @@ def _list_scenes() -> int:
 def _study(arguments: Arguments, options: StudyOptions) -> int:
     from msaa_lint.experiments.study.sweep import ordered, sweep, with_cost
 
+    refuse_inputs([*(target.path for target in options.targets), arguments.get("plot")], arguments["paths"])
     checkpoint = Checkpoint(arguments["resume"]) if "resume" in arguments else None
     size, studied, errors, notes = subjects(arguments, options.size)
     for text in notes:
@@ -138,13 +141,13 @@ def _study(arguments: Arguments, options: StudyOptions) -> int:
             points.append(with_cost(result, costs[result.scene], device))
     outcome = _outcome(size, options.bits, studied, points, failures, costs, device, errors)
     if "crops" in arguments:
-        outcome = outcome._replace(pictures=_write_crops(arguments["crops"], options, studied))
+        outcome = outcome._replace(pictures=_write_crops(arguments["crops"], bool(arguments.get("force")), options, studied))
     if "plot" in arguments:
         from .report import study_plot
 
         write_chart(arguments["plot"], "--plot", partial(study_plot.plot, outcome))
     if arguments.get("record"):
-        outcome = outcome._replace(records=_write_records(studied, outcome))
+        outcome = outcome._replace(records=_write_records(studied, outcome, bool(arguments.get("force"))))
     for target in options.targets:
         write_output(target.path, partial(_render, target.format, outcome, arguments))
     return 2 if errors or failures else 0
@@ -243,17 +246,18 @@ def _progress(total: int, arguments: Arguments) -> Iterator[Any]:
         yield lambda done, _, last: bars.update(bar, completed=done, description=escape(last))
 
 
-def _write_crops(folder: str, options: StudyOptions, studied: Sequence[Subject]) -> list[str]:
+def _write_crops(folder: str, force: bool, options: StudyOptions, studied: Sequence[Subject]) -> list[str]:
     from msaa_lint.experiments.confirm.png import PictureFolder
     from msaa_lint.experiments.study.crops import crops
 
-    album = PictureFolder(folder)
+    album = PictureFolder(folder, force)
     return [crops(album, subject.input.name, subject.picture, options.techniques, options.bits) for subject in studied]
 
 
-def _write_records(studied: Sequence[Subject], outcome: Study) -> list[str]:
+def _write_records(studied: Sequence[Subject], outcome: Study, force: bool) -> list[str]:
     """Writes one record per file of descriptions, except for files with a failed point; returns the paths."""
     from msaa_lint.experiments.study.record import DocumentStudy, write
+    from msaa_lint.linter.study_record import path_of
 
     files: dict[str, list[Subject]] = {}
     for subject in studied:
@@ -271,10 +275,8 @@ def _write_records(studied: Sequence[Subject], outcome: Study) -> list[str]:
         ]
         if not any(point.technique.kind == MSAA for study in studies for point in study.points):
             raise UsageError("--record: no sample count was measured; add msaa to --techniques")
-        try:
-            paths.append(write(file, studies))
-        except OSError as error:
-            raise UsageError(f"cannot write the record of {file}: {error.strerror}") from None
+        with writes(path_of(file)):
+            paths.append(write(file, studies, force))
     return paths
 
 

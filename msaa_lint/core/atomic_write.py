@@ -7,28 +7,27 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import stat
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import IO
 
+from .project import leaving_link
+
 _NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
+
+_STREAMS = re.compile(r"/dev|/proc/\d+(?:/task/\d+)?/fd")
+"""Folders whose links are to what streams go to."""
 
 
 class NotWritten(Exception):
     """Why a file was left unchanged."""
 
 
-def write_file(path: str, data: bytes) -> None:
-    """Creates a file or replaces its contents; a symbolic link is replaced itself. Raises OSError, and leaves no other file behind.
-
-    What is no file, such as `/dev/stdout`, is written to.
-    """
-    if _is_device(path):
-        with open(path, "wb") as device:
-            device.write(data)
-        return
-    with _renamed(path) as descriptor:
+def write_file(path: str, data: bytes, is_own: Callable[[str], bool] | None = None) -> None:
+    """Creates a file or replaces it, as `new_text` does. If `is_own` is given, a file that it does not accept is left: FileExistsError."""
+    with _new_file(path, is_own) as descriptor:
         _write_all(descriptor, data)
 
 
@@ -36,31 +35,37 @@ def write_file(path: str, data: bytes) -> None:
 def new_text(path: str) -> Iterator[IO[str]]:
     """Opens a file for UTF-8 text that gets its name only when all of it is written; a file that it replaces keeps its mode.
 
-    A symbolic link to a file is replaced itself, so that nothing is written through it; what is no file, such as `/dev/stdout`, is written
-    to. Raises OSError, and leaves an old file as it was.
+    A symbolic link to a file is replaced itself, and a folder that is a link out of the project is refused, so that nothing is written
+    through a link; what is no file, such as `/dev/stdout`, is written to. Raises OSError, and leaves an old file as it was.
     """
-    if _is_device(path):
-        with open(path, "w", encoding="utf-8", newline="\n") as device:
-            yield device
-        return
-    old = os.lstat(path) if os.path.lexists(path) and not os.path.islink(path) else None
-    if old is not None and not os.access(path, os.W_OK):
-        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), path)
-    with _renamed(path) as descriptor:
-        with open(descriptor, "w", encoding="utf-8", newline="\n", closefd=False) as file:
-            yield file
-        if old is not None and hasattr(os, "fchmod"):
-            os.fchmod(descriptor, stat.S_IMODE(old.st_mode))
+    with _new_file(path) as descriptor, open(descriptor, "w", encoding="utf-8", newline="\n", closefd=False) as file:
+        yield file
 
 
 @contextmanager
-def _renamed(path: str) -> Iterator[int]:
+def _new_file(path: str, is_own: Callable[[str], bool] | None = None) -> Iterator[int]:
     """The descriptor of a new file beside a path, which gets the path's name at the end, unless an exception ends it."""
+    status = os.lstat(path) if os.path.lexists(path) else None
+    if status is not None and is_own is None and _is_stream(path, status.st_mode):
+        descriptor = os.open(path, os.O_WRONLY | os.O_TRUNC | getattr(os, "O_CLOEXEC", 0))
+        try:
+            yield descriptor
+        finally:
+            os.close(descriptor)
+        return
+    _refuse_link(os.path.dirname(path))
+    if status is not None and not stat.S_ISLNK(status.st_mode):
+        if _is_read_only(path, status):
+            raise PermissionError(errno.EACCES, "the file is read-only", path)
+        if is_own is not None and not (stat.S_ISREG(status.st_mode) and is_own(path)):
+            raise FileExistsError(errno.EEXIST, "msaa-lint did not write the file that is there", path)
     temporary = _temporary(path)
     try:
         descriptor = os.open(temporary, _NEW, 0o666)
         try:
             yield descriptor
+            if status is not None and stat.S_ISREG(status.st_mode) and hasattr(os, "fchmod"):
+                os.fchmod(descriptor, stat.S_IMODE(status.st_mode))
         finally:
             os.close(descriptor)
         os.replace(temporary, path)
@@ -73,13 +78,15 @@ def replace(path: str, before: bytes, after: bytes) -> None:
     """Replaces the contents of a file, and syncs them to disk. Keeps the file's mode and, if permitted, its owner.
 
     Raises NotWritten if the file has contents other than `before`, is read-only, or cannot be written; it is then unchanged, and no other
-    file is left behind. The target of a symbolic link is replaced. Another hard link to the file keeps the old contents.
+    file is left behind. The target of a symbolic link is replaced if it is in the project. Another hard link to the file keeps the old
+    contents.
     """
     temporary = ""
     try:
+        _refuse_link(path)
         target = os.path.realpath(path)
         status = _check_unchanged(target, before)
-        if not status.st_mode & (stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH) or not os.access(target, os.W_OK):
+        if _is_read_only(target, status):
             raise NotWritten("the file is read-only")
         temporary = _temporary(target)
         descriptor = os.open(temporary, _NEW, 0o600)
@@ -100,10 +107,23 @@ def replace(path: str, before: bytes, after: bytes) -> None:
             _remove(temporary)
 
 
-def _is_device(path: str) -> bool:
-    """Whether a path is no file, or, as `/dev/stdout` and `/dev/fd/3` are, a link to whatever a stream goes to."""
-    folder = os.path.realpath(os.path.dirname(os.path.abspath(path)))
-    return folder.startswith(("/dev/", "/proc/")) or folder == "/dev" or (os.path.exists(path) and not os.path.isfile(path))
+def _is_stream(path: str, mode: int) -> bool:
+    """Whether a path of a mode is no file, folder or link to one: a device, a pipe, or a link of the system's such as `/dev/stdout`."""
+    if stat.S_ISLNK(mode):
+        return _STREAMS.fullmatch(os.path.realpath(os.path.dirname(os.path.abspath(path)))) is not None
+    return not stat.S_ISREG(mode) and not stat.S_ISDIR(mode)
+
+
+def _is_read_only(path: str, status: os.stat_result) -> bool:
+    """Whether a file must not be written, which renaming another one to its place would not heed."""
+    return not status.st_mode & (stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH) or not os.access(path, os.W_OK)
+
+
+def _refuse_link(path: str) -> None:
+    """OSError if a part of a path is a link that leads out of the project."""
+    link = leaving_link(path)
+    if link is not None:
+        raise OSError(errno.ELOOP, f"`{link}` is a link that leads out of the project; name the place that it leads to", path)
 
 
 def _temporary(path: str) -> str:

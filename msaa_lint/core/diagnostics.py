@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .finding import Finding, RuleInfo
+from .quote import quoted
 from .text.span import Label, Span
 
 _TEXTS = {
@@ -36,3 +37,9 @@ def diagnostic(
     """A 9xx finding."""
     info = DIAGNOSTICS[code]
     return Finding(code, info.name, info.severity, "high", message, file, span, subject, labels, (), help)
+
+
+def internal_error(error: Exception) -> str:
+    """The message of an exception that is a mistake in msaa-lint."""
+    text = f": {quoted(str(error), 300)}" if str(error) else ""
+    return f"internal error: {type(error).__name__}{text}; please report it with the output of --traceback"

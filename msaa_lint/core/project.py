@@ -55,6 +55,26 @@ def real_path(path: str, project: str) -> str:
     return real
 
 
+def leaving_link(path: str) -> str | None:
+    """The first part of a path that is a link in a project and leads out of it; None if there is none.
+
+    Such a link may come from a stranger's branch. Links that are in no project, such as `/tmp` on macOS, are the system's or the user's.
+    """
+    parts = path.split(os.sep)
+    for number in range(1, len(parts) + 1):
+        link = os.sep.join(parts[:number])
+        if os.path.islink(link) and any(not inside(link, root) for root in _projects(os.path.dirname(link) or os.curdir)):
+            return link
+    return None
+
+
+def _projects(folder: str) -> list[str]:
+    """The roots of the projects that a folder is in: that of the current folder, and its own."""
+    here, own = project_root(os.curdir), project_root(folder)
+    is_project = any(os.path.lexists(os.path.join(own, name)) for name in (*_VCS_DATA, *NAMES))
+    return [*([here] if inside(folder, here) else []), *([own] if is_project else [])]
+
+
 def shown(path: str) -> str:
     """A path as outputs show it, with `/`: relative if it is in the current folder or was relative, else absolute."""
     here = os.getcwd()

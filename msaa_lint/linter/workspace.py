@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from msaa_lint.core.diagnostics import diagnostic
+from msaa_lint.core.diagnostics import diagnostic, internal_error
 from msaa_lint.core.finding import Finding, rank
 from msaa_lint.core.project import shown
 from msaa_lint.core.quote import quoted
@@ -215,9 +215,7 @@ class Workspace:
         except Exception as error:
             if self.request.traceback:
                 raise
-            name = self.request.input_name(path)
-            message = f"internal error: {type(error).__name__}: {quoted(str(error), 300)}; please report it with the output of --traceback"
-            self.findings.append(diagnostic("MSAA941", message, name))
+            self.findings.append(diagnostic("MSAA941", internal_error(error), self.request.input_name(path)))
 
     def open(self, path: str) -> InputFile | None:
         """Reads an input; None, after adding a finding, if it cannot be read."""

@@ -18,6 +18,7 @@ EDGE = 16
 """Width and height in pixels of an enlarged part, and the factor by which it is enlarged."""
 
 _GAP = 8
+_SOFTWARE = b"tEXt", b"Software\0msaa-lint"
 _LEVELS = 1 << 14
 
 
@@ -34,10 +35,16 @@ def png(picture: Picture) -> bytes:
     row = picture.width * 3
     lines = b"".join(b"\0" + picture.rgb[n * row : (n + 1) * row] for n in range(picture.height))
     header = struct.pack(">IIBBBBB", picture.width, picture.height, 8, 2, 0, 0, 0)
-    chunks = [(b"IHDR", header), (b"sRGB", b"\0"), (b"IDAT", zlib.compress(lines, 6)), (b"IEND", b"")]
+    chunks = [(b"IHDR", header), (b"sRGB", b"\0"), _SOFTWARE, (b"IDAT", zlib.compress(lines, 6)), (b"IEND", b"")]
     return b"\x89PNG\r\n\x1a\n" + b"".join(
         struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in chunks
     )
+
+
+def is_own_picture(path: str) -> bool:
+    """Whether a file is a picture that `png` encoded. Raises OSError if it cannot be read."""
+    with open(path, "rb") as file:
+        return b"".join(_SOFTWARE) in file.read(100)
 
 
 def encoded(linear: float) -> float:
@@ -170,10 +177,13 @@ def file_name(*parts: str) -> str:
 
 
 class PictureFolder:
-    """A folder of pictures. Existing files are replaced, and links are not followed. NotWritten if the folder cannot be created."""
+    """A folder of pictures. Pictures of msaa-lint are replaced, other files only if `force` is true, and links are not followed.
 
-    def __init__(self, folder: str) -> None:
-        self.folder = folder
+    NotWritten if the folder cannot be created.
+    """
+
+    def __init__(self, folder: str, force: bool = False) -> None:
+        self.folder, self.force = folder, force
         self.written: list[str] = []
         try:
             os.makedirs(folder, exist_ok=True)
@@ -190,9 +200,9 @@ class PictureFolder:
         self.written.append(name.lower())
         path = os.path.join(self.folder, name)
         try:
-            write_file(path, png(picture))
+            write_file(path, png(picture), None if self.force else is_own_picture)
         except OSError as error:
-            raise NotWritten(f"cannot write {path}: {error.strerror}") from None
+            raise NotWritten(f"cannot write {path}: {error.strerror or error}") from None
         return path
 
 

@@ -33,13 +33,15 @@ NOTHING_TO_COMPARE = "there is no picture to compare: no single-sampled image ho
 class TrialOptions(NamedTuple):
     """The options of a trial.
 
-    `gate` skips what the device does not support; `image` is the folder for pictures; `time` measures times (None: on a GPU only) with
+    `gate` skips what the device does not support; `image` is the folder for pictures, which replace other files if `force`
+    is true; `time` measures times (None: on a GPU only) with
     `repeats`; `size` and `samples` replace the described ones; `several` gives each device its own folder of pictures; `resolves` checks
     the color resolves too.
     """
 
     gate: bool = True
     image: str | None = None
+    force: bool = False
     time: bool | None = None
     repeats: int = 15
     size: tuple[int, int] | None = None
@@ -87,7 +89,8 @@ class _Trial:
         self.timed = options.time if options.time is not None else not self.info.software
         self.album: PictureFolder | None = None
         if options.image is not None:
-            self.album = PictureFolder(os.path.join(options.image, file_name(self.info.name)) if options.several else options.image)
+            folder = os.path.join(options.image, file_name(self.info.name)) if options.several else options.image
+            self.album = PictureFolder(folder, options.force)
 
     def notes(self, verdicts: Sequence[Verdict]) -> list[str]:
         """Notes on the device as a whole."""

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 from msaa_lint.core.atomic_write import write_file
 from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.input.content import is_own_output
 from msaa_lint.linter.study_record import MAX_TEXT, SCHEMA, digests, path_of
 
 from .advice import MAX_EFFICIENT, Ruling, ruling
@@ -52,8 +53,11 @@ def _count(point: Point, points: Sequence[Point]) -> dict[str, Any]:
     return {"rmse": float(f"{point.rmse:.6g}"), "time_ms": time, "justified": verdict.justified, "reason": verdict.reason}
 
 
-def write(description: str, studies: Sequence[DocumentStudy]) -> str:
-    """Writes the record next to a description and returns its path. OSError where it cannot be written; an old record is then unchanged."""
+def write(description: str, studies: Sequence[DocumentStudy], force: bool = False) -> str:
+    """Writes the record next to a description and returns its path. OSError where it cannot be written; what is there is then unchanged.
+
+    A file there that msaa-lint did not write is replaced only if `force` is true.
+    """
     path = path_of(description)
-    write_file(path, text(studies).encode())
+    write_file(path, text(studies).encode(), None if force else is_own_output)
     return path

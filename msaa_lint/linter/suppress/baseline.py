@@ -139,11 +139,12 @@ def dump(baseline: Baseline) -> str:
     return json.dumps({"schema": SCHEMA, "entries": entries}, indent=2, sort_keys=True) + "\n"
 
 
-def save(baseline: Baseline, path: str) -> None:
-    """Writes a baseline atomically. Raises OSError."""
+def save(baseline: Baseline, path: str, force: bool = True) -> None:
+    """Writes a baseline atomically; over a file that msaa-lint did not write only if `force` is true. Raises OSError."""
     from msaa_lint.core.atomic_write import write_file
+    from msaa_lint.input.content import is_own_output
 
-    write_file(path, dump(baseline).encode())
+    write_file(path, dump(baseline).encode(), None if force else is_own_output)
 
 
 def _key(file: str, root: str) -> str:

@@ -7,6 +7,7 @@ import zlib
 from pathlib import Path
 
 import pytest
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -25,6 +26,7 @@ from msaa_lint.experiments.confirm.png import (
     show,
 )
 from msaa_lint.experiments.confirm.texels import Texels
+from msaa_lint.experiments.confirm.vulkan_errors import NotWritten
 
 
 def decoded(data: bytes) -> Picture:
@@ -37,7 +39,7 @@ def decoded(data: bytes) -> Picture:
         assert struct.unpack(">I", data[at + 8 + length : at + 12 + length]) == (zlib.crc32(kind + body),)
         chunks[kind] = body
         at += 12 + length
-    assert list(chunks) == [b"IHDR", b"sRGB", b"IDAT", b"IEND"]
+    assert list(chunks) == [b"IHDR", b"sRGB", b"tEXt", b"IDAT", b"IEND"]
     width, height, depth, kind, *rest = struct.unpack(">IIBBBBB", chunks[b"IHDR"])
     assert (depth, kind, rest) == (8, 2, [0, 0, 0])
     lines = zlib.decompress(chunks[b"IDAT"])
@@ -149,6 +151,17 @@ def test_album_numbers_what_has_the_same_name_and_follows_no_link(tmp_path: Path
     assert [Path(album.write(made, name)).name for name in ("a", "A", "b")] == ["a.png", "A-2.png", "b.png"]
     assert outside.read_text() == "mine" and not (folder / "a.png").is_symlink()
     assert sorted(path.name for path in folder.iterdir()) == ["A-2.png", "a.png", "b.png"]
+
+
+def test_album_replaces_only_its_own_pictures(tmp_path: Path) -> None:
+    made = Picture(1, 1, b"\1\2\3")
+    (tmp_path / "a.png").write_bytes(b"\x89PNG photograph")
+    with pytest.raises(NotWritten, match=r"a\.png: msaa-lint did not write the file that is there"):
+        PictureFolder(str(tmp_path)).write(made, "a")
+    assert (tmp_path / "a.png").read_bytes() == b"\x89PNG photograph"
+    for force in (True, False):
+        PictureFolder(str(tmp_path), force).write(made, "a")
+    assert decoded((tmp_path / "a.png").read_bytes()) == made
 
 
 def test_pictures_of_an_image(tmp_path: Path) -> None:
