@@ -72,13 +72,14 @@ def run_with_streams(command: Callable[[], int]) -> int:
     _open_closed()
     streams = sys.stdin, sys.stdout, sys.stderr
     sys.stdout, sys.stderr = _Output(*_usable(sys.stdout)), _Errors(*_usable(sys.stderr))
-    for stream in (sys.stdout, sys.stderr):
-        # Its own encoding may lack characters, and machine formats are UTF-8 whatever the locale.
-        if hasattr(stream, "reconfigure"):
-            stream.reconfigure(encoding="utf-8", errors="backslashreplace")
     if sys.stdin is None:
         sys.stdin = io.TextIOWrapper(io.BytesIO())
     try:
+        for stream in (sys.stdout, sys.stderr):
+            # Its own encoding may lack characters, and machine formats are UTF-8 whatever the locale.
+            if hasattr(stream, "reconfigure"):
+                stream.flush()
+                stream.reconfigure(encoding="utf-8", errors="backslashreplace")
         code = _exit_code(command)
         sys.stdout.flush()
         return code

@@ -63,7 +63,7 @@ def leaving_link(path: str) -> str | None:
     parts = path.split(os.sep)
     for number in range(1, len(parts) + 1):
         link = os.sep.join(parts[:number])
-        if os.path.islink(link) and any(not inside(link, root) for root in _projects(os.path.dirname(link) or os.curdir)):
+        if os.path.islink(link) and any(_leaves(link, root) for root in _projects(os.path.dirname(link) or os.curdir)):
             return link
     return None
 
@@ -72,7 +72,15 @@ def _projects(folder: str) -> list[str]:
     """The roots of the projects that a folder is in: that of the current folder, and its own."""
     here, own = project_root(os.curdir), project_root(folder)
     is_project = any(os.path.lexists(os.path.join(own, name)) for name in (*_VCS_DATA, *NAMES))
-    return [*([here] if inside(folder, here) else []), *([own] if is_project else [])]
+    return [*([here] if not _leaves(folder, here) else []), *([own] if is_project else [])]
+
+
+def _leaves(path: str, project: str) -> bool:
+    try:
+        real_path(path, project)
+    except (Outside, OSError):
+        return True
+    return False
 
 
 def shown(path: str) -> str:

@@ -7,7 +7,6 @@ import zlib
 from pathlib import Path
 
 import pytest
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
