@@ -78,7 +78,7 @@ def _projects(folder: str) -> list[str]:
 def _leaves(path: str, project: str) -> bool:
     try:
         real_path(path, project)
-    except (Outside, OSError):
+    except OSError:
         return True
     return False
 
