@@ -91,6 +91,8 @@ def _convert_source(code: SourceFile, output: str | None, force: bool) -> None:
     """Writes what source code states, a document for each part, and prints what had to be assumed."""
     documents = code.program.documents
     description = code.description
+    for part in code.program.unread:
+        note(f"{code.source.name}:{code.source.position(part.at.start).line}: {part.message}")
     if not description:
         raise _ConvertError(f"{code.source.name}: found no attachment, image, pipeline, or sample count")
     for number, assumptions in enumerate(code.program.assumed, 1):

@@ -96,6 +96,9 @@ def print_facts(path: str, output: str, profile: str | None) -> int:
         documents: Iterable[Document]
         if isinstance(data, SourceFile):
             documents = data.program.documents
+            for part in data.program.unread:
+                warn(f"{path}:{source.position(part.at.start).line}: {part.message}")
+            failed = bool(data.program.unread)
         else:
             parsed = parse(source, Limits())
             for problem in parsed.problems:

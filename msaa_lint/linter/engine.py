@@ -142,6 +142,7 @@ class Engine:
             results.append(DocumentResult(document, verdicts.fix_specs, number, device, verdicts.checked))
         # Functions that share a structure are separate documents with the same finding.
         findings = distinct(findings)
+        limits = [diagnostic("MSAA906", part.message, file, part.at) for part in program.unread]
         suppressed: list[Suppressed] = []
         if options.ignores and _has_suppressions(source.text):
             from msaa_lint.input.code.comments import comments
@@ -152,7 +153,8 @@ class Engine:
         if options.prices:
             findings = _with_fixes(results, findings, options, editable=False)
         suppressed = [each._replace(finding=_of_code(each.finding)) for each in suppressed]
-        return FileResult(file, source, [_of_code(found) for found in findings], [], suppressed, results, True)
+        findings = [_of_code(found) for found in findings]
+        return FileResult(file, source, sorted([*findings, *limits], key=location_order), [], suppressed, results, True)
 
     def lint_document(
         self, document: Document, file: str, options: LintOptions, broken: bool = False

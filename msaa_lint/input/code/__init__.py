@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from msaa_lint.core.text.span import Span
     from msaa_lint.frame.description.document import Document
 
-    from .parsing import Code, Read
+    from .parsing import Code, Read, Unread
 
 UNREAD = {
     ".m": "Objective-C",
@@ -51,12 +51,13 @@ _CPP = re.compile(r"::|\b(?:class|namespace|template|constexpr|nullptr|public|pr
 
 
 class Program(NamedTuple):
-    """The documents of a source file, the assumptions made for each of them as lines for the user, and the code that they were read
-    from."""
+    """The documents of a source file, the assumptions made for each of them as lines for the user, the code that they were read from,
+    and what of it exceeds a limit."""
 
     documents: "tuple[Document, ...]"
     assumed: tuple[tuple[str, ...], ...]
     codes: "tuple[Code, ...]"
+    unread: "tuple[Unread, ...]"
 
 
 def language_of(name: str, head: str) -> str | None:
@@ -113,10 +114,12 @@ def read(source: "Source", language: str) -> Program:
         from .glsl.description_trees import with_page_counts
 
         by_code = with_page_counts(by_code)
-    reads = [entry for _, item in by_code for entry in item]
+    every = [entry for _, item in by_code for entry in item]
+    reads = [entry for entry in every if entry.tree.value or not entry.unread]
+    unread = tuple(part for entry in every for part in entry.unread)
     pieces = any(code.fragments for code in codes_found)
     documents = tuple(bound(source, read.tree, pieces)._replace(modules=read.modules) for read in reads)
-    return Program(documents, tuple(_assumption_lines(read.assumed, source) for read in reads), codes_found)
+    return Program(documents, tuple(_assumption_lines(read.assumed, source) for read in reads), codes_found, unread)
 
 
 def _readings(code: "Code") -> "Iterator[Read]":

@@ -51,8 +51,15 @@ class Code(NamedTuple):
     fragments: bool = False
 
 
+class Unread(NamedTuple):
+    """Code that is not read because it exceeds a limit: a message that says which, and where it starts."""
+
+    message: str
+    at: Span
+
+
 class Read(NamedTuple):
-    """A description tree read from code, whose nodes have locations in the input.
+    """A description tree read from code, whose nodes have locations in the input; empty if nothing is known but what is not read.
 
     `assumed` lists unknown values, their locations, and the values assumed for them. `modules` are shaders by the names in the tree.
     """
@@ -60,6 +67,7 @@ class Read(NamedTuple):
     tree: Node
     assumed: tuple[tuple[str, Span, str], ...] = ()
     modules: Mapping[str, bytes] = {}
+    unread: tuple[Unread, ...] = ()
 
 
 def span(node: SyntaxNode) -> Span:

@@ -6,11 +6,13 @@ import re
 from collections.abc import Sequence
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.limits import Work
 
 from .creation import COUNTS, VIEW, ObjectCreation
 from .names import element_type, vulkan_struct
+from .overloads import Overloads
 from .scope import MAX_CALLS, MAX_WAYS, MEMBER, Scope, Scopes
-from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, Function, Parameter, Term
+from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, Function, Parameter, Term, Unit
 from .values import (
     MAX_ALTERNATIVES,
     UNKNOWN,
@@ -22,7 +24,6 @@ from .values import (
     Struct,
     Symbol,
     Value,
-    copy_alternatives,
     pointee,
     sole_value,
 )
@@ -41,6 +42,10 @@ OTHERS = Cell()
 
 class Calls(ObjectCreation):
     """Evaluates the calls of one file. `objects` is in creation order."""
+
+    def __init__(self, unit: Unit, fragments: bool, is_cpp: bool, work: Work) -> None:
+        super().__init__(unit, fragments, is_cpp, work)
+        self.functions = Overloads(unit.functions)
 
     def call(self, term: Term, scope: Scope) -> Value:
         """Returns the value of a call."""
@@ -93,23 +98,19 @@ class Calls(ObjectCreation):
 
     def find_function(self, name: str, count: int, function: Term, scope: Scope) -> Function | None:
         """Returns the only function of the file that a call can refer to; among several, the one in the same class."""
-        every = self.functions.get(name)
-        if not every:
-            return None
-        overloads = [f for f in every if sum(p.default is None for p in f.parameters) <= count <= len(f.parameters)]
-        if len(overloads) > 1 and not self.fragments:
+        group = self.functions.of_count(name, count)
+        if self.fragments:
+            return group.fixed[-1] if group.fixed else None
+        if len(group.every) > 1:
             qualifier = str(function[1]).rpartition("::")[0] if function[0] == NAME else ""
-            class_name = scope.class_name
             if function[0] == FIELD and function[1][:2] != (NAME, "this"):
                 return None
             if qualifier:
-                overloads = [f for f in overloads if f"{f.class_name or f.namespace.rstrip(':')}".endswith(qualifier)]
-            else:
-                overloads = [f for f in overloads if f.class_name == class_name] or [
-                    f for f in overloads if not f.class_name and f.namespace == scope.namespace
-                ]
-        overloads = [f for f in overloads if not f.open]
-        return overloads[-1] if len(overloads) == 1 or (overloads and self.fragments) else None
+                self.work.spend(1 + len(group.fixed) // 16)
+                named = [f for f in group.fixed if f"{f.class_name or f.namespace.rstrip(':')}".endswith(qualifier)]
+                return named[0] if len(named) == 1 else None
+            group = self.functions.of_scope(name, count, scope.class_name, scope.namespace)
+        return group.sole()
 
     def receiver(self, function: Function, owner: Term | None, scope: Scope) -> Cell | None:
         """Returns the object that a method is called on; None if it is unknown, OTHERS if it is of another class."""
@@ -132,11 +133,7 @@ class Calls(ObjectCreation):
         if class_name is None:
             return None
         count = len(term[2])
-        constructors = [
-            item
-            for item in self.functions.get(class_name.rpartition("::")[2], ())
-            if item.class_name == class_name and sum(p.default is None for p in item.parameters) <= count <= len(item.parameters)
-        ]
+        constructors = self.functions.of_class(class_name.rpartition("::")[2], count, class_name).every
         if len(constructors) != 1 or not self.may_follow(constructors[0], term[3], scope):
             return None
         struct = Struct("", term[3], False)
@@ -194,7 +191,7 @@ class Calls(ObjectCreation):
             if cell is not None and not isinstance(sole_value(cell.writes), Ref):
                 return cell
         value = self.value(term, scope, parameter.type)
-        writes = value if parameter.by_reference else copy_alternatives(value)
+        writes = value if parameter.by_reference else self.copies.alternatives(value)
         return Cell(parameter.type, parameter.name, writes or (Alternative(UNKNOWN, term[-1]),), f"argument({parameter.name})")
 
     def extreme(self, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value:

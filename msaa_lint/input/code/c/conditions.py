@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from hashlib import blake2b
 from typing import Any
 
 from msaa_lint.core.text.span import Span
@@ -14,12 +15,21 @@ from .values import MAX_ALTERNATIVES, Guards, Symbol, VulkanObject, sole_value
 from .variables import Variables
 
 
+MAX_TEXT = 200
+"""The maximum length of the text that stands for an expression; a digest stands for a longer one."""
+
+
+def brief(text: str) -> str:
+    """Returns a text that stands for an expression, so that texts that contain others stay short."""
+    return text if len(text) <= MAX_TEXT else f"?{blake2b(text.encode(), digest_size=16).hexdigest()}"
+
+
 def negated(guards: Guards) -> Guards:
     """Returns the guards of the opposite condition."""
     if len(guards) == 1:
         ((text, way),) = guards
         return frozenset({(text, not way)})
-    return frozenset({(str(sorted(guards)), False)})
+    return frozenset({(brief(str(sorted(guards))), False)})
 
 
 def contradicts(left: Guards, right: Guards) -> bool:
@@ -86,7 +96,7 @@ class ConditionEvaluator(Variables):
                 return True
             if left is False or right is False:
                 return right if left is False else left
-            return frozenset({(f"{sorted(left)}||{sorted(right)}", True)})
+            return frozenset({(brief(f"{sorted(left)}||{sorted(right)}"), True)})
         if kind == UNARY and term[1] == "!":
             inner = self.condition(term[2], scope)
             return not inner if isinstance(inner, bool) else negated(inner)
@@ -124,7 +134,7 @@ class ConditionEvaluator(Variables):
                 ]
                 if subterm[0] == CALL:
                     stack += subterm[2]
-        return canonical_text(term, names)
+        return brief(canonical_text(term, names))
 
     def comparison(self, term: Term, scope: Scope) -> bool | Guards:
         sign = term[1]

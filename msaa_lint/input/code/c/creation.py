@@ -13,8 +13,8 @@ from typing import Any
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.enums import VALUES
 
-from .conditions import canonical_text
-from .escapes import forget, forget_captures, mark_escaped, mark_used, settled_under
+from .conditions import brief, canonical_text
+from .escapes import forget, forget_captures, mark_escaped, mark_used, settle_under
 from .lists import ListMethods
 from .names import first_version, vulkan_struct
 from .scope import Scope, name_objects
@@ -32,7 +32,6 @@ from .values import (
     Symbol,
     Value,
     VulkanObject,
-    copy_value,
     pointee,
     sole_value,
 )
@@ -112,41 +111,39 @@ class ObjectCreation(ListMethods):
             view = self.view_of_argument(values, term, scope)
             if view is not None:
                 return view
-        for argument in term[2]:
+        for position, argument in enumerate(term[2]):
             if argument[0] == ADDRESS:
                 cell = self.cell_of(argument[1], scope)
                 content = pointee(sole_value(cell.read(scope.guards))) if cell is not None else None
                 if isinstance(content, Struct):
                     # Functions that only query Vulkan fill the structure.
                     is_input = name.startswith(("vk", "vma")) and not name.startswith(("vkGet", "vkEnumerate"))
-                    parameter = self.declared_parameter(name, argument, term)
+                    parameter = self.declared_parameter(name, position)
                     if not is_input and (parameter is None or not parameter.fixed):
                         forget(content)
                 elif cell is not None and not isinstance(content, (Array, VulkanObject)):
                     # The function assigns an unknown value.
                     cell.write((Alternative(UNKNOWN, place),), place, scope.guards)
             elif not name.startswith(("vk", "vma")):
-                self.escape_argument(name, argument, term, scope)
+                self.escape_argument(name, argument, position, scope)
         if name and not name.startswith(("vk", "vma")) and not name.isupper() and not _HARMLESS.search(name):
             for value in values:
-                for alternative in value:
-                    mark_escaped(alternative.value)
+                mark_escaped(value, self.work)
         if not name or (name[0].isupper() and owner is None and vulkan_struct(name)):
             return UNKNOWN_VALUE
         helper_value = self.initializer(term, name, values, place)
         if helper_value is not None:
             return helper_value
-        return (Alternative(Symbol(canonical_text(term), name, bool(COUNTS.search(name))), place),)
+        return (Alternative(Symbol(brief(canonical_text(term)), name, bool(COUNTS.search(name))), place),)
 
-    def declared_parameter(self, name: str, argument: Term, term: Term) -> Parameter | None:
+    def declared_parameter(self, name: str, position: int) -> Parameter | None:
         """Returns the parameter that an argument is passed to, if the file declares the function."""
         parameters = self.unit.prototypes.get(name, ())
-        position = term[2].index(argument)
         return parameters[position] if position < len(parameters) else None
 
-    def escape_argument(self, name: str, argument: Term, term: Term, scope: Scope) -> None:
+    def escape_argument(self, name: str, argument: Term, position: int, scope: Scope) -> None:
         """Handles a list or a structure that is passed to an external function, which may change it through a reference."""
-        parameter = self.declared_parameter(name, argument, term)
+        parameter = self.declared_parameter(name, position)
         # In C++, any argument may be passed by reference; a macro may do anything.
         by_reference = parameter.by_reference if parameter is not None else self.is_cpp or name.isupper()
         for value in [item.value for item in self.value(argument, scope)]:
@@ -200,8 +197,9 @@ class ObjectCreation(ListMethods):
         obj = self.objects.get(key)
         if obj is None:
             obj = self.objects[key] = VulkanObject(kind, key, term[3], info)
-        mark_used(info)
-        obj.info = settled_under(copy_value(info, follow_pointers=True), dict(scope.guards))
+        mark_used(info, self.work)
+        obj.info = self.copies.with_targets(info)
+        settle_under(obj.info, dict(scope.guards), self.work)
         obj.guards = scope.guards
         obj.memory = ()
         obj.name_depth = 99

@@ -6,6 +6,7 @@ import re
 
 from msaa_lint.core.text.node_builder import mapping
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.limits import Work
 from msaa_lint.input.code.parsing import Code, Read, tree
 from msaa_lint.input.code.sample_counts.choices import choices
 
@@ -28,15 +29,16 @@ def trees(code: Code) -> list[Read]:
     if sections:
         code = code._replace(text=text)
         root = tree(code).root_node
-    interpreter = Interpreter(unit(code, root, sections), code.fragments, code.language == "cpp")
+    interpreter = Interpreter(unit(code, root, sections), code.fragments, code.language == "cpp", Work(len(code.text)))
     interpreter.run()
     read = DescriptionWriter(interpreter, code.fragments, _WAITS.search(code.text) is not None or _FRAMES.search(code.text) is None).read()
     # Sample count masks have this in their name, whatever their source.
     chosen = choices(root, code) if "ampleCounts" in code.text else []
+    unread = (interpreter.unread,) if interpreter.unread is not None else ()
     if not chosen:
-        return [read] if read is not None else []
+        return [(read or Read(mapping([], Span(0, 0))))._replace(unread=unread)] if read is not None or unread else []
     start = Span(chosen[0][1].start, chosen[0][1].start)
     node = read.tree if read is not None else mapping([], Span(0, 0))
     items = [(key, node.keys[key].span, value) for key, value in node.value.items()]
     items.append(("sampleCountChoices", start, mapping(chosen, start)))
-    return [Read(mapping(items, Span(0, 0)), read.assumed if read is not None else ())]
+    return [Read(mapping(items, Span(0, 0)), read.assumed if read is not None else (), unread=unread)]

@@ -2,29 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.limits import Work
 
 from .terms import NAME
-from .values import Array, Closure, Struct, VulkanObject, inner_cells, pointee, possible_writes, structures_in
+from .values import Array, Cell, Closure, Struct, Value, VulkanObject, inner_cells, pointee, possible_writes, structures_in
 
-MAX_DEPTH = 10
-"""The maximum nesting of structures, lists, and pointers."""
+MAX_DEPTH = 4
+"""The maximum nesting of values that external code reaches."""
 
 
-def mark_escaped(value: Any, depth: int = 0) -> None:
+def mark_escaped(value: Value, work: Work) -> None:
     """Marks the Vulkan objects in a value, and the images of image views, as used by external code."""
-    if isinstance(value, VulkanObject):
-        value.escaped = True
-        if value.kind == "view" and "image" in value.info.fields:
-            for write in value.info.fields["image"].writes:
-                mark_escaped(write.value, depth + 1)
-    elif depth < 4 and not (isinstance(value, Struct) and value.kind):
-        for cell in inner_cells(value):
-            for write in cell.writes:
-                mark_escaped(write.value, depth + 1)
+    stack = [(write.value, 0) for write in value]
+    seen: set[int] = set()
+    while stack:
+        inner, depth = stack.pop()
+        cells: Iterable[Cell] = ()
+        if isinstance(inner, VulkanObject):
+            inner.escaped = True
+            if inner.kind == "view" and "image" in inner.info.fields:
+                cells = (inner.info.fields["image"],)
+        elif depth < MAX_DEPTH and not (isinstance(inner, Struct) and inner.kind):
+            cells = inner_cells(inner)
+        for cell in cells:
+            if id(cell) not in seen:
+                seen.add(id(cell))
+                work.spend()
+                stack += [(write.value, depth + 1) for write in cell.writes]
 
 
 def forget(value: Any) -> None:
@@ -53,20 +61,31 @@ def forget_captures(closure: Closure) -> None:
                 forget(pointee(write.value))
 
 
-def mark_used(value: Any, depth: int = 0) -> None:
-    """Marks the structures in a value, including the ones that it points to, as used by a call."""
-    if isinstance(value, Struct):
-        value.used = True
-    for cell in inner_cells(value) if depth < 8 else ():
+def mark_used(value: Struct, work: Work) -> None:
+    """Marks a structure and those in it, including the ones that it points to, as used by a call."""
+    value.used = True
+    for cell in _cells_in(value, work):
         for write in cell.writes:
-            mark_used(write.value, depth + 1)
+            if isinstance(write.value, Struct):
+                write.value.used = True
 
 
-def settled_under(value: Any, conditions: Mapping[str, bool], depth: int = 0) -> Any:
-    """Reduces the cells of a value, in place, to the writes that are possible under some conditions. Returns the value."""
-    if depth <= MAX_DEPTH and conditions:
-        for cell in inner_cells(value):
-            cell.writes = possible_writes(cell.writes, conditions)
-            for write in cell.writes:
-                settled_under(write.value, conditions, depth + 1)
-    return value
+def settle_under(value: Struct, conditions: Mapping[str, bool], work: Work) -> None:
+    """Reduces the cells of a structure to the writes that are possible under some conditions."""
+    for cell in _cells_in(value, work) if conditions else ():
+        cell.writes = possible_writes(cell.writes, conditions)
+
+
+def _cells_in(value: Struct, work: Work) -> Iterator[Cell]:
+    """Yields the cells that a structure consists of and points to, each once, before what is in it."""
+    stack = inner_cells(value)[::-1]
+    seen: set[int] = set()
+    while stack:
+        cell = stack.pop()
+        if id(cell) in seen:
+            continue
+        seen.add(id(cell))
+        work.spend(1 + len(cell.writes))
+        yield cell
+        for write in cell.writes:
+            stack += inner_cells(write.value)

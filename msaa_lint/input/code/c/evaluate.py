@@ -36,7 +36,7 @@ class Evaluator(ConditionEvaluator):
 
     def value(self, term: Term, scope: Scope, kind: str = "") -> Value:
         """Returns the possible values of an expression. `kind` is the target type, which braces need."""
-        self.step()
+        self.step(scope)
         tag = term[0]
         place = term[-1]
         if tag == LITERAL:

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.parsing import SyntaxNode, SyntaxReader, fields, span, without_comments
 
-from .directives import Section
+from .directives import Sections
 from .kinds import BLANKS, CLASSES, MAX_DEPTH, NAMES, WORD, number
 from .terms import (
     ADDRESS,
@@ -44,7 +44,7 @@ class Expressions(SyntaxReader, ABC):
     aliases: dict[str, str]
     """The types that aliases stand for."""
     called_names: set[str]
-    sections: tuple[Section, ...]
+    sections: Sections
 
     @abstractmethod
     def parameters(self, node: SyntaxNode | None) -> tuple[Parameter, ...]:
@@ -186,11 +186,11 @@ class Expressions(SyntaxReader, ABC):
 
     def conditional_item(self, node: SyntaxNode, term: Term) -> Term:
         """Returns the term of a list item with the conditions under which it exists; an item that is only partly conditional is unknown."""
-        for section in self.sections:
-            if node.start_byte < section.start < node.end_byte and term[0] not in (BRACES, CALL, LAMBDA):
-                return (UNPARSED, "", term[-1])
-            if section.start <= node.start_byte < section.end:
-                term = (SOME, section.text, section.way, term, term[-1])
+        sections = self.sections.of(node.start_byte)
+        if sections is None or (self.sections.starts_in(node.start_byte, node.end_byte) and term[0] not in (BRACES, CALL, LAMBDA)):
+            return (UNPARSED, "", term[-1])
+        for section in sections:
+            term = (SOME, section.text, section.way, term, term[-1])
         return term
 
     def ordered_arguments(self, nodes: list[SyntaxNode], terms: Iterator[Term]) -> Iterator[Term]:

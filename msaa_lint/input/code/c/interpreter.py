@@ -11,11 +11,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.limits import WorkLimitExceeded
+from msaa_lint.input.code.parsing import Unread
 
 from .calls import Calls
 from .conditions import contradicts, decided, negated
 from .escapes import mark_escaped
-from .scope import MAX_PASSES, MAX_TURNS, Scope, StepLimitExceeded, name_objects
+from .scope import MAX_PASSES, MAX_TURNS, Scope, name_objects
 from .terms import BINARY, BLOCK, DECLARE, DO, FIELD, IF, INDEX, LEAVE, LOOP, NAME, RETURN, SOME, UNARY, Function, Term, at
 from .values import (
     ALWAYS,
@@ -40,9 +42,13 @@ from .variables import is_element_access
 class Interpreter(Calls):
     """Executes one file."""
 
+    unread: Unread | None = None
+    """Set if the file exceeds a limit, which leaves no objects."""
+
     def run(self) -> None:
-        """Executes the file until the values of members no longer change."""
+        """Executes the file until the values of members no longer change, or until it exceeds a limit, which `unread` then says."""
         entry_points = self.entry_points()
+        function = None
         try:
             for _ in range(MAX_PASSES):
                 self.begin()
@@ -61,8 +67,11 @@ class Interpreter(Calls):
                 last, self.summary = self.summary, {key: _joined(key, list(writes.values())) for key, writes in writes_by_key.items()}
                 if _marks(last) == _marks(self.summary):
                     break
-        except (StepLimitExceeded, RecursionError):
-            return
+        except (WorkLimitExceeded, RecursionError) as error:
+            # Of half a frame, too much would be said: that nothing reads an image, for example.
+            self.current_objects.clear()
+            self.resolves.clear()
+            self.unread = Unread(self.work.message(error), function.at if function is not None else Span(0, 0))
 
     def entry_points(self) -> list[Function]:
         # The constructor of a member runs where the object is created; no call of it appears.
@@ -79,8 +88,7 @@ class Interpreter(Calls):
             if parameter.name:
                 scope.scopes[-1][parameter.name] = Cell(parameter.type, parameter.name, (), f"{function.name}({parameter.name})")
         self.block(function.body, scope)
-        for alternative in scope.return_values:
-            mark_escaped(alternative.value)
+        mark_escaped(tuple(scope.return_values), self.work)
         self.create_unused(scope)
 
     def block(self, statements: Sequence[Term], scope: Scope) -> None:
@@ -100,7 +108,7 @@ class Interpreter(Calls):
         return left
 
     def statement(self, term: Term, scope: Scope) -> None:
-        self.step()
+        self.step(scope)
         kind = term[0]
         if kind == DECLARE:
             self.declare(term, scope)

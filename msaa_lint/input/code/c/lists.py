@@ -20,8 +20,6 @@ from .values import (
     Ref,
     Struct,
     Value,
-    copy_alternatives,
-    copy_value,
     pointee,
     sole_value,
 )
@@ -52,7 +50,7 @@ class ListMethods(Structures):
             argument = self.value(arguments[0], scope, kind)
             # A setter of a list takes its address.
             argument = self.as_pointer("p" + name[3:], argument, arguments[0], scope)
-            value.cell(setter).write(copy_alternatives(argument), place, scope.guards)
+            value.cell(setter).write(self.copies.alternatives(argument), place, scope.guards)
             return content
         if setter is not None and len(arguments) == 1 and self.fragments and owner[0] == NAME and not isinstance(value, Array):
             target = self.field(owner, setter, scope)
@@ -126,9 +124,8 @@ class ListMethods(Structures):
                 array.items += [unset_element(array.kind, place, True) for _ in range(count if array.complete else 0)]
         return UNKNOWN_VALUE
 
-    @staticmethod
-    def named_copy(alternative: Alternative, arguments: Sequence[Term]) -> Alternative:
-        value = copy_value(alternative.value)
+    def named_copy(self, alternative: Alternative, arguments: Sequence[Term]) -> Alternative:
+        value = self.copies.value(alternative.value)
         if isinstance(value, Struct) and not value.name and arguments and arguments[0][0] == NAME:
             value.name = str(arguments[0][1])
         return Alternative(value, alternative.at, alternative.guards)

@@ -6,9 +6,6 @@ from msaa_lint.core.text.span import Span
 
 from .values import ALWAYS, Alternative, Cell, Guards, Value, VulkanObject
 
-MAX_STEPS = 80_000
-"""The maximum number of terms evaluated in a file; execution stops at the limit."""
-
 MAX_TURNS = 16
 """The maximum number of loop iterations that are executed individually."""
 
@@ -25,10 +22,6 @@ MAX_CALLS = 5
 
 MAX_WAYS = 4
 """The maximum number of times that a call is executed."""
-
-
-class StepLimitExceeded(Exception):
-    """The file exceeds the limit of evaluated terms."""
 
 
 class Scope:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.limits import Work
 
 from .evaluate import Evaluator
 from .names import MEMBERS, WITHOUT_TYPE, element_type, first_version, is_scalar, member, vulkan_struct
@@ -22,8 +23,6 @@ from .values import (
     Struct,
     Value,
     VulkanObject,
-    copy_alternatives,
-    copy_value,
     pointee,
     sole_value,
     structures_in,
@@ -60,8 +59,8 @@ def _hpp_defaults(struct: Struct) -> None:
 class Structures(Evaluator):
     """Constructs the structures and lists of one file."""
 
-    def __init__(self, unit: Unit, fragments: bool, is_cpp: bool) -> None:
-        super().__init__(unit, fragments, is_cpp)
+    def __init__(self, unit: Unit, fragments: bool, is_cpp: bool, work: Work) -> None:
+        super().__init__(unit, fragments, is_cpp, work)
         self.objects: dict[tuple[Any, ...], VulkanObject] = {}
         self.current_objects: dict[tuple[Any, ...], VulkanObject] = {}
         self.declared_structs: list[tuple[Struct, Guards]] = []
@@ -85,7 +84,7 @@ class Structures(Evaluator):
             term = items[0][1]
             value = self.target(term, scope) if term[0] in (NAME, FIELD) else None
             if isinstance(value, Struct) and (not value.kind or first_version(value.kind) == first_version(struct.kind)):
-                return (Alternative(copy_value(value), place),)
+                return (Alternative(self.copies.value(value), place),)
             if term[:2] == (LITERAL, 0):
                 return (Alternative(struct, place),)
         self.initialize_positional(struct, items, scope, hpp)
@@ -117,7 +116,7 @@ class Structures(Evaluator):
             if name.endswith("Count") and hpp and (isinstance(target, (Array, Struct)) or term[0] == BRACES):
                 n += 1
                 name = names[n] if n < len(names) else name
-            struct.cell(member(name)).write(copy_alternatives(value), term[-1], ALWAYS)
+            struct.cell(member(name)).write(self.copies.alternatives(value), term[-1], ALWAYS)
             n += 1
 
     def initialize_designated(self, struct: Struct, path: Sequence[str | int], term: Term, scope: Scope) -> None:
@@ -135,7 +134,7 @@ class Structures(Evaluator):
             target = value
         name = str(path[-1])
         value = self.as_pointer(name, self.value(term, scope, member_type(target.kind, name)), term, scope)
-        target.cell(member(name)).write(copy_alternatives(value), term[-1], guards)
+        target.cell(member(name)).write(self.copies.alternatives(value), term[-1], guards)
 
     def unwrap_conditions(self, term: Term) -> tuple[Guards, Term]:
         """Returns the guards of a list item, and the item."""
@@ -190,7 +189,7 @@ class Structures(Evaluator):
             guards, term = self.unwrap_conditions(term)
             value = self.value(term, scope, kind)
             cell = Cell(kind)
-            cell.writes = tuple(Alternative(copy_value(a.value), a.at, a.guards | guards) for a in value) or (
+            cell.writes = tuple(Alternative(self.copies.value(a.value), a.at, a.guards | guards) for a in value) or (
                 Alternative(UNKNOWN, term[-1], guards),
             )
             index = path[0] if path else len(array.items)
@@ -217,13 +216,13 @@ class Structures(Evaluator):
         if type(count) is not int or not 0 <= count <= 64 or len(arguments) > 2:
             value = pointee(count)
             if isinstance(value, Array) and all(value is self.target(a, scope) for a in arguments[1:]):
-                return (Alternative(copy_value(value), place),)
+                return (Alternative(self.copies.value(value), place),)
             array.complete = False
             return (Alternative(array, place),)
         for _ in range(count):
             item = unset_element(kind, place, True)
             if len(arguments) == 2:
-                item.writes = copy_alternatives(self.value(arguments[1], scope, kind))
+                item.writes = self.copies.alternatives(self.value(arguments[1], scope, kind))
             array.items.append(item)
         return (Alternative(array, place),)
 
@@ -238,7 +237,7 @@ class Structures(Evaluator):
         for name, (path, term) in zip(names, items, strict=False):
             if not path:
                 value = self.value(term, scope)
-                struct.cell(member(name)).writes = copy_alternatives(value)
+                struct.cell(member(name)).writes = self.copies.alternatives(value)
         return (Alternative(struct, place),)
 
     def has_kind(self, term: Term, kind: str, scope: Scope) -> bool:

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 from msaa_lint.input.code.parsing import Code, SyntaxNode, fields, function_declarator, span, without_comments
 
-from .directives import Section
+from .directives import Section, Sections
 from .kinds import CLASSES, MAX_DEPTH
 from .statements import Statements
 from .terms import ASSIGN, CALL, DO, NAME, Function, Parameter, Term, Unit
@@ -39,7 +39,7 @@ class _Reader(Statements):
 
     def __init__(self, text: str, fragments: bool, sections: tuple[Section, ...]) -> None:
         self.text = text
-        self.sections = sections
+        self.sections = Sections(sections)
         self.fragments = fragments
         self.found: list[tuple[str, str, SyntaxNode]] = []
         """The namespace, the class, and the node of each function."""

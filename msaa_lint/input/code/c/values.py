@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.limits import Work
 
 Guards = frozenset[tuple[str, bool]]
 """Conditions that all hold, each as its text and its value."""
@@ -195,39 +196,56 @@ def structures_in(value: Any) -> list[Struct]:
 
 
 MAX_DEPTH = 10
+"""The maximum nesting of structures that are copied."""
 
 
-def copy_alternatives(value: Value, guards: Guards = ALWAYS) -> Value:
-    """Returns copies of the alternatives of a value, under additional conditions."""
-    return tuple(Alternative(copy_value(a.value), a.at, a.guards | guards) for a in value)
+class Copier:
+    """Copies values; `work` counts the members and alternatives that are copied."""
 
+    def __init__(self, work: Work) -> None:
+        self.work = work
 
-def copy_value(value: Any, depth: int = 0, follow_pointers: bool = False) -> Any:
-    """Returns a deep copy of a structure or list; other values are returned as is. `follow_pointers` copies the targets of pointers too."""
-    if depth > MAX_DEPTH:
-        return UNKNOWN
-    if isinstance(value, Struct):
-        struct = Struct(value.kind, value.at, value.zeroed, value.name)
-        for name, cell in value.fields.items():
-            struct.fields[name] = copy_cell(cell, depth, follow_pointers)
-        return struct
-    if isinstance(value, Array):
-        array = Array(value.kind, value.at, value.complete)
-        array.zeroed, array.name = value.zeroed, value.name
-        array.items = [copy_cell(cell, depth, follow_pointers) for cell in value.items]
-        return array
-    if isinstance(value, Ref) and follow_pointers:
-        return Ref(copy_cell(value.cell, depth, follow_pointers))
-    return value
+    def alternatives(self, value: Value, guards: Guards = ALWAYS) -> Value:
+        """Returns copies of the alternatives of a value, under additional conditions."""
+        return tuple(Alternative(self.value(a.value), a.at, a.guards | guards) for a in value)
 
+    def value(self, value: Any) -> Any:
+        """Returns a deep copy of a structure or list; other values, pointers among them, are returned as is."""
+        return self._copy(value, 0, None)
 
-def copy_cell(cell: Cell, depth: int = 0, follow_pointers: bool = False) -> Cell:
-    copy = Cell(cell.kind, cell.name)
-    copy.writes = tuple(
-        Alternative(copy_value(a.value, depth + 1, follow_pointers), a.at, a.guards) if isinstance(a.value, (Struct, Array, Ref)) else a
-        for a in cell.writes
-    )
-    return copy
+    def with_targets(self, value: Any) -> Any:
+        """Returns a deep copy of a structure or list, and of the targets of its pointers, each of which is copied once."""
+        return self._copy(value, 0, {})
+
+    def _copy(self, value: Any, depth: int, targets: dict[int, Cell] | None) -> Any:
+        if depth > MAX_DEPTH:
+            return UNKNOWN
+        if isinstance(value, Struct):
+            struct = Struct(value.kind, value.at, value.zeroed, value.name)
+            for name, cell in value.fields.items():
+                struct.fields[name] = self._cell(cell, Cell(cell.kind, cell.name), depth, targets)
+            return struct
+        if isinstance(value, Array):
+            array = Array(value.kind, value.at, value.complete)
+            array.zeroed, array.name = value.zeroed, value.name
+            array.items = [self._cell(cell, Cell(cell.kind, cell.name), depth, targets) for cell in value.items]
+            return array
+        if isinstance(value, Ref) and targets is not None:
+            cell = value.cell
+            copy = targets.get(id(cell))
+            if copy is None:
+                copy = targets[id(cell)] = Cell(cell.kind, cell.name)
+                self._cell(cell, copy, depth, targets)
+            return Ref(copy)
+        return value
+
+    def _cell(self, cell: Cell, copy: Cell, depth: int, targets: dict[int, Cell] | None) -> Cell:
+        self.work.spend(1 + len(cell.writes))
+        copy.writes = tuple(
+            Alternative(self._copy(a.value, depth + 1, targets), a.at, a.guards) if isinstance(a.value, (Struct, Array, Ref)) else a
+            for a in cell.writes
+        )
+        return copy
 
 
 def sole_value(value: Value) -> Any:

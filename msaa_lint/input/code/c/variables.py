@@ -7,11 +7,16 @@ from typing import Any
 
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.names import parse_enum
+from msaa_lint.input.code.limits import Work
 
 from .names import array_size, constant, element_type, member, vulkan_struct
-from .scope import MAX_STEPS, MEMBER, Scope, StepLimitExceeded
+from .scope import MEMBER, Scope
 from .terms import CALL, DECLARE, FIELD, INDEX, NAME, TARGET, Function, Term, Unit, at
-from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Flags, Ref, Struct, Value, copy_value, pointee, sole_value
+from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Copier, Flags, Ref, Struct, Value, pointee, sole_value
+
+
+MAX_KEY = 2000
+"""The maximum length of the path of a member; those of longer ones are unknown."""
 
 
 def _lasts(value: object) -> bool:
@@ -35,15 +40,14 @@ def unset_element(kind: str, place: Span, zeroed: bool) -> Cell:
 class Variables(ABC):
     """The variables and members of one file."""
 
-    def __init__(self, unit: Unit, fragments: bool, is_cpp: bool) -> None:
+    def __init__(self, unit: Unit, fragments: bool, is_cpp: bool, work: Work) -> None:
         self.unit = unit
+        self.work = work
+        self.copies = Copier(work)
         self.fragments = fragments
         """Whether the code consists of fragments of a page, not a whole program."""
         self.is_cpp = is_cpp
         """Whether the code is C++, where arguments may be passed by reference."""
-        self.functions: dict[str, list[Function]] = {}
-        for function in unit.functions:
-            self.functions.setdefault(function.name, []).append(function)
         self.globals: dict[str, Term] = {}
         for term in unit.outside:
             if term[0] == DECLARE:
@@ -61,7 +65,10 @@ class Variables(ABC):
         self.declared_values: dict[str, Value] = {}
         self.parts: dict[str, dict[str, None]] = {}
         """The names of members used with each member."""
-        self.steps = 0
+        self._classes: dict[str, list[str]] = {}
+        """The classes by the last part of their names."""
+        for name in self.members:
+            self._classes.setdefault(name.rpartition("::")[2], []).append(name)
 
     @abstractmethod
     def value(self, term: Term, scope: Scope, kind: str = "") -> Value:
@@ -79,15 +86,13 @@ class Variables(ABC):
     def call(self, term: Term, scope: Scope) -> Value:
         """Returns the value of a call."""
 
-    def step(self) -> None:
-        self.steps += 1
-        if self.steps > MAX_STEPS:
-            raise StepLimitExceeded
+    def step(self, scope: Scope) -> None:
+        """Counts the evaluation of a term, which takes longer under many conditions. Raises WorkLimitExceeded."""
+        self.work.spend(1 + len(scope.guards) // 4)
 
-    @staticmethod
-    def stored_value(value: Any, kind: str, name: str) -> Any:
+    def stored_value(self, value: Any, kind: str, name: str) -> Any:
         """Returns a value as a variable holds it: structures and lists are copied and take the variable's name."""
-        value = copy_value(value)
+        value = self.copies.value(value)
         if isinstance(value, Struct):
             value.kind = value.kind or vulkan_struct(kind)
             value.name = name or value.name
@@ -98,7 +103,7 @@ class Variables(ABC):
 
     def cell_of(self, term: Term, scope: Scope) -> Cell | None:
         """Returns the cell that an expression refers to, or None if it is unknown."""
-        self.step()
+        self.step(scope)
         kind = term[0]
         if kind == NAME:
             return self.variable(term[1], scope)
@@ -161,6 +166,8 @@ class Variables(ABC):
     def member_cell(self, key: str) -> Cell:
         """Returns the cell of a member of an object by its path."""
         cell = self.overlay.get(key)
+        if cell is None and len(key) > MAX_KEY:
+            return Cell()
         if cell is None:
             cell = self.overlay[key] = Cell(MEMBER, key, (), key)
             owner, _, name = key.rpartition(".")
@@ -243,9 +250,8 @@ class Variables(ABC):
             return f"{namespace}{kind}"
         if kind in self.members:
             return kind
-        short = kind.rpartition("::")[2]
-        members = [name for name in self.members if name.rpartition("::")[2] == short]
-        return members[0] if len(members) == 1 else None
+        classes = self._classes.get(kind.rpartition("::")[2], ())
+        return classes[0] if len(classes) == 1 else None
 
     def pointed_class(self, key: str) -> str:
         """Returns the class, with a trailing `::`, that a pointer member refers to; which object it points to is unknown."""

@@ -1,0 +1,40 @@
+"""What reading one source file may cost. Beyond a limit, the rest of the file is not read, and a finding says so."""
+
+MAX_CHARACTERS = 8 << 20
+"""The maximum length of a source file."""
+
+BASE_STEPS = 80_000
+"""The number of steps that executing any file may take."""
+
+STEPS_PER_CHARACTER = 3
+"""The number of further steps for each character of a file, so that the time that a file takes is linear in its length.
+
+Ordinary code takes less than one: its statements are executed up to three times, and functions once for each call.
+"""
+
+
+class WorkLimitExceeded(Exception):
+    """Executing a file takes more steps than its length allows."""
+
+
+class Work:
+    """The steps that are left for a file of a length: the evaluation of a term, a copy of a value, a condition that is looked at."""
+
+    def __init__(self, length: int) -> None:
+        self.limit = BASE_STEPS + STEPS_PER_CHARACTER * length
+        self.left = self.limit
+
+    def spend(self, steps: int = 1) -> None:
+        """Takes steps off. Raises WorkLimitExceeded if none are left."""
+        self.left -= steps
+        if self.left < 0:
+            raise WorkLimitExceeded
+
+    def message(self, error: WorkLimitExceeded | RecursionError) -> str:
+        """Returns which limit a file exceeds, and what is not checked."""
+        if isinstance(error, RecursionError):
+            return "the code nests too deeply to be followed: the images, passes, and pipelines of this file are not checked"
+        return (
+            f"following the code takes more than {self.limit} steps, the limit for a file of this length: "
+            "its images, passes, and pipelines are not checked"
+        )
