@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from importlib import import_module
 from typing import TYPE_CHECKING, NamedTuple
 
+from msaa_lint.core.text.source import Unreadable
 from msaa_lint.input.file_types import LANGUAGES, missing_extra
 
 if TYPE_CHECKING:
@@ -95,10 +96,13 @@ def installed() -> bool:
 def read(source: "Source", language: str) -> Program:
     """Returns the documents of source code in source order.
 
-    Code that is not understood is left out; no code raises. Raises `Missing` if the extra is not installed.
+    Code that is not understood is left out. Raises `Missing` if the extra is not installed, and `Unreadable` if the code is too long.
     """
+    from .limits import MAX_CHARACTERS
     from .parsing import Code, Missing, ascii_only
 
+    if len(source.text) > MAX_CHARACTERS:
+        raise Unreadable(f"source code is read up to {MAX_CHARACTERS} characters, and this file has {len(source.text)}")
     if language == "markdown":
         from .fences import codes
 

@@ -3,7 +3,7 @@
 MAX_CHARACTERS = 8 << 20
 """The maximum length of a source file."""
 
-BASE_STEPS = 80_000
+BASE_STEPS = 200_000
 """The number of steps that executing any file may take."""
 
 STEPS_PER_CHARACTER = 3
@@ -33,8 +33,5 @@ class Work:
     def message(self, error: WorkLimitExceeded | RecursionError) -> str:
         """Returns which limit a file exceeds, and what is not checked."""
         if isinstance(error, RecursionError):
-            return "the code nests too deeply to be followed: the images, passes, and pipelines of this file are not checked"
-        return (
-            f"following the code takes more than {self.limit} steps, the limit for a file of this length: "
-            "its images, passes, and pipelines are not checked"
-        )
+            return "the code nests too deeply to be followed; what it creates is not checked"
+        return f"following the code takes more than {self.limit} steps, the limit for a file of this length; what it creates is not checked"

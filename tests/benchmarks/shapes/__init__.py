@@ -5,5 +5,6 @@ from .captures import SHAPES as CAPTURES
 from .descriptions import SHAPES as DESCRIPTIONS
 from .rules import SHAPES as RULES
 from .shape import Shape
+from .source import SHAPES as SOURCE
 
-SHAPES: tuple[Shape, ...] = (*DESCRIPTIONS, *CAPTURES, *CAPTURE_TEXTS, *RULES)
+SHAPES: tuple[Shape, ...] = (*DESCRIPTIONS, *CAPTURES, *CAPTURE_TEXTS, *RULES, *SOURCE)

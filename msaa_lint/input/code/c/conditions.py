@@ -14,7 +14,6 @@ from .terms import ADDRESS, BINARY, CALL, FIELD, INDEX, LITERAL, NAME, TARGET, U
 from .values import MAX_ALTERNATIVES, Guards, Symbol, VulkanObject, sole_value
 from .variables import Variables
 
-
 MAX_TEXT = 200
 """The maximum length of the text that stands for an expression; a digest stands for a longer one."""
 
@@ -77,7 +76,7 @@ class ConditionEvaluator(Variables):
     """Evaluates conditions."""
 
     def preprocessor_condition(self, text: str) -> bool | Guards:
-        bare = text[1:].strip()
+        bare = brief(text[1:].strip())
         if bare in ("0", "1"):
             return bare == "1"
         return frozenset({condition_key(bare)})

@@ -10,7 +10,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.parsing import SyntaxNode, SyntaxReader, fields, span, without_comments
 
 from .directives import Sections
-from .kinds import BLANKS, CLASSES, MAX_DEPTH, NAMES, WORD, number
+from .kinds import BLANKS, CLASSES, MAX_DEPTH, MAX_NAME, NAMES, WORD, number
 from .terms import (
     ADDRESS,
     ASSIGN,
@@ -56,7 +56,7 @@ class Expressions(SyntaxReader, ABC):
 
     def type_text(self, node: SyntaxNode | None) -> str:
         """Returns the text of a type without whitespace, `const`, and `struct`."""
-        if node is None:
+        if node is None or node.end_byte - node.start_byte > MAX_NAME:
             return ""
         if node.type in CLASSES or node.type == "enum_specifier":
             return self.text_of(node.child_by_field_name("name"))
@@ -73,12 +73,14 @@ class Expressions(SyntaxReader, ABC):
         kind, at, deeper = node.type, span(node), depth + 1
         if kind in NAMES:
             name = self.text_of(node)
+            if len(name) > MAX_NAME:
+                return (UNPARSED, "", at)
             return (LITERAL, None, at) if name == "VK_NULL_HANDLE" else (NAME, self.resolve_aliases(BLANKS.sub("", name)), at)
         if kind == "field_expression":
             member = node.child_by_field_name("field")
             if member is None:
                 return (UNPARSED, self.text_of(node), at)
-            name = self.text_of(member).partition("<")[0].rpartition("::")[2]
+            name = self.text_of(member)[:MAX_NAME].partition("<")[0].rpartition("::")[2]
             return (FIELD, *self.parts(node, deeper, "argument"), name, span(member))
         if kind == "call_expression":
             return self.call(node, deeper, at)

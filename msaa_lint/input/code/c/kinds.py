@@ -7,6 +7,9 @@ import re
 MAX_DEPTH = 120
 """The maximum nesting of expressions and blocks."""
 
+MAX_NAME = 500
+"""The maximum length of a name or type; longer ones are unknown."""
+
 WORD = re.compile(r"(?<![\w:])[A-Za-z_]\w*")
 """An unqualified identifier."""
 

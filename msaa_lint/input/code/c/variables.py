@@ -11,9 +11,8 @@ from msaa_lint.input.code.limits import Work
 
 from .names import array_size, constant, element_type, member, vulkan_struct
 from .scope import MEMBER, Scope
-from .terms import CALL, DECLARE, FIELD, INDEX, NAME, TARGET, Function, Term, Unit, at
+from .terms import CALL, DECLARE, FIELD, INDEX, NAME, TARGET, Term, Unit, at
 from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Copier, Flags, Ref, Struct, Value, pointee, sole_value
-
 
 MAX_KEY = 2000
 """The maximum length of the path of a member; those of longer ones are unknown."""

@@ -8,7 +8,7 @@ from msaa_lint.input.code.parsing import SyntaxNode, fields, without_comments
 from .expressions import FETCHES, Expressions
 from .text import UnsupportedShader
 from .types import EXTREMES, FLOAT, FUSED, INT, VOID, Type, is_image, multisampled, result, scalar_of, size_of, texel, vector
-from .values import Function, Place, Value
+from .values import Place, Value
 
 _QUERIES = ("textureSamples", "imageSamples")
 _WRITES = ("atomic", "imageAtomic", "imageStore")
@@ -134,11 +134,10 @@ def _built_in(expressions: Expressions, node: SyntaxNode, name: str, arguments: 
 def _call_function(expressions: Expressions, node: SyntaxNode, name: str, arguments: list[SyntaxNode], depth: int) -> Value:
     """Lowers a call of a function of the shader."""
     operands = [_operand(expressions, argument, depth) for argument in arguments]
-    function = _matching_overload(expressions.functions[name], [_type(operand) for operand in operands])
+    function = expressions.overload(name, [_type(operand) for operand in operands])
     if function is None:
         raise expressions.unsupported(node, "matches no function of the shader")
-    if function not in expressions.called_functions:
-        expressions.called_functions.append(function)
+    expressions.add_called(function)
     passed: list[int] = []
     back: list[tuple[Place, Place]] = []
     for operand, (kind, written, _) in zip(operands, function.parameters, strict=True):
@@ -166,13 +165,3 @@ def _type(operand: Place | Value) -> Type:
     if isinstance(operand, Place) and operand.parts:
         return vector(scalar_of(operand.type), len(operand.parts))
     return operand.type
-
-
-def _matching_overload(functions: list[Function], types: list[Type]) -> Function | None:
-    """Returns the overload whose parameters have the argument types, or the types that they can be converted to."""
-    same = [function for function in functions if [kind for kind, _, _ in function.parameters] == types]
-    if same:
-        return same[0]
-    sizes = [size_of(kind) for kind in types]
-    near = [function for function in functions if [size_of(kind) for kind, _, _ in function.parameters] == sizes]
-    return near[0] if len(near) == 1 else None

@@ -282,4 +282,4 @@ class Declarations(Expressions):
             name_text, kind = self.declarator(target, kind) if target is not None else ("", kind)
             parameters.append((kind, bool(words & {"out", "inout"}), name_text))
         function = Function(node, returns, tuple(parameters), self.out.id())
-        self.functions.setdefault(self.text_of(name), []).append(function)
+        self.add_function(self.text_of(name), function)

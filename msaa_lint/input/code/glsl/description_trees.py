@@ -14,10 +14,10 @@ from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.spirv.reflect import Multisampled, Reflected, reflect
 from msaa_lint.frame.spirv.words import SpirvError
-from msaa_lint.input.code.parsing import Code, Read
+from msaa_lint.input.code.parsing import Code, Read, Unread
 
 from .shader import Shader, shader
-from .text import UnsupportedShader, blank
+from .text import ShaderLimitExceeded, UnsupportedShader, blank
 
 RELEVANT = re.compile(r"\b[iu]?(?:sampler2DMS|texture2DMS|image2DMS|subpassInputMS)")
 
@@ -37,11 +37,18 @@ def trees(code: Code) -> list[Read]:
     if RELEVANT.search(code.text) is None:
         return []
     readings: list[Read] = []
+    unread: list[Unread] = []
     for start, end in _shaders(code):
+        if len(readings) == MAX_SHADERS:
+            unread.append(Unread(f"only the first {MAX_SHADERS} shaders of a page are checked", Span(start, start)))
+            break
         text = blank(code.text[:start]) + code.text[start:end]
         try:
             lowered = shader(text, code.fragments)
             reflected = reflect(lowered.code)
+        except ShaderLimitExceeded as error:
+            unread.append(Unread(f"{error}; the shader is not checked", Span(start, start)))
+            continue
         except (UnsupportedShader, SpirvError):
             continue
         number = f"-{len(readings) + 1}" if readings else ""
@@ -51,7 +58,7 @@ def trees(code: Code) -> list[Read]:
             text = code.text[start:end].rstrip() + "\n"
             text = text[len(text) - len(text.lstrip()) :]
             readings.append(Read(tree, (), {name: text.encode()} if lowered.stage == "FRAGMENT" else {}))
-    return readings
+    return [*readings, Read(mapping([], Span(0, 0)), unread=tuple(unread))] if unread else readings
 
 
 def _shaders(code: Code) -> Iterator[tuple[int, int]]:
@@ -59,23 +66,19 @@ def _shaders(code: Code) -> Iterator[tuple[int, int]]:
     if not code.fragments:
         yield 0, len(code.text)
         return
-    text, count = code.text, 0
+    text = code.text
     start = at = 0
     for match in [*_APART.finditer(text), None]:
         end = match.start() if match is not None else len(text)
         block = text[at:end]
         if _VERSION.search(block) is not None and text[start:at].strip():
             if RELEVANT.search(text, start, at):
-                count += 1
                 yield start, at
             start = at
         if _MAIN.search(block) is not None or match is None:
             if RELEVANT.search(text, start, end):
-                count += 1
                 yield start, end
             start = end
-        if count >= MAX_SHADERS:
-            return
         at = match.end() if match is not None else end
 
 

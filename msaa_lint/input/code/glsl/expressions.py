@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
 from collections.abc import Callable
 
 from msaa_lint.frame.spirv import numbers as op
 from msaa_lint.input.code.parsing import SyntaxNode
 from msaa_lint.input.code.sample_counts.arithmetic import whole
 
-from .text import UnsupportedShader
+from .text import ShaderLimitExceeded
 from .types import BOOL, DOUBLE, FLOAT, INT, UINT, scalar_of, size_of, vector
 from .values import LOGICAL_AND, LOGICAL_NOT, LOGICAL_NOT_EQUAL, LOGICAL_OR, MAX_DEPTH, SELECT, SIGNS, Place, Value, Values, literal_of
 
@@ -24,10 +25,12 @@ class Expressions(Values):
     """Whether the current block has its terminator."""
     call: Callable[[SyntaxNode, int], Value]
     """Evaluates a call."""
+    root: SyntaxNode
+    _effects: tuple[list[int], list[int]] | None = None
 
     def value(self, node: SyntaxNode, depth: int = 0) -> Value:
         if depth > MAX_DEPTH:
-            raise UnsupportedShader("expressions nest too deeply")
+            raise ShaderLimitExceeded(f"an expression of the shader nests more than {MAX_DEPTH} levels deep")
         kind, deeper = node.type, depth + 1
         if kind == "number_literal":
             return self.literal(node)
@@ -96,18 +99,32 @@ class Expressions(Values):
 
     def has_effects(self, node: SyntaxNode) -> bool:
         """Returns whether evaluating an expression has effects: it calls a function or assigns a variable."""
-        stack = [node]
+        if self._effects is None:
+            self._effects = self._find_effects()
+        starts, ends = self._effects
+        first = bisect_left(starts, node.start_byte)
+        if first < len(starts) and starts[first] == node.start_byte:
+            # What starts at the same place may be around the expression.
+            if ends[first] <= node.end_byte:
+                return True
+            first += 1
+        return first < len(starts) and starts[first] < node.end_byte
+
+    def _find_effects(self) -> tuple[list[int], list[int]]:
+        """Returns where the text has effects: the offsets at which they start, and the least at which one from there ends."""
+        ends: dict[int, int] = {}
+        stack = [self.root]
         while stack:
             inner = stack.pop()
-            if inner.type in ("assignment_expression", "update_expression"):
-                return True
+            effect = inner.type in ("assignment_expression", "update_expression")
             if inner.type == "call_expression":
-                function = inner.child_by_field_name("function")
-                name = self.text_of(function)
-                if name in self.functions or name in FETCHES:
-                    return True
+                name = self.text_of(inner.child_by_field_name("function"))
+                effect = name in self.functions or name in FETCHES
+            if effect:
+                ends[inner.start_byte] = min(inner.end_byte, ends.get(inner.start_byte, inner.end_byte))
             stack += inner.named_children
-        return False
+        starts = sorted(ends)
+        return starts, [ends[start] for start in starts]
 
     def short_circuit(self, one: Value, operator: str, right: SyntaxNode, depth: int) -> Value:
         """Lowers `&&` and `||` whose second operand must only be evaluated if it decides the result."""

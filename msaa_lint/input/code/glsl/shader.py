@@ -10,7 +10,7 @@ from msaa_lint.frame.spirv import numbers as op
 from msaa_lint.input.code.parsing import SyntaxNode, ascii_only, fields, without_comments
 
 from .declarations import Declarations
-from .text import PreprocessedText, UnsupportedShader, preprocess
+from .text import PreprocessedText, ShaderLimitExceeded, UnsupportedShader, preprocess
 from .types import BOOL, VOID, Type, is_image, multisampled, size_of
 from .values import Function, Place, Value
 
@@ -81,7 +81,7 @@ class _ShaderLowering(Declarations):
             value = self.value(node)
             self.store(place, self.as_type(value, place.type) if size_of(place.type) else value)
         if entry is not None:
-            self.called_functions.append(entry)
+            self.add_called(entry)
             self.out.emit(op.FUNCTION_CALL, self.out.type(VOID), self.out.id(), entry.id)
         else:
             name = self.call_uncalled_functions()
@@ -126,7 +126,7 @@ class _ShaderLowering(Declarations):
                     self.decorate_layout(variable.pointer, self.with_binding(parameter, {}), storage)
                     self.images.setdefault(parameter, (function.node.start_byte, function.node.start_byte))
                 passed.append(variable.pointer if written or kind[0] == "opaque" else self.load(variable).id)
-            self.called_functions.append(function)
+            self.add_called(function)
             result = self.out.instruction(op.FUNCTION_CALL, function.returns, function.id, *passed)
             if function.returns != VOID:
                 output = self.variable(op.OUTPUT, function.returns)
@@ -170,7 +170,7 @@ class _ShaderLowering(Declarations):
 
     def statements(self, node: SyntaxNode, depth: int) -> None:
         if depth > MAX_DEPTH:
-            raise UnsupportedShader("blocks nest too deeply")
+            raise ShaderLimitExceeded(f"the blocks of the shader nest more than {MAX_DEPTH} levels deep")
         if node.type == "compound_statement":
             self.scopes.append({})
             for child in node.named_children:

@@ -34,11 +34,23 @@ class UnsupportedShader(Exception):
     """The shader uses something unsupported; the message says what."""
 
 
+class ShaderLimitExceeded(UnsupportedShader):
+    """The shader exceeds a limit; the message says which."""
+
+
 class Macro(NamedTuple):
     """The replacement of a macro. `parameters` is None for an object-like macro."""
 
     parameters: tuple[str, ...] | None
     body: str
+
+
+class Branch(NamedTuple):
+    """The current branch of a condition: whether its text exists, whether that of the condition does, and whether a branch was taken."""
+
+    live: bool
+    outer: bool
+    taken: bool
 
 
 class PreprocessedText(NamedTuple):
@@ -64,20 +76,19 @@ def blank(text: str) -> str:
 def preprocess(text: str) -> PreprocessedText:
     """Returns a preprocessed shader. Raises UnsupportedShader if a directive is not understood."""
     if len(text) > MAX_TEXT:
-        raise UnsupportedShader("the shader is too long")
+        raise ShaderLimitExceeded(f"the shader has more than {MAX_TEXT} characters")
     text = _COMMENT.sub(lambda match: blank(match[0]), text.replace("\r", " "))
     out: list[str] = []
     pieces: list[tuple[int, int]] = []
     length = at = 0
     macros: dict[str, Macro] = {"GL_core_profile": Macro(None, "1"), "VULKAN": Macro(None, "100"), "__VERSION__": Macro(None, "450")}
-    branches: list[tuple[bool, bool]] = []
-    """For each enclosing condition, whether the current branch is active and whether any branch was."""
+    branches: list[Branch] = []
     for line in re.findall(r"(?:[^\n\\]|\\\n|\\)*(?:\n|\Z)", text):
         directive = _DIRECTIVE.match(line) if "#" in line else None
         parts: Iterable[tuple[str, int]] = [(blank(line), at)]
         if directive is not None:
             _apply_directive(directive[1], directive[2].replace("\\\n", "").strip(), macros, branches)
-        elif all(item for item, _ in branches):
+        elif not branches or branches[-1].live:
             parts = _expanded(line, at, macros)
         for part, original in parts:
             if part:
@@ -86,7 +97,9 @@ def preprocess(text: str) -> PreprocessedText:
                 length += len(part)
         at += len(line)
         if length > MAX_TEXT:
-            raise UnsupportedShader("macro expansion exceeds the limit")
+            raise ShaderLimitExceeded(
+                f"the macros of the shader expand to more than {MAX_EXPANDED} characters in a line, or {MAX_TEXT} in all"
+            )
     layouts: list[str] = []
 
     def noted(match: re.Match[str]) -> str:
@@ -97,20 +110,19 @@ def preprocess(text: str) -> PreprocessedText:
     return PreprocessedText(whole, tuple(pieces), tuple(layouts))
 
 
-def _apply_directive(name: str, rest: str, macros: dict[str, Macro], branches: list[tuple[bool, bool]]) -> None:
-    live = all(item for item, _ in branches)
+def _apply_directive(name: str, rest: str, macros: dict[str, Macro], branches: list[Branch]) -> None:
+    live = not branches or branches[-1].live
     if name in ("ifdef", "ifndef"):
         word = rest.split()[0] if rest.split() else ""
         holds = (word in macros) == (name == "ifdef")
-        branches.append((holds, holds))
+        branches.append(Branch(live and holds, live, holds))
     elif name == "if":
         holds = live and _condition_holds(rest, macros)
-        branches.append((holds, holds))
+        branches.append(Branch(holds, live, holds))
     elif name in ("else", "elif") and branches:
-        _, before = branches.pop()
-        outer = all(item for item, _ in branches)
+        _, outer, before = branches.pop()
         holds = not before and (name == "else" or (outer and _condition_holds(rest, macros)))
-        branches.append((holds, before or holds))
+        branches.append(Branch(outer and holds, outer, before or holds))
     elif name == "endif" and branches:
         branches.pop()
     elif name == "define" and live:
@@ -119,7 +131,7 @@ def _apply_directive(name: str, rest: str, macros: dict[str, Macro], branches: l
             parameters = tuple(word.strip() for word in match[2][1:-1].split(",") if word.strip()) if match[2] else None
             macros[match[1]] = Macro(parameters, match[3].strip())
             if len(macros) > MAX_MACROS:
-                raise UnsupportedShader("the shader has too many macros")
+                raise ShaderLimitExceeded(f"the shader has more than {MAX_MACROS} macros")
     elif name == "undef" and live:
         macros.pop(rest, None)
     # An `include` may define anything; a missing definition is reported where it is used.
@@ -128,7 +140,7 @@ def _apply_directive(name: str, rest: str, macros: dict[str, Macro], branches: l
 def _condition_holds(condition: str, macros: dict[str, Macro]) -> bool:
     """Returns whether the condition of an `#if` holds. Raises UnsupportedShader if it is too complex."""
     text = _DEFINED.sub(lambda match: "1" if (match[1] or match[2]) in macros else "0", condition)
-    text = _expand(text, macros, 0)
+    text = _expand(text, macros, ())
     text = re.sub(r"\b[A-Za-z_]\w*\b", "0", text)
     from msaa_lint.input.code.sample_counts.arithmetic import condition_holds
 
@@ -142,22 +154,22 @@ def _expanded(line: str, at: int, macros: dict[str, Macro]) -> Iterator[tuple[st
     """Yields the parts of a line with its macros expanded, and the offset of each in the original text."""
     position = 0
     if any(name in line for name in macros):
-        for start, end, body in _replacements(line, macros, 0):
+        for start, end, body in _replacements(line, macros, ()):
             yield line[position:start], at + position
             yield body, at + start
             position = end
     yield line[position:], at + position
 
 
-def _replacements(text: str, macros: dict[str, Macro], depth: int) -> Iterator[tuple[int, int, str]]:
-    """Yields the range of each macro in a text, and its expansion."""
+def _replacements(text: str, macros: dict[str, Macro], expanding: tuple[str, ...]) -> Iterator[tuple[int, int, str]]:
+    """Yields the range of each macro in a text, and its expansion. A macro is not expanded in its own expansion."""
     tokens = [(match[0], match.start(), match.end()) for match in _TOKEN.finditer(text)]
     index = 0
     while index < len(tokens):
         word, start, end = tokens[index]
         macro = macros.get(word)
         index += 1
-        if macro is None:
+        if macro is None or word in expanding:
             continue
         body = macro.body
         if macro.parameters is not None:
@@ -168,7 +180,7 @@ def _replacements(text: str, macros: dict[str, Macro], depth: int) -> Iterator[t
             end = tokens[index - 1][2]
             named = dict(zip(macro.parameters, values, strict=False))
             body = "".join(named.get(match[0], match[0]) for match in _TOKEN.finditer(body))
-        yield start, end, _expand(body, {name: item for name, item in macros.items() if name != word}, depth)
+        yield start, end, _expand(body, macros, (*expanding, word))
 
 
 def _arguments(tokens: list[tuple[str, int, int]], index: int) -> tuple[list[str], int] | None:
@@ -190,20 +202,20 @@ def _arguments(tokens: list[tuple[str, int, int]], index: int) -> tuple[list[str
     return None
 
 
-def _expand(text: str, macros: dict[str, Macro], depth: int) -> str:
+def _expand(text: str, macros: dict[str, Macro], expanding: tuple[str, ...]) -> str:
     """Returns a text with its macros expanded."""
     if len(text) > MAX_EXPANDED:
-        raise UnsupportedShader("macro expansion exceeds the limit")
-    if depth > MAX_NESTED:
+        raise ShaderLimitExceeded(f"the macros of the shader expand to more than {MAX_EXPANDED} characters in a line, or {MAX_TEXT} in all")
+    if len(expanding) > MAX_NESTED:
         return text
     out: list[str] = []
     position = size = 0
-    for start, end, body in _replacements(text, macros, depth + 1):
+    for start, end, body in _replacements(text, macros, expanding):
         out += (text[position:start], body)
         size += start - position + len(body)
         position = end
         if size > MAX_EXPANDED:
             break
     if size + len(text) - position > MAX_EXPANDED:
-        raise UnsupportedShader("macro expansion exceeds the limit")
+        raise ShaderLimitExceeded(f"the macros of the shader expand to more than {MAX_EXPANDED} characters in a line, or {MAX_TEXT} in all")
     return "".join(out) + text[position:]

@@ -8,7 +8,7 @@ from msaa_lint.frame.spirv import numbers as op
 from msaa_lint.input.code.parsing import SyntaxNode, SyntaxReader
 
 from .assembly import Assembly
-from .text import UnsupportedShader
+from .text import ShaderLimitExceeded, UnsupportedShader
 from .types import BOOL, DOUBLE, FLOAT, INT, UINT, Type, named, scalar_of, size_of, vector
 
 MAX_DEPTH = 80
@@ -65,8 +65,13 @@ class Values(SyntaxReader):
         self.scopes: list[dict[str, Named]] = [{}]
         self.structs: dict[str, Type] = {}
         self.functions: dict[str, list[Function]] = {}
+        self.by_types: dict[tuple[str, tuple[Type, ...]], Function] = {}
+        """The first function of each name and types of parameters."""
+        self.by_sizes: dict[tuple[str, tuple[int, ...]], list[Function]] = {}
+        """The functions by name and numbers of components of parameters."""
         self.called_functions: list[Function] = []
         """Functions in the order of their first calls."""
+        self._called: set[int] = set()
         self.fetches: list[tuple[str, int, int]] = []
         """Sample fetches: the name of the image, and the range of the call."""
         self.built_in: Callable[[str], Place | None] = lambda name: None
@@ -108,12 +113,31 @@ class Values(SyntaxReader):
         """Returns the value of an expression."""
         raise NotImplementedError
 
+    def add_function(self, name: str, function: Function) -> None:
+        """Adds a function of the shader."""
+        kinds = tuple(kind for kind, _, _ in function.parameters)
+        self.functions.setdefault(name, []).append(function)
+        self.by_types.setdefault((name, kinds), function)
+        self.by_sizes.setdefault((name, tuple(map(size_of, kinds))), []).append(function)
+
+    def overload(self, name: str, types: Sequence[Type]) -> Function | None:
+        """Returns the function whose parameters have the argument types, or the types that they can be converted to."""
+        same = self.by_types.get((name, tuple(types)))
+        near = self.by_sizes.get((name, tuple(map(size_of, types))), ())
+        return same or (near[0] if len(near) == 1 else None)
+
+    def add_called(self, function: Function) -> None:
+        """Adds a function that is called."""
+        if function.id not in self._called:
+            self._called.add(function.id)
+            self.called_functions.append(function)
+
     # Lvalues
 
     def place(self, node: SyntaxNode, depth: int = 0) -> Place | None:
         """Returns the lvalue that an expression denotes, or None for an rvalue."""
         if depth > MAX_DEPTH:
-            raise UnsupportedShader("expressions nest too deeply")
+            raise ShaderLimitExceeded(f"an expression of the shader nests more than {MAX_DEPTH} levels deep")
         if node.type == "parenthesized_expression" and node.named_child_count == 1:
             return self.place(node.named_children[0], depth + 1)
         if node.type == "identifier":

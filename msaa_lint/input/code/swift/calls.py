@@ -10,7 +10,22 @@ from .interpreter import OBJECTS, SHARED, Interpreter
 from .members import as_texture, drawable
 from .metal import DESCRIPTOR_METHODS, change_options, copy_descriptor, create_descriptor, encode_pass, make_pipeline, make_texture, record
 from .terms import MAX_ITEMS, MEMBER, NAME, Function, Term
-from .values import NIL, UNKNOWN, Aggregate, CallFrame, Code, Constant, Instance, MetalObject, Pass, Pipeline, Symbol, Texture, Value
+from .values import (
+    NIL,
+    UNKNOWN,
+    Aggregate,
+    CallFrame,
+    Code,
+    Constant,
+    Instance,
+    MetalObject,
+    Pass,
+    Pipeline,
+    Symbol,
+    Texture,
+    Value,
+    aggregate,
+)
 
 MAX_OVERLOADS = 20
 """Functions of one name that are compared with a call."""
@@ -124,7 +139,7 @@ def _by_name(interpreter: Interpreter, name: str, call: Call, frame: CallFrame) 
         if method is not None:
             return interpreter.call(interpreter, method, call.bind(method), frame, call.at, frame.self_value if type_name else None)
     if name[:1].isupper() and 0 < len(call.arguments) <= MAX_ITEMS and all(call.labels):
-        return Aggregate(dict(call.arguments))
+        return aggregate(dict(call.arguments))
     return None
 
 
@@ -154,7 +169,7 @@ def _instance(interpreter: Interpreter, name: str, call: Call) -> Value:
     if 0 < len(call.arguments) <= MAX_ITEMS and all(label in members for label in call.labels):
         for label, value in call.arguments:
             interpreter.hold_property(name, label, value, call.at)
-        return Aggregate(dict(call.arguments))
+        return aggregate(dict(call.arguments))
     return Instance(name)
 
 

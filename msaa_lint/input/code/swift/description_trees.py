@@ -8,12 +8,12 @@ otherwise differences between the branches are unknown.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
-from functools import partial
 
 from msaa_lint.core.text.node import Node
+from msaa_lint.core.text.node_builder import mapping
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.parsing import Code, Read, SyntaxNode, span, tree
+from msaa_lint.input.code.limits import WorkLimitExceeded
+from msaa_lint.input.code.parsing import Code, Read, SyntaxNode, Unread, span, tree
 
 from .evaluate import evaluate
 from .execution import bind_parameters, call, call_closure, run_body, run_statements, with_labels
@@ -36,7 +36,13 @@ def trees(code: Code) -> list[Read]:
     """Returns the description of a Swift file or a page's fragments: one tree with the section `metal`, or none."""
     if not _SPEAKS.search(code.text):
         return []
-    interpreter = interpret(code)
+    syntax = Syntax(code.text)
+    interpreter = Interpreter(code.text, _unit(tree(code).root_node, syntax), syntax)
+    try:
+        interpret(code, interpreter)
+    except (WorkLimitExceeded, RecursionError) as error:
+        at = interpreter.function.at if interpreter.function is not None else Span(0, 0)
+        return [Read(mapping([], Span(0, 0)), unread=(Unread(interpreter.work.message(error), at),))]
     writer = DescriptionWriter(interpreter, defaults=not code.fragments)
     node: Node | None = writer.tree(Span(0, len(code.text)))
     if node is None:
@@ -44,10 +50,8 @@ def trees(code: Code) -> list[Read]:
     return [Read(node, tuple((what, at, value) for what, (at, value) in writer.textures.assumed.items()))]
 
 
-def interpret(code: Code) -> Interpreter:
+def interpret(code: Code, interpreter: Interpreter) -> None:
     """Executes a file twice, the second time with the properties found in the first."""
-    syntax = Syntax(code.text)
-    interpreter = Interpreter(code.text, _unit(tree(code).root_node, syntax), syntax)
     interpreter.evaluate, interpreter.call, interpreter.call_closure = evaluate, call, call_closure
     apple_import = _APPLE_ONLY.search(code.text)
     if apple_import is not None and not _OTHERS_TOO.search(code.text):
@@ -69,7 +73,6 @@ def interpret(code: Code) -> Interpreter:
             if function.at.start not in interpreter.inlined:
                 _root(interpreter, function)
     interpreter.end()
-    return interpreter
 
 
 def _unit(root: SyntaxNode, syntax: Syntax) -> Unit:
@@ -149,11 +152,11 @@ def _begin(interpreter: Interpreter) -> None:
     """Executes global statements and the initial values of properties."""
     interpreter.root += 1
     top = CallFrame("", "", 0, 0)
-    _guarded(interpreter, partial(run_statements, interpreter, interpreter.unit.outside, top))
+    run_statements(interpreter, interpreter.unit.outside, top)
     for name, value in list(top.locals.items()):
         interpreter.set_property("", name, value, Span(0, 0))
     for type_ in interpreter.unit.types.values():
-        _guarded(interpreter, partial(_members, interpreter, type_))
+        _members(interpreter, type_)
 
 
 def _members(interpreter: Interpreter, type_: Type) -> None:
@@ -168,8 +171,9 @@ def _root(interpreter: Interpreter, function: Function) -> None:
     interpreter.inlined.add(function.at.start)
     interpreter.root += 1
     interpreter.undecided_depth = 0
+    interpreter.function = function
     frame = CallFrame(function.type_name, function.name, 0, function.at.start, self_value=interpreter.self_value(function.type_name))
-    _guarded(interpreter, partial(_entered, interpreter, function, frame))
+    _entered(interpreter, function, frame)
 
 
 def _entered(interpreter: Interpreter, function: Function, frame: CallFrame) -> None:
@@ -193,11 +197,3 @@ def _of_one_tuple(interpreter: Interpreter, function: Function) -> dict[str, Val
         return {}
     tuples = [items for items in interpreter.tuples.values() if all(name in items for name in textures)]
     return {name: tuples[0][name] for name in textures} if len(tuples) == 1 else {}
-
-
-def _guarded(interpreter: Interpreter, part: Callable[[], object]) -> None:
-    """Executes part of a file; stops if it exceeds Python's recursion limit."""
-    try:
-        part()
-    except RecursionError:
-        interpreter.incomplete.add(interpreter.root)

@@ -10,13 +10,29 @@ from .conditions import about_samples, decide, last_name
 from .interpreter import Interpreter
 from .members import adopt_descriptor, drawable, index_of, member_of, set_index, set_member
 from .terms import BINARY, CALL, CHOICE, CLOSURE, INDEX, LIST, LITERAL, MAX_ITEMS, MEMBER, NAME, NOT, TUPLE, Term, name_at
-from .values import NIL, UNKNOWN, Aggregate, CallFrame, Code, Constant, Instance, Symbol, Texture, Value, join, options
+from .values import (
+    NIL,
+    UNKNOWN,
+    Aggregate,
+    CallFrame,
+    Code,
+    Constant,
+    Instance,
+    Symbol,
+    Texture,
+    Value,
+    aggregate,
+    join,
+    option_set,
+    options,
+)
 
 _LARGEST = 1 << 40
 
 
 def evaluate(interpreter: Interpreter, term: Term, frame: CallFrame) -> Value:
     """Returns the value of an expression."""
+    interpreter.work.spend()
     kind = term[0]
     if kind == LITERAL:
         return Constant(term[1])
@@ -40,7 +56,7 @@ def evaluate(interpreter: Interpreter, term: Term, frame: CallFrame) -> Value:
             items[str(index)] = value = evaluate(interpreter, item, frame)
             if label:
                 items[label] = value
-        return Aggregate(items)
+        return aggregate(items)
     if kind == CLOSURE:
         return Code(term)
     if kind == NOT:
@@ -169,7 +185,7 @@ def _binary(interpreter: Interpreter, term: Term, frame: CallFrame) -> Value:
         return UNKNOWN
     one, other = left.value, right.value
     if sign == "|" and isinstance(one, (str, tuple)) and isinstance(other, (str, tuple)):
-        return Constant(options(one) + options(other))
+        return option_set(options(one) + options(other))
     if isinstance(one, bool) and isinstance(other, bool) and sign in ("&&", "||"):
         return Constant((one and other) if sign == "&&" else (one or other))
     if sign in ("==", "!="):

@@ -10,7 +10,7 @@ from .conditions import about_samples, decide, note_capabilities, truth
 from .evaluate import assign, evaluate
 from .interpreter import OBJECTS, Interpreter
 from .terms import BIND, BLOCK, CALL, CASES, CLOSURE, DO, FUNC, GUARD, IF, LEAVE, LET, LOOP, MEMBER, NAME, RETURN, SET, Function, Term
-from .values import NIL, UNKNOWN, Aggregate, CallFrame, Code, Constant, Symbol, Value, join
+from .values import NIL, UNKNOWN, Aggregate, CallFrame, Code, Constant, Symbol, Value, aggregate, join
 
 MAX_DEPTH_CALL = 3
 """The maximum depth of function calls that are executed."""
@@ -22,9 +22,7 @@ MAX_DEPTH_CLOSURE = 8
 def run_statements(interpreter: Interpreter, statements: tuple[Term, ...], frame: CallFrame) -> bool:
     """Executes statements. Returns whether they end in a return or a jump."""
     for term in statements:
-        interpreter.steps -= 1
-        if interpreter.steps < 0:
-            return True
+        interpreter.work.spend()
         if _step(interpreter, term, frame):
             return True
     return False
@@ -152,7 +150,7 @@ def call(
     """Returns the result of a function of the file, which is executed."""
     interpreter.inlined.add(function.at.start)
     interpreter.called_functions.add(function.at.start)
-    if frame.rank >= MAX_DEPTH_CALL or frame.depth >= MAX_DEPTH_CLOSURE or interpreter.steps < 0:
+    if frame.rank >= MAX_DEPTH_CALL or frame.depth >= MAX_DEPTH_CLOSURE:
         return UNKNOWN
     inner = CallFrame(function.type_name, function.name, frame.rank + 1, interpreter.call_path(frame, site.start), None, self_value)
     inner.depth = frame.depth + 1
@@ -167,10 +165,11 @@ def with_labels(interpreter: Interpreter, function: Function, result: Value) -> 
         return result
     items = {label: result.items.get(str(index), UNKNOWN) for index, label in enumerate(function.gives)}
     interpreter.tuples[function.at.start] = items
-    return Aggregate({**result.items, **items})
+    return aggregate({**result.items, **items})
 
 
 def bind_parameters(interpreter: Interpreter, function: Function, arguments: dict[str, Value], frame: CallFrame) -> None:
+    interpreter.work.spend(len(function.parameters))
     for parameter in function.parameters:
         value = arguments.get(parameter.name)
         if value is None or value is UNKNOWN:
@@ -195,7 +194,7 @@ def call_closure(
     interpreter: Interpreter, code: Code, arguments: tuple[Value, ...] | dict[str, Value], frame: CallFrame, site: Span
 ) -> Value:
     """Returns the result of a closure for arguments, or of a nested function for parameters by name."""
-    if interpreter.steps < 0 or frame.depth >= MAX_DEPTH_CLOSURE:
+    if frame.depth >= MAX_DEPTH_CLOSURE:
         return UNKNOWN
     inner = CallFrame(frame.type_name, frame.function, frame.rank, interpreter.call_path(frame, site.start), frame, frame.self_value)
     inner.depth = frame.depth + 1

@@ -7,14 +7,12 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.limits import Work
 
 from .expressions import block
 from .syntax import Syntax
 from .terms import Function, Term, Type, Unit
 from .values import UNKNOWN, Aggregate, CallFrame, Code, Field, Instance, MetalObject, Pass, Pipeline, Symbol, Texture, UndoLog, Value, join
-
-MAX_STEPS_PER_LINE = 20
-"""The maximum number of statements executed for each line of the file, which bounds the cost of nested calls."""
 
 OBJECTS = {
     "MTLTextureDescriptor": "texture",
@@ -86,7 +84,9 @@ class Interpreter:
         self.family: tuple[str, Span] | None = None
         self.imports: Span | None = None
         self.bodies: dict[int, tuple[Term, ...]] = {}
-        self.steps = 0
+        self.work = Work(len(text))
+        self.function: Function | None = None
+        """The function that is executed, not called."""
         self.evaluate: Callable[[Interpreter, Term, CallFrame], Value] = _not_followed
         self.call: Callable[[Interpreter, Function, dict[str, Value], CallFrame, Span, Value | None], Value] = _not_followed
         self.call_closure: Callable[[Interpreter, Code, tuple[Value, ...] | dict[str, Value], CallFrame, Span], Value] = _not_followed
@@ -106,7 +106,6 @@ class Interpreter:
         self.superseded: set[int] = set()
         self.root = 0
         self.undecided_depth = 0
-        self.steps = MAX_STEPS_PER_LINE * (self.text.count("\n") + 50)
         for texture in self.textures.values():
             texture.rank = 1 << 30
             texture.made = []

@@ -7,7 +7,7 @@ from msaa_lint.core.text.span import Span
 from .interpreter import Encoded, Interpreter
 from .members import ANY
 from .terms import Term, name_at
-from .values import UNKNOWN, CallFrame, Constant, Field, MetalObject, Pass, Pipeline, Value, constant_of, options
+from .values import UNKNOWN, CallFrame, Constant, Field, MetalObject, Pass, Pipeline, Value, constant_of, option_set, options
 
 DESCRIPTOR_METHODS = {"texture2DDescriptor": "", "textureCubeDescriptor": "typeCube", "textureBufferDescriptor": "typeTextureBuffer"}
 """Class methods that create a texture descriptor, and the texture type that each sets."""
@@ -47,7 +47,7 @@ def change_options(interpreter: Interpreter, owner: Value, target: Term, name: s
     value: Value = UNKNOWN
     if isinstance(before, (str, tuple)) and isinstance(change, (str, tuple)):
         one, other = options(before), options(change)
-        value = Constant(tuple(word for word in one if word not in other) if name == "remove" else one + other)
+        value = option_set(tuple(word for word in one if word not in other) if name == "remove" else one + other)
     interpreter.set_field(owner, target[2], value, name_at(target), at)
 
 

@@ -77,9 +77,10 @@ class Texture:
 
 
 class Aggregate(NamedTuple):
-    """A tuple or a structure: its items by label and by index."""
+    """A tuple or a structure: its items by label and by index, and the number of values in it."""
 
     items: dict[str, Value]
+    size: int
 
 
 class Code(NamedTuple):
@@ -193,6 +194,22 @@ def options(value: str | tuple[str, ...]) -> tuple[str, ...]:
     return value if isinstance(value, tuple) else (value,)
 
 
+MAX_SIZE = 256
+"""The maximum number of values in a tuple or a structure, and of names in an option set; larger ones are unknown."""
+
+
+def aggregate(items: dict[str, Value]) -> Value:
+    """Returns a tuple or a structure."""
+    size = 1 + sum(item.size if isinstance(item, Aggregate) else 1 for item in items.values())
+    return Aggregate(items, size) if size <= MAX_SIZE else UNKNOWN
+
+
+def option_set(names: tuple[str, ...]) -> Value:
+    """Returns the set of some options."""
+    distinct = tuple(dict.fromkeys(names))
+    return Constant(distinct) if len(distinct) <= MAX_SIZE else UNKNOWN
+
+
 def join(first: Value, second: Value, name: str = "", optional: bool = False) -> Value:
     """Returns the value of a variable that has one of two values.
 
@@ -214,7 +231,7 @@ def join(first: Value, second: Value, name: str = "", optional: bool = False) ->
         if isinstance(one, Symbol) and other == Constant(1):
             return one
     if isinstance(first, Aggregate) and isinstance(second, Aggregate) and first.items.keys() == second.items.keys():
-        return Aggregate({label: join(value, second.items[label], label) for label, value in first.items.items()})
+        return aggregate({label: join(value, second.items[label], label) for label, value in first.items.items()})
     names = _names(first) | _names(second)
     return OneOf(names) if 0 < len(names) <= MAX_NAMES else UNKNOWN
 
