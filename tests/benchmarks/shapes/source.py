@@ -30,7 +30,8 @@ def glsl(name: str, content: Callable[[int], str]) -> Shape:
 
 def swift(name: str, body: Callable[[int], str]) -> Shape:
     def content(count: int) -> str:
-        return f"import Metal\nclass Renderer {{\n    func setup(device: MTLDevice, on: Bool) {{\n{body(count)}    }}\n    var sampleCount = 4\n}}\n"
+        head = "import Metal\nclass Renderer {\n    var sampleCount = 4\n    func setup(device: MTLDevice, on: Bool) {\n"
+        return f"{head}{body(count)}    }}\n}}\n"
 
     return code(f"Swift: {name}", "a.swift", content)
 
