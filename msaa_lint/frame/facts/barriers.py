@@ -56,6 +56,8 @@ class Wait(NamedTuple):
     time: int
     record: SubpassDependency | PipelineBarrier
     run: PassRun | None = None
+    images: frozenset[str | None] = frozenset()
+    """The images that a barrier names."""
 
 
 class Between(NamedTuple):
@@ -77,7 +79,7 @@ class Waits:
         self._every: list[Wait] = []
         for run in search.timeline.walk.runs if search.timeline.ordered else ():
             self._every += _of_run(run)
-        self._every += (Wait(2 * position, body) for position, body in search.frame.recorded(PipelineBarrier))
+        self._every += (Wait(2 * position, body, None, _images(body)) for position, body in search.frame.recorded(PipelineBarrier))
         self._every.sort(key=lambda wait: wait.time)
         self._times = [wait.time for wait in self._every]
 
@@ -152,13 +154,16 @@ def _concerns(wait: Wait, resolve: Resolve, image: str, own: Event, reader: Even
     """Whether a wait is meant for what a resolve wrote and its reader; None where it is not, and may have a part in it all the same."""
     record = wait.record
     if isinstance(record, PipelineBarrier):
-        names = [each.image if isinstance(each, ImageBarrier) else each for each in record.images]
-        return image in names if names else (True if _of_aspect(record, resolve) else None)
+        return image in wait.images if record.images else (True if _of_aspect(record, resolve) else None)
     if wait.run is own.run and record.srcSubpass == resolve.subpass and own.run is not None:
         leads = record.dstSubpass == "EXTERNAL" or (reader.run is own.run and reader.time == wait.time)
         return True if leads and _of_aspect(record, resolve) else None
     into = wait.run is not None and wait.run.begin_time <= reader.time <= wait.run.end_time and record.srcSubpass == "EXTERNAL"
     return True if into and _of_aspect(record, resolve) else None
+
+
+def _images(barrier: PipelineBarrier) -> frozenset[str | None]:
+    return frozenset(each.image if isinstance(each, ImageBarrier) else each for each in barrier.images)
 
 
 def _names_images(wait: Wait) -> bool:

@@ -61,6 +61,11 @@ class AspectEvents:
         """Whether what an attachment does to the contents is unknown, some time."""
         return any(not is_known(self.events[index]) for index in self._of_attachments.get(id(attachment), ()))
 
+    @cached_property
+    def never_loads(self) -> bool:
+        """Whether all of them are known, and none is a load."""
+        return all(is_known(event) and event.kind != LOAD for event in self.events)
+
     def before(self, index: int) -> Event:
         """The event before one, round the loop."""
         return self.events[(index - 1) % len(self.events)]
@@ -114,7 +119,11 @@ class Contents:
 
     def read_when_idle(self, image: str) -> bool:
         """Whether a pass that the commands never begin would read it."""
-        return any(event.kind in (LOAD, INPUT) for event in self.timeline.idle.get(image, ()))
+        return image in self._idle_reads
+
+    @cached_property
+    def _idle_reads(self) -> set[str]:
+        return {image for image, events in self.timeline.idle.items() if any(event.kind in (LOAD, INPUT) for event in events)}
 
     def has_twin(self, target: Target) -> bool:
         """Whether the frame reads an image of the same format, samples and size that it never writes."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
@@ -31,17 +31,61 @@ class Masks(NamedTuple):
 
 Wait = Masks | SubpassDependency
 
-Barriers = dict[str | None, list[Masks]]
+
+class Waits:
+    """The first scopes of several waits together, and the writes that one of them makes available."""
+
+    __slots__ = ("_available", "_known", "_names")
+
+    def __init__(self) -> None:
+        self._names: tuple[dict[str, None], dict[str, None]] = ({}, {})
+        self._known = [True, True]
+        self._available: set[str] = set()
+
+    def add(self, wait: Wait) -> None:
+        """Adds a wait."""
+        for number, mask in enumerate((wait.srcStageMask, wait.srcAccessMask)):
+            if mask is None:
+                self._known[number] = False
+            self._names[number].update(dict.fromkeys(mask or ()))
+        self._available.update(access for access in (COLOR_WRITE, DEPTH_STENCIL_WRITE) if _makes_available(access, wait))
+
+    def union(self, others: Sequence[Waits]) -> Waits:
+        """These waits and others."""
+        joined = Waits()
+        for waits in (self, *others):
+            for number in (0, 1):
+                joined._names[number].update(waits._names[number])
+                joined._known[number] = joined._known[number] and waits._known[number]
+            joined._available |= waits._available
+        return joined
+
+    @property
+    def stages(self) -> list[str] | None:
+        """The stages of all; None where those of one could not be read."""
+        return list(self._names[0]) if self._known[0] else None
+
+    @property
+    def accesses(self) -> list[str] | None:
+        """The accesses of all; None where those of one could not be read."""
+        return list(self._names[1]) if self._known[1] else None
+
+    def makes_available(self, access: str) -> bool:
+        """Whether one of them makes an attachment's writes available."""
+        return access in self._available
+
+
+Barriers = Mapping[str | None, Waits]
 """By image (None: all memory, where attachment stages wait): the recorded barriers."""
 
 
 def recorded_barriers(frame: Frame) -> Barriers:
     """The recorded barriers that attachments may wait for."""
-    found: Barriers = {}
+    found: dict[str | None, Waits] = {}
     for _, body in frame.recorded(PipelineBarrier):
         images = {image.image if isinstance(image, ImageBarrier) else image for image in body.images}
         for name in images or ({None} if not _ATTACHMENT_STAGES.isdisjoint(body.dstStageMask or ()) else set()):
-            found.setdefault(name, []).append(Masks(body.srcStageMask or (), body.srcAccessMask or ()))
+            found.setdefault(name, Waits()).add(Masks(body.srcStageMask or (), body.srcAccessMask or ()))
     return found
 
 
@@ -87,17 +131,19 @@ def _dependency_facts(
     facts = _use_facts(subpass, attachments)
     multisampled = [attachment for attachment in attachments if attachment.samples != 1]
     names = dict.fromkeys(target.name for a in multisampled for target in a.targets if target.image is not None)
-    waits: list[Wait] = [*dependencies, *(masks for name in (*names, None) for masks in barriers.get(name, ()))]
-    stages = _union([wait.srcStageMask for wait in waits])
-    accesses = _union([wait.srcAccessMask for wait in waits])
+    stated = Waits()
+    for dependency in dependencies:
+        stated.add(dependency)
+    waits = stated.union([barriers[name] for name in (*names, None) if name in barriers])
+    stages, accesses = waits.stages, waits.accesses
     reported = dependencies[0]
     late = stages is not None and not _LATE_STAGES.isdisjoint(stages)
     unavailable: dict[str, bool] = {}
     if stages is not None and accesses is not None:
         for attachment in multisampled:
             access = COLOR_WRITE if subpass in attachment.color else DEPTH_STENCIL_WRITE
-            own = [masks for target in attachment.targets if target.image is not None for masks in barriers.get(target.name, ())]
-            if not any(_makes_available(access, wait) for wait in (*dependencies, *own, *barriers.get(None, ()))):
+            own = {None, *(target.name for target in attachment.targets if target.image is not None)}
+            if not any(each.makes_available(access) for each in (stated, *(barriers[name] for name in own if name in barriers))):
                 unavailable[access] = unavailable.get(access, False) or attachment.samples is not None
         if list(unavailable) == [COLOR_WRITE]:
             reported = next((each for each in dependencies if not _COLOR_STAGES.isdisjoint(each.srcStageMask or ())), reported)
@@ -143,10 +189,3 @@ def _any_multisampled(attachments: list[Attachment]) -> bool | None:
     if any(count is not None and count > 1 for count in counts):
         return True
     return None if None in counts else False
-
-
-def _union(masks: Sequence[tuple[str, ...] | None]) -> list[str] | None:
-    """The names in all masks; None where one could not be read."""
-    if None in masks:
-        return None
-    return list(dict.fromkeys(name for mask in masks for name in mask or ()))

@@ -9,6 +9,7 @@ from .commands import CLEAR, COPY_READ, PRESENT, READ, RESOLVE_READ, RESOLVE_WRI
 from .frame import Frame
 from .parts import Attachment, Resolve
 from .timeline import BEGIN, DISCARD, DRAW, ELSEWHERE, INPUT, LOAD, RESUME, STORE, Event, EventRef, Timeline
+from .walk import PassRun
 
 _READS = frozenset({LOAD, DRAW, INPUT, RESOLVE_READ, READ, COPY_READ, PRESENT})
 """What makes use of what was there. A draw without a load uses what an earlier subpass made: it blends or tests with it."""
@@ -44,6 +45,7 @@ class EventSearch:
         self.frame: Frame = timeline.frame
         self.steps_left = MAX_STEPS
         """How many events may still be looked at. Below 0, nothing more is known."""
+        self._written_in: dict[int, dict[int, list[EventRef]]] = {}
         self._first_uses: dict[EventRef, tuple[Event | None, bool]] = {}
 
     @cached_property
@@ -70,6 +72,15 @@ class EventSearch:
     def written_at(self, source: Attachment | Resolve, aspect: str | None = None) -> list[EventRef]:
         """Where a resolve writes, or an aspect of an attachment is stored."""
         return self._written.get((id(source), aspect), [])
+
+    def written_in(self, resolve: Resolve, run: PassRun | None) -> list[EventRef]:
+        """Where a resolve writes in one run."""
+        if id(resolve) not in self._written_in:
+            by_run: dict[int, list[EventRef]] = {}
+            for ref in self.written_at(resolve):
+                by_run.setdefault(id(self.event(ref).run), []).append(ref)
+            self._written_in[id(resolve)] = by_run
+        return self._written_in[id(resolve)].get(id(run), [])
 
     def event(self, ref: EventRef) -> Event:
         """The event at a place."""

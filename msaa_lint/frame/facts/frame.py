@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import cached_property
 from typing import TypeVar
 
 from msaa_lint.frame.description.document import Document, StencilApart
@@ -89,6 +90,25 @@ class Frame:
         names = begin.framebuffer if isinstance(begin, BeginRenderPass) else None
         stated = self.description.framebuffers
         return [stated[name] for name in ((names,) if isinstance(names, str) else names or ()) if name in stated]
+
+    def pipelines_of(self, render_pass: Pass, index: int) -> list[Pipeline | None]:
+        """The pipelines made for a subpass of a render pass; a last None for those that do not state which of several subpasses."""
+        stated = self._pipelines_by_subpass.get((id(render_pass), index), [])
+        return [*stated, *self._pipelines_by_subpass.get((id(render_pass), None), [])]
+
+    @cached_property
+    def _pipelines_by_subpass(self) -> dict[tuple[int, int | None], list[Pipeline | None]]:
+        found: dict[tuple[int, int | None], list[Pipeline | None]] = {}
+        for pipeline, render_pass in self.pipelines:
+            if render_pass is None:
+                continue
+            only = 0 if len(render_pass.subpasses) == 1 else None
+            index = only if pipeline.subpass is None else pipeline.subpass
+            if index is None:
+                found[id(render_pass), None] = [None]
+            else:
+                found.setdefault((id(render_pass), index), []).append(pipeline)
+        return found
 
     def render_pass(self, name: str | None) -> Pass | None:
         return self._named.get(name) if name is not None else None
@@ -255,6 +275,8 @@ class Frame:
         resolve.subpass = index
         resolve.source_image = resolve.source.target if resolve.source is not None else None
         resolve.target_image = resolve.target.target if resolve.target is not None else None
+        if resolve.source is not None:
+            resolve.source.resolved.append(resolve)
         made.resolves.append(resolve)
 
     def _renderings(self) -> None:

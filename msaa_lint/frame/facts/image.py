@@ -55,11 +55,12 @@ class Bindings:
             targets = (resolve.target_image for resolve in render_pass.resolves)
             self.resolved.update(id(target.record) for target in targets if target is not None)
         passes = {render_pass.name: render_pass for render_pass in frame.passes if render_pass.kind == RENDER_PASS}
+        begun_with = {id(attachment): set(map(id, attachment.targets)) for each in passes.values() for attachment in each.attachments}
         for framebuffer in frame.description.framebuffers.values():
             bound_to = passes.get(framebuffer.renderPass or "")
             for attachment, name in zip(bound_to.attachments if bound_to is not None else (), framebuffer.attachments, strict=False):
                 target = frame.target(name)
-                if target is not None and target not in attachment.targets:
+                if target is not None and id(target) not in begun_with[id(attachment)]:
                     self.attachments.setdefault(id(target.record), []).append(attachment)
         for _, body in frame.recorded(ReadImage):
             if body.image is not None:

@@ -5,6 +5,7 @@ A pass is a VkRenderPass or one vkCmdBeginRendering. What the description does n
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
@@ -72,6 +73,8 @@ class Attachment:
         self.depth_stencil: set[int] = set()
         self.resolve: dict[int, set[str]] = {}
         """By subpass: the aspects that a resolve with a source and a mode overwrites here; `?` for one whose mode is unknown."""
+        self.resolved: list[Resolve] = []
+        """The resolves within the pass that read it."""
         self.input: set[int] = set()
         self.preserve: set[int] = set()
 
@@ -97,7 +100,8 @@ class Attachment:
     @property
     def target(self) -> Target | None:
         """Its image, where it is one and the same whenever the pass is begun."""
-        return self.targets[0] if len({id(t.record) for t in self.targets}) == 1 else None
+        record = self.targets[0].record if self.targets else None
+        return self.targets[0] if record is not None and all(target.record is record for target in self.targets) else None
 
 
 class Resolve:
@@ -166,8 +170,6 @@ class PassSubpass:
 class Pass:
     """A render pass or a dynamic rendering. `begun` are the positions in the frame's commands where it begins."""
 
-    __slots__ = ("attachments", "begun", "kind", "name", "partial_area", "path", "record", "subpasses")
-
     def __init__(self, kind: str, name: str, record: RenderPass | BeginRendering) -> None:
         self.kind = kind
         self.name = name
@@ -194,8 +196,8 @@ class Pass:
         """The resolves of its subpasses."""
         return [resolve for subpass in self.subpasses for resolve in subpass.resolves]
 
-    @property
+    @cached_property
     def custom_resolve(self) -> bool:
         """Whether a subpass (or the rendering) resolves by its own shader."""
-        flags = [flag for subpass in self.subpasses for flag in subpass.record.flags]
+        flags = (flag for subpass in self.subpasses for flag in subpass.record.flags)
         return any(flag.startswith(("CUSTOM_RESOLVE", "SHADER_RESOLVE")) for flag in flags)

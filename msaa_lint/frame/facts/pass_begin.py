@@ -1,6 +1,6 @@
 """A pass where a command begins it: which images it has there, and whether it writes to all of them."""
 
-from __future__ import annotations
+from typing import NamedTuple
 
 from msaa_lint.frame.description.models import BeginRenderPass, Image
 from msaa_lint.frame.description.record import Record
@@ -39,29 +39,51 @@ def one_surface(image: Image | None) -> bool:
     return image is not None and (image.mipLevels or 1) == 1 and (image.arrayLayers or 1) == 1
 
 
-def covers(frame: Frame, render_pass: Pass, position: int | None, target: Target) -> bool:
-    """Whether it writes to all of an image, unless attachments are left out: no size, layer or mip level that is stated denies it."""
-    image = target.image
-    if image is None or (image.mipLevels or 1) > 1 or (image.extent is not None and (image.extent.depth or 1) > 1):
-        return False
+class BegunArea(NamedTuple):
+    """What a pass writes to where a command begins it: the fewest layers (None: not stated) and the smallest stated sides.
+
+    `from_origin` is False where the render area begins elsewhere; `partial` says whether it is smaller than what the pass renders to.
+    """
+
+    layers: int | None
+    width: int | None
+    height: int | None
+    from_origin: bool
+    partial: bool | None
+
+    def covers(self, target: Target) -> bool:
+        """Whether it writes to all of an image, unless attachments are left out: no size, layer or mip level that is stated denies it."""
+        image = target.image
+        if image is None or (image.mipLevels or 1) > 1 or (image.extent is not None and (image.extent.depth or 1) > 1):
+            return False
+        if image.arrayLayers is not None and image.arrayLayers > 1 and (self.layers is None or self.layers < image.arrayLayers):
+            return False
+        if image.extent is None:
+            return self.partial is False
+        sides = ((self.width, image.extent.width), (self.height, image.extent.height))
+        return self.from_origin and not any(own is not None and whole is not None and own < whole for own, whole in sides)
+
+
+def begun_area(frame: Frame, render_pass: Pass, position: int | None) -> BegunArea:
+    """The area of a pass where the command at a position begins it."""
     record = _body(frame, position) or render_pass.record
     framebuffers = frame.framebuffers_of(record) or (
         frame.framebuffers.get(render_pass.name, []) if render_pass.kind == RENDER_PASS else []
     )
-    if image.arrayLayers is not None and image.arrayLayers > 1:
-        views = [subpass.record.viewMask.bit_count() for subpass in render_pass.subpasses if subpass.record.viewMask]
-        layers: list[int | None] = [*views] or [b.layers for b in framebuffers] or [getattr(record, "layerCount", None)]
-        if any(count is None or count < image.arrayLayers for count in layers):
-            return False
+    views = [subpass.record.viewMask.bit_count() for subpass in render_pass.subpasses if subpass.record.viewMask]
+    layers: list[int | None] = [*views] or [buffer.layers for buffer in framebuffers] or [getattr(record, "layerCount", None)]
     area = getattr(record, "renderArea", None)
-    if image.extent is None:
-        return frame.partial(record, render_pass) is False
-    for side in ("width", "height"):
-        whole: int | None = getattr(image.extent, side)
-        drawn: list[int | None] = [getattr(part, side) for part in (*framebuffers, area) if part is not None]
-        if whole is not None and any(part is not None and part < whole for part in drawn):
-            return False
-    return area is None or not (area.x or area.y)
+    width, height = (
+        min((size for part in (*framebuffers, area) if part is not None and (size := getattr(part, side)) is not None), default=None)
+        for side in ("width", "height")
+    )
+    return BegunArea(
+        None if None in layers else min(count for count in layers if count is not None),
+        width,
+        height,
+        area is None or not (area.x or area.y),
+        frame.partial(record, render_pass),
+    )
 
 
 def _body(frame: Frame, position: int | None) -> Record | None:

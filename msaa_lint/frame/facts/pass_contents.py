@@ -10,12 +10,11 @@ from typing import NamedTuple
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.models import ClearAttachment, ClearAttachments, Draw, Pipeline, ReadImage, Rect
 
-from .contents import Contents, is_known
+from .contents import Contents
 from .facts import Facts, known
 from .frame import Frame
 from .parts import RENDER_PASS, Aspect, Attachment, Pass, PassSubpass
 from .pass_begin import MAX_USES, targets_at
-from .timeline import LOAD
 from .walk import Walk
 
 _DYNAMIC_MASKS = frozenset({"COLOR_WRITE_MASK_EXT", "COLOR_WRITE_ENABLE_EXT"})
@@ -140,17 +139,17 @@ def _untouched(render_pass: Pass, attachment: Attachment, aspect: Aspect, instan
             return False
         for index in attachment.color | attachment.depth_stencil:
             pipelines = instance.drawn.get(index, {}).values()
-            if any(
-                _touches(pipeline, render_pass.subpasses[index], attachment, aspect, depth_bounds) is not False for pipeline in pipelines
-            ):
+            slots = [n for n, own in enumerate(render_pass.subpasses[index].color) if own is attachment] if pipelines else []
+            if any(_touches(pipeline, slots, aspect, depth_bounds) is not False for pipeline in pipelines):
                 return False
     return True
 
 
-def _touches(pipeline: Pipeline | None, subpass: PassSubpass, attachment: Attachment, aspect: Aspect, depth_bounds: bool) -> bool | None:
+def _touches(pipeline: Pipeline | None, slots: list[int], aspect: Aspect, depth_bounds: bool) -> bool | None:
     """Whether a draw may read or write an aspect, by its pipeline's state; None where the state is not stated.
 
-    `depth_bounds`: the application enables the feature depthBounds, without which depthBoundsTestEnable is false
+    `slots` are the indices at which the subpass has the attachment as a color attachment. `depth_bounds`: the application enables the
+    feature depthBounds, without which depthBoundsTestEnable is false
     (VUID-VkPipelineDepthStencilStateCreateInfo-depthBoundsTestEnable-00598).
     """
     if pipeline is None:
@@ -160,10 +159,9 @@ def _touches(pipeline: Pipeline | None, subpass: PassSubpass, attachment: Attach
         return False
     if aspect.name == "color":
         blend = pipeline.colorBlendState
-        indices = [n for n, own in enumerate(subpass.color) if own is attachment]
-        if blend is None or not _DYNAMIC_MASKS.isdisjoint(dynamic) or any(n >= len(blend.attachments) for n in indices):
+        if blend is None or not _DYNAMIC_MASKS.isdisjoint(dynamic) or any(n >= len(blend.attachments) for n in slots):
             return None
-        masks = [blend.attachments[n].colorWriteMask for n in indices]
+        masks = [blend.attachments[n].colorWriteMask for n in slots]
         return True if any(masks) else None if None in masks else False
     state = pipeline.depthStencilState
     if state is None:
@@ -286,8 +284,7 @@ def screen_facts(facts: Facts, subpass: PassSubpass, instances: list[Instance], 
     for attachment in (a for a in subpass.color if a is not None) if whole else ():
         alone = attachment.color | attachment.depth_stencil | attachment.input == {subpass.index}
         fresh = all(aspect.load == "DONT_CARE" or (aspect.load == "CLEAR" and reads) for aspect in attachment.aspects)
-        lines = [contents.of(target.name, "color") for target in attachment.targets if target.image is not None]
-        known_writes = all(is_known(event) and event.kind != LOAD for line in lines for event in line.events)
-        whole = whole and alone and fresh and known_writes
+        lines = (contents.of(target.name, "color") for target in attachment.targets if target.image is not None)
+        whole = whole and alone and fresh and all(line.never_loads for line in lines)
     at = instances[0].drawn_at.get(subpass.index) if instances else None
     facts.put("subpass.full_screen", whole and any(attachment is not None for attachment in subpass.color), at)

@@ -6,7 +6,7 @@ commands never begin is judged by itself.
 
 from __future__ import annotations
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterator
 from functools import cached_property
 from typing import NamedTuple
@@ -41,6 +41,10 @@ class Readers:
         self.timeline = timeline
         self.frame: Frame = timeline.frame
         self._uses_of: dict[tuple[str, str | None], list[tuple[Event, str]]] = {}
+        self._others: dict[tuple[str, str | None], list[int]] = {}
+        self._read_later: dict[tuple[int, Aspect], bool | None] = {}
+        self._stores_of: dict[tuple[str, str | None], list[Event]] = {}
+        self._stated: dict[tuple[str, str | None], bool | None] = {}
 
     def uses(self, image: str, aspect: str | None = None) -> list[tuple[Event, str]]:
         """The events that read an aspect of an image, end what was there, or may do either, in order; None: of any aspect."""
@@ -56,6 +60,12 @@ class Readers:
 
     def read_later(self, render_pass: Pass, attachment: Attachment, aspect: Aspect) -> bool | None:
         """Whether anything reads what a pass stored of an aspect; None where the description does not say."""
+        key = (id(attachment), aspect)
+        if key not in self._read_later:
+            self._read_later[key] = self._reads_later(render_pass, attachment, aspect)
+        return self._read_later[key]
+
+    def _reads_later(self, render_pass: Pass, attachment: Attachment, aspect: Aspect) -> bool | None:
         runs = self.timeline.walk.runs_of(render_pass)
         if attachment.input or render_pass.suspends:
             # What a suspended rendering draws is stored by the one that resumes and ends it.
@@ -98,27 +108,45 @@ class Readers:
             effects = {effect for _, effect in uses}
             return next((effect for effect in (READS, MAY_READ, OVERWRITES) if effect in effects), None)
         first = bisect_right(uses, run.begin_time, key=lambda use: use[0].time)
-        later = (effect for event, effect in uses[first:] if event.run is not run)
-        return next(later, uses[0][1] if uses else None)
+        if first < len(uses) and uses[first][0].run is run:
+            first = self._after_run(image, aspect)[first]
+        return uses[first][1] if first < len(uses) else uses[0][1] if uses else None
+
+    def _after_run(self, image: str, aspect: str | None) -> list[int]:
+        """For each of the `uses` of an image the next one that is not of the same run."""
+        key = (image, aspect)
+        if key not in self._others:
+            uses = self.uses(image, aspect)
+            following = [len(uses)] * len(uses)
+            for index in range(len(uses) - 2, -1, -1):
+                same = uses[index][0].run is uses[index + 1][0].run
+                following[index] = following[index + 1] if same else index + 1
+            self._others[key] = following
+        return self._others[key]
 
     def _may_be_loaded(self, aspect: Aspect) -> bool:
         """Where the order is not known: whether some pass loads the aspect of a multisampled image that is not known either."""
         if self.frame.document.ordered:
             return False
-        return any(
-            attachment.samples != 1 and any(each.load == "LOAD" and same_aspect(each.name, aspect.name) for each in attachment.aspects)
-            for render_pass in self.frame.passes
-            for attachment in render_pass.attachments
-            if attachment.target is not None and attachment.target.image is None and attachment.used
-        )
+        return bool(self._loaded_strangers) if aspect.name is None else not self._loaded_strangers.isdisjoint((aspect.name, None))
+
+    @cached_property
+    def _loaded_strangers(self) -> set[str | None]:
+        """The aspects that some pass loads of multisampled images that are not known."""
+        attachments = [attachment for render_pass in self.frame.passes for attachment in render_pass.attachments if attachment.used]
+        strangers = [each for each in attachments if each.samples != 1 and each.target is not None and each.target.image is None]
+        return {aspect.name for attachment in strangers for aspect in attachment.aspects if aspect.load == "LOAD"}
 
     def _read_as_stated(self, target: Target, aspect: Aspect) -> bool | None:
         """Whether what a pass that is never begun stores has a reader: its usage allows one, or something that is described reads."""
         if target.image is None:
             return None
-        idle = (event for event in self.timeline.idle.get(target.name, ()) if same_aspect(event.aspect, aspect.name))
-        read = any(effect == READS for _, effect in self.uses(target.name, aspect.name)) or any(_effect(event) == READS for event in idle)
-        return True if read else _usage_reads(target)
+        key = (target.name, aspect.name)
+        if key not in self._stated:
+            idle = (_effect(event) for event in self.timeline.idle.get(target.name, ()) if same_aspect(event.aspect, aspect.name))
+            read = READS in idle or any(effect == READS for _, effect in self.uses(target.name, aspect.name))
+            self._stated[key] = True if read else _usage_reads(target)
+        return self._stated[key]
 
     @cached_property
     def _stores(self) -> dict[str, list[Event]]:
@@ -129,9 +157,12 @@ class Readers:
         runs = self.timeline.walk.runs_of(render_pass)
         if aspect.load != "LOAD" or len(runs) != 1 or attachment.target is None or render_pass.resumes:
             return None
-        stores = [event for event in self._stores.get(key_of(attachment.target), ()) if same_aspect(event.aspect, aspect.name)]
-        before = [event for event in stores if event.time < runs[0].begin_time]
-        last = (before or stores)[-1] if stores else None
+        key = (key_of(attachment.target), aspect.name)
+        if key not in self._stores_of:
+            self._stores_of[key] = [event for event in self._stores.get(key[0], ()) if same_aspect(event.aspect, aspect.name)]
+        stores = self._stores_of[key]
+        # Round the loop: index -1 is the last one of the frame.
+        last = stores[bisect_left(stores, runs[0].begin_time, key=lambda event: event.time) - 1] if stores else None
         if last is None or last.run is None or last.kind not in (STORE, RESOLVE_WRITE) or not last.certain:
             return None
         return Store(last.run.render_pass, last.place)

@@ -8,7 +8,6 @@ from msaa_lint.frame.vulkan.formats import Format
 
 from .facts import Facts
 from .parts import Resolve, sizes_differ
-from .pass_begin import covers, targets_at
 from .readers import Readers
 from .timeline import Timeline
 
@@ -42,7 +41,7 @@ def resolve_facts(resolve: Resolve, device: DeviceProfile | None) -> Facts:
 
 def command_facts(facts: Facts, resolve: Resolve, position: int, timeline: Timeline) -> None:
     """What the frame says of a vkCmdResolveImage: whether the pass before it, round the loop, could have resolved."""
-    source, target, frame = resolve.source_image, resolve.target_image, timeline.frame
+    source, target = resolve.source_image, resolve.target_image
     writer = timeline.last_writer(source, position) if source is not None else None
     if source is None or writer is None:
         return
@@ -51,10 +50,10 @@ def command_facts(facts: Facts, resolve: Resolve, position: int, timeline: Timel
         facts.put("resolve.pass_could_resolve", False)
         return
     facts.put("resolve.writer", render_pass.name, render_pass.record.head)
-    drawn = [a for a in render_pass.attachments if source in targets_at(frame, a, begin)]
-    modes = [resolve.mode for resolve in render_pass.resolves if resolve.source in drawn and resolve.mode != "NONE"]
+    resolves = (resolve for attachment in timeline.drawn_by(source, (begin, render_pass)) for resolve in attachment.resolved)
+    modes = [resolve.mode for resolve in resolves if resolve.mode != "NONE"]
     # Attachments of one pass are resolved texel for texel.
-    unknown = modes == [None] or not covers(frame, render_pass, begin, source) or sizes_differ(source, target)
+    unknown = modes == [None] or not timeline.area(render_pass, begin).covers(source) or sizes_differ(source, target)
     facts.put("resolve.pass_could_resolve", None if unknown else not modes)
 
 
@@ -67,8 +66,8 @@ def read_in_vain(readers: Readers) -> set[str]:
         begin, render_pass = (timeline.last_writer(source, position) if source is not None else None) or (0, None)
         if source is None or render_pass is None:
             continue
-        drawn = [a for a in render_pass.attachments if source in targets_at(frame, a, begin)]
-        resolved = any(each.source in drawn and each.is_certain for each in render_pass.resolves)
+        drawn = timeline.drawn_by(source, (begin, render_pass))
+        resolved = any(resolve.is_certain for attachment in drawn for resolve in attachment.resolved)
         lost = bool(drawn) and all(aspect.store in ("DONT_CARE", "NONE") for a in drawn for aspect in a.aspects)
         if resolved or lost:
             in_vain[source.name] = in_vain.get(source.name, 0) + 1

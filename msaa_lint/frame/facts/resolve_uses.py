@@ -168,8 +168,7 @@ class ResolveUses:
 
     def unread(self, resolve: Resolve, taken: Event) -> bool | None:
         """Whether nothing reads what a resolve wrote, the time that it took the samples so."""
-        written = self.search.written_at(resolve)
-        answers = [self._unread_at(ref) for ref in written if self.search.event(ref).run is taken.run]
+        answers = [self._unread_at(ref) for ref in self.search.written_in(resolve, taken.run)]
         return False if False in answers else None if not answers or None in answers else True
 
     def _unread_at(self, ref: EventRef) -> bool | None:

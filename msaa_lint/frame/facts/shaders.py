@@ -8,7 +8,6 @@ from msaa_lint.frame.description.models import Draw, Pipeline, ReadImage, Shader
 from .facts import Facts, Subject
 from .frame import Frame
 from .parts import RENDER_PASS, Attachment, Pass, PassSubpass, Resolve, Target
-from .pass_begin import targets_at
 from .pipeline import discards, subpass_of
 from .resolve import command_facts
 from .timeline import Timeline
@@ -167,8 +166,7 @@ class Shaders:
         facts.put("read.resolves", body.resolves, body.place("resolves", "samples", "image"))
         several = body.samples == ALL or body.resolves is not None
         facts.put("read.samples", ALL if several else ONE if body.samples == 1 else None, body.place("samples", "resolves", "image"))
-        attached = part.render_pass.attachments if part.render_pass is not None else ()
-        on_tile = any(target in targets_at(self.frame, attachment, part.begun) for attachment in attached)
+        on_tile = part.render_pass is not None and bool(self.timeline.drawn_by(target, (part.begun, part.render_pass)))
         facts.put("read.on_tile", on_tile)
         # As of a vkCmdResolveImage in its place.
         resolve, found = Resolve("command", "color", body, body.path), Facts()

@@ -139,13 +139,7 @@ def pipelines_of(subpass: PassSubpass, walk: Walk) -> list[Pipeline | None]:
         return [frame.description.pipelines.get(draw.pipeline or "") for draw in draws if isinstance(draw, Draw)]
     if not frame.document.whole:
         return []
-    unstated = 0 if len(render_pass.subpasses) == 1 else None
-    own: list[Pipeline | None] = []
-    for pipeline in (p for p, w in frame.pipelines if w is render_pass):
-        index = unstated if pipeline.subpass is None else pipeline.subpass
-        if index in (subpass.index, None):
-            own.append(pipeline if index is not None else None)
-    return own
+    return frame.pipelines_of(render_pass, subpass.index)
 
 
 def _pipelines(facts: Facts, own: list[Pipeline | None]) -> None:

@@ -28,9 +28,11 @@ class Turns:
         many = [target for target in frame.targets.values() if (target.samples or 1) > 1 and target.format is not None]
         if not 1 < len(presentable) <= MAX_TURNS or len(many) < len(presentable):
             return
+        self._stated: dict[str, list[Framebuffer]] = {}
         self._columns: dict[str, set[tuple[str, int]]] = {}
         self._buffers: dict[str, set[tuple[int | None, int | None]]] = {}
         for framebuffer in frame.description.framebuffers.values():
+            self._stated.setdefault(framebuffer.renderPass or "", []).append(framebuffer)
             for index, name in enumerate(framebuffer.attachments):
                 if name is not None:
                     self._columns.setdefault(name, set()).add((framebuffer.renderPass or "", index))
@@ -91,9 +93,7 @@ class Turns:
         """The framebuffers of a pass, in the frames of a turn; None where several in a row are of one frame."""
         stated = self.frame.description.framebuffers
         if not self.frame.has_commands:
-            return (
-                [framebuffer for framebuffer in stated.values() if framebuffer.renderPass == render_pass.name] if render_pass.name else []
-            )
+            return self._stated.get(render_pass.name, []) if render_pass.name else []
         bodies = [self.frame.commands[position].body for position in render_pass.begun]
         begins = [body for body in bodies if isinstance(body, BeginRenderPass) and body.framebuffer is not None]
         named = {tuple(framebuffer.key for framebuffer in self.frame.framebuffers_of(body)) for body in begins}

@@ -18,7 +18,7 @@ from msaa_lint.frame.description.models import BeginRenderPass, Command, ImageBa
 from .commands import CLEAR, COMMAND_WRITES, RESOLVE_READ, RESOLVE_WRITE, accesses
 from .frame import Frame
 from .parts import Attachment, Pass, Resolve, Target, sizes_differ
-from .pass_begin import MAX_USES, covers, one_surface, targets_at, uses_at_most
+from .pass_begin import MAX_USES, BegunArea, begun_area, one_surface, targets_at, uses_at_most
 from .walk import PassRun, Walk, once_each
 
 LOAD = "load"
@@ -106,6 +106,8 @@ class Timeline:
         self.ordered = self.followed and frame.document.ordered
         """Whether what happens first is known."""
         self._resolves = dict(frame.resolve_commands)
+        self._areas: dict[tuple[int, int | None], BegunArea] = {}
+        self._bound: dict[tuple[int, int], dict[int, list[Attachment]]] = {}
 
     @cached_property
     def of(self) -> dict[str, list[Event]]:
@@ -146,6 +148,25 @@ class Timeline:
         """
         writers = self._writers.get(image.name, [])
         return writers[bisect_left(writers, position, key=lambda writer: writer[0]) - 1] if writers else None
+
+    def area(self, render_pass: Pass, position: int | None) -> BegunArea:
+        """What a pass writes to where the command at a position begins it."""
+        key = (id(render_pass), position)
+        if key not in self._areas:
+            self._areas[key] = begun_area(self.frame, render_pass, position)
+        return self._areas[key]
+
+    def drawn_by(self, image: Target, writer: tuple[int, Pass]) -> list[Attachment]:
+        """The attachments that an image is bound to in a pass that a command at a position begins."""
+        begin, render_pass = writer
+        key = (begin, id(render_pass))
+        if key not in self._bound:
+            bound: dict[int, list[Attachment]] = {}
+            for attachment in render_pass.attachments:
+                for target in targets_at(self.frame, attachment, begin if begin >= 0 else None):
+                    bound.setdefault(id(target), []).append(attachment)
+            self._bound[key] = bound
+        return self._bound[key].get(id(image), [])
 
     @cached_property
     def _writers(self) -> dict[str, list[tuple[int, Pass | None]]]:
@@ -202,7 +223,7 @@ class Timeline:
             for target, frames in self._images(attachment, run):
                 key = key_of(target)
                 if key not in covered:
-                    covered[key] = covers(self.frame, run.render_pass, run.position, target)
+                    covered[key] = self.area(run.render_pass, run.position).covers(target)
                 whole = covered[key] and frames is not SOME_FRAMES
                 for aspect in attachment.aspects:
                     begin = (RESUME, True) if run.render_pass.resumes else _BEGINS.get(aspect.load)
@@ -235,7 +256,7 @@ class Timeline:
         for kind, attachment, image in ends:
             images = self._images(attachment, run) if attachment is not None else [(image, None)] if image is not None else []
             for target, frames in images:
-                whole = frames is not SOME_FRAMES and covers(self.frame, run.render_pass, run.position, target)
+                whole = frames is not SOME_FRAMES and self.area(run.render_pass, run.position).covers(target)
                 yield (
                     key_of(target),
                     Event(time, kind, resolve.aspect, whole, resolve.mode is not None, resolve, "", run, None, frames),
