@@ -41,6 +41,9 @@ STDERR = "<standard error>"
 _ROOTS = {"github": "GITHUB_WORKSPACE", "sarif": "GITHUB_WORKSPACE", "gitlab": "CI_PROJECT_DIR"}
 """The environment variables that hold the folder which an output's paths are relative to."""
 
+SUMMARIZED_KEYS = 1000
+"""Undecided rules whose missing keys the summary counts; --explain-undecided and JSON list those of all."""
+
 
 def check(arguments: Arguments) -> int:
     """Lints what the arguments name and prints the result; returns the exit code."""
@@ -105,6 +108,7 @@ def request(arguments: Arguments, targets: Sequence[Target] = (), fallback: str 
     limits = {name: arguments[f"max_{name}"] for name in Limits._fields if f"max_{name}" in arguments}
     if limits:
         settings["limits"] = limits
+    lists_keys = bool(arguments.get("explain_undecided")) or any(target.format == "json" for target in targets)
     return Request(
         **input_options(arguments),
         overrides=settings,
@@ -115,7 +119,8 @@ def request(arguments: Arguments, targets: Sequence[Target] = (), fallback: str 
         by_price=arguments.get("sort") == "price",
         fix="show" if arguments.get("diff") else "write" if arguments.get("fix") else None,
         unsafe_fixes=bool(arguments.get("unsafe_fixes")),
-        all_keys=bool(arguments.get("explain_undecided")) or any(target.format == "json" for target in targets),
+        keys=None if lists_keys else SUMMARIZED_KEYS,
+        all_keys=lists_keys,
     )
 
 

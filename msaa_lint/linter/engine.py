@@ -6,6 +6,7 @@ import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from msaa_lint.core.allowance import Allowance
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import CONFIDENCES, Finding, RuleInfo, Suppressed, Undecided
 from msaa_lint.core.text.source import Source, Unreadable, decode
@@ -49,8 +50,8 @@ class LintOptions(NamedTuple):
     """How to lint one input.
 
     `format` forces a reader; None detects the format from content. `device` is the profile for descriptions that do not name a device.
-    `ignores` applies suppression comments, `prices` computes the prices of findings. `keys` finds a key that each undecided rule lacks,
-    and `all_keys` all of them.
+    `ignores` applies suppression comments, `prices` computes the prices of findings. `keys` is the number of undecided rules for which a
+    key is looked up that they lack (None: of none), and with `all_keys` all such keys.
     """
 
     severity: Severity
@@ -59,7 +60,7 @@ class LintOptions(NamedTuple):
     device: DeviceProfile | None = None
     ignores: bool = True
     prices: bool = False
-    keys: bool = True
+    keys: Allowance | None = Allowance()
     all_keys: bool = False
 
 
@@ -194,8 +195,10 @@ class Engine:
 
         analysis = FrameAnalysis(Frame(document), profile(document.description, device), study, shader)
         # Nobody writes keys into source code.
-        missing_keys = MissingKeys(analysis).of if options.keys and (document.whole or document.format) else None
-        verdicts = self._runner.run(analysis.subjects(), file, options.severity, document.api, missing_keys, options.all_keys)
+        missing_keys = MissingKeys(analysis).of if document.whole or document.format else None
+        verdicts = self._runner.run(
+            analysis.subjects(), file, options.severity, document.api, missing_keys, options.all_keys, options.keys or Allowance(0)
+        )
         for loaded in modules:
             verdicts.findings.extend(loaded.findings)
         return verdicts, device

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from msaa_lint.core.allowance import Allowance
 from msaa_lint.core.diagnostics import diagnostic, internal_error
 from msaa_lint.core.finding import Finding, rank
 from msaa_lint.core.project import shown
@@ -39,8 +40,10 @@ class Request(NamedTuple):
     `format` forces a reader. `formats` are the outputs to print instead of those in the settings, and `fallback` is the output if neither
     names one: findings get prices only if an output shows them. `by_price` sorts findings by price, highest first. `fix` is `write` to
     fix files in place, or `show` to compute the fixes only; `unsafe_fixes` includes fixes that may change the picture. Standard input is
-    never written. `all_keys` finds all keys that undecided rules lack, and not only the next one. `log` is called with a line for each
-    configuration and each input that is used. `traceback` raises an exception that linting an input causes, instead of reporting it.
+    never written. `keys` is the number of undecided rules for which a key is looked up
+    that they lack (None: of all), and `all_keys` finds all keys that undecided rules lack, and not only the next one. `log` is called with
+    a line for each configuration and each input that is used. `traceback` raises an exception that linting an input causes, instead of
+    reporting it.
     """
 
     paths: Sequence[str]
@@ -58,6 +61,7 @@ class Request(NamedTuple):
     by_price: bool = False
     fix: str | None = None
     unsafe_fixes: bool = False
+    keys: int | None = None
     all_keys: bool = False
     log: Callable[[str], None] | None = None
     traceback: bool = False
@@ -119,7 +123,7 @@ class InputFile(NamedTuple):
         """
         data, engine, name = self.data, self.resolved.engine, self.name
         # Of a trial, only the findings count.
-        options = self.options._replace(prices=False, keys=False)
+        options = self.options._replace(prices=False, keys=None)
         if isinstance(data, bytes):
             return result, lambda text: engine.lint(encode(text, data), name, options)
         modules = data.modules
@@ -148,6 +152,7 @@ class Workspace:
         self._engines: dict[object, Engine] = {}
         self._projects: Mapping[str, str] = {}
         self._budget = Budget()
+        self._keys = Allowance() if request.keys is None else Allowance(request.keys)
         self.current = self.resolve(os.curdir)
 
     def settings(self, path: str) -> Settings:
@@ -228,7 +233,7 @@ class Workspace:
             return None
         device = resolved.device
         severity = resolved.selection.for_file(name, device.vendor if device is not None else None)
-        options = LintOptions(severity, resolved.limits, request.format, device, request.ignores, all_keys=request.all_keys)
+        options = LintOptions(severity, resolved.limits, request.format, device, request.ignores, False, self._keys, request.all_keys)
         return InputFile(path, name, data, resolved, options, self.current.settings.min_severity, request.log)
 
 

@@ -8,10 +8,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
 
+from msaa_lint.core.allowance import Allowance
 from msaa_lint.core.finding import MissingKey
-from msaa_lint.frame.description.models import BeginRenderPass, Description, Device, Image, Pipeline, ReadImage
+from msaa_lint.frame.description.models import BeginRenderPass, Description, Device, Image, Pipeline, ReadImage, RenderPass
 from msaa_lint.frame.description.record import Record
 
+from .attachment import resolves_at
 from .facts import Subject
 from .key_values import spelled, values
 from .parts import RENDERING, Attachment, Pass, Resolve, Target
@@ -45,6 +47,10 @@ _COMMANDS = {"pipelineBarrier": "a command before the first reader", "present": 
 _SIBLING = {"format": "samples", "samples": "format"}
 
 
+MAX_STEPS = 200_000
+"""Members that are looked at for the keys of a frame: many subjects may depend on the same many structures."""
+
+
 class MissingKeys:
     """The keys that one description lacks."""
 
@@ -55,6 +61,7 @@ class MissingKeys:
         self.lowered = analysis.frame.document.metal
         document = analysis.frame.document
         self._converted = document.tree is not None or document.source.origins is not None
+        self._steps = Allowance(MAX_STEPS)
         self._parts: dict[str, Callable[[Subject, str], Iterable[Place]]] = {
             "image": lambda subject, member: self._of_images(self._images(subject), member),
             "attachment": self._attachment,
@@ -85,6 +92,8 @@ class MissingKeys:
                     # The dump of one pipeline has no place for the rest of the frame.
                     continue
                 for record, path in self._places(subject, key):
+                    if not self._steps.take():
+                        return []
                     missing = _unstated(record, path)
                     if missing is not None:
                         found.setdefault((missing.structure, missing.name), missing)
@@ -100,11 +109,15 @@ class MissingKeys:
 
     def _command(self, kind: str) -> dict[tuple[str, str], MissingKey]:
         """A command that the commands of the frame lack."""
-        commands = self.description.commands
-        if commands is None or any(command is not None and command.kind == kind for command in commands) or self.lowered is not None:
+        if self.description.commands is None or kind in self._kinds or self.lowered is not None:
             return {}
         span = self.description.place("commands")
         return {("commands", kind): MissingKey("commands", kind, _COMMANDS[kind], span)}
+
+    @cached_property
+    def _kinds(self) -> set[str]:
+        """The commands that are recorded."""
+        return {command.kind for command in self.description.commands or () if command is not None}
 
     # Images
 
@@ -149,14 +162,17 @@ class MissingKeys:
             separate = name == "stencil" and attachment.record.states("stencilInitialLayout")
             yield (attachment.record, "stencilInitialLayout" if separate else "initialLayout")
         elif member == "resolveMode":
-            resolves = (resolve for each in self.frame.passes for resolve in each.resolves)
-            for resolve in resolves:
-                if attachment in (resolve.source, resolve.target):
-                    yield from _of_resolve(resolve, "mode")
+            for resolve in self._resolves.get(id(attachment), ()):
+                yield from _of_resolve(resolve, "mode")
         elif member in _SIBLING:
             yield from self._of_attachment(attachment, member)
         else:
             yield (attachment.record, member)
+
+    @cached_property
+    def _resolves(self) -> dict[int, list[Resolve]]:
+        """The resolves by the attachments, by identity, that they read or write."""
+        return {key: resolves for render_pass in self.frame.passes for key, resolves in resolves_at(render_pass).items()}
 
     def _of_attachment(self, attachment: Attachment, member: str) -> Iterator[Place]:
         """The format or the sample count of an attachment: its own, or its image's."""
@@ -227,8 +243,12 @@ class MissingKeys:
             return subject.subpass.render_pass
         if subject.resolve is not None:
             return subject.resolve.render_pass
-        inside = (each for each in self.frame.passes if subject.path.startswith((each.path + ".", each.path + "[")))
-        return next(inside, None)
+        return self._pass_at.get(subject.path)
+
+    @cached_property
+    def _pass_at(self) -> dict[str, Pass]:
+        """The passes by the paths of their attachments, subpasses and dependencies."""
+        return {record.path: render_pass for render_pass in self.frame.passes for record in _parts(render_pass)}
 
     def _pass(self, subject: Subject, member: str) -> Iterator[Place]:
         render_pass = self._pass_of(subject)
@@ -254,7 +274,11 @@ class MissingKeys:
             yield from ((pipeline, "stages") for pipeline in pipelines) if pipelines else [(self.description, "pipelines")]
 
     def _choice(self, subject: Subject) -> Record | None:
-        return next((each for each in self.description.sampleCountChoices.values() if each.path == subject.path), None)
+        return self._choices.get(subject.path)
+
+    @cached_property
+    def _choices(self) -> dict[str, Record]:
+        return {choice.path: choice for choice in self.description.sampleCountChoices.values()}
 
     def _begins(self, subject: Subject, member: str) -> Iterator[Place]:
         render_pass = self._pass_of(subject)
@@ -304,6 +328,12 @@ class MissingKeys:
                 yield from ((each, _METAL_ATTACHMENT[path]) for each in structures)
         elif record is self.description:
             yield (metal, path) if path == "commands" else (record, path)
+
+
+def _parts(render_pass: Pass) -> Iterator[Record]:
+    yield from (attachment.record for attachment in render_pass.attachments)
+    yield from (subpass.record for subpass in render_pass.subpasses)
+    yield from render_pass.record.dependencies if isinstance(render_pass.record, RenderPass) else ()
 
 
 def _one(record: Record | None, member: str) -> list[Place]:

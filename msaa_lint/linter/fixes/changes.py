@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
@@ -56,6 +56,11 @@ class Change(NamedTuple):
         if self.action == "add":
             return tuple(dict.fromkeys((*(before or ()), self.value)))
         return before if before is None else tuple(flag for flag in before if flag != self.value)
+
+
+def distinct(changes: Iterable[Change]) -> list[Change]:
+    """The changes without repetitions."""
+    return list({(id(change.record), change.member, change.action, repr(change.value)): change for change in changes}.values())
 
 
 class NoFix(Exception):

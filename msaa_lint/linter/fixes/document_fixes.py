@@ -15,7 +15,7 @@ from msaa_lint.linter.results import DocumentResult
 from msaa_lint.linter.rules.rule_runner import Key, finding_key
 
 from .aliases import Requests
-from .changes import Change, NoFix
+from .changes import Change, NoFix, distinct
 from .context import FixContext
 from .planning import plan
 from .shorthand import Shorthand, WordEdit, shorthand
@@ -46,8 +46,8 @@ class DocumentFixes:
         if key not in self._changes:
             changes: list[Change] = []
             for spec, subject in self.result.fix_specs[key]:
-                changes += (change for change in plan(spec, subject, self._context) if change not in changes)
-            self._changes[key] = tuple(changes)
+                changes += plan(spec, subject, self._context)
+            self._changes[key] = tuple(distinct(changes))
         return self._changes[key]
 
     def edits(self, changes: Sequence[Change], requested: Requests | None = None) -> tuple[Edit, ...]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import cached_property
 from itertools import pairwise
 
 from msaa_lint.core.text.edits import apply
@@ -40,7 +41,11 @@ class CollectionEditor:
 
     def index(self, start: int) -> int | None:
         """The index of the entry that begins at a place."""
-        return next((n for n, item in enumerate(self.items) if item.start == start), None)
+        return self._indices.get(start)
+
+    @cached_property
+    def _indices(self) -> dict[int, int]:
+        return {item.start: n for n, item in reversed(list(enumerate(self.items)))}
 
     def insert(self, entries: Sequence[str], after: int | None = None) -> list[Edit]:
         """Inserts entries after the one at an index, by default after the last."""
@@ -55,7 +60,8 @@ class CollectionEditor:
         if len(indices) == len(self.items):
             raise NoFix("no entry would remain")
         if self.flow and len(indices) > 1:
-            return self._keep([n for n in range(len(self.items)) if n not in indices], replacements)
+            removed = frozenset(indices)
+            return self._keep([n for n in range(len(self.items)) if n not in removed], replacements)
         return [
             *replacements,
             *(edit for n in indices for edit in (self._remove_from_flow(n) if self.flow else self._remove_from_block(n))),
@@ -71,9 +77,13 @@ class CollectionEditor:
         return [_insertion(colon, " []"), self.text.without_lines(self.start, end)]
 
     def _check_keys(self) -> None:
-        text = self.text.text
-        if self.node.kind == "mapping" and any(text[max(0, item.start - 2) : item.start] == "? " for item in self.items):
+        if self._has_question_marks:
             raise NoFix("the mapping has keys that are written with `?`")
+
+    @cached_property
+    def _has_question_marks(self) -> bool:
+        text = self.text.text
+        return self.node.kind == "mapping" and any(text.startswith("? ", max(0, item.start - 2), item.start) for item in self.items)
 
     def _insert_in_flow(self, entries: Sequence[str], after: int | None) -> list[Edit]:
         text = self.text
@@ -85,7 +95,7 @@ class CollectionEditor:
         start, end = self.items[after]
         comma = text.gap_end(end)
         has_comma = text.text[comma] == ","
-        on_same_line = [_insertion(end, "".join(f"{self._separator()}{entry}" for entry in entries))]
+        on_same_line = [_insertion(end, "".join(f"{self._separator}{entry}" for entry in entries))]
         if not text.begins_line(start) or text.line_start(start) <= self.start:
             return on_same_line
         lines = [f"{text.line_break(start)}{text.indent(start)}{entry}" for entry in entries]
@@ -100,6 +110,7 @@ class CollectionEditor:
             return [_insertion(end, "".join(f",{line}" for line in lines))]
         return [_insertion(end, ","), _insertion(line_end, ",".join(lines))]
 
+    @cached_property
     def _separator(self) -> str:
         """The text between two entries on one line."""
         for one, other in pairwise(self.items):

@@ -8,7 +8,7 @@ from msaa_lint.frame.facts.facts import Subject, Value
 from msaa_lint.linter.rules.rule import FixSpec, Setting
 
 from .actions import ACTIONS, Action
-from .changes import Change, NoFix
+from .changes import Change, NoFix, distinct
 from .context import FixContext
 from .fact_sources import FACT_SOURCES, SET_BY_UNSET, FindSources
 
@@ -32,10 +32,7 @@ def plan(spec: FixSpec, subject: Subject, context: FixContext) -> tuple[Change, 
             member_action = "unset" if action == "set" and setting.fact in SET_BY_UNSET else action
             for record, member in sources[setting.fact](subject, context):
                 changes += (Change(record, member, member_action, value) for value in values)
-    effective = []
-    for change in changes:
-        if change not in effective and change.effective:
-            effective.append(change)
+    effective = distinct(change for change in changes if change.effective)
     if not effective:
         raise NoFix("the description already states this")
     return tuple(effective)

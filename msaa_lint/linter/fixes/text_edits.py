@@ -37,6 +37,7 @@ class TextEditor:
         self.document = document
         self.text = TextScanner(document.source, [document.description.node])
         self.is_dump = not document.whole
+        self._collections: dict[int, CollectionEditor] = {}
 
     @cached_property
     def _records(self) -> list[Record]:
@@ -55,6 +56,12 @@ class TextEditor:
     @cached_property
     def _writer(self) -> ValueWriter:
         return ValueWriter(self.text, self.document.description.node, self._spelling)
+
+    def _collection(self, node: Node) -> CollectionEditor:
+        """The editor of a mapping or a sequence; one for all edits of it."""
+        if id(node) not in self._collections:
+            self._collections[id(node)] = CollectionEditor(self.text, node)
+        return self._collections[id(node)]
 
     def edits(self, changes: Sequence[Change], requested: Requests | None = None) -> tuple[Edit, ...]:
         """The edits that make the changes, in the order of the text. Raises NoFix if the text does not allow one of them.
@@ -123,7 +130,7 @@ class TextEditor:
             raise NoFix(f"a merge key may state `{member}` as well")
         if self._is_aliased_outside(node):
             raise NoFix(f"an anchor shares the value of this `{member}` with other members")
-        collection = CollectionEditor(self.text, record.node)
+        collection = self._collection(record.node)
         index = collection.index(key.start)
         if index is None or not _has_own(record, key):
             raise NoFix(f"another structure states `{member}`")
@@ -131,9 +138,18 @@ class TextEditor:
 
     def _is_aliased_outside(self, node: Node) -> bool:
         """Whether an alias outside of a node may name an anchor in it, as far as the names in the text tell."""
-        text = self.text.text
-        anchors = set(_ANCHOR.findall(text, node.start, node.end)) if self._aliases is not None else set()
-        return bool(anchors) and any(match[1] in anchors for match in _ALIAS.finditer(text) if not node.start <= match.start() < node.end)
+        names = set(_ANCHOR.findall(self.text.text, node.start, node.end)) if self._aliases is not None else set()
+        places = [place for name in names if (place := self._alias_places.get(name)) is not None]
+        return any(first < node.start or last >= node.end for first, last in places)
+
+    @cached_property
+    def _alias_places(self) -> dict[str, tuple[int, int]]:
+        """By name: where the first and the last alias of an anchor begin, as far as the names in the text tell."""
+        places: dict[str, tuple[int, int]] = {}
+        for match in _ALIAS.finditer(self.text.text):
+            first, _ = places.get(match[1], (match.start(), 0))
+            places[match[1]] = (first, match.start())
+        return places
 
     def _scalar(self, node: Node, shape: Shape, value: Any, record: Record) -> Edit:
         """Replaces a scalar, in the same quotes and spelling."""
@@ -170,7 +186,7 @@ class TextEditor:
                 raise NoFix("one of the flags is an alias")
             edits.append(self._scalar(node.value[n], shape, name, record))
         surplus, missing = indices[len(additions) :], additions[len(indices) :]
-        collection = CollectionEditor(self.text, node)
+        collection = self._collection(node)
         if surplus and len(surplus) == len(names):
             colon = self.text.colon_end(key)
             if len(surplus) > 1 or colon is None:
@@ -243,7 +259,7 @@ class TextEditor:
                 alias = self.text.text[node.start : node.end]
                 return [Edit(node.span, "{" + ", ".join([f"<<: {alias}", *entries]) + "}")]
             node = node.anchor or node
-        collection = CollectionEditor(self.text, node)
+        collection = self._collection(node)
         # After the member that precedes it in the API's structure, else at the end.
         first = order.index(members[0][0])
         preceding = record.spelled.get(order[first - 1]) if first else None
@@ -267,7 +283,7 @@ class TextEditor:
         edits: list[Edit] = []
         new: list[str] = []
         drops: list[int] = []
-        collection = CollectionEditor(self.text, node)
+        collection = self._collection(node)
         for change in group:
             if change.action == "drop":
                 drops.append(change.value)

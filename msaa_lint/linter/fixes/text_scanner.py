@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from bisect import bisect_left
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from functools import cached_property
 
@@ -30,6 +30,22 @@ class TextScanner:
     def _comments(self) -> list[tuple[Span, str]]:
         return [(comment.span, comment.text) for comment in comments(self.source, self._roots)]
 
+    @cached_property
+    def _breaks(self) -> list[re.Match[str]]:
+        return list(_BREAK.finditer(self.text))
+
+    @cached_property
+    def _line_starts(self) -> list[int]:
+        return [0, *(match.end() for match in self._breaks)]
+
+    @cached_property
+    def _line_ends(self) -> list[int]:
+        return [*(match.start() for match in self._breaks), len(self.text)]
+
+    def _break_after(self, at: int) -> re.Match[str] | None:
+        index = bisect_left(self._line_ends, at)
+        return self._breaks[index] if index < len(self._breaks) else None
+
     def comments_in(self, start: int, end: int) -> list[str]:
         """The comments that begin between two places."""
         first = bisect_left(self._comments, (Span(start, start), ""))
@@ -38,16 +54,16 @@ class TextScanner:
 
     def line_start(self, at: int) -> int:
         """Where the line of a place begins."""
-        return max(self.text.rfind("\n", 0, at), self.text.rfind("\r", 0, at)) + 1
+        return self._line_starts[bisect_right(self._line_starts, at) - 1]
 
     def line_end(self, at: int) -> int:
         """Where the line of a place ends, before its line break."""
-        match = _BREAK.search(self.text, at)
+        match = self._break_after(at)
         return match.start() if match is not None else len(self.text)
 
     def line_break(self, at: int) -> str:
         """The line break after a place, or the first of the text if there is none."""
-        match = _BREAK.search(self.text, at) or _BREAK.search(self.text)
+        match = self._break_after(at) or (self._breaks[0] if self._breaks else None)
         return match[0] if match is not None else "\n"
 
     def gap_end(self, at: int) -> int:
@@ -86,7 +102,7 @@ class TextScanner:
     def without_lines(self, first: int, last: int, indent: str | None = None) -> Edit:
         """Removes the lines from that of one place to that of another. Their comments stay, with an indent, by default the first line's."""
         start = self.line_start(first)
-        match = _BREAK.search(self.text, last)
+        match = self._break_after(last)
         end = match.end() if match is not None else len(self.text)
         indent = self.indent(first) if indent is None else indent
         lines = "".join(f"{indent}{comment}{self.line_break(start)}" for comment in self.comments_in(start, end))

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
+from msaa_lint.core.allowance import Allowance
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import CONFIDENCES, Finding, Fix, MissingKey, Undecided
 from msaa_lint.core.quote import shortened
@@ -93,10 +94,12 @@ class RuleRunner:
         api: str = "VULKAN",
         missing_keys: FindKeys | None = None,
         all_keys: bool = False,
+        key_budget: Allowance | None = None,
     ) -> Verdicts:
         """The findings and undecided rules for the subjects of a document, from the rules for its API.
 
-        `missing_keys` finds the keys that undecided rules name: those of one fact that it takes, or with `all_keys` of all facts.
+        `missing_keys` finds the keys that undecided rules name: those of one fact that it takes, or with `all_keys` of all facts. It is
+        asked for as many of them as `key_budget` has left (None: for all).
         """
         findings: list[Finding] = []
         undecided: list[Undecided] = []
@@ -120,7 +123,7 @@ class RuleRunner:
                     if value is None:
                         self._charge(rule, UNDECIDED)
                         keys: Mapping[str, MissingKey] = {}
-                        if missing_keys is not None:
+                        if missing_keys is not None and (key_budget is None or key_budget.take()):
                             blocking = evaluation.blocking(rule, self._condition(rule.when), missing, all_keys)
                             keys = {key.path: key for fact in blocking for key in missing_keys(subject, fact)}
                         undecided.append(Undecided(rule.code, rule.name, file, subject.path, missing, tuple(keys.values())))
