@@ -23,7 +23,7 @@ from .results import DocumentResult, FileResult, location_order
 from .rules.budget import Budget
 from .rules.registry import Registry, info, load
 from .rules.rule import Rule
-from .rules.rule_runner import RuleRunner, Severity, Verdicts, distinct
+from .rules.rule_runner import RuleRunner, Severity, Verdicts, distinct, finding_key
 
 if TYPE_CHECKING:
     from msaa_lint.core.text.comments import Comment
@@ -268,16 +268,18 @@ def _with_fixes(results: Iterable[DocumentResult], findings: list[Finding], opti
     fixable = [result for result in results if result.fix_specs]
     if not fixable:
         return findings
-    from .fixes.document_fixes import DocumentFixes
+    from .fixes.document_fixes import DocumentFixes, documents_by_key
 
     fixes = [DocumentFixes(result, options.format, editable) for result in fixable]
+    by_key = documents_by_key(fixable)
     if options.prices:
         from .prices import price_findings
 
-        findings = price_findings(fixes, findings)
+        findings = price_findings(fixes, by_key, findings)
     if editable:
-        for each in fixes:
-            findings = each.with_edits(findings)
+        for index, finding in enumerate(findings):
+            for number in by_key.get(finding_key(finding), ()):
+                findings[index] = fixes[number].with_edits(findings[index])
     return findings
 
 

@@ -68,12 +68,11 @@ def _demanded(each: Pass, frame: Frame, samples: int) -> int | None:
     if each.kind != RENDER_PASS:
         return None
     demands = []
-    for pipeline, within in frame.pipelines:
-        if within is each:
-            state = pipeline.multisampleState
-            if state is None or state.sampleShadingEnable is None:
-                return None
-            if state.sampleShadingEnable and state.minSampleShading is None:
-                return None
-            demands.append(shaded_samples(min(state.minSampleShading or 0.0, 1.0), samples) if state.sampleShadingEnable else 1)
+    for pipeline in frame.pipelines_by_pass.get(id(each), ()):
+        state = pipeline.multisampleState
+        if state is None or state.sampleShadingEnable is None:
+            return None
+        if state.sampleShadingEnable and state.minSampleShading is None:
+            return None
+        demands.append(shaded_samples(min(state.minSampleShading or 0.0, 1.0), samples) if state.sampleShadingEnable else 1)
     return max(demands, default=None)

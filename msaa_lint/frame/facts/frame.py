@@ -97,6 +97,14 @@ class Frame:
         return [*stated, *self._pipelines_by_subpass.get((id(render_pass), None), [])]
 
     @cached_property
+    def pipelines_by_pass(self) -> dict[int, list[Pipeline]]:
+        """The pipelines by the render pass, by identity, that they are made for."""
+        found: dict[int, list[Pipeline]] = {}
+        for pipeline, render_pass in self.pipelines:
+            found.setdefault(id(render_pass), []).append(pipeline)
+        return found
+
+    @cached_property
     def _pipelines_by_subpass(self) -> dict[tuple[int, int | None], list[Pipeline | None]]:
         found: dict[tuple[int, int | None], list[Pipeline | None]] = {}
         for pipeline, render_pass in self.pipelines:

@@ -22,6 +22,15 @@ from .shorthand import Shorthand, WordEdit, shorthand
 from .text_edits import TextEditor
 
 
+def documents_by_key(documents: Iterable[DocumentResult]) -> dict[Key, list[int]]:
+    """The numbers of the documents that have a fix for a finding, by what identifies the finding."""
+    numbers: dict[Key, list[int]] = {}
+    for number, document in enumerate(documents):
+        for key in document.fix_specs:
+            numbers.setdefault(key, []).append(number)
+    return numbers
+
+
 class DocumentFixes:
     """Plans and writes the fixes of one document.
 
@@ -35,10 +44,6 @@ class DocumentFixes:
         self._context = FixContext(result.document)
         self._editor = TextEditor(result.document)
         self._changes: dict[Key, tuple[Change, ...]] = {}
-
-    def covers(self, finding: Finding) -> bool:
-        """Whether the finding belongs to the document and has a fix."""
-        return finding_key(finding) in self.result.fix_specs
 
     def changes(self, finding: Finding) -> tuple[Change, ...]:
         """The changes that fix a finding of the document everywhere it applies. Raises NoFix if it cannot be fixed."""
@@ -56,11 +61,8 @@ class DocumentFixes:
             return (self._word_edit(changes).edit,)
         return self._editor.edits(changes, requested)
 
-    def with_edits(self, findings: Iterable[Finding]) -> list[Finding]:
-        """Adds the edits of fixes to the document's findings. A fix that is only shown or that cannot be made has no edits."""
-        return [self._with_edits(finding) if self.covers(finding) else finding for finding in findings]
-
-    def _with_edits(self, finding: Finding) -> Finding:
+    def with_edits(self, finding: Finding) -> Finding:
+        """Adds the edits of its fix to a finding of the document. A fix that is only shown or that cannot be made has no edits."""
         fix = finding.fix
         if fix is None or fix.edits or (fix.shown and not self._is_expanded):
             return finding

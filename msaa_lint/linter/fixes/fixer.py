@@ -18,14 +18,14 @@ from msaa_lint.linter.rules.rule_runner import finding_key
 
 from .aliases import Member, requests
 from .changes import Change, NoFix
-from .document_fixes import DocumentFixes
+from .document_fixes import DocumentFixes, documents_by_key
 
 MAX_ROUNDS = 10
 MAX_TRIALS = 60
 """How often a text is linted at most: a hostile text may have thousands of failing fixes, each found by bisection."""
 
-MIN_TRIALS = 20
-MAX_TRIAL_SIZE = 16 << 20
+MIN_TRIALS = 8
+MAX_TRIAL_SIZE = 4 << 20
 """Characters of all trials together, beyond `MIN_TRIALS`."""
 
 UNUSED_SUPPRESSION = "MSAA911"
@@ -89,7 +89,8 @@ class _Fixer:
             while candidates and not applied:
                 group = _without_overlaps(candidates)
                 applied = self.apply(group, [], *before_round)
-                candidates = [fix for fix in candidates if fix not in group]
+                tried = set(map(id, group))
+                candidates = [fix for fix in candidates if id(fix) not in tried]
             if not applied:
                 break
             fixed_findings += (finding for fix in applied for finding in fix.findings)
@@ -101,14 +102,19 @@ class _Fixer:
             return []
         findings = sorted(filter(self.may_fix, self.result.findings), key=lambda finding: -rank(finding.severity))
         # Fixes of rules are written anew, together with all others of this round; fixes of comments come with their edits.
-        of_rules = {key for document in self.result.documents for key in document.fix_specs}
+        of_rules = documents_by_key(self.result.documents)
         fixes = [
             _Fix((finding,), finding.fix.edits)
             for finding in findings
             if finding.fix and finding.fix.edits and finding_key(finding) not in of_rules
         ]
-        for document in self.result.documents:
-            fixes += self.document_candidates(DocumentFixes(document), findings)
+        of_document: dict[int, list[Finding]] = {}
+        for finding in findings:
+            for number in of_rules.get(finding_key(finding), ()):
+                of_document.setdefault(number, []).append(finding)
+        for number, document in enumerate(self.result.documents):
+            if number in of_document:
+                fixes += self.document_candidates(DocumentFixes(document), of_document[number])
         return _join(fixes)
 
     def may_fix(self, finding: Finding) -> bool:
@@ -120,11 +126,10 @@ class _Fixer:
         """The fixes of one document's findings."""
         plans: list[tuple[Finding, tuple[Change, ...]]] = []
         for finding in findings:
-            if fixes.covers(finding):
-                try:
-                    plans.append((finding, fixes.changes(finding)))
-                except NoFix as error:
-                    self.failed_fixes.append(FailedFix(finding, str(error)))
+            try:
+                plans.append((finding, fixes.changes(finding)))
+            except NoFix as error:
+                self.failed_fixes.append(FailedFix(finding, str(error)))
         plans = _leaving_an_entry(plans)
         requested = requests(change for _, changes in plans for change in changes)
         candidates = []
@@ -138,30 +143,40 @@ class _Fixer:
     def apply(self, group: Sequence[_Fix], applied: list[_Fix], text: str, result: FileResult) -> list[_Fix]:
         """Applies as many fixes of a group as possible, after those already applied in this round. Returns all applied fixes.
 
-        `text` and `result` are those before the round. Failing fixes are found by bisection.
+        `text` and `result` are those before the round. Failing fixes are found by what their result has findings about, else by bisection.
         """
+        if not group:
+            return applied
         if self.trials >= self.max_trials:
             self.fail(group, "too many fixes of this input failed")
             return applied
         self.trials += 1
         attempt = [*applied, *group]
-        new_result = None
+        objections = [Objection("it overlaps another fix")]
         try:
             new_text = apply(text, {edit for fix in attempt for edit in fix.edits})
         except Overlap:
-            objection = "it overlaps another fix"
+            pass
         else:
             new_result = self.lint(new_text)
-            objection = _objection(result, new_result, [finding for fix in attempt for finding in fix.findings])
-        if new_result is not None and not objection:
-            self.text, self.result = new_text, new_result
-            return attempt
+            objections = _objections(result, new_result, [finding for fix in attempt for finding in fix.findings])
+            if not objections:
+                self.text, self.result = new_text, new_result
+                return attempt
         if len(group) == 1:
-            self.fail(group, objection)
+            self.fail(group, objections[0].reason)
             return applied
+        blamed = _blamed(group, objections)
+        if len(blamed) == len(group) and None not in blamed.values():
+            for number, reason in blamed.items():
+                self.fail([group[number]], reason or "")
+            return applied
+        certain = [number for number in blamed if len(blamed) < len(group) or blamed[number] is not None]
         middle = len(group) // 2
-        applied = self.apply(group[:middle], applied, text, result)
-        return self.apply(group[middle:], applied, text, result)
+        later = set(certain or range(middle, len(group)))
+        # The others first: without them it shows whether it is these that fail.
+        applied = self.apply([fix for number, fix in enumerate(group) if number not in later], applied, text, result)
+        return self.apply([fix for number, fix in enumerate(group) if number in later], applied, text, result)
 
     def fail(self, fixes: Iterable[_Fix], reason: str) -> None:
         """Records why fixes are not applied."""
@@ -251,21 +266,52 @@ def _with_suppressed(result: FileResult) -> list[Finding]:
     return [*result.findings, *(suppressed.finding for suppressed in result.suppressed)]
 
 
-def _objection(before: FileResult, after: FileResult, fixed_findings: Sequence[Finding]) -> str:
-    """The reason why the result of fixes cannot be kept, or an empty string."""
+class Objection(NamedTuple):
+    """A reason why the result of fixes cannot be kept, and the finding that it is about, if a fix may be told from that."""
+
+    reason: str
+    finding: Finding | None = None
+
+
+def _objections(before: FileResult, after: FileResult, fixed_findings: Sequence[Finding]) -> list[Objection]:
+    """The reasons why the result of fixes cannot be kept."""
     kinds_before = set(map(finding_kind, before.findings))
     error = next((finding for finding in after.findings if finding.fatal and finding_kind(finding) not in kinds_before), None)
     if error is not None:
-        return f"the result would have an error: {error.message}"
+        return [Objection(f"the result would have an error: {error.message}")]
     fixed_kinds = set(map(finding_kind, fixed_findings))
-    for addition in _additions(before, after, fixed_findings):
-        if addition.code != UNUSED_SUPPRESSION:
-            return (
-                "it would not remove the finding"
-                if finding_kind(addition) in fixed_kinds
-                else f"it would introduce {addition.rule}: {addition.message}"
-            )
-    return ""
+    return [
+        Objection("it would not remove the finding", addition)
+        if finding_kind(addition) in fixed_kinds
+        else Objection(f"it would introduce {addition.rule}: {addition.message}", addition)
+        for addition in _additions(before, after, fixed_findings)
+        if addition.code != UNUSED_SUPPRESSION
+    ]
+
+
+MAX_SUSPECTS = 4
+"""Of more fixes that a finding may be due to, the one at fault is found by bisection."""
+
+
+def _blamed(group: Sequence[_Fix], objections: Sequence[Objection]) -> dict[int, str | None]:
+    """The fixes of a group, by number, that objections are probably due to: the reason, None where another fix may be at fault.
+
+    A fix is suspected of a finding of its kind, or about one of its images; of several suspects, the last one.
+    """
+    suspects: dict[object, list[int]] = {}
+    for number, fix in enumerate(group):
+        for key in dict.fromkeys(key for finding in fix.findings for key in (finding_kind(finding), *finding.images)):
+            suspects.setdefault(key, []).append(number)
+    blamed: dict[int, str | None] = {}
+    for objection in objections:
+        keys = (finding_kind(objection.finding), *objection.finding.images) if objection.finding is not None else ()
+        lists = [suspects[key] for key in keys if key in suspects]
+        numbers = sorted(set().union(*lists)) if sum(map(len, lists)) <= MAX_SUSPECTS else []
+        if len(numbers) == 1:
+            blamed[numbers[0]] = blamed.get(numbers[0]) or objection.reason
+        elif numbers:
+            blamed.setdefault(numbers[-1], None)
+    return blamed
 
 
 def _additions(before: FileResult, after: FileResult, fixed_findings: Sequence[Finding]) -> Iterator[Finding]:

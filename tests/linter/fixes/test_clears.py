@@ -8,6 +8,7 @@ import pytest
 
 from msaa_lint.linter.fixes.changes import NoFix
 from msaa_lint.linter.fixes.document_fixes import DocumentFixes
+from msaa_lint.linter.rules.rule_runner import finding_key
 from tests.linter.fixes.linting import fix_findings, lint
 
 CLEAR = "clearAttachments: {attachments: [%s], rects: [{x: 0, y: 0, width: 64, height: 64}]}"
@@ -39,7 +40,7 @@ def reasons(text: str, rule: str) -> list[str]:
     found = []
     for finding in result.findings:
         try:
-            if finding.rule == rule and fixes.covers(finding):
+            if finding.rule == rule and finding_key(finding) in fixes.result.fix_specs:
                 fixes.changes(finding)
         except NoFix as error:
             found.append(str(error))

@@ -15,6 +15,7 @@ from msaa_lint.linter.fixes.fact_sources import FACT_SOURCES, ONLY_VALUES
 from msaa_lint.linter.fixes.fix_checks import problems
 from msaa_lint.linter.fixes.metal import METAL_ACTIONS, METAL_FACT_SOURCES
 from msaa_lint.linter.rules.registry import load
+from msaa_lint.linter.rules.rule_runner import finding_key
 from tests.linter.fixes.linting import fix_findings, lint
 from tests.marked import unmarked
 from tests.pages import RULES, examples
@@ -142,7 +143,7 @@ def test_fixed_examples_are_what_the_fix_writes(rule: object) -> None:
         fixes = DocumentFixes(result.documents[0])
         edits: set[Edit] = set()
         for finding in result.findings:
-            if finding.rule == name and fixes.covers(finding):
+            if finding.rule == name and finding_key(finding) in fixes.result.fix_specs:
                 with suppress(NoFix):
                     edits.update(fixes.edits(fixes.changes(finding)))
         results.append(apply(text, edits))

@@ -15,6 +15,7 @@ from msaa_lint.frame.description.models import MetalRecord
 from msaa_lint.linter.fixes.changes import Change, NoFix, apply_temporarily
 from msaa_lint.linter.fixes.document_fixes import DocumentFixes
 from msaa_lint.linter.results import FileResult
+from msaa_lint.linter.rules.rule_runner import finding_key
 from tests.linter.fixes.linting import _meaning, comments_of, fix_findings, kinds, lint, meaning, rules
 from tests.linter.fixes.spellings import data_of, written
 from tests.pages import all_examples
@@ -94,7 +95,7 @@ def edits_make_changes(text: str) -> int:
     fixes = DocumentFixes(document)
     count = 0
     for found in result.findings:
-        if not fixes.covers(found):
+        if finding_key(found) not in fixes.result.fix_specs:
             continue
         try:
             changes = fixes.changes(found)
