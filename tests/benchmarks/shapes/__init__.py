@@ -2,9 +2,10 @@
 
 from .capture_texts import SHAPES as CAPTURE_TEXTS
 from .captures import SHAPES as CAPTURES
+from .description_texts import SHAPES as DESCRIPTION_TEXTS
 from .descriptions import SHAPES as DESCRIPTIONS
 from .rules import SHAPES as RULES
 from .shape import Shape
 from .source import SHAPES as SOURCE
 
-SHAPES: tuple[Shape, ...] = (*DESCRIPTIONS, *CAPTURES, *CAPTURE_TEXTS, *RULES, *SOURCE)
+SHAPES: tuple[Shape, ...] = (*DESCRIPTIONS, *DESCRIPTION_TEXTS, *CAPTURES, *CAPTURE_TEXTS, *RULES, *SOURCE)

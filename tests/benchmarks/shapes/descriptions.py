@@ -49,6 +49,10 @@ BEGINS = "- beginRenderPass: {renderPass: pass@}\n- endRenderPass"
 RESOLVING_SUBPASS = "{colorAttachments: [color], resolveAttachments: [out]}"
 
 
+images = many(*IMAGES, "renderPasses: {}")
+"""Images that no pass uses."""
+
+
 def columns(count: int) -> str:
     """A pass of many attachments, all of which its subpass draws to, in many framebuffers that alternate."""
     side = max(int(count**0.5), 1)
@@ -99,7 +103,7 @@ def documents(*parts: str) -> Callable[[int], str]:
 
 
 LISTS = (
-    described("images", *IMAGES, "renderPasses: {}"),
+    Shape("images", text("a.msaa.yaml", images)),
     described(
         "attachments",
         *IMAGES,
