@@ -19,12 +19,16 @@ BLOCK = 1 << 18
 MAX_VALUE = 64 << 20
 """Maximum size of a line or an array element, in bytes."""
 
+MAX_PARSED = 16 << 20
+"""Maximum size of a value that is parsed, in bytes; parsed small values take about 30 times as much memory."""
+
 MAX_DEPTH = 100
 
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 TRUNCATED = "the file is truncated"
 TOO_DEEP = f"nested deeper than {MAX_DEPTH}"
 TOO_LONG = f"a call exceeds {MAX_VALUE >> 20} MiB"
+TOO_LONG_TO_PARSE = f"a call that is read exceeds {MAX_PARSED >> 20} MiB"
 
 _SPACES = re.compile(rb"[ \t\r\n]*")
 _TOKEN = re.compile(rb'"(?:[^"\\]|\\.)*+"|["{}\[\]]', re.DOTALL)
@@ -34,7 +38,9 @@ _SCALAR = re.compile(rb'"(?:[^"\\]|\\.)*+"|[^\s"{}\[\],:]++', re.DOTALL)
 
 
 def loads(text: bytes, line: int, column: int = 1, call: int | None = None) -> Any:
-    """Parses a value whose text starts at a line and column. Raises CaptureError at the place of a syntax error or of too deep nesting."""
+    """Parses a value whose text starts at a line and column. Raises CaptureError at the place of a syntax error, and for a limit."""
+    if len(text) > MAX_PARSED:
+        raise CaptureError(TOO_LONG_TO_PARSE, Place(line, column, call))
     try:
         value = orjson.loads(text)
     except orjson.JSONDecodeError as error:
@@ -60,7 +66,9 @@ def _mistake(text: bytes, error: orjson.JSONDecodeError) -> str:
 
 
 def parse_call(text: bytes, kind: str) -> tuple[Any, str | None] | None:
-    """The arguments and the result of a call. None if the text needs `loads`: it is not JSON, is not a call, or has many brackets."""
+    """The arguments and the result of a call. None if the text needs `loads`: it is not JSON, is not a call, or is large or deep."""
+    if len(text) > MAX_PARSED:
+        return None
     try:
         body = orjson.loads(text)[kind]
         args = body["args"]
@@ -160,6 +168,8 @@ class Cursor:
         self.stream = stream
         self.text = stream.read(BLOCK).removeprefix(BYTE_ORDER_MARK)
         self.at = 0
+        self._layout_debt = BLOCK
+        """How many bytes may be searched in vain for the ends of objects by their layout."""
         self._counted = 0
         self._line = 1
         self._line_start = 0
@@ -237,10 +247,11 @@ class Cursor:
 
         All tools that write captures as one array indent them this way, and finding one bracket is ten times faster than finding all.
         """
-        start = self.text.rfind(b"\n", 0, self.at) + 1
+        if self._layout_debt < 0 or not self.text.startswith((b"\n", b"\r\n"), self.at + 1):
+            return 0
+        start = self.text.rfind(b"\n", max(self.at - 66, 0), self.at) + 1
         indent = self.text[start : self.at]
-        following = self.text[self.at + 1 : self.at + 3]
-        if not following.startswith((b"\n", b"\r\n")) or len(indent) > 64 or indent.strip(b" \t"):
+        if len(indent) > 64 or indent.strip(b" \t"):
             return 0
         outdented = re.compile(b"\n" + indent + b"[^ \t\r\n]")
         since = self.at
@@ -248,9 +259,14 @@ class Cursor:
             found = outdented.search(self.text, since)
             if found is not None:
                 end = found.end()
-                return end if _indented(self.text[self.at : end]) else 0
+                if _indented(self.text[self.at : end]):
+                    self._layout_debt += end - self.at
+                    return end
+                self._layout_debt -= end - self.at
+                return 0
             searched = len(self.text) - self.at
             if not self._more():
+                self._layout_debt -= searched
                 return 0
             since = self.at + max(0, searched - len(indent) - 2)
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
+from io import BytesIO
 from typing import Any
 
 import pytest
 
 from msaa_lint.core.finding import Finding
+from msaa_lint.input.captures import json_stream
 from msaa_lint.input.captures.call import Call, Place
 from msaa_lint.input.captures.description_text import describe_capture
 from msaa_lint.input.captures.submissions import MAX_REPEATED
@@ -282,3 +285,28 @@ def test_a_pass_of_too_many_different_commands_says_so() -> None:
     findings = lint(program.text())
     assert limits(findings) == ["limit exceeded: a pass has more than 4,096 different commands; those after them are not checked"]
     assert "MSAA906" in codes(findings)
+
+
+def test_elements_that_are_laid_out_unusually_are_not_searched_to_the_end_each(monkeypatch: pytest.MonkeyPatch) -> None:
+    searches: list[bytes] = []
+    original = re.compile
+
+    def compile(pattern: bytes) -> re.Pattern[bytes]:
+        searches.append(pattern)
+        return original(pattern)
+
+    monkeypatch.setattr(json_stream.re, "compile", compile)
+    indents = [f"{number:020b}".replace("0", " ").replace("1", "\t") for number in range(8000)]
+    elements = [f'{indent}{{\n"index":{number},"function":{{}}}}' for number, indent in enumerate(indents)]
+    cursor = json_stream.Cursor(BytesIO(("[\n" + ",\n".join(elements) + "]\n").encode()))
+    assert sum(cursor.value().startswith(b"{") for _ in cursor.elements()) == 8000
+    assert len(searches) < 10
+
+
+def test_a_call_that_is_too_large_to_parse_ends_the_capture() -> None:
+    program = Program()
+    program.call("vkDestroyImage", image=1, x="a" * json_stream.MAX_PARSED)
+    program.call("vkUnknown", x="a" * json_stream.MAX_PARSED)
+    program.calls.reverse()
+    (found,) = lint(program.text())
+    assert (found.code, found.message) == ("MSAA901", "the capture ends here: a call that is read exceeds 16 MiB")
