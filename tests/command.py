@@ -62,6 +62,7 @@ def run_process(folder: Path, *arguments: str, stdin: bytes = b"", **environment
         capture_output=True,
         env=environment_of(environment),
         check=False,
+        timeout=300,
     )
     assert b"Traceback" not in done.stderr
     return subprocess.CompletedProcess(done.args, done.returncode, done.stdout.decode(), done.stderr.decode())

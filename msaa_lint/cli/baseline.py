@@ -48,7 +48,7 @@ def write_baseline(request: Request, stated: str | None, prune: bool) -> int:
     if prune:
         loaded = baselines.load(file, project_root(os.curdir) if stated is None else None)
         if isinstance(loaded, baselines.Refused):
-            warn(loaded.findings[0].message)
+            warn(f"{file}: {loaded.findings[0].message}")
             return 2
         new = baselines.prune(loaded, result.findings, result.files)
         before = _count(loaded)

@@ -44,7 +44,7 @@ def folder_of(file: str) -> str:
 def real_path(path: str, project: str) -> str:
     """A path that content states, with all symbolic links resolved. Raises Outside if it leaves the project, and OSError for a URL."""
     if "://" in path:
-        raise OSError("it is a URL; name a file in the project")
+        raise OSError("it is a URL, not a path")
     try:
         real, root = os.path.realpath(path), os.path.realpath(project)
     except ValueError as error:
@@ -55,6 +55,15 @@ def real_path(path: str, project: str) -> str:
     return real
 
 
+def is_inside(path: str, project: str) -> bool:
+    """Whether a path that content states stays in the project."""
+    try:
+        real_path(path, project)
+    except OSError:
+        return False
+    return True
+
+
 def leaving_link(path: str) -> str | None:
     """The first part of a path that is a link in a project and leads out of it; None if there is none.
 
@@ -63,7 +72,7 @@ def leaving_link(path: str) -> str | None:
     parts = path.split(os.sep)
     for number in range(1, len(parts) + 1):
         link = os.sep.join(parts[:number])
-        if os.path.islink(link) and any(_leaves(link, root) for root in _projects(os.path.dirname(link) or os.curdir)):
+        if os.path.islink(link) and any(not is_inside(link, root) for root in _projects(os.path.dirname(link) or os.curdir)):
             return link
     return None
 
@@ -72,15 +81,7 @@ def _projects(folder: str) -> list[str]:
     """The roots of the projects that a folder is in: that of the current folder, and its own."""
     here, own = project_root(os.curdir), project_root(folder)
     is_project = any(os.path.lexists(os.path.join(own, name)) for name in (*_VCS_DATA, *NAMES))
-    return [*([here] if not _leaves(folder, here) else []), *([own] if is_project else [])]
-
-
-def _leaves(path: str, project: str) -> bool:
-    try:
-        real_path(path, project)
-    except OSError:
-        return True
-    return False
+    return [*([here] if is_inside(folder, here) else []), *([own] if is_project else [])]
 
 
 def shown(path: str) -> str:

@@ -6,7 +6,7 @@ import os
 import re
 from typing import Any
 
-from msaa_lint.core.text.files import open_file
+from msaa_lint.core.text.files import open_entry
 from msaa_lint.core.text.node import Limits, Node
 from msaa_lint.core.text.tree import beginning
 from msaa_lint.frame.description.bind import Binder
@@ -67,11 +67,10 @@ def own_output(head: bytes, tail: bytes = b"") -> str | None:
 
 def is_own_output(path: str) -> bool:
     """Whether msaa-lint wrote a file that is not an input. Raises OSError if it cannot be read."""
-    file, size = open_file(path, os.path.dirname(path))
-    with file:
+    with open_entry(path) as file:
         head = file.read(HEAD_BYTES)
         # The baseline, whose keys are sorted, says what it is at its end.
-        file.seek(max((size or 0) - 256, 0))
+        file.seek(max(os.fstat(file.fileno()).st_size - 256, 0))
         return own_output(head, file.read(256)) is not None
 
 
@@ -81,8 +80,7 @@ def kind_of(path: str) -> str:
     Only what a Vulkan or Metal frame alone has makes an input: a capture of Vulkan calls, a Vulkan SC pipeline, or a description most of
     which fits the format and that states, say, a VkFormat at its place. Raises OSError if the file cannot be read.
     """
-    file, _ = open_file(path, os.path.dirname(path))
-    with file:
+    with open_entry(path) as file:
         data = file.read(HEAD_BYTES)
         if capture_format(data) is not None:
             return INPUT if _VULKAN.search(data) else OTHER

@@ -11,7 +11,7 @@ from typing import NamedTuple, Protocol
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.globs import Glob, excluding
-from msaa_lint.core.project import project_root, real_path, shown
+from msaa_lint.core.project import is_inside, project_root, shown
 from msaa_lint.core.quote import quoted
 
 from .file_types import DATA, DESCRIPTIONS, INPUT, LANGUAGES, NEAR, OTHER, SOURCES, STDIN, missing_extra
@@ -101,14 +101,6 @@ def _nearly(names: Sequence[str]) -> str:
 
 def _count(number: int, noun: str) -> str:
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
-
-
-def _is_file_inside(path: str, project: str) -> bool:
-    """Whether a link leads to a file of the project."""
-    try:
-        return os.path.isfile(real_path(path, project))
-    except OSError:
-        return False
 
 
 def _excluded(path: str, glob: Glob) -> str:
@@ -225,7 +217,7 @@ class _Walk:
             self.skip(path, "not an input")
         if kind == NEAR:
             self.near[shown(path)] = None
-        elif kind == INPUT and entry.is_symlink() and not _is_file_inside(path, search.project):
+        elif kind == INPUT and entry.is_symlink() and not (is_inside(path, search.project) and os.path.isfile(path)):
             self.notes.append(f"{shown(path)} is a link that is broken or leaves the project: name it to lint it")
         elif kind == INPUT and os.path.isfile(path):
             if entry.name.lower().endswith((*SOURCES, *LANGUAGES["markdown"])) and not self._can_read_sources:

@@ -53,6 +53,17 @@ def open_file(path: str, project: str | None) -> tuple[BinaryIO, int | None]:
     return file, None
 
 
+def open_entry(path: str) -> BinaryIO:
+    """A regular file, according to the listing of its folder, open for reading; a link is not followed. Raises OSError."""
+    file = open(os.open(path, _FLAGS | _NO_LINK), "rb")  # noqa: SIM115 - the caller closes it
+    try:
+        _check_regular(os.fstat(file.fileno()).st_mode)
+    except OSError:
+        file.close()
+        raise
+    return file
+
+
 def read(path: str, max_bytes: int, project: str | None) -> bytes:
     """The bytes of a file, which is opened as by `open_file`. Raises OSError, and Unreadable if the file is larger than `max_bytes`."""
     file, size = open_file(path, project)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import os
 import re
 
-from msaa_lint.core.text.files import open_file
+from msaa_lint.core.text.files import open_entry
 
 MAX_BYTES = 1 << 20
 """The number of bytes of a file that are searched."""
@@ -31,8 +30,7 @@ def speaks(text: str) -> bool:
 
 def file_speaks(path: str) -> bool:
     """Returns whether the first MiB of a file does. Raises OSError if it cannot be read."""
-    file, _ = open_file(path, os.path.dirname(path))
-    with file:
+    with open_entry(path) as file:
         data = file.read(MAX_BYTES)
     encoding = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "latin-1"
     return speaks(data.decode(encoding, "replace"))

@@ -157,7 +157,7 @@ class TableReader:
         except Outside:
             self.problem(path, f"{quoted(item)} is outside the project", "only the command line can name such a file")
         except OSError as error:
-            self.problem(path, f"{quoted(item)} cannot be used: {error}")
+            self.problem(path, f"{quoted(item)} cannot be read: {error}", "write a path relative to the folder of the configuration")
         else:
             return os.path.normpath(os.path.join(self.root, item))
         return None

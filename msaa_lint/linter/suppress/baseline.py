@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding, Suppressed
+from msaa_lint.core.project import Outside, folder_of, is_inside, project_root, shown
 from msaa_lint.core.quote import quoted
 
 if TYPE_CHECKING:
@@ -54,13 +55,14 @@ class Stale(NamedTuple):
 
 def load(path: str, project: str | None) -> Baseline | Refused:
     """The baseline at a path, or its problems (MSAA921). `project` is None for a path of the command line."""
-    from msaa_lint.core.project import folder_of, shown
     from msaa_lint.core.text.files import read
     from msaa_lint.core.text.source import Source, decode
 
     name = shown(path)
     try:
         source = Source(name, decode(read(path, MAX_BYTES, project)))
+    except Outside as error:
+        return Refused((diagnostic("MSAA921", f"cannot read the baseline: {error}; only the command line can name such a file", name),))
     except FileNotFoundError:
         return Refused((diagnostic("MSAA921", f"no such baseline {quoted(name)}: `msaa-lint baseline` writes one", name),))
     except (OSError, ValueError) as error:
@@ -101,10 +103,12 @@ def stale(
     broken = {_key(found.file, baseline.root) for found in findings if found.fatal}
     linted = None if files is None else {_key(file, baseline.root) for file in files}
 
+    looked_up = _Existing(baseline.root)
+
     def is_checked(file: str) -> bool:
         if file in broken:
             return False
-        return linted is None or file in linted or not os.path.lexists(os.path.join(baseline.root, file))
+        return linted is None or file in linted or looked_up.is_gone(file)
 
     return [
         Stale(file, rule, counted, counts.get(file, {}).get(rule, 0))
@@ -113,6 +117,23 @@ def stale(
         for rule, counted in sorted(entries.items())
         if (rules is None or rule in rules) and counts.get(file, {}).get(rule, 0) < counted
     ]
+
+
+class _Existing:
+    """Looks up which files of a baseline exist, in its project only: a baseline has no say in where else to look."""
+
+    def __init__(self, root: str) -> None:
+        self.root = root
+        self.project = project_root(root)
+        self._inside: dict[str, bool] = {}
+
+    def is_gone(self, file: str) -> bool:
+        """Whether a file is in the project and does not exist."""
+        path = os.path.join(self.root, file)
+        folder = os.path.dirname(path)
+        if folder not in self._inside:
+            self._inside[folder] = is_inside(folder, self.project)
+        return self._inside[folder] and not os.path.lexists(path)
 
 
 def build(findings: Iterable[Finding], root: str | None = None) -> Baseline:

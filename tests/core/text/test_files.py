@@ -159,7 +159,7 @@ def test_paths_are_not_expanded_and_urls_are_none(project: Path, monkeypatch: py
         with pytest.raises(FileNotFoundError):
             read(path, MAX, str(project))
     for path in (f"file://{project}/file", "http://localhost/file"):
-        with pytest.raises(OSError, match="it is a URL; name a file in the project"):
+        with pytest.raises(OSError, match="it is a URL, not a path"):
             read(path, MAX, str(project))
 
 
