@@ -109,7 +109,7 @@ def reports(path: str, called: str, project: str | None) -> "list[Report] | Prob
 
     try:
         real = os.path.realpath(path) if project is None else real_path(path, project)
-        status = os.stat(real)
+        status = os.stat(path if project is None else real)
         # A pipe changes as it is read.
         version = (status.st_mtime_ns, status.st_size) if stat.S_ISREG(status.st_mode) else (0, 0)
         key = (real, called, *version)

@@ -151,6 +151,9 @@ class _Run:
         if not is_stdin and not any(found.fix is not None for found in result.findings):
             return result
         write = self.request.fix == "write"
+        if write and not is_stdin and os.path.exists(file.path) and not os.path.isfile(file.path):
+            self.notes.append(f"{file.name} is not a regular file and is not fixed: name `-` to print the fixed text")
+            return result
         target = file.path if write and not is_stdin else None
         fixed = fix_input(file.data, result, file.lint, file.fixable(result), self.request.unsafe_fixes, target)
         self.fixed.append(fixed)
