@@ -199,6 +199,8 @@ class Engine:
         verdicts = self._runner.run(
             analysis.subjects(), file, options.severity, document.api, missing_keys, options.all_keys, options.keys or Allowance(0)
         )
+        at = document.description.place("commands", "renderPasses")
+        verdicts.findings.extend(diagnostic("MSAA906", f"limit exceeded: {text}", file, at) for text in analysis.limits())
         for loaded in modules:
             verdicts.findings.extend(loaded.findings)
         return verdicts, device

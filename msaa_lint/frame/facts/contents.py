@@ -12,7 +12,6 @@ from math import lcm
 from .commands import CLEAR, COMMAND_READS, COMMAND_WRITES, RESOLVE_WRITE, WRITE
 from .frame import Frame
 from .parts import RENDERING, Attachment, Resolve, Target
-from .pass_begin import MAX_USES
 from .timeline import BEGIN, DISCARD, ELSEWHERE, INPUT, LOAD, MAX_FRAMES, SOME_FRAMES, STORE, Event, Timeline
 
 READS = frozenset({LOAD, *COMMAND_READS})
@@ -38,7 +37,7 @@ class AspectEvents:
 
     def _lay_out(self, count: int) -> None:
         stated, self.events, self.frames = self.events, [], []
-        for frame in range(count if count <= MAX_FRAMES and count * len(stated) <= MAX_USES else 0):
+        for frame in range(count if count <= MAX_FRAMES else 0):
             for event in stated:
                 if event.frames is None or event.frames is SOME_FRAMES or frame % event.frames[0] in event.frames[1]:
                     self.events.append(event)

@@ -17,8 +17,10 @@ _READS = frozenset({LOAD, DRAW, INPUT, RESOLVE_READ, READ, COPY_READ, PRESENT})
 ENDS = frozenset({BEGIN, CLEAR, DISCARD})
 """What ends what was there; a resolve that overwrites it aside."""
 
-MAX_STEPS = 200_000
-"""How many events are looked at to find what follows. A frame of some thousand passes takes some ten thousand."""
+MIN_STEPS = 50_000
+STEPS_PER_STRUCTURE = 32
+"""How many events are looked at to find what follows: so many, and more by the structures of a frame. A frame of some thousand passes takes
+some ten thousand."""
 
 
 def is_unknown(event: Event) -> bool:
@@ -43,7 +45,7 @@ class EventSearch:
     def __init__(self, timeline: Timeline) -> None:
         self.timeline = timeline
         self.frame: Frame = timeline.frame
-        self.steps_left = MAX_STEPS
+        self.steps_left = MIN_STEPS + STEPS_PER_STRUCTURE * self.frame.structures
         """How many events may still be looked at. Below 0, nothing more is known."""
         self._written_in: dict[int, dict[int, list[EventRef]]] = {}
         self._first_uses: dict[EventRef, tuple[Event | None, bool]] = {}

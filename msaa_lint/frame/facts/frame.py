@@ -91,6 +91,12 @@ class Frame:
         stated = self.description.framebuffers
         return [stated[name] for name in ((names,) if isinstance(names, str) else names or ()) if name in stated]
 
+    @cached_property
+    def structures(self) -> int:
+        """How many structures state its passes, framebuffers and commands."""
+        bound = sum(1 + len(framebuffer.attachments) for framebuffer in self.description.framebuffers.values())
+        return sum(render_pass.structures for render_pass in self.passes) + bound + len(self.commands)
+
     def pipelines_of(self, render_pass: Pass, index: int) -> list[Pipeline | None]:
         """The pipelines made for a subpass of a render pass; a last None for those that do not state which of several subpasses."""
         stated = self._pipelines_by_subpass.get((id(render_pass), index), [])

@@ -197,6 +197,15 @@ class Pass:
         return [resolve for subpass in self.subpasses for resolve in subpass.resolves]
 
     @cached_property
+    def structures(self) -> int:
+        """How many attachments, references to them, and dependencies it has."""
+        references = (
+            1 + len(each.color) + len(each.depth_stencil) + len(each.resolves) + len(getattr(each.record, "inputAttachments", ()))
+            for each in self.subpasses
+        )
+        return len(self.attachments) + sum(references) + len(getattr(self.record, "dependencies", ()))
+
+    @cached_property
     def custom_resolve(self) -> bool:
         """Whether a subpass (or the rendering) resolves by its own shader."""
         flags = (flag for subpass in self.subpasses for flag in subpass.record.flags)

@@ -8,20 +8,32 @@ from msaa_lint.frame.description.record import Record
 from .frame import Frame
 from .parts import RENDER_PASS, RENDERING, Attachment, Pass, Target
 
-MAX_USES = 500_000
-"""How many uses of images by passes are followed. Some thousand passes have some ten thousand; hostile ones attachments times begins."""
+MIN_USES = 50_000
+USES_PER_STRUCTURE = 32
+"""How many uses of images by passes are followed: so many, and more by the structures of a frame. Some thousand passes have some ten
+thousand uses; hostile ones as many as attachments times begins."""
+
+
+def max_uses(frame: Frame) -> int:
+    """How many uses of images by the passes of a frame are followed."""
+    return MIN_USES + USES_PER_STRUCTURE * frame.structures
 
 
 def uses_at_most(frame: Frame) -> int:
-    """A bound on how often passes use images: every attachment, each time its pass is begun, with every framebuffer."""
+    """A bound on how often passes use images: every attachment and reference to one, with every framebuffer that its pass is begun with."""
     begins: dict[str | None, int] = {}
     for _, body in frame.recorded(BeginRenderPass):
         count = len(body.framebuffer) if isinstance(body.framebuffer, tuple) else 1
         begins[body.renderPass] = begins.get(body.renderPass, 0) + max(count, 1)
     return sum(
-        len(render_pass.attachments) * (1 if render_pass.kind == RENDERING else begins.get(render_pass.name, 1))
+        render_pass.structures * (max(len(render_pass.begun), 1) if render_pass.kind == RENDERING else begins.get(render_pass.name, 1))
         for render_pass in frame.passes
     )
+
+
+def is_followed(frame: Frame) -> bool:
+    """Whether the passes of a frame use images so seldom that it is followed who uses them when."""
+    return uses_at_most(frame) <= max_uses(frame)
 
 
 def targets_at(frame: Frame, attachment: Attachment, position: int | None) -> list[Target]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from msaa_lint.core.allowance import Allowance
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.models import ClearAttachment, ClearAttachments, Draw, Pipeline, ReadImage, Rect
 
@@ -14,7 +15,7 @@ from .contents import Contents
 from .facts import Facts, known
 from .frame import Frame
 from .parts import RENDER_PASS, Aspect, Attachment, Pass, PassSubpass
-from .pass_begin import MAX_USES, targets_at
+from .pass_begin import max_uses, targets_at
 from .walk import Walk
 
 _DYNAMIC_MASKS = frozenset({"COLOR_WRITE_MASK_EXT", "COLOR_WRITE_ENABLE_EXT"})
@@ -62,14 +63,19 @@ class Instance:
         return bool(self.draws or self.clears)
 
 
-PassContents = dict[str, list[Instance]]
-"""By the path of a pass: what is recorded each time that it is begun."""
+class PassContents(dict[str, list[Instance]]):
+    """By the path of a pass: what is recorded each time that it is begun.
+
+    `exhausted` says that passes are left out, because there is too much to look through.
+    """
+
+    exhausted = False
 
 
 def pass_contents(walk: Walk) -> PassContents:
     """What the commands record in passes; renderings of which a part is recorded elsewhere are left out."""
     frame = walk.frame
-    found: PassContents = {}
+    found: dict[str, list[Instance]] = {}
     for position, run in walk.recorded_runs.items():
         if run.render_pass.suspends or run.render_pass.resumes:
             continue
@@ -86,7 +92,10 @@ def pass_contents(walk: Walk) -> PassContents:
                 read = frame.target(body.image)
                 instance.reads_samples = instance.reads_samples or read is None or read.samples != 1
     passes = (render_pass for render_pass in frame.passes if render_pass.path in found)
-    return {each.path: found[each.path] for each in passes if _work(each, found[each.path]) <= MAX_USES}
+    allowance = Allowance(max_uses(frame))
+    contents = PassContents({each.path: found[each.path] for each in passes if allowance.take(_work(each, found[each.path]))})
+    contents.exhausted = allowance.exhausted
+    return contents
 
 
 def _work(render_pass: Pass, instances: list[Instance]) -> int:

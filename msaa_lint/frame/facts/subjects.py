@@ -19,7 +19,8 @@ from .global_facts import global_facts, profile
 from .image import Bindings, image_facts
 from .lifetimes import lifetime_facts
 from .parts import Aspect, Attachment, Pass, Target
-from .pass_contents import Instance, pass_contents, screen_facts, touch_facts
+from .pass_begin import max_uses, uses_at_most
+from .pass_contents import Instance, PassContents, pass_contents, screen_facts, touch_facts
 from .pipeline import draws_of, pipeline_facts, subpass_of, unshaded
 from .readers import Readers
 from .resolve import command_facts, read_in_vain, resolve_facts
@@ -132,11 +133,26 @@ class FrameAnalysis:
             texture_facts(facts, target, metal, self.shared.values.get("device.lazy_memory"))
         return facts
 
+    @cached_property
+    def pass_contents(self) -> PassContents:
+        """What the commands record in passes."""
+        return pass_contents(self.walk)
+
+    def limits(self) -> Iterator[str]:
+        """What was not looked at, since it would take more time than the length of the description allows."""
+        if not self.timeline.followed:
+            uses, most = uses_at_most(self.frame), max_uses(self.frame)
+            yield f"passes use images {uses} times, more than the limit of {most}; rules about what happens between passes are undecided"
+        if self.search.steps_left < 0:
+            yield "the uses of images follow each other at too great distances; some rules about what becomes of resolves are undecided"
+        if self.pass_contents.exhausted:
+            yield "passes record too many draws and clears for so many attachments; some rules about what these draw are undecided"
+
     def subjects(self) -> Iterator[Subject]:
         """Every subject, in the order of the document's sections."""
         for target in self.frame.run_targets:
             yield Subject("image", target.path, target.record.head, Facts(self.shared, self._image_facts[id(target.record)]), image=target)
-        contents = pass_contents(self.walk)
+        contents = self.pass_contents
         of_subpass: dict[str, Facts] = {}
         for render_pass in self.frame.passes:
             instances = contents.get(render_pass.path, [])

@@ -18,7 +18,7 @@ from msaa_lint.frame.description.models import BeginRenderPass, Command, ImageBa
 from .commands import CLEAR, COMMAND_WRITES, RESOLVE_READ, RESOLVE_WRITE, accesses
 from .frame import Frame
 from .parts import Attachment, Pass, Resolve, Target, sizes_differ
-from .pass_begin import MAX_USES, BegunArea, begun_area, one_surface, targets_at, uses_at_most
+from .pass_begin import BegunArea, begun_area, is_followed, one_surface, targets_at
 from .walk import PassRun, Walk, once_each
 
 LOAD = "load"
@@ -101,7 +101,7 @@ class Timeline:
     def __init__(self, frame: Frame, walk: Walk | None = None) -> None:
         self.frame = frame
         self.walk = walk if walk is not None else Walk(frame)
-        self.followed = uses_at_most(frame) <= MAX_USES
+        self.followed = is_followed(frame)
         """False where passes use images more often than is followed: nothing is known then."""
         self.ordered = self.followed and frame.document.ordered
         """Whether what happens first is known."""

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from msaa_lint.frame.description.models import Command
 from msaa_lint.frame.facts.commands import accesses, naming_records
 from msaa_lint.frame.facts.frame import Frame
-from msaa_lint.frame.facts.pass_begin import MAX_USES, targets_at, uses_at_most
+from msaa_lint.frame.facts.pass_begin import is_followed, targets_at
 
 COMMAND_USAGES = frozenset({"TRANSFER_SRC", "TRANSFER_DST", "SAMPLED", "STORAGE"})
 """The usages whose need can be seen from the commands alone."""
@@ -24,7 +24,7 @@ class CommandUses:
         self._command_positions: dict[str, list[int]] = {}
         self.barriers: dict[str, list[int]] = {}
         """The positions of the barriers that name an image."""
-        self.complete = uses_at_most(frame) <= MAX_USES
+        self.complete = is_followed(frame)
         self.positions: dict[int, int] = {}
         """The position of each command, by the identity of its parameters."""
         begins = {position: begun for begun in frame.passes for position in begun.begun}

@@ -12,11 +12,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.core.finding import Finding
-from msaa_lint.frame.facts.event_search import MAX_STEPS
+from msaa_lint.frame.facts.event_search import MIN_STEPS, STEPS_PER_STRUCTURE
+from msaa_lint.linter.engine import LintOptions
 from msaa_lint.linter.fixes.fixer import fix_text
 from msaa_lint.linter.results import FileResult
 from tests.linter.lifetimes import watched as given_frames
-from tests.linter.lifetimes.watched import given_text, lint
+from tests.linter.lifetimes.watched import ENGINE, as_written, given_text, lint
 from tests.strength import examples
 
 WATCHED = {"MSAA307", "MSAA308", "MSAA315", "MSAA317", "MSAA406", "MSAA601"}
@@ -303,11 +304,16 @@ def test_what_takes_too_long_to_find_out_stays_undecided() -> None:
     rendering = "{image: ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: MIN, resolveImage: depth}"
     passes = f"  - beginRendering: {{depthAttachment: {rendering}}}\n  - endRendering\n" * 700
     images = "images:\n  ms: {format: D32_SFLOAT, samples: 4}\n  depth: {format: D32_SFLOAT, samples: 1, arrayLayers: 700}\n"
-    linted = lint(f"{images}commands:\n{passes}")
+    linted = ENGINE.lint(f"{images}commands:\n{passes}".encode(), "frame.yaml", LintOptions(as_written))
     decided = sum(found.code == "MSAA308" for found in linted.findings)
     left = sum(each.code == "MSAA308" for each in linted.undecided)
     assert decided + left == 700
-    assert 0 < decided <= MAX_STEPS // 700
+    # 700 passes of an attachment and a subpass with an attachment and a resolve, and 1400 commands.
+    assert 0 < decided <= (MIN_STEPS + STEPS_PER_STRUCTURE * (700 * 4 + 1400)) // 700
+    assert [found.message for found in linted.findings if found.code == "MSAA906"] == [
+        "limit exceeded: the uses of images follow each other at too great distances; "
+        "some rules about what becomes of resolves are undecided"
+    ]
 
 
 # 308 and 317 against a frame that is played: what a resolve wrote is a token, which readers mark.
