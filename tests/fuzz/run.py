@@ -156,7 +156,7 @@ def load(kind: Kind, folder: Path) -> None:
     from tests.command import run
 
     packaged = functools.cache(lambda: engine.load_rules([]))
-    workspace.load_rules = lambda paths: engine.load_rules(paths) if paths else packaged()  # type: ignore[attr-defined]
+    workspace.load_rules = lambda paths, *more: engine.load_rules(paths, *more) if paths else packaged()  # type: ignore[attr-defined]
     place(folder, kind, seeds(kind)[0])
     for command in kind.commands[:1] + tuple(set(kind.commands) - _loaded):
         run(folder, *arguments_of(kind, command))

@@ -163,6 +163,6 @@ def _depth_stencil_resolve(extensions: tuple[str, ...] | None, version: str | No
 
 def _version(text: str | None) -> tuple[int, int] | None:
     parts = (text or "").split(".")
-    if len(parts) < 2 or not all(part.isdigit() and len(part) < 6 for part in parts[:2]):
+    if len(parts) < 2 or not all(part.isascii() and part.isdigit() and len(part) < 6 for part in parts[:2]):
         return None
     return int(parts[0]), int(parts[1])

@@ -44,7 +44,7 @@ def loads(text: bytes, line: int, column: int = 1, call: int | None = None) -> A
     try:
         value = orjson.loads(text)
     except orjson.JSONDecodeError as error:
-        if "limit" in error.msg.lower():
+        if "depth" in error.msg:
             raise CaptureError(TOO_DEEP, Place(line, column, call)) from None
         try:
             value = orjson.loads(_repair(text))

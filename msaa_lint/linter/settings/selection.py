@@ -102,7 +102,7 @@ class Selection:
 
 
 def _edition(text: str) -> tuple[int, ...]:
-    return tuple(int(part) if part.isdecimal() else 0 for part in text.split("."))
+    return tuple(int(part[:9]) if part.isdecimal() else 0 for part in text.split("."))
 
 
 def _enabled(settings: Settings, rule: Named, later: bool, always: bool) -> tuple[bool, str | None]:

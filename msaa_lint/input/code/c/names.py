@@ -174,7 +174,7 @@ def constant(name: str) -> int | str | bool | None:
         return "VK_SUBPASS_EXTERNAL" if name.endswith("::SubpassExternal") else 2**32 - 1 if name.endswith("::AttachmentUnused") else None
     enum = f"Vk{match[1]}"
     if enum == "VkSampleCountFlagBits":
-        return int(match[2]) if match[2].isdecimal() else None
+        return int(match[2]) if match[2].isdecimal() and len(match[2]) < 3 else None
     enum = _TABLES.get(enum, enum)
     if enum not in VALUES:
         return None

@@ -285,7 +285,7 @@ class Variables(ABC):
         size = array_size(kind)
         if not size:
             return
-        count = int(size) if size.isdecimal() else self.sole((NAME, size, array.at), scope)
+        count = int(size[:9]) if size.isdecimal() else self.sole((NAME, size, array.at), scope)
         if type(count) is not int or not 0 <= count <= 64:
             array.complete = False
             return
