@@ -9,11 +9,12 @@ from functools import partial
 from time import perf_counter
 from typing import IO, Any
 
-from msaa_lint.core.finding import is_confident, rank
+from msaa_lint.core.diagnostics import diagnostic, internal_error
+from msaa_lint.core.finding import Result, is_confident, rank
 from msaa_lint.core.text.node import Limits
 from msaa_lint.input.file_types import STDIN
-from msaa_lint.linter.run import Outcome, run
-from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
+from msaa_lint.linter.run import Outcome, Progress, run
+from msaa_lint.linter.settings.settings import COMMAND_LINE, OUTPUT_FORMATS, Settings
 from msaa_lint.linter.workspace import Request
 
 from .common import (
@@ -55,7 +56,7 @@ def _check(arguments: Arguments) -> int:
     refuse_inputs([target.path for target in targets], arguments["paths"])
     fallback = "full" if sys.stdout.isatty() else "concise"
     start = perf_counter()
-    outcome = run(request(arguments, targets, fallback), None if arguments.get("quiet") else _progress())
+    outcome = _outcome(request(arguments, targets, fallback), None if arguments.get("quiet") else _progress())
     if arguments.get("verbose"):
         warn(f"checked {plural(len(outcome.result.files), 'input')} in {perf_counter() - start:.2f} s")
     if not targets:
@@ -74,6 +75,17 @@ def _check(arguments: Arguments) -> int:
         if savings.all.findings and savings.all.price is None:
             note(f"{file}: the sizes or formats that price its fixes are unknown, so --fail-on-cost does not apply to it")
     return code
+
+
+def _outcome(asked: Request, progress: Progress | None) -> Outcome:
+    """The outcome of a run. If the run itself fails, that is its only finding: the formats that programs read are whole."""
+    try:
+        return run(asked, progress)
+    except Exception as error:
+        if asked.traceback:
+            raise
+        finding = diagnostic("MSAA941", internal_error(error), COMMAND_LINE)
+        return Outcome(Result([finding], [], [], [], {}, []), Settings(), [])
 
 
 def _print_diff(targets: Sequence[Target], outcome: Outcome, arguments: Arguments) -> int:

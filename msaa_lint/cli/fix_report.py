@@ -12,7 +12,7 @@ from msaa_lint.linter.fixes.file_fixes import FixedText
 from msaa_lint.linter.run import Outcome
 
 from .report.color import paint
-from .report.escape import escape, escape_commands
+from .report.escape import escape, escape_lines
 from .report.summary import files_saving
 
 _LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n)|[^\r\n]+")
@@ -47,7 +47,7 @@ def unified_diff(before: str, after: str, name: str, color: bool = False) -> Ite
     for number, line in enumerate(lines):
         text = line.rstrip("\r\n")
         end = line[len(text) :]
-        escaped = escape_commands("\t".join(escape(part) for part in text.split("\t")))
+        escaped = escape_lines(text)
         style = "1" if number < 2 else _STYLES.get(text[:1], "")
         # A carriage return before the line end stays, so that the diff can be applied.
         yield paint(escaped, style, color) + (end if end in ("\r\n", "\n") else "\n")

@@ -19,6 +19,9 @@ from msaa_lint.linter.workspace import Request, Workspace
 
 from .common import overrides, run_command, warn
 from .options import Arguments
+from .report.escape import display, escape_lines
+from .report.markdown import escape_markdown
+from .report.paths import uri
 
 CODE_WIDTH, NAME_WIDTH = 8, 44
 """Columns of the list of rules; a longer code or name moves the rest of its line."""
@@ -31,7 +34,11 @@ def rule(arguments: Arguments) -> int:
 
 def _rule(arguments: Arguments) -> int:
     output = arguments.get("output", "text")
-    workspace = Workspace(Request([], overrides(arguments), arguments.get("config"), bool(arguments.get("isolated"))))
+    workspace = Workspace(
+        Request(
+            [], overrides(arguments), arguments.get("config"), bool(arguments.get("isolated")), traceback=bool(arguments.get("traceback"))
+        )
+    )
     if arguments.get("all") or not arguments["paths"]:
         return list_rules(workspace, output)
     return explain_rule(arguments["paths"][0], workspace, output)
@@ -61,13 +68,13 @@ def list_rules(workspace: Workspace, output: str) -> int:
     """Prints the rules; returns 2 if the configuration or a custom page cannot be used."""
     rules: list[Rule | RuleInfo] = [*workspace.current.engine.registry.rules, *DIAGNOSTICS.values()]
     if output == "json":
-        print(json.dumps([_record(rule) for rule in rules], indent=2, ensure_ascii=False))
+        print(json.dumps([_record(rule) for rule in rules], indent=2))
     elif output == "markdown":
         print(index(rules), end="")
     else:
         _print_list(rules)
     _warn_of_problems(workspace)
-    return 2 if workspace.findings else 0
+    return 2 if any(found.fatal for found in workspace.findings) else 0
 
 
 def _print_list(rules: Sequence[Rule | RuleInfo]) -> None:
@@ -85,7 +92,7 @@ def _print_list(rules: Sequence[Rule | RuleInfo]) -> None:
 
 def _summary(rule: Rule | RuleInfo) -> str:
     """A rule's summary; that of a custom rule begins with its page."""
-    return f"({rule.source.name}) {rule.summary}" if isinstance(rule, Rule) and rule.is_custom else rule.summary
+    return display(f"({rule.source.name}) {rule.summary}") if isinstance(rule, Rule) and rule.is_custom else rule.summary
 
 
 def _warn_of_problems(workspace: Workspace, pages: Collection[str] = ()) -> None:
@@ -115,9 +122,13 @@ def index(rules: Sequence[Rule | RuleInfo]) -> str:
         if heading != family:
             family = heading
             out.append(f"\n## {heading}\n\n| code | rule | severity | summary |\n|---|---|---|---|\n")
-        name = f"[{rule.name}]({rule.source.name.removeprefix('rules/')})" if isinstance(rule, Rule) else rule.name
+        name, summary = rule.name, rule.summary
+        if isinstance(rule, Rule) and rule.is_custom:
+            name, summary = f"[{name}]({uri(rule.source.name, '')})", escape_markdown(display(summary))
+        elif isinstance(rule, Rule):
+            name = f"[{name}]({rule.source.name.removeprefix('rules/')})"
         fix = " Has a fix." if isinstance(rule, Rule) and rule.fix_specs else ""
-        out.append(f"| {rule.code} | {name} | {rule.severity} | {rule.summary}{fix} |\n")
+        out.append(f"| {rule.code} | {name} | {rule.severity} | {summary}{fix} |\n")
     return "".join(out)
 
 
@@ -157,19 +168,18 @@ def page(rule: Rule) -> str:
 def _print_page(rule: Rule, output: str) -> None:
     text = page(rule)
     if output == "json":
-        print(json.dumps({**_record(rule), "condition": rule.when, "page": text}, indent=2, ensure_ascii=False))
+        print(json.dumps({**_record(rule), "condition": rule.when, "page": text}, indent=2))
     elif output == "markdown" or not sys.stdout.isatty():
-        print(text)
+        print(escape_lines(text))
     else:
-        from rich.console import Console
-        from rich.markdown import Markdown
-
         # rich hides the info string of a fence, which says what kind of example it is.
-        Console().print(Markdown(re.sub(r"^```(yaml|json) (bad|fixed|good)\b.*$", r"*\2:*\n\n```\1", text, flags=re.MULTILINE)))
+        from .report.rendered_page import print_markdown
+
+        print_markdown(re.sub(r"^```(yaml|json) (bad|fixed|good)\b.*$", r"*\2:*\n\n```\1", text, flags=re.MULTILINE))
 
 
 def _print_diagnostic(diagnostic: RuleInfo, output: str) -> None:
     if output == "json":
-        print(json.dumps(_record(diagnostic), indent=2, ensure_ascii=False))
+        print(json.dumps(_record(diagnostic), indent=2))
     else:
         print(f"# {diagnostic.name}\n\n**{diagnostic.code}**, {diagnostic.severity}. {diagnostic.summary}")

@@ -6,6 +6,8 @@ from .finding import Finding, RuleInfo
 from .quote import quoted
 from .text.span import Label, Span
 
+HIDDEN_CHARACTER = "MSAA914"
+
 _TEXTS = {
     "MSAA901": ("syntax", "error", "The input is not readable: its encoding, its YAML or its JSON is broken."),
     "MSAA902": ("unknown-key", "error", "A key that the structure does not have."),
@@ -16,6 +18,11 @@ _TEXTS = {
     "MSAA911": ("unused-suppression", "warning", "A suppression comment that silences nothing."),
     "MSAA912": ("unknown-rule-in-suppression", "warning", "A suppression comment that names no rule there is, or that cannot be read."),
     "MSAA913": ("blanket-suppression", "warning", "A suppression comment that names no rule: it silences nothing."),
+    "MSAA914": (
+        "hidden-character",
+        "note",
+        "A character that cannot be seen, or that displays its line in another order than it is read.",
+    ),
     "MSAA921": ("configuration", "error", "The configuration, a rule page, a baseline or a path cannot be used."),
     "MSAA931": ("unread-input", "error", "With `--strict-inputs`: the input creates something multisampled, but shows no pass to check."),
     "MSAA941": (

@@ -7,8 +7,9 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.allowance import Allowance
-from msaa_lint.core.diagnostics import diagnostic
+from msaa_lint.core.diagnostics import DIAGNOSTICS, HIDDEN_CHARACTER, diagnostic
 from msaa_lint.core.finding import CONFIDENCES, Finding, RuleInfo, Suppressed, Undecided
+from msaa_lint.core.hidden_characters import hidden_characters
 from msaa_lint.core.text.source import Source, Unreadable, decode
 from msaa_lint.core.text.span import Span
 from msaa_lint.core.text.tree import Limits, parse
@@ -113,6 +114,8 @@ class Engine:
             findings.extend(_prefixed(verdicts.findings, prefix))
             undecided.extend(rule._replace(subject=prefix + rule.subject) for rule in verdicts.undecided)
             results.append(DocumentResult(document, verdicts.fix_specs, number, device, verdicts.checked))
+        if modules is None:
+            findings += hidden_characters(source)
         suppressed: list[Suppressed] = []
         if options.ignores and _has_suppressions(source.text):
             from msaa_lint.core.text.comments import comments
@@ -144,6 +147,7 @@ class Engine:
         # Functions that share a structure are separate documents with the same finding.
         findings = distinct(findings)
         limits = [diagnostic("MSAA906", part.message, file, part.at) for part in program.unread]
+        findings += _hidden_characters_of_code(code)
         suppressed: list[Suppressed] = []
         if options.ignores and _has_suppressions(source.text):
             from msaa_lint.input.code.comments import comments
@@ -220,23 +224,26 @@ class Engine:
         """
         from .suppress.suppressions import apply
 
-        enabled = {rule.name for rule in self.registry.rules if severity(rule, rule.severity, None) is not None}
+        enabled = {DIAGNOSTICS[HIDDEN_CHARACTER].name}
+        enabled |= {rule.name for rule in self.registry.rules if severity(rule, rule.severity, None) is not None}
         remaining, suppressed, about_comments = apply(
             findings, comments, source, self.registry.names, enabled.difference(undecided, self._runner.turned_off()), comment_lines
         )
         return [*remaining, *about_comments], suppressed
 
 
-def load_rules(paths: Sequence[str] = (), projects: Mapping[str, str] = {}, budget: Budget | None = None) -> Registry:
+def load_rules(
+    paths: Sequence[str] = (), projects: Mapping[str, str] = {}, budget: Budget | None = None, traceback: bool = False
+) -> Registry:
     """The built-in rules and the user's own rules at `paths`, the latter checked within the `budget` of the run. `projects` has those of
-    paths in a configuration."""
+    paths in a configuration. `traceback` is as for `load`."""
 
     def check_fixes(rule: Rule) -> list[Finding]:
         from .fixes.fix_checks import problems
 
         return problems(rule)
 
-    return load(paths, check_fixes, projects, budget)
+    return load(paths, check_fixes, projects, budget, traceback)
 
 
 def rule_infos(registry: Registry, severity: Severity, full: bool) -> list[RuleInfo]:
@@ -297,8 +304,19 @@ def _prefixed(findings: Iterable[Finding], prefix: str) -> Iterable[Finding]:
 
 
 def _of_code(finding: Finding) -> Finding:
+    if finding.code == HIDDEN_CHARACTER:
+        return finding
     fix = finding.fix and finding.fix._replace(edits=(), shown=True)
     return finding._replace(confidence=CONFIDENCES[0], fix=fix)
+
+
+def _hidden_characters_of_code(code: SourceFile) -> Iterable[Finding]:
+    """Notes about characters of code; those of Markdown's prose are its author's."""
+    findings = hidden_characters(code.source)
+    if not findings or code.language != "markdown":
+        return findings
+    lines = _LINE.findall(_code_only(code).text)
+    return [found for found in findings if found.span and lines[code.source.position(found.span.start).line - 1].strip()]
 
 
 def _code_only(code: SourceFile) -> Source:

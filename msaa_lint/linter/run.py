@@ -103,7 +103,9 @@ class _Run:
         # A broken rule page comes first: other findings of the configuration may be due to it.
         order = {**{file: number for number, file in enumerate(files)}, **dict.fromkeys(self.workspace.broken_pages(), -2)}
         # Two configurations may name the same broken rule page.
-        findings = [found for found in dict.fromkeys([*self.workspace.findings, *self.findings]) if self._is_shown(found)]
+        settle = self.workspace.current.selection.settle
+        of_run = [found for found in map(settle, self.workspace.findings) if found is not None]
+        findings = [found for found in dict.fromkeys([*of_run, *self.findings]) if self._is_shown(found)]
         findings.sort(key=lambda found: (order.get(found.file, -1), found.file))
         if self.request.by_price:
             findings.sort(key=_highest_price)

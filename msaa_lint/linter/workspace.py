@@ -195,7 +195,7 @@ class Workspace:
         projects = settings.page_projects()
         key = settings.rules, tuple(sorted(projects.items()))
         if key not in self._engines:
-            registry = load_rules([path for path in settings.rules if os.path.exists(path)], projects, self._budget)
+            registry = load_rules([path for path in settings.rules if os.path.exists(path)], projects, self._budget, self.request.traceback)
             self.findings.extend(registry.problems)
             self.sources.update(registry.sources)
             self._engines[key] = Engine(registry, self._budget)

@@ -13,7 +13,7 @@ MAX_LENGTH = 4096
 
 # Printable according to Unicode's categories, but invisible: fillers, the Braille blank, variation selectors.
 _INVISIBLE = frozenset(
-    "\u034f\u115f\u1160\u17b4\u17b5\u180b\u180c\u180d\u180f\u2800\u3164\uffa0"
+    "\u034f\u115f\u1160\u17b4\u17b5\u180b\u180c\u180d\u180f\u2800\u3164\uffa0\U00016fe4\U0001d159"
     + "".join(map(chr, range(0xFE00, 0xFE10)))
     + "".join(map(chr, range(0xE0100, 0xE01F0)))
 )
@@ -42,6 +42,12 @@ def escape(text: str) -> str:
 def escape_commands(text: str) -> str:
     """Lines to print, of which none begins with `::`, after spaces and colors: CI runners obey `::command::` there."""
     return re.sub(r"(?m)^((?:\x1b\[[0-9;]*m|[ \t])*):(?=:)", r"\1\\x3a", text)
+
+
+def escape_lines(text: str) -> str:
+    """A text of several lines, such as a page: line ends and tabs stay, and everything else is escaped."""
+    lines = text.replace("\r\n", "\n").split("\n")
+    return escape_commands("\n".join("\t".join(map(escape, line.split("\t"))) for line in lines))
 
 
 def display(text: str) -> str:

@@ -12,7 +12,7 @@ from msaa_lint.linter.rules.reference_links import link
 
 from . import Options, Write
 from .data import dump, write_list
-from .escape import clip, display, escape_surrogates
+from .escape import clip, display, escape_lines, escape_surrogates
 from .fingerprint import fingerprints
 from .inputs import checked
 from .paths import uri
@@ -93,8 +93,8 @@ def _rules(result: Result, findings: Sequence[Finding]) -> list[RuleInfo]:
 
 def _descriptor(rule: RuleInfo) -> dict[str, object]:
     summary = display(rule.summary) or display(rule.name).replace("-", " ").capitalize() or display(rule.code)
-    page = escape_surrogates(rule.markdown.strip()) or summary
-    links = [(escape_surrogates(reference), link(reference)) for reference in rule.references]
+    page = escape_lines(rule.markdown.strip()) or summary
+    links = [(display(reference), link(reference)) for reference in rule.references]
     references = "\n".join(f"- {_linked(reference, address)}" for reference, address in links if reference not in page)
     tags = ["msaa", "vulkan", *_family(rule)]
     descriptor: dict[str, object] = {

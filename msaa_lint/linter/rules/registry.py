@@ -7,8 +7,9 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core import package
-from msaa_lint.core.diagnostics import diagnostic
+from msaa_lint.core.diagnostics import diagnostic, internal_error
 from msaa_lint.core.finding import Finding, RuleInfo
+from msaa_lint.core.hidden_characters import hidden_characters
 from msaa_lint.core.project import project_root
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Span
@@ -71,12 +72,13 @@ def load(
     check_fixes: CheckFixes = lambda _: [],
     projects: Mapping[str, str] = {},
     budget: Budget | None = None,
+    traceback: bool = False,
 ) -> Registry:
     """The built-in rules, and the rules of the given rule pages and folders of rule pages.
 
     `projects` has the projects of the paths that a configuration names. The pages of a folder must be in its project. Only the user's own
     rules are checked here, fixes with `check_fixes`, within the `budget` of the run; the test suite checks the built-in rules. A rule with
-    a problem is left out.
+    a problem is left out. `traceback` raises an exception that reading one of the user's pages causes, instead of reporting it.
     """
     budget = budget or Budget()
     rules: list[Rule] = []
@@ -100,12 +102,18 @@ def load(
     others = {word: rule for rule in rules for word in (rule.code, rule.name)}
     for path, project in user_pages.items():
         shown = os.path.relpath(path).replace(os.sep, "/")
-        if budget.left:
-            page = _checked(read_page(path, shown, project), path, others, names, check_fixes, budget)
-        else:
-            page = _unread(path, shown, budget)
+        try:
+            if budget.left:
+                page = _checked(read_page(path, shown, project), path, others, names, check_fixes, budget)
+            else:
+                page = _unread(path, shown, budget)
+        except Exception as error:
+            if traceback:
+                raise
+            page = Page(None, (diagnostic("MSAA941", internal_error(error), shown),))
         if page.source is not None:
             sources[shown] = page.source
+            problems += hidden_characters(page.source)
         if page.rule is not None:
             rules.append(page.rule)
             others.update({page.rule.code: page.rule, page.rule.name: page.rule})

@@ -9,15 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 
-from msaa_lint.core.diagnostics import DIAGNOSTICS
+from msaa_lint.core.diagnostics import DIAGNOSTICS, HIDDEN_CHARACTER
 from msaa_lint.core.finding import SEVERITIES, Finding
 from msaa_lint.core.globs import matches
 
 from .selectors import EXACT, Named, Weighed, max_specificity, specificity
 from .settings import Settings
 
-ABOUT_COMMENTS = ("MSAA911", "MSAA912", "MSAA913")
-"""Diagnostics of suppression comments: `select` leaves them enabled, everything else can disable them."""
+ABOUT_TEXT = ("MSAA911", "MSAA912", "MSAA913", HIDDEN_CHARACTER)
+"""Diagnostics of suppression comments and of characters: `select` leaves them enabled, everything else can disable them."""
 
 Severity = Callable[[Weighed, str, str | None], str | None]
 """`severity(rule, suggested, vendor)`: the severity of a rule's finding in one file; None where the rule is off."""
@@ -40,7 +40,7 @@ class Selection:
         pinned = None if settings.edition is None else _edition(settings.edition)
         for rule in rules:
             self._add(rule, later=pinned is not None and bool(rule.edition) and _edition(rule.edition) > pinned)
-        for code in ABOUT_COMMENTS:
+        for code in ABOUT_TEXT:
             self._add(DIAGNOSTICS[code], always=True)
 
     def _add(self, rule: Named, later: bool = False, always: bool = False) -> None:
@@ -84,8 +84,8 @@ class Selection:
         return severity
 
     def settle(self, finding: Finding) -> Finding | None:
-        """A finding with the severity that is configured for it if it is about a comment; None if that is off for its file."""
-        if finding.code not in ABOUT_COMMENTS:
+        """A finding with the severity that is configured for it if it is in ABOUT_TEXT; None if that is off for its file."""
+        if finding.code not in ABOUT_TEXT:
             return finding
         if not self.enabled(DIAGNOSTICS[finding.code], finding.file):
             return None
