@@ -12,6 +12,7 @@ from msaa_lint.core import atomic_write
 from msaa_lint.core.diagnostics import internal_error
 from msaa_lint.core.extras import needs_extra
 from msaa_lint.core.package import VERSION
+from msaa_lint.core.project import resolved
 from msaa_lint.core.quote import quoted
 
 from .options import Arguments
@@ -140,7 +141,7 @@ def parse_outputs(texts: Sequence[str], formats: Sequence[str], example: str) ->
 def refuse_inputs(outputs: Iterable[str | None], inputs: Sequence[str]) -> None:
     """UsageError if two outputs would go to the same file, or one would replace an input. None is standard output."""
     paths = [path for path in outputs if path is not None]
-    places = list(map(os.path.realpath, paths))
+    places = list(map(_place, paths))
     for number, (path, place) in enumerate(zip(paths, places, strict=True)):
         if os.path.exists(path) and not os.path.isfile(path):
             continue
@@ -148,6 +149,14 @@ def refuse_inputs(outputs: Iterable[str | None], inputs: Sequence[str]) -> None:
             raise UsageError(f"two outputs go to {path}; write each to a file of its own")
         if os.path.isfile(path) and any(_is_same_file(path, each) for each in inputs):
             raise UsageError(f"{path} is an input, which the output would replace; write it to another file")
+
+
+def _place(path: str) -> str:
+    """The path with links resolved; itself if that is not possible."""
+    try:
+        return resolved(path)
+    except OSError:
+        return path
 
 
 def _is_same_file(path: str, other: str) -> bool:

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import IO
 
-from .project import leaving_link
+from .project import leaving_link, resolved
 
 _NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
 
@@ -84,7 +84,7 @@ def replace(path: str, before: bytes, after: bytes) -> None:
     temporary = ""
     try:
         _refuse_link(path)
-        target = os.path.realpath(path)
+        target = resolved(path)
         status = _check_unchanged(target, before)
         if _is_read_only(target, status):
             raise NotWritten("the file is read-only")

@@ -6,10 +6,14 @@ configuration file, or else the folder itself. A path that a file or a link of t
 
 from __future__ import annotations
 
+import errno
 import os
 
 NAMES = ("msaa-lint.toml", "pyproject.toml")
 """The names of configuration files; in a folder with both, the first is used."""
+
+MAX_PATH = 1 << 15
+"""Characters of a path, as in Windows; other systems have less. Resolving a longer one takes time that grows with its square."""
 
 _VCS_DATA = (".git", ".hg", ".jj", ".svn", ".bzr", "_darcs", ".fslckout")
 
@@ -41,14 +45,23 @@ def folder_of(file: str) -> str:
     return os.curdir if is_stream else os.path.dirname(file) or os.curdir
 
 
+def resolved(path: str) -> str:
+    """A path with all symbolic links resolved. Raises OSError for a path that no file can have."""
+    if len(path) > MAX_PATH:
+        raise OSError(errno.ENAMETOOLONG, os.strerror(errno.ENAMETOOLONG))
+    try:
+        return os.path.realpath(path)
+    except ValueError as error:
+        raise OSError(f"invalid file name: {error}") from None
+    except RecursionError:
+        raise OSError(errno.ELOOP, os.strerror(errno.ELOOP)) from None
+
+
 def real_path(path: str, project: str) -> str:
     """A path that content states, with all symbolic links resolved. Raises Outside if it leaves the project, and OSError for a URL."""
     if "://" in path:
         raise OSError("it is a URL, not a path")
-    try:
-        real, root = os.path.realpath(path), os.path.realpath(project)
-    except ValueError as error:
-        raise OSError(f"invalid file name: {error}") from None
+    real, root = resolved(path), os.path.realpath(project)
     below = root if root.endswith(os.sep) else root + os.sep
     if real != root and not os.path.normcase(real).startswith(os.path.normcase(below)):
         raise Outside

@@ -8,7 +8,7 @@ import os
 import stat
 from typing import TYPE_CHECKING, NamedTuple
 
-from msaa_lint.core.project import Outside, folder_of, project_root, real_path
+from msaa_lint.core.project import Outside, folder_of, project_root, real_path, resolved
 from msaa_lint.core.quote import quoted_path
 from msaa_lint.core.suggestions import nearest
 from msaa_lint.core.text.files import read
@@ -108,7 +108,7 @@ def reports(path: str, called: str, project: str | None) -> "list[Report] | Prob
     from .devices.reports import EXPECTED, MAX_BYTES, NotAReport
 
     try:
-        real = os.path.realpath(path) if project is None else real_path(path, project)
+        real = resolved(path) if project is None else real_path(path, project)
         status = os.stat(path if project is None else real)
         # A pipe changes as it is read.
         version = (status.st_mtime_ns, status.st_size) if stat.S_ISREG(status.st_mode) else (0, 0)

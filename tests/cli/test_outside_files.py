@@ -329,6 +329,33 @@ def test_a_mesh_names_no_texture(project: Path) -> None:
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.parametrize("what", ["chain", "long"])
+def test_paths_that_no_file_can_have(project: Path, what: str) -> None:
+    """A chain of more links than the system follows, and a path of half a million folders."""
+    for number in range(2000):
+        link(project / f"l{number}", f"l{number + 1}")
+    name = "l0" if what == "chain" else "a/" * 500_000 + "x"
+    reason = "Too many levels of symbolic links" if what == "chain" else "File name too long"
+    for ending in ("toml", "json", "md", "msaa.yaml"):
+        link(project / f"chain.{ending}", "l0")
+    for key, ending in (("extends", "toml"), ("baseline", "json"), ("profile", "json"), ("rules", "md")):
+        value = f"chain.{ending}" if what == "chain" else f"{name}.{ending}"
+        (project / "msaa-lint.toml").write_text(f"{key} = " + (f'["{value}"]' if key == "rules" else f'"{value}"'))
+        assert reason in only(checked(project)), key
+    (project / "msaa-lint.toml").unlink()
+    device = "chain.json" if what == "chain" else f"{name}.json"
+    (project / "frame.msaa.yaml").write_text(f"{FRAME}device: {device}\n")
+    assert f"cannot be read: {reason}" in run(project, "check", "frame.msaa.yaml").stdout
+    (project / "frame.msaa.yaml").write_text(SHADED.format(device))
+    assert f"cannot be read: {reason}" in run(project, "check", "frame.msaa.yaml").stdout
+    if what == "chain":
+        (project / "frame.msaa.yaml").write_text(FRAME)
+        done = run(project, "check", "--output", "concise", "--output", "json=chain.json", ".", "--rules", ".")
+        assert "chain.md: error[configuration] cannot read the rule page: Too many levels of symbolic links (MSAA921)" in done.stdout
+        assert "chain.msaa.yaml is a link that is broken or leaves the project" in done.stderr
+        assert json.loads((project / "chain.json").read_text())["summary"]["files"] == 2
+
+
 # --- discovery ------------------------------------------------------------------------------------------------------------------
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 
+from msaa_lint.core.project import resolved
+
 from .escape import escape
 
 
@@ -16,7 +18,7 @@ def relative(file: str, root: str, resolve: bool = False) -> str:
     if not root or file == "-" or file.startswith("<"):
         return _without_dot(name)
     try:
-        for place in (os.path.realpath,) if resolve else (os.path.abspath, os.path.realpath):
+        for place in (resolved,) if resolve else (os.path.abspath, resolved):
             full, base = place(file), place(root)
             below = base if base.endswith(os.sep) else base + os.sep
             if full.startswith(below):

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
-from msaa_lint.core.project import NAMES, Outside, folder_of, project_root, shown
+from msaa_lint.core.project import NAMES, Outside, folder_of, project_root, resolved, shown
 from msaa_lint.core.quote import quoted
 from msaa_lint.core.text.span import Span
 
@@ -157,7 +157,7 @@ def _read(path: str, text: str, table: dict[str, Any] | Finding) -> Loaded:
     current: str | None = path
     while current is not None:
         name = shown(current)
-        chain.append(os.path.realpath(current))
+        chain.append(resolved(current))
         source = sources[name] = Source(name, text)
         if isinstance(table, Finding):
             findings.append(table)
@@ -200,7 +200,7 @@ def _extended(reader: TableReader, table: Mapping[str, Any], chain: list[str]) -
     path = reader.project_path(("extends",), text)
     if path is None:
         return None
-    real = os.path.realpath(path)
+    real = resolved(path)
     if real in chain:
         cycle = " > ".join(shown(each) for each in [*chain[chain.index(real) :], real])
         reader.problem(("extends",), f"cycle {cycle}")
