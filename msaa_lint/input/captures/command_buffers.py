@@ -24,7 +24,7 @@ class RecordedCommand:
     Equal commands, with the same `kind` and `key`, are one object. `detail` holds the counts of the first of them.
     """
 
-    __slots__ = ("at", "by", "detail", "key", "kind")
+    __slots__ = ("at", "by", "detail", "key", "kind", "written")
 
     def __init__(self, kind: str, key: Hashable, at: Place, by: str, detail: tuple[int | None, int | None] | None = None) -> None:
         self.kind = kind
@@ -32,6 +32,8 @@ class RecordedCommand:
         self.at = at
         self.by = by
         self.detail = detail
+        self.written: tuple[Image | None, ...] | None = None
+        """The images that it writes; None until that is asked."""
 
 
 class DescriptorReads(NamedTuple):
@@ -77,13 +79,15 @@ class CommandCache:
 class CommandBuffer:
     """A command buffer: its state during recording, and its commands."""
 
-    __slots__ = ("bound", "commands", "compute_bound", "counted", "fresh", "many", "omitted", "pipeline", "reads", "samples",
+    __slots__ = ("bound", "commands", "compute_bound", "counted", "executes", "fresh", "many", "omitted", "pipeline", "reads", "samples",
                  "submission", "submitted_length", "subpass_commands")  # fmt: skip
 
     def __init__(self) -> None:
         self.commands: list[RecordedCommand | Execution] = []
         self.reads = False
         """Whether `commands` contains DescriptorReads."""
+        self.executes = False
+        """Whether `commands` contains Executions."""
         self.omitted = False
         """Whether commands were left out, or those of a secondary command buffer."""
         self.counted = False

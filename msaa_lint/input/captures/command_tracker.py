@@ -40,7 +40,8 @@ class CommandTracker(Descriptors):
         self.render_passes: dict[int, RenderPass] = {}
         self.framebuffers: dict[int, Framebuffer] = {}
         self.pipelines: dict[int, Pipeline] = {}
-        self.buffers: dict[int, CommandBuffer] = {}
+        self.buffers: dict[int, CommandBuffer | None] = {}
+        """None until a command buffer is used."""
         self.pools: dict[int, set[int]] = {}
 
     def buffer(self, call: Call) -> CommandBuffer:
@@ -58,8 +59,9 @@ class CommandTracker(Descriptors):
         pool = self.pools.setdefault(values.handle(info.get("commandPool")), set())
         for item in values.items(call.args.get("pCommandBuffers")):
             handle = values.handle(item)
-            self.buffers[handle] = CommandBuffer()
-            pool.add(handle)
+            if self.has_room(self.buffers, call):
+                self.buffers[handle] = None
+                pool.add(handle)
 
     def on_DestroyCommandPool(self, call: Call) -> None:
         for handle in self.pools.pop(values.handle(call.args.get("commandPool")), ()):
@@ -145,6 +147,7 @@ class CommandTracker(Descriptors):
                 buffer.reads = buffer.reads or secondary.reads
                 buffer.omitted = buffer.omitted or secondary.omitted
                 if secondary.commands:
+                    buffer.executes = True
                     buffer.record(Execution(secondary.commands, len(secondary.commands)))
         # vkCmdExecuteCommands makes all bound state undefined.
         buffer.pipeline = None
@@ -174,7 +177,7 @@ class CommandTracker(Descriptors):
         bound = buffer.bound if point in GRAPHICS else buffer.compute_bound
         slot = values.integer(call.args.get("firstSet")) or 0
         for item in values.items(call.args.get("pDescriptorSets"))[: max(MAX_BOUND - slot, 0) if slot >= 0 else 0]:
-            descriptors = self.sets.get(values.handle(item))
+            descriptors = self.set(item)
             if descriptors is not bound.get(slot):
                 # Rebinding the same set with other offsets does not change its images.
                 buffer.fresh = True

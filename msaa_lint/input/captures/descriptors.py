@@ -28,16 +28,26 @@ class Descriptors(Images):
 
     def __init__(self) -> None:
         super().__init__()
-        self.sets: dict[int, DescriptorSet] = {}
-        self.set_pools: dict[int, set[int]] = {}
+        self.sets: dict[int, DescriptorSet | None] = {}
+        """None until a set is used."""
+        self.set_pools: dict[int, dict[int, None]] = {}
 
     def on_AllocateDescriptorSets(self, call: Call) -> None:
         info = values.record(call.args.get("pAllocateInfo"))
-        pool = self.set_pools.setdefault(values.handle(info.get("descriptorPool")), set())
+        pool = self.set_pools.setdefault(values.handle(info.get("descriptorPool")), {})
         for item in values.items(call.args.get("pDescriptorSets")):
             handle = values.handle(item)
-            self.sets[handle] = DescriptorSet()
-            pool.add(handle)
+            if self.has_room(self.sets, call):
+                self.sets[handle] = None
+                pool[handle] = None
+
+    def set(self, value: object) -> DescriptorSet | None:
+        """The set of a handle; None if there is none."""
+        handle = values.handle(value)
+        descriptors = self.sets.get(handle)
+        if descriptors is None and handle in self.sets:
+            descriptors = self.sets[handle] = DescriptorSet()
+        return descriptors
 
     def on_ResetDescriptorPool(self, call: Call) -> None:
         for handle in self.set_pools.pop(values.handle(call.args.get("descriptorPool")), ()):
@@ -46,20 +56,20 @@ class Descriptors(Images):
     on_DestroyDescriptorPool = on_ResetDescriptorPool
 
     def on_FreeDescriptorSets(self, call: Call) -> None:
-        pool = self.set_pools.get(values.handle(call.args.get("descriptorPool")), set())
+        pool = self.set_pools.get(values.handle(call.args.get("descriptorPool")), {})
         for handle in map(values.handle, values.items(call.args.get("pDescriptorSets"))):
             self.sets.pop(handle, None)
-            pool.discard(handle)
+            pool.pop(handle, None)
 
     def on_UpdateDescriptorSets(self, call: Call) -> None:
         for item in values.items(call.args.get("pDescriptorWrites")):
             write = values.record(item)
-            target_set = self.sets.get(values.handle(write.get("dstSet")))
+            target_set = self.set(write.get("dstSet"))
             if target_set is not None:
                 self.write(target_set, write)
         for item in values.items(call.args.get("pDescriptorCopies")):
             copy = values.record(item)
-            source, target = (self.sets.get(values.handle(copy.get(name))) for name in ("srcSet", "dstSet"))
+            source, target = (self.set(copy.get(name)) for name in ("srcSet", "dstSet"))
             if source is not None and target is not None:
                 self._copy(source, target, copy)
 
@@ -84,7 +94,7 @@ class Descriptors(Images):
                 target.put(slot, image, storage)
 
     def on_UpdateDescriptorSetWithTemplate(self, call: Call) -> None:
-        target = self.sets.get(values.handle(call.args.get("descriptorSet")))
+        target = self.set(call.args.get("descriptorSet"))
         if target is not None:
             target.opaque = True
 

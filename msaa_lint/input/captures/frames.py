@@ -79,8 +79,9 @@ class Frames:
         """The number of commands in the first frames of the kinds."""
         self._submissions: dict[int, int] = {}
         """How often the current frame submitted the same passes, or similar ones."""
-        self._shapes: dict[Hashable, int] = {}
-        """The numbers of the passes of submissions."""
+        self._shapes: dict[Hashable, tuple[int, int]] = {}
+        """The numbers of the passes of submissions, and of those that are similar to them."""
+        self._similar: dict[Hashable, int] = {}
         self._shape_numbers = count()
         self._recent: dict[tuple[Submission, ...], DistinctFrame] = {}
         """Frames by what they submit, to recognize command buffers that are submitted in every frame."""
@@ -120,7 +121,7 @@ class Frames:
             self.limits.setdefault(TOO_MANY_RECORDED, at)
         if not self._executions.is_complete:
             self.limits.setdefault(REPEATED, at)
-        if submission is not buffer.submission and not self.spend(len(submission.commands)):
+        if (buffer.reads or submission is not buffer.submission) and not self.spend(len(submission.commands)):
             return self._skip(at)
         if buffer.reads:
             commands = self._reads.resolve(submission.commands, cache, unknown)
@@ -149,11 +150,14 @@ class Frames:
             return
         if submission.shape is None:
             same = tuple(map(id, submission.begins))
-            similar = tuple(shape_of(command, {}) for command in submission.begins)
-            if len(self._shapes) > MAX_DISTINCT_FRAMES and not self._submissions:
-                self._shapes.clear()
-            numbers = [self._shapes.setdefault(shape, next(self._shape_numbers)) for shape in (same, similar)]
-            submission.shape = (numbers[0], numbers[1])
+            submission.shape = self._shapes.get(same)
+            if submission.shape is None:
+                if len(self._shapes) > MAX_DISTINCT_FRAMES and not self._submissions:
+                    self._shapes.clear()
+                    self._similar.clear()
+                similar = tuple(shape_of(command, {}) for command in submission.begins)
+                number = self._similar.setdefault(similar, next(self._shape_numbers))
+                submission.shape = self._shapes[same] = next(self._shape_numbers), number
         same_number, similar_number = submission.shape
         if same_number in self._submissions or self._submissions.get(similar_number, 0) >= MAX_SIMILAR_SUBMISSIONS:
             self.end()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Hashable
+from collections.abc import Hashable, Sized
 from itertools import count
 
 from msaa_lint.frame.description.models import Image as ImageRecord
@@ -16,6 +16,11 @@ from .frames import Frames
 from .objects import DescriptorSet, Image, Swapchain, freeze
 from .structures import to_tree
 from .submissions import Submission
+
+MAX_HANDLES = 2_000_000
+"""Maximum number of objects of a kind that exist at a time. One call can allocate many, at a few bytes of text for each."""
+
+TOO_MANY_OBJECTS = f"more than {MAX_HANDLES:,} objects of a kind exist at a time; further ones are not followed"
 
 MAX_DISTINCT = 20_000
 """Maximum number of distinct objects that are described even if no frame uses them."""
@@ -43,6 +48,13 @@ class Images(Devices):
         """The numbers of the next objects, by kind."""
         self.frames = Frames()
         self.commands = CommandCache()
+
+    def has_room(self, objects: Sized, call: Call) -> bool:
+        """Whether another object of a kind is followed; otherwise that is reported."""
+        if len(objects) < MAX_HANDLES:
+            return True
+        self.frames.limits.setdefault(TOO_MANY_OBJECTS, call.at)
+        return False
 
     def on_CreateImage(self, call: Call) -> None:
         info = values.record(call.args.get("pCreateInfo"))

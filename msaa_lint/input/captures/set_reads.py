@@ -76,9 +76,11 @@ class SetReads:
         return resolved
 
     def _write(self, command: RecordedCommand) -> None:
-        key: Any = command.key
-        images = key.images if isinstance(key, RenderPassBegin) else (key[1],) if command.kind in _TRANSFERS else images_in(key)
-        for image in images:
+        if command.written is None:
+            key: Any = command.key
+            images = key.images if isinstance(key, RenderPassBegin) else (key[1],) if command.kind in _TRANSFERS else images_in(key)
+            command.written = tuple(images)
+        for image in command.written:
             if image is not None and self._readers.pop(image, None) is not None:
                 self._written.append(image)
 

@@ -36,14 +36,19 @@ class Executions:
         self.is_complete = True
 
     def submission(self, buffer: CommandBuffer) -> Submission:
-        """What a command buffer executes. Without descriptor sets, it is the same object in every frame."""
+        """What a command buffer executes: the same object in every frame, unless it records more."""
         length = len(buffer.commands)
         cached: Submission | None = buffer.submission if buffer.submitted_length == length else None
         if cached is not None and self._may_execute(buffer.commands, len(cached.commands)):
             return cached
         complete, self.is_complete = self.is_complete, True
-        submission = Submission(list(self._expand(Execution(buffer.commands, length))))
-        if self.is_complete and not buffer.reads:
+        if buffer.executes or cached is not None:
+            commands = list(self._expand(Execution(buffer.commands, length)))
+        else:
+            self._may_execute(buffer.commands, length)
+            commands = buffer.commands.copy()  # type: ignore[assignment]
+        submission = Submission(commands)
+        if self.is_complete:
             buffer.submission, buffer.submitted_length = submission, length
         self.is_complete = self.is_complete and complete
         return submission

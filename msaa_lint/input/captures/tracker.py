@@ -41,6 +41,11 @@ DESTROYERS = {
 }
 """The calls that only destroy objects: the parameter with their handles, and the tracker's mapping that holds them."""
 
+MAX_CONTAINERS = 1_000_000
+"""Maximum number of structures and arrays in all different render passes and pipelines."""
+
+TOO_MANY_STRUCTURES = f"render passes and pipelines have more than {MAX_CONTAINERS:,} structures; further ones are not followed"
+
 MAX_CACHED_COMMANDS = 4096
 """Maximum number of commands cached by their arguments."""
 
@@ -66,6 +71,7 @@ class Tracker(Transfers):
         self.generation = 0
         """The number of destroyed objects. After a destruction, a handle may refer to another object."""
         self._cache: dict[int, CachedCommand] = {}
+        self._containers = 0
         self.distinct: dict[Hashable, Any] = {}
         """Render passes and pipelines by their creation parameters."""
         self.handlers: dict[str, Callable[[Call], None]] = {
@@ -134,15 +140,23 @@ class Tracker(Transfers):
     def on_CreateRenderPass(self, call: Call) -> None:
         tree = render_pass_of(values.record(call.args.get("pCreateInfo")))
         handle = values.handle(call.args.get("pRenderPass"))
-        self.render_passes[handle] = self._deduplicate(RenderPass, call, tree)
+        render_pass = self._deduplicate(RenderPass, call, tree)
+        if render_pass is not None:
+            self.render_passes[handle] = render_pass
+        else:
+            self.render_passes.pop(handle, None)
 
     on_CreateRenderPass2 = on_CreateRenderPass
 
     def _deduplicate(self, kind: Callable[..., Any], call: Call, tree: Tree, *related: RenderPass | None) -> Any:
-        """The object of a kind created earlier from the same parameters, or a new one."""
+        """The object of a kind created earlier from the same parameters, or a new one; None if there are too many different ones."""
         key = (kind, related, freeze(tree))
         existing = self.distinct.get(key)
         if existing is None:
+            self._containers += _containers(tree)
+            if self._containers > MAX_CONTAINERS:
+                self.frames.limits.setdefault(TOO_MANY_STRUCTURES, call.at)
+                return None
             existing = kind(call, next(self.numbers[kind]), tree, *related)
             if len(self.distinct) < MAX_DISTINCT:
                 self.distinct[key] = existing
@@ -172,9 +186,12 @@ class Tracker(Transfers):
             render_pass = self.render_passes.get(values.handle(values.record(info).get("renderPass")))
             if render_pass is not None and tree.get("subpass", 0) >= max(len(render_pass.tree.get("subpasses", ())), 1):
                 del tree["subpass"]
-            pipeline: Pipeline = self._deduplicate(Pipeline, call, tree, render_pass)
-            pipeline.modules.update(modules)
-            self.pipelines[values.handle(handle)] = pipeline
+            pipeline: Pipeline | None = self._deduplicate(Pipeline, call, tree, render_pass)
+            if pipeline is not None and self.has_room(self.pipelines, call):
+                pipeline.modules.update(modules)
+                self.pipelines[values.handle(handle)] = pipeline
+            else:
+                self.pipelines.pop(values.handle(handle), None)
 
     # Names.
 
@@ -186,6 +203,12 @@ class Tracker(Transfers):
             objects[number].label = name[:MAX_NAME]
 
     on_DebugMarkerSetObjectName = on_SetDebugUtilsObjectName
+
+
+def _containers(value: Any) -> int:
+    """The number of mappings and lists in plain data."""
+    inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    return 1 + sum(_containers(item) for item in inner if isinstance(item, (dict, list)))
 
 
 def _remove(objects: dict[int, Any], parameter: str, call: Call) -> None:

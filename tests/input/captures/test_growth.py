@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 
 from msaa_lint.core.finding import Finding
-from msaa_lint.input.captures import json_stream
+from msaa_lint.input.captures import images, json_stream
+from msaa_lint.input.captures import tracker as tracker_module
 from msaa_lint.input.captures.call import Call, Place
 from msaa_lint.input.captures.description_text import describe_capture
 from msaa_lint.input.captures.submissions import MAX_REPEATED
@@ -233,7 +234,9 @@ def test_pushed_and_bound_sets_are_bounded() -> None:
         program.call(
             "vkCmdBindDescriptorSets", commandBuffer=buffer, pipelineBindPoint=point, firstSet=binding + 1, pDescriptorSets=[descriptors]
         )
-    bound = tracked(program).buffers[buffer].bound
+    recorded = tracked(program).buffers[buffer]
+    assert recorded is not None
+    bound = recorded.bound
     assert (len(bound), len(bound[0].images)) == (64, 256)
 
 
@@ -310,3 +313,23 @@ def test_a_call_that_is_too_large_to_parse_ends_the_capture() -> None:
     program.calls.reverse()
     (found,) = lint(program.text())
     assert (found.code, found.message) == ("MSAA901", "the capture ends here: a call that is read exceeds 16 MiB")
+
+
+def test_objects_beyond_a_limit_are_not_followed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(images, "MAX_HANDLES", 3)
+    program = Program()
+    sets = [program.descriptor_set() for _ in range(5)]
+    buffers = [program.buffer() for _ in range(5)]
+    tracker = tracked(program)
+    assert (list(tracker.sets), list(tracker.buffers)[:3]) == (sets[:3], buffers[:3])
+    assert list(tracker.frames.limits) == ["more than 2,000,000 objects of a kind exist at a time; further ones are not followed"]
+
+
+def test_structures_beyond_a_limit_are_not_followed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tracker_module, "MAX_CONTAINERS", 100)
+    program = Program()
+    passes = [program.render_pass([attachment()] * count) for count in (1, 2, 200, 3)]
+    program.pipeline(passes[0])
+    tracker = tracked(program)
+    assert (list(tracker.render_passes), list(tracker.pipelines)) == (passes[:2], [])
+    assert len(tracker.frames.limits) == 1
