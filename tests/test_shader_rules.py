@@ -12,7 +12,7 @@ from msaa_lint.core.finding import Finding, Result
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.input import readers
-from msaa_lint.input.shader_modules import Modules
+from msaa_lint.input.shader_modules import ANALYSIS, Modules
 from msaa_lint.linter.engine import Engine, LintOptions
 from msaa_lint.linter.rules.registry import load
 from tests.paths import ROOT
@@ -464,7 +464,7 @@ def test_modules_that_came_with_the_input_are_looked_at_first(tmp_path: Path) ->
 
 def test_many_large_modules_are_not_all_read(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     code = (OWN / "no_alpha.frag.spv").read_bytes()
-    monkeypatch.setattr("msaa_lint.input.shader_modules.MAX_WORK", len(code) // 4 + 100)
+    monkeypatch.setattr("msaa_lint.input.shader_modules.MAX_WORK", 2 * (len(code) // 4 + ANALYSIS))
     names = ["no_alpha.frag", "alpha_one.frag", "alpha_stored.frag"]
     pipelines = "".join(pipeline(name, NEEDED).replace("own:", f"own{n}:").replace("pipelines:\n", "") for n, name in enumerate(names))
     result = linted(tmp_path, f"pipelines:\n{pipelines}", *names)

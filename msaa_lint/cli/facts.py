@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator
 from functools import partial
+from typing import TYPE_CHECKING
 
 from msaa_lint.core.text.source import Source, Unreadable, decode
 from msaa_lint.core.text.tree import Limits, parse
@@ -18,6 +19,9 @@ from msaa_lint.input.opening import load
 from .common import UsageError, internal_errors_of, run_command, warn
 from .options import Arguments
 from .report.escape import escape
+
+if TYPE_CHECKING:
+    from msaa_lint.input.shader_modules import ShaderAnalyses
 
 TYPES = {"BOOL": "bool", "INT": "int", "DOUBLE": "double", "STRING": "string", "LIST": "list(string)", "INTS": "list(int)"}
 
@@ -82,10 +86,12 @@ def _subjects(fact: Fact) -> list[str]:
 def print_facts(path: str, output: str, profile: str | None) -> int:
     """Prints the facts of every subject of an input; returns 2 if it, or a part of it, cannot be read."""
     from msaa_lint.input import readers
+    from msaa_lint.input.shader_modules import ShaderAnalyses
     from msaa_lint.input.source_file import SourceFile
 
     rows: list[dict[str, object]] = []
     failed = False
+    analyses = ShaderAnalyses()
     with internal_errors_of(path):
         try:
             data = load(path, Limits())
@@ -109,7 +115,7 @@ def print_facts(path: str, output: str, profile: str | None) -> int:
             if isinstance(data, CaptureInput):
                 document = document._replace(modules=data.modules)
             try:
-                rows += _rows(document, source, path, profile)
+                rows += _rows(document, source, path, profile, analyses)
             except UsageError as error:
                 failed = True
                 for line in error.args:
@@ -122,7 +128,7 @@ def print_facts(path: str, output: str, profile: str | None) -> int:
     return 2 if failed else 0
 
 
-def _rows(document: Document, source: Source, path: str, profile: str | None) -> list[dict[str, object]]:
+def _rows(document: Document, source: Source, path: str, profile: str | None, analyses: ShaderAnalyses) -> list[dict[str, object]]:
     """The facts of every subject of a document. UsageError, with a line for each problem, if it has mistakes."""
     from msaa_lint.frame.facts.subjects import subjects
     from msaa_lint.frame.profiles import Problem, device_for, device_of
@@ -138,7 +144,7 @@ def _rows(document: Document, source: Source, path: str, profile: str | None) ->
         if isinstance(device, Problem):
             raise UsageError(f"{path}: {device.message}")
         study = partial(studied, file=path)
-        return [_row(subject, source) for subject in subjects(document, device, study, Modules(document, path).reflected)]
+        return [_row(subject, source) for subject in subjects(document, device, study, Modules(document, path, analyses).reflected)]
 
 
 def _row(subject: Subject, source: Source) -> dict[str, object]:

@@ -6,6 +6,8 @@ shader stay undecided.
 """
 
 import os
+from collections.abc import Callable
+from typing import Any
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
@@ -21,10 +23,11 @@ from msaa_lint.frame.spirv.reflect import Reflected, reflected
 from msaa_lint.frame.spirv.words import SpirvError
 
 MAX_WORK = 64_000_000
-"""The budget of one document: the words of modules, for each analysis, and the instructions followed, each of which counts as STEP words.
+"""The budget of a run: the words of modules, for each analysis, and the instructions followed, each of which counts as STEP words.
 It corresponds to about 30 seconds; a game's frame takes a hundredth of it."""
 
-STEP = 16
+STEP, ANALYSIS = 16, 1000
+"""What an instruction that is followed, and any analysis, count as, in words."""
 
 TOO_MANY = "this shader module and later ones were not analyzed because there are too many or they are too large"
 
@@ -34,8 +37,8 @@ GLSL = (".frag", ".comp", ".glsl", ".vert", ".tesc", ".tese", ".geom", ".mesh", 
 MAGIC = (b"\x03\x02\x23\x07", b"\x07\x23\x02\x03")
 """The SPIR-V magic number, in either byte order."""
 
-MAX_KEPT = 8
-"""Maximum number of cached modules: pipelines that share a module are usually adjacent."""
+MAX_KEPT_WORDS = MAX_BYTES // 4
+"""Words of cached modules: pipelines that share a module are usually adjacent."""
 
 
 class _Unusable(Exception):
@@ -47,48 +50,123 @@ class _Unusable(Exception):
         self.help = help
 
 
+class ShaderAnalyses:
+    """The shader modules of one run. Each is analyzed once for each entry point and specialization, all within one budget."""
+
+    def __init__(self) -> None:
+        self.left = MAX_WORK
+        self._known: dict[object, Reflected | _Unusable] = {}
+        self._modules: dict[object, Module | _Unusable] = {}
+        self._words = 0
+
+    def reflected(self, source: object, name: str, code: Callable[[], bytes], query: tuple[Any, ...]) -> Reflected:
+        """What a module says. `source` identifies it in the run, `code` reads it; the query is the entry point, the constants, and whether
+        what is written to the alpha of color 0 is asked for. Raises: _Unusable."""
+        key = (source, *query)
+        if key not in self._known:
+            try:
+                found: Reflected | _Unusable = self._reflected(source, name, code, query)
+            except _Unusable as error:
+                if error.code == "MSAA906":
+                    raise
+                found = error
+            self._known[key] = found
+        known = self._known[key]
+        if isinstance(known, _Unusable):
+            raise known
+        return known
+
+    def spend(self, work: int) -> None:
+        """Counts work before it is done. Raises: _Unusable."""
+        self.left -= work
+        if self.left < 0:
+            raise _Unusable("MSAA906", TOO_MANY)
+
+    def _reflected(self, source: object, name: str, code: Callable[[], bytes], query: tuple[Any, ...]) -> Reflected:
+        module = self._module(source, name, code)
+        self.spend(ANALYSIS + len(module.words))
+        entry, constants, alpha = query
+        try:
+            found = reflected(module, entry, dict(constants), alpha)
+        except SpirvError as error:
+            raise _Unusable("MSAA904" if "entry point" in str(error) else "MSAA903", f"{quoted_path(name)}: {error}") from None
+        self.left -= STEP * found.steps
+        return found
+
+    def _module(self, source: object, name: str, code: Callable[[], bytes]) -> Module:
+        kept = self._modules.pop(source, None)
+        if kept is None:
+            try:
+                kept = self._read(name, code())
+                self._words += len(kept.words)
+            except _Unusable as error:
+                if error.code == "MSAA906":
+                    raise
+                kept = error
+        while self._words > MAX_KEPT_WORDS and self._modules:
+            dropped = self._modules.pop(next(iter(self._modules)))
+            self._words -= len(dropped.words) if isinstance(dropped, Module) else 0
+        self._modules[source] = kept
+        if isinstance(kept, _Unusable):
+            raise kept
+        return kept
+
+    def _read(self, name: str, code: bytes) -> Module:
+        self.spend(ANALYSIS + len(code) // 4)
+        if name.endswith(GLSL) and code[:4] not in MAGIC:
+            self.spend(STEP * len(code))
+            code = _of_text(name, code)
+        try:
+            return Module(code)
+        except SpirvError as error:
+            raise _Unusable(
+                "MSAA903", f"{quoted_path(name)}: {error}", "a module must be SPIR-V, for example from glslang or DXC"
+            ) from None
+
+
 class Modules:
     """The shader modules of one document. `findings` are the warnings about unusable modules."""
 
-    def __init__(self, document: Document, file: str) -> None:
+    def __init__(self, document: Document, file: str, analyses: ShaderAnalyses | None = None) -> None:
         self.findings: list[Finding] = []
+        self._analyses = analyses or ShaderAnalyses()
         self._own = document.modules
         self._file = file
         self._folder = folder_of(file)
-        self._left = MAX_WORK
+        self._project = project_root(self._folder)
+        self._digests: dict[str, bytes] = {}
         self._warned: set[tuple[str, str]] = set()
-        self._kept: dict[str, Module | _Unusable] = {}
-        self._known: dict[object, Reflected | None] = {}
 
     def reflected(self, stage: ShaderStage, alpha: bool) -> Reflected | None:
         """The properties of a stage's module; None if it cannot be used. `alpha` also asks what is written to the alpha of color 0."""
-        constants = {int(name): value for name, value in (stage.specialization or {}).items()}
-        key = (stage.module, stage.name, tuple(constants.items()), alpha)
-        if key not in self._known:
-            self._known[key] = self._reflected(stage, constants, alpha)
-        return self._known[key]
-
-    def _reflected(self, stage: ShaderStage, constants: dict[int, float | bool], alpha: bool) -> Reflected | None:
         name = stage.module or ""
+        constants = tuple((int(each), value) for each, value in (stage.specialization or {}).items())
         try:
-            module = self._module(name)
-            self._left -= len(module.words)
-            if self._left < 0:
-                raise _Unusable("MSAA906", TOO_MANY)
-            try:
-                found = reflected(module, stage.name, constants, alpha)
-                self._left -= STEP * found.steps
-            except SpirvError as error:
-                raise _Unusable("MSAA904" if "entry point" in str(error) else "MSAA903", f"{quoted_path(name)}: {error}") from None
+            source, code = self._source(name)
+            found = self._analyses.reflected(source, name, code, (stage.name, constants, alpha))
             if found.stage != stage.stage:
                 message = f"{quoted_path(name)}: `{found.name[:40]}` is a shader of stage {found.stage}, not {stage.stage}"
                 raise _Unusable("MSAA903", message)
         except _Unusable as error:
             self._warn(error, stage)
             return None
+        if found.exhausted:
+            message = f"{quoted_path(name)}: the shader was not followed to its end, because it takes more than {found.steps} steps"
+            self._warn(_Unusable("MSAA906", message, "what it does with samples and alpha after that is unknown"), stage, "note")
         return found
 
-    def _warn(self, error: _Unusable, stage: ShaderStage) -> None:
+    def _source(self, name: str) -> tuple[object, Callable[[], bytes]]:
+        """What identifies a module in the run, and a function that reads it: of a capture its content, else the file."""
+        own = self._own.get(name)
+        if own is None:
+            return (self._project, os.path.abspath(os.path.join(self._folder, name))), lambda: self._bytes(name)
+        if name not in self._digests:
+            from hashlib import blake2b
+
+            self._digests[name] = blake2b(own).digest()
+        return self._digests[name], lambda: own
+
+    def _warn(self, error: _Unusable, stage: ShaderStage, severity: str = "warning") -> None:
         # Report each problem once, at the first stage that has it. The budget warning does not name a module.
         key = ("" if error.code == "MSAA906" else stage.module or "", str(error))
         if key in self._warned:
@@ -97,58 +175,12 @@ class Modules:
         at: Span = stage.place("name") if "entry point" in str(error) and stage.states("name") else stage.place("module")
         help = error.help or "rules that need the shader stay undecided"
         self.findings.append(
-            diagnostic(error.code, str(error), self._file, at, f"{stage.path}.module", help=help)._replace(severity="warning")
+            diagnostic(error.code, str(error), self._file, at, f"{stage.path}.module", help=help)._replace(severity=severity)
         )
-
-    def _module(self, name: str) -> Module:
-        kept = self._kept.pop(name, None)
-        if kept is None:
-            if len(self._kept) >= MAX_KEPT:
-                self._kept.pop(next(iter(self._kept)))
-            try:
-                kept = self._read(name)
-            except _Unusable as error:
-                kept = error
-        self._kept[name] = kept
-        if isinstance(kept, _Unusable):
-            raise kept
-        return kept
-
-    def _read(self, name: str) -> Module:
-        code = self._own.get(name)
-        if code is None:
-            code = self._bytes(name)
-        if self._left < len(code) // 4:
-            raise _Unusable("MSAA906", TOO_MANY)
-        if name.endswith(GLSL) and code[:4] not in MAGIC:
-            code = self._of_text(name, code)
-        try:
-            return Module(code)
-        except SpirvError as error:
-            raise _Unusable(
-                "MSAA903", f"{quoted_path(name)}: {error}", "a module must be SPIR-V, for example from glslang or DXC"
-            ) from None
-
-    def _of_text(self, name: str, code: bytes) -> bytes:
-        """Compiles GLSL to SPIR-V."""
-        from .code.glsl.shader import shader
-        from .code.glsl.text import UnsupportedShader
-        from .code.parsing import Missing
-
-        self._left -= STEP * len(code)
-        try:
-            # Snippets and included files may be partial shaders.
-            return shader(code.decode("utf-8", "replace"), True).code
-        except Missing as error:
-            raise _Unusable("MSAA903", f"{quoted_path(name)} is GLSL", str(error)) from None
-        except UnsupportedShader as error:
-            raise _Unusable(
-                "MSAA903", f"{quoted_path(name)} cannot be analyzed: {error}", "name its SPIR-V instead, which is fully supported"
-            ) from None
 
     def _bytes(self, name: str) -> bytes:
         try:
-            return read(os.path.join(self._folder, name), MAX_BYTES, project_root(self._folder))
+            return read(os.path.join(self._folder, name), MAX_BYTES, self._project)
         except Outside:
             raise _Unusable("MSAA903", f"{quoted_path(name)} is outside the project") from None
         except FileNotFoundError:
@@ -157,3 +189,20 @@ class Modules:
             raise _Unusable("MSAA903", f"{quoted_path(name)} cannot be read: it is larger than {MAX_BYTES >> 20} MiB") from None
         except OSError as error:
             raise _Unusable("MSAA903", f"{quoted_path(name)} cannot be read: {error.strerror or error}") from None
+
+
+def _of_text(name: str, code: bytes) -> bytes:
+    """Compiles GLSL to SPIR-V."""
+    from .code.glsl.shader import shader
+    from .code.glsl.text import UnsupportedShader
+    from .code.parsing import Missing
+
+    try:
+        # Snippets and included files may be partial shaders.
+        return shader(code.decode("utf-8", "replace"), True).code
+    except Missing as error:
+        raise _Unusable("MSAA903", f"{quoted_path(name)} is GLSL", str(error)) from None
+    except UnsupportedShader as error:
+        raise _Unusable(
+            "MSAA903", f"{quoted_path(name)} cannot be analyzed: {error}", "name its SPIR-V instead, which is fully supported"
+        ) from None

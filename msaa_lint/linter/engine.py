@@ -25,6 +25,7 @@ from .rules.budget import Budget
 from .rules.registry import Registry, info, load
 from .rules.rule import Rule
 from .rules.rule_runner import RuleRunner, Severity, Verdicts, distinct, finding_key
+from .run_limits import RunLimits
 
 if TYPE_CHECKING:
     from msaa_lint.core.text.comments import Comment
@@ -66,11 +67,12 @@ class LintOptions(NamedTuple):
 
 
 class Engine:
-    """A set of rules, compiled once for any number of inputs. The `budget` of the run limits what custom rules take."""
+    """A set of rules, compiled once for any number of inputs. The `limits` are those of the run."""
 
-    def __init__(self, registry: Registry, budget: Budget | None = None) -> None:
+    def __init__(self, registry: Registry, limits: RunLimits | None = None) -> None:
         self.registry = registry
-        self._runner = RuleRunner(registry.rules, budget)
+        self._limits = limits or RunLimits()
+        self._runner = RuleRunner(registry.rules, self._limits.rules)
 
     def lint(self, data: bytes | CaptureInput | SourceFile, file: str, options: LintOptions) -> FileResult:
         """The findings of one input in order of location. `data` is a file's bytes, or a capture or source code already read."""
@@ -194,7 +196,7 @@ class Engine:
             from msaa_lint.input.shader_modules import Modules
 
             if not modules:
-                modules.append(Modules(document, file))
+                modules.append(Modules(document, file, self._limits.shaders))
             return modules[0].reflected(stage, alpha)
 
         analysis = FrameAnalysis(Frame(document), profile(document.description, device), study, shader)

@@ -21,8 +21,8 @@ from msaa_lint.input.file_types import STDIN
 from .engine import Engine, LintOptions, load_rules
 from .fixes.fixer import Lint
 from .results import FileResult, finding_kind
-from .rules.budget import Budget
 from .rules.rule import EDITIONS
+from .run_limits import RunLimits
 from .settings.config import Configurations, Loaded
 from .settings.selection import Selection
 from .settings.selectors import unknown_selectors
@@ -151,7 +151,7 @@ class Workspace:
         self._resolved: dict[str | None, ResolvedSettings] = {}
         self._engines: dict[object, Engine] = {}
         self._projects: Mapping[str, str] = {}
-        self._budget = Budget()
+        self._limits = RunLimits()
         self._keys = Allowance() if request.keys is None else Allowance(request.keys)
         self.current = self.resolve(os.curdir)
 
@@ -195,10 +195,11 @@ class Workspace:
         projects = settings.page_projects()
         key = settings.rules, tuple(sorted(projects.items()))
         if key not in self._engines:
-            registry = load_rules([path for path in settings.rules if os.path.exists(path)], projects, self._budget, self.request.traceback)
+            paths = [path for path in settings.rules if os.path.exists(path)]
+            registry = load_rules(paths, projects, self._limits.rules, self.request.traceback)
             self.findings.extend(registry.problems)
             self.sources.update(registry.sources)
-            self._engines[key] = Engine(registry, self._budget)
+            self._engines[key] = Engine(registry, self._limits)
         return self._engines[key]
 
     def broken_pages(self) -> list[str]:

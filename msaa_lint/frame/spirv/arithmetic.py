@@ -80,7 +80,7 @@ class Arithmetic(State):
     def _unknown(self, operation: object, *operands: Value) -> Opaque:
         """The unknown result of an operation that has equal results for equal operands."""
         self._escape(*operands)
-        return self._same_as(operation, *map(keyed, operands))
+        return self._same_as(operation, *[keyed(self._copy(each)) for each in operands])
 
     def _negate(self, at: int, end: int) -> Value:
         type_id, value = self.words[at + 1], self._value(self.words[at + 3])

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from . import numbers as op
 from .module import Module
-from .values import MAX_PARTS, Opaque, Value, computed, given, literal, small
+from .values import MAX_PARTS, Opaque, Value, computed, given, literal, small, weight
 
 MAX_DEPTH = 16
 """Levels of nested types."""
@@ -21,9 +21,12 @@ class Constants:
     def __init__(self, module: Module, specialization: Mapping[int, float | bool]) -> None:
         self.module = module
         self.values: dict[int, Value] = {}
+        self._parts: dict[int, int] = {}
+        """The numbers and tuples in composite constants."""
+        self._nulls: dict[int, Value] = {}
         for identity, made in module.constants.items():
             value = self._value(identity, made, specialization)
-            self.values[identity] = Opaque() if value is None or not small(value) else value
+            self.values[identity] = Opaque() if value is None else value
 
     def _value(self, identity: int, made: tuple[int, ...], specialization: Mapping[int, float | bool]) -> Value:
         number, type_id, *operands = made
@@ -38,11 +41,19 @@ class Constants:
             return literal(kind, tuple(operands))
         if number in (op.CONSTANT_COMPOSITE, op.SPEC_CONSTANT_COMPOSITE):
             parts = tuple(self.values.get(part) for part in operands[: MAX_PARTS + 1])
-            return None if None in parts else parts
+            # A part may have parts of its own, which many constants may share.
+            count = self._parts[identity] = 1 + sum(self._parts.get(part, 1) for part in operands[: MAX_PARTS + 1])
+            return None if None in parts or count > MAX_PARTS else parts
         if number == op.CONSTANT_NULL:
-            return self.null(type_id)
+            if type_id not in self._nulls:
+                self._nulls[type_id] = self.null(type_id)
+            null = self._nulls[type_id]
+            self._parts[identity] = weight(null)
+            return null
         if number == op.SPEC_CONSTANT_OP and operands:
-            return self._made(operands[0], kind, tuple(operands[1:]))
+            value = self._made(operands[0], kind, tuple(operands[1:]))
+            self._parts[identity] = weight(value)
+            return value
         return None
 
     def _made(self, number: int, kind: tuple[int, ...], operands: tuple[int, ...]) -> Value:

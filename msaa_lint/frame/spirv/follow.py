@@ -59,16 +59,6 @@ class Follower(Instructions):
         super().__init__(module, constants, bodies)
         self._calling: list[int] = []
         self._nested = 0
-        self._instructions: dict[int, Callable[[int, int], Value]] = {
-            op.LOAD: self._load, op.STORE: self._store, op.VARIABLE: self._variable, op.FUNCTION_CALL: self._call,
-            op.ACCESS_CHAIN: self._chain, op.IN_BOUNDS_ACCESS_CHAIN: self._chain, op.COPY_MEMORY: self._copy_memory,
-            op.COPY_OBJECT: self._same, op.COPY_LOGICAL: self._same, op.IMAGE: self._same, op.SAMPLED_IMAGE: self._same,
-            op.COMPOSITE_CONSTRUCT: self._construct, op.COMPOSITE_EXTRACT: self._extract, op.COMPOSITE_INSERT: self._insert,
-            op.VECTOR_SHUFFLE: self._shuffle, op.IMAGE_FETCH: self._fetch, op.IMAGE_READ: self._fetch, op.SPARSE_FETCH: self._fetch,
-            op.SPARSE_READ: self._fetch, op.IMAGE_QUERY_SAMPLES: self._query, op.EXT_INST: self._extended, 115: self._same,
-            127: self._negate, 129: self._arithmetic, 131: self._arithmetic, 133: self._arithmetic, 136: self._arithmetic,
-            142: self._arithmetic, 169: self._select,
-        }  # fmt: skip
 
     def follow(self, function: int) -> dict[int, Value] | None:
         """The values of variables where the entry point returns; None if it never does. Raises GivenUp if they cannot be found."""
@@ -161,7 +151,7 @@ class Follower(Instructions):
         exits: list[Exit] = []
         self.guarded += 1
         for target in targets:
-            self._take(len(before) >> 4)
+            self._take(1 + (len(before) >> 3))
             self.memory = dict(before)
             if self._go(body, label, target, stops, exits):
                 exits += self._run(body, target, stops)
@@ -173,6 +163,7 @@ class Follower(Instructions):
         merge, continues = block.merge, block.continues
         assert merge is not None and continues is not None
         begin, end = block.start, body.blocks[merge].start if merge in body.blocks else 0
+        self._take(len(self.memory) >> 3)
         begun, before = len(self.assigned), dict(self.memory)
         fetching = body.fetching(begin, end)
         left: list[Exit] = []
@@ -202,6 +193,7 @@ class Follower(Instructions):
                 self._forget(body, label, begin, end, before, False)
         self.guarded -= doubtful
         if doubtful or len(left) > 1:
+            self._take((len(self.assigned) - begun) >> 3)
             # Values from one iteration are not those of the last one.
             for identity in set(self.assigned[begun:]):
                 self.values[identity] = Opaque((self.values[identity],))
@@ -209,11 +201,14 @@ class Follower(Instructions):
 
     def _forget(self, body: Body, label: int, begin: int, end: int, before: dict[int, Value], used: bool) -> None:
         """Forgets what a loop may change before an iteration; `used` marks the present values as used."""
+        self._take(len(self.memory) >> 3)
         roots = {root for root, value in self.memory.items() if before.get(root) is not value}
         for root in body.written(begin, end) if end > begin else {ANYWHERE}:
             pointer = self.values.get(root)
             roots.add(pointer.root if isinstance(pointer, Pointer) else root)
+        self._take(len(roots) >> 3)
         if GLOBALS in roots:
+            self._take(len(self.module.variables) >> 3)
             roots.update(self.module.variables)
         unknown = ANYWHERE in roots or any(root > 0 and root not in self.memory and root not in self.module.variables for root in roots)
         for root in list(self.memory) if unknown else [root for root in roots if root in self.memory]:
@@ -276,6 +271,7 @@ class Follower(Instructions):
         found = []
         while words[at] & 0xFFFF in (op.PHI, 8, 317):
             end = at + (words[at] >> 16)
+            self._take((end - at) >> 4)
             if words[at] & 0xFFFF == op.PHI:
                 pairs = zip(words[at + 3 : end : 2], words[at + 4 : end : 2], strict=False)
                 value = next((self._value(value) for value, parent in pairs if parent == source), None)
@@ -293,23 +289,21 @@ class Follower(Instructions):
                 for root, value in exit.memory.items():
                     own = memory.get(root, UNWRITTEN)
                     if own is not value:
-                        memory[root] = met(own, value)
+                        memory[root] = met(self._copy(own), self._copy(value))
         self.memory = memory
         for n, (identity, value) in enumerate(exits[0].phis):
             self._assign(identity, reduce(met, (exit.phis[n][1] for exit in exits[1:]), value))
 
     def _execute(self, at: int, end: int) -> int:
         """The instructions of a block from a place up to the one that ends it."""
-        words, known = self.words, self._instructions
+        words, known = self.words, _INSTRUCTIONS
         while at < end:
             first = words[at]
             number, after = first & 0xFFFF, at + (first >> 16)
-            self.steps -= 1
-            if self.steps < 0:
-                raise GivenUp
+            self._take(1 + (first >> 20))
             value: Value = None
             if number in known:
-                value = known[number](at, after)
+                value = known[number](self, at, after)
             elif number in _ENDS:
                 return at
             elif number not in _SILENT:
@@ -318,3 +312,16 @@ class Follower(Instructions):
                 self._assign(words[at + 2], value)
             at = after
         raise GivenUp
+
+
+_INSTRUCTIONS: dict[int, Callable[[Follower, int, int], Value]] = {
+    op.LOAD: Follower._load, op.STORE: Follower._store, op.VARIABLE: Follower._variable, op.FUNCTION_CALL: Follower._call,
+    op.ACCESS_CHAIN: Follower._chain, op.IN_BOUNDS_ACCESS_CHAIN: Follower._chain, op.COPY_MEMORY: Follower._copy_memory,
+    op.COPY_OBJECT: Follower._same, op.COPY_LOGICAL: Follower._same, op.IMAGE: Follower._same, op.SAMPLED_IMAGE: Follower._same,
+    op.COMPOSITE_CONSTRUCT: Follower._construct, op.COMPOSITE_EXTRACT: Follower._extract, op.COMPOSITE_INSERT: Follower._insert,
+    op.VECTOR_SHUFFLE: Follower._shuffle, op.IMAGE_FETCH: Follower._fetch, op.IMAGE_READ: Follower._fetch, op.SPARSE_FETCH: Follower._fetch,
+    op.SPARSE_READ: Follower._fetch, op.IMAGE_QUERY_SAMPLES: Follower._query, op.EXT_INST: Follower._extended, 115: Follower._same,
+    127: Follower._negate, 129: Follower._arithmetic, 131: Follower._arithmetic, 133: Follower._arithmetic, 136: Follower._arithmetic,
+    142: Follower._arithmetic, 169: Follower._select,
+}  # fmt: skip
+"""The instructions that are followed. Not an attribute of the follower, which would refer to itself and live until garbage is collected."""

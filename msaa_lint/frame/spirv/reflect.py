@@ -13,6 +13,7 @@ from .instructions import QUERIED
 from .module import Entry, Module
 from .state import UNWRITTEN, GivenUp, ImageKey, Seen, Site
 from .values import Value, plain
+from .words import SpirvError
 
 CONSTANT, LOOP, CURRENT, UNKNOWN = "CONSTANT", "LOOP", "CURRENT", "UNKNOWN"
 """The kind of a sample operand: one constant; several, one after another; the shaded sample; anything else."""
@@ -89,6 +90,8 @@ class Reflected(NamedTuple):
     discards: bool
     followed: bool
     steps: int
+    exhausted: bool = False
+    """Whether it was not followed to its end because it takes too many instructions."""
 
 
 def reflect(code: bytes, entry: str | None = None, specialization: Mapping[int, float | bool] | None = None) -> Reflected:
@@ -131,6 +134,7 @@ def reflected(module: Module, name: str | None, specialization: Mapping[int, flo
         any(body.discards for body in bodies.values()),
         followed,
         begun - max(follower.steps, 0),
+        follower.steps < 0,
     )
 
 
@@ -141,12 +145,15 @@ def _inputs(module: Module, constants: Constants, bodies: Mapping[int, Body]) ->
     """The built-ins for samples, and the inputs decorated with Sample, that the functions refer to."""
     built_ins: set[str] = set()
     sampled: dict[tuple[int, int], int | None] = {}
-    for identity, variable in module.variables.items():
-        if variable.storage != op.INPUT:
-            continue
-        indices = {index for body in bodies.values() for index in body.uses.get(identity, ())}
-        if not indices:
-            continue
+    uses: dict[int, set[int | None]] = {}
+    inputs = {identity: variable for identity, variable in module.variables.items() if variable.storage == op.INPUT}
+    for body in bodies.values():
+        for identity in inputs.keys() & body.uses.keys():
+            uses.setdefault(identity, set()).update(body.uses[identity])
+    # Variables of one structure, each of whose members would be looked at for each of them.
+    members_left = len(module.words)
+    for identity, indices in uses.items():
+        variable = inputs[identity]
         built_in = module.decoration(identity, op.BUILT_IN)
         if built_in in op.BUILT_INS:
             built_ins.add(op.BUILT_INS[built_in])
@@ -154,6 +161,9 @@ def _inputs(module: Module, constants: Constants, bodies: Mapping[int, Body]) ->
         if module.decoration(identity, op.SAMPLE) is not None:
             sampled[identity, -1] = location
         members = {index if index is None else constants.values.get(index) for index in indices}
+        members_left -= len(module.members.get(variable.holds, ()))
+        if members_left < 0:
+            raise SpirvError("it has too many inputs of structures with decorated members")
         for member, decorations in module.members.get(variable.holds, {}).items():
             if None not in members and member not in members and all(type(each) is int for each in members):
                 continue

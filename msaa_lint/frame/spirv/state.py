@@ -9,7 +9,7 @@ from . import numbers as op
 from .bodies import Body
 from .constants import Constants
 from .module import Module
-from .values import Extreme, Opaque, Pointer, Sum, Value, plain, small
+from .values import Extreme, Opaque, Pointer, Sum, Value, plain, small, weight
 
 MAX_STEPS = 300_000
 """Instructions followed in the largest modules; smaller modules get fewer."""
@@ -85,8 +85,14 @@ class State:
         if self.steps < 0:
             raise GivenUp
 
+    def _copy(self, value: Value) -> Value:
+        """A value, for whose size steps are taken."""
+        if type(value) is tuple or type(value) is Sum or type(value) is Extreme:
+            self._take(weight(value) >> 3)
+        return value
+
     def _assign(self, identity: int, value: Value) -> None:
-        self.values[identity] = value if small(value) else Opaque((value,))
+        self.values[identity] = self._copy(value) if small(value) else Opaque((value,))
         self.assigned.append(identity)
 
     def _value(self, identity: int) -> Value:
@@ -135,7 +141,7 @@ class State:
         waiting = list(values)
         roots: set[int] = set()
         while waiting:
-            each = waiting.pop()
+            each = self._copy(waiting.pop())
             if type(each) is tuple:
                 waiting.extend(each)
             elif type(each) is Opaque:
@@ -209,7 +215,7 @@ class State:
             self._escape(pointer, value)
             return
         whole = self._put(self.memory[pointer.root], pointer.path, value, self.holds.get(pointer.root, 0))
-        self.memory[pointer.root] = whole if small(whole) else Opaque((whole,))
+        self.memory[pointer.root] = self._copy(whole) if small(whole) else Opaque((whole,))
 
     def _put(self, before: Value, path: tuple[Value, ...], value: Value, type_id: int) -> Value:
         """A value with one part replaced."""

@@ -91,6 +91,13 @@ def small(value: Value) -> bool:
     return type(value) is not tuple or _parts(value, MAX_PARTS) <= MAX_PARTS
 
 
+def weight(value: Value) -> int:
+    """What it takes to copy a value: its numbers, tuples and terms; at most some thousands, as values and sums are limited."""
+    if type(value) is tuple:
+        return 1 + sum(map(weight, value))
+    return len(value.terms) if type(value) is Sum or type(value) is Extreme else 1
+
+
 def _parts(value: tuple[Value, ...], most: int) -> int:
     """The number of numbers and tuples in a value; counting stops above `most`."""
     count = 1

@@ -5,7 +5,8 @@ from .captures import SHAPES as CAPTURES
 from .description_texts import SHAPES as DESCRIPTION_TEXTS
 from .descriptions import SHAPES as DESCRIPTIONS
 from .rules import SHAPES as RULES
+from .shaders import SHAPES as SHADERS
 from .shape import Shape
 from .source import SHAPES as SOURCE
 
-SHAPES: tuple[Shape, ...] = (*DESCRIPTIONS, *DESCRIPTION_TEXTS, *CAPTURES, *CAPTURE_TEXTS, *RULES, *SOURCE)
+SHAPES: tuple[Shape, ...] = (*DESCRIPTIONS, *DESCRIPTION_TEXTS, *CAPTURES, *CAPTURE_TEXTS, *RULES, *SHADERS, *SOURCE)
