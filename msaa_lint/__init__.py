@@ -3,8 +3,6 @@
 `lint` is the Python interface; everything else is internal and may change.
 """
 
-from __future__ import annotations
-
 from .core.package import VERSION as __version__
 
 TYPE_CHECKING = False
@@ -20,15 +18,15 @@ def lint(
     *paths: str,
     text: str | bytes | None = None,
     filename: str = "<text>",
-    select: Iterable[str] | None = None,
-    extend_select: Iterable[str] = (),
-    ignore: Iterable[str] = (),
-    rules: Iterable[str] = (),
+    select: "Iterable[str] | None" = None,
+    extend_select: "Iterable[str]" = (),
+    ignore: "Iterable[str]" = (),
+    rules: "Iterable[str]" = (),
     profile: str | None = None,
     edition: str | None = None,
     config: str | None = None,
     isolated: bool = False,
-) -> Result:
+) -> "Result":
     """Lints files and folders, or a `text` with the name `filename`, as `msaa-lint check` does; the other arguments are its options.
 
     The location of a finding is a span of offsets into `result.sources[finding.file].text`; `Source.position` converts an offset to a line

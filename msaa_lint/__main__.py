@@ -1,10 +1,16 @@
-"""`msaa-lint`, and `python -m msaa_lint`."""
+"""`msaa-lint`, and `python -m msaa_lint`.
 
-from __future__ import annotations
+Until `isolate` returns, this module and the package import nothing that a file of the working folder could replace: no `__future__` either.
+"""
 
 import gc
 import sys
-from typing import Any
+
+from .core.isolation import isolate
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
 
 
 def main() -> None:
@@ -12,6 +18,7 @@ def main() -> None:
     # A run creates many small objects that live to its end, and collecting in between costs a third of the time of reading large inputs.
     # `linter.run` collects between inputs where garbage accumulates.
     gc.disable()
+    isolate()
     if sys.argv[1:] == ["--version"] and sys.stdout is not None:
         # Needs no other module, unless it cannot be written.
         try:
@@ -41,7 +48,7 @@ def _run() -> int:
         return code
     from .cli.common import run_command
 
-    def help_or_complete(arguments: dict[str, Any]) -> int:
+    def help_or_complete(arguments: "dict[str, Any]") -> int:
         from .cli.app import app
 
         app(arguments["words"], prog_name="msaa-lint")

@@ -60,13 +60,13 @@ def run_command(
     """Runs a command and returns its exit code, however it ends.
 
     Returns 2 for a UsageError, for the given `errors`, whose texts are for the user too, and for any other exception but OutputError
-    unless `--traceback` is given, which raises it; 130 on an interrupt. If `terminable`, SIGTERM unwinds the stack, so that no child
-    process and no temporary file is left.
+    unless `--traceback` is given, which raises it; 130 on an interrupt. If `terminable`, SIGTERM, SIGHUP, and SIGQUIT unwind the
+    stack, so that no child process and no temporary file is left.
     """
     global _quiet, _traceback
     _quiet, _traceback = bool(arguments.get("quiet")), bool(arguments.get("traceback"))
     reported: tuple[type[Exception], ...] = (UsageError, *errors)
-    previous = _unwind_on_sigterm() if terminable else None
+    previous = _unwind_on_signals() if terminable else {}
     try:
         _check_current_folder()
         return command(arguments)
@@ -83,10 +83,10 @@ def run_command(
         warn(f"internal error: {type(error).__name__}: {str(error)[:300]} (--traceback shows where)")
         return 2
     finally:
-        if previous is not None:
+        for number, handler in previous.items():
             import signal
 
-            signal.signal(signal.SIGTERM, previous)
+            signal.signal(number, handler)
 
 
 @contextmanager
@@ -109,17 +109,27 @@ def _check_current_folder() -> None:
         raise UsageError(f"the current folder cannot be used: {error.strerror}") from None
 
 
-def _unwind_on_sigterm() -> Any:
-    """Makes SIGTERM raise SystemExit. Returns the previous handler; None in a thread, which cannot set one."""
+def _unwind_on_signals() -> dict[int, Any]:
+    """Makes signals that would end the process raise SystemExit. Returns the previous handlers; none in a thread, which cannot set any."""
     import signal
 
+    previous: dict[int, Any] = {}
+
     def unwind(number: int, _: object) -> None:
+        # Another signal must not interrupt the cleanup: a terminal that closes may send several.
+        for each in previous:
+            signal.signal(each, signal.SIG_IGN)
         raise SystemExit(128 + number)
 
-    try:
-        return signal.signal(signal.SIGTERM, unwind)
-    except ValueError:
-        return None
+    for name in ("SIGTERM", "SIGHUP", "SIGQUIT"):
+        number = getattr(signal, name, None)
+        # `nohup` ignores SIGHUP.
+        if number is not None and signal.getsignal(number) is not signal.SIG_IGN:
+            try:
+                previous[number] = signal.signal(number, unwind)
+            except ValueError:
+                break
+    return previous
 
 
 def parse_outputs(texts: Sequence[str], formats: Sequence[str], example: str) -> list[Target]:

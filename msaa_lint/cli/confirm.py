@@ -10,6 +10,7 @@ from typing import IO, Any, NamedTuple
 
 from msaa_lint.core.quote import quoted
 from msaa_lint.experiments.confirm.child import Limits
+from msaa_lint.experiments.confirm.loader_environment import ignored_paths
 from msaa_lint.experiments.confirm.outcome import DeviceRun, about, exit_code
 from msaa_lint.experiments.confirm.session import Session, environment
 from msaa_lint.experiments.confirm.vulkan_errors import NotWritten, Unusable
@@ -54,6 +55,8 @@ def confirm(arguments: Arguments) -> int:
 def _confirm(arguments: Arguments) -> int:
     options = parse_options(arguments)
     refuse_inputs([target.path for target in options.targets], arguments["paths"])
+    for text in ignored_paths():
+        warn(text)
     if arguments.get("list_devices"):
         return _list_devices(options)
     if not arguments["paths"]:
@@ -104,7 +107,7 @@ def _run(arguments: Arguments, options: ConfirmOptions, session: Session) -> int
     from msaa_lint.experiments.confirm.trial import TrialOptions, trial
     from msaa_lint.linter.workspace import Request
 
-    terms = TrialOptions(**options.trial, several=len(options.devices) > 1)
+    terms = TrialOptions(**options.trial, several=len(options.devices) > 1, traceback=bool(arguments.get("traceback")))
     read: list[Inputs] = []
 
     def documents() -> Any:

@@ -41,7 +41,7 @@ from .common import (
 )  # fmt: skip
 from .options import TEXT_FORMATS, Arguments
 from .report.escape import escape
-from .study_subjects import Subject, subjects
+from .study_subjects import Subject, errors_of, subjects
 
 Costs = Mapping[str, Mapping[Technique, Cost]]
 """What each technique costs, by scene."""
@@ -123,11 +123,11 @@ def _study(arguments: Arguments, options: StudyOptions) -> int:
     size, studied, errors, notes = subjects(arguments, options.size)
     for text in notes:
         note(text)
-    for error in errors:
-        warn(f"{error.file}: {error.message}")
     if arguments.get("record") and not any(subject.file for subject in studied) and not errors:
         raise UsageError("--record needs a description in a file, to write the record next to it")
-    costs, device = _costs(studied, arguments, options, size, checkpoint)
+    costs, device = _costs(studied, errors, arguments, options, size, checkpoint)
+    studied = [subject for subject in studied if subject.input.name in costs]
+    untimed = _warn_of_failures(costs, errors)
     tasks = [Task(subject.input, technique, *size, options.bits, options.ssim) for subject in studied for technique in options.techniques]
     with _progress(len(tasks), arguments) as progress:
         results = list(sweep(tasks, jobs=options.jobs, backend=options.backend, checkpoint=checkpoint, progress=progress))
@@ -150,7 +150,17 @@ def _study(arguments: Arguments, options: StudyOptions) -> int:
         outcome = outcome._replace(records=_write_records(studied, outcome, bool(arguments.get("force"))))
     for target in options.targets:
         write_output(target.path, partial(_render, target.format, outcome, arguments))
-    return 2 if errors or failures else 0
+    return 2 if errors or failures or untimed else 0
+
+
+def _warn_of_failures(costs: Costs, errors: Sequence[Finding]) -> bool:
+    """Prints the errors, and the techniques that a device failed to time; returns whether there are such techniques."""
+    for error in errors:
+        warn(f"{error.file}: {error.message}")
+    failed = [(scene, technique, cost) for scene, found in costs.items() for technique, cost in found.items() if cost.failed]
+    for scene, technique, cost in failed:
+        warn(f"{scene}: {technique.name}: {cost.reason}")
+    return bool(failed)
 
 
 def _outcome(
@@ -195,24 +205,31 @@ def _scene(subject: Subject, points: Sequence[Point]) -> SceneSummary:
 
 
 def _costs(
-    studied: Sequence[Subject], arguments: Arguments, options: StudyOptions, size: tuple[int, int], checkpoint: Checkpoint | None
+    studied: Sequence[Subject],
+    errors: list[Finding],
+    arguments: Arguments,
+    options: StudyOptions,
+    size: tuple[int, int],
+    checkpoint: Checkpoint | None,
 ) -> tuple[Costs, str]:
-    """What each technique costs, and the name of the device whose clock times it; empty if none does."""
+    """What each technique costs, and the name of the device whose clock times it; empty if none does. An internal error of one scene is
+    added to `errors`."""
     from msaa_lint.experiments.study.scene_timing import SceneClock
     from msaa_lint.experiments.study.sweep import costs
 
     by_scene: dict[str, Mapping[Technique, Cost]] = {}
     with _clock(arguments) as clock, _progress(len(studied), arguments) as progress:
         for number, subject in enumerate(studied):
-            effects = " ".join(subject.picture.effects).lower()
-            model = CostModel(subject.device, hdr="hdr" in effects, depth="depth" in effects)
-            if clock is None:
-                by_scene[subject.input.name] = costs(options.techniques, size, model, checkpoint)
-                continue
-            if progress is not None:
+            if progress is not None and clock is not None:
                 progress(number, len(studied), f"{subject.input.name} on {clock.name}")
-            with SceneClock(clock, subject.picture, model) as source:
-                by_scene[subject.input.name] = costs(options.techniques, size, source, checkpoint)
+            with errors_of(subject.input.name, errors, arguments):
+                effects = " ".join(subject.picture.effects).lower()
+                model = CostModel(subject.device, hdr="hdr" in effects, depth="depth" in effects)
+                if clock is None:
+                    by_scene[subject.input.name] = costs(options.techniques, size, model, checkpoint)
+                    continue
+                with SceneClock(clock, subject.picture, model) as source:
+                    by_scene[subject.input.name] = costs(options.techniques, size, source, checkpoint)
         return by_scene, clock.name if clock is not None else ""
 
 
@@ -220,8 +237,11 @@ def _clock(arguments: Arguments) -> contextlib.AbstractContextManager[Any]:
     """The clock of the device that `--device` names; None without one."""
     if "device" not in arguments:
         return contextlib.nullcontext()
+    from msaa_lint.experiments.confirm.loader_environment import ignored_paths
     from msaa_lint.experiments.study.times import DeviceClock
 
+    for text in ignored_paths():
+        warn(text)
     return DeviceClock(arguments["device"], repeats=arguments.get("repeats", 15))
 
 

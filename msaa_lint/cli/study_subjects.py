@@ -1,14 +1,17 @@
 """What `msaa-lint study` studies: scenes by name, meshes, and the documents of descriptions, each with its scene."""
 
-from collections.abc import Sequence
-from os.path import isfile, lexists
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from os.path import abspath, isfile, lexists
 from typing import Any, NamedTuple
 
+from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.extras import needs_extra
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.quote import quoted
 from msaa_lint.experiments.confirm.inputs import Input, Inputs, inputs
-from msaa_lint.experiments.study.tasks import StudyInput
+from msaa_lint.experiments.confirm.vulkan_errors import Unusable as NoDevice
+from msaa_lint.experiments.study.tasks import StudyInput, Unusable
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.profiles import Problem, profile_of
@@ -50,7 +53,8 @@ def subjects(arguments: Arguments, size: tuple[int, int] | None) -> Subjects:
         if path in NAMES:
             named.append(StudyInput("scene", path))
         elif path.lower().endswith(MESHES) and isfile(path):
-            named.append(StudyInput("mesh", path, path))
+            # Workers may have another working folder.
+            named.append(StudyInput("mesh", path, abspath(path)))
         elif path == "-" or lexists(path):
             paths.append(path)
         else:
@@ -60,17 +64,45 @@ def subjects(arguments: Arguments, size: tuple[int, int] | None) -> Subjects:
         read = inputs(Request(**{**input_options(arguments), "paths": paths}, overrides=overrides(arguments)))
     default = _profile(arguments)
     size = size or (None if named else _stated_size(read.inputs)) or SIZE
-    studied = [Subject(study_input, _picture(study_input, size), default) for study_input in named]
+    errors = list(read.wrong)
+    studied = []
+
+    def add(study_input: StudyInput, *more: Any) -> None:
+        with errors_of(study_input.name, errors, arguments):
+            studied.append(Subject(study_input, _picture(study_input, size), *more))
+
+    for study_input in named:
+        add(study_input, default)
     for document in read.inputs:
         name = document.file if document.many == 1 else f"{document.file}#{document.number + 1}"
         text = document.frame.document.source.text
         study_input = StudyInput("description", name, document.file, text, document.number, arguments.get("input_format"))
-        studied.append(Subject(study_input, _picture(study_input, size), document.device or default, document.frame, document.file))
-    return Subjects(size, studied, read.wrong, read.notes)
+        add(study_input, document.device or default, document.frame, document.file)
+    return Subjects(size, studied, errors, read.notes)
+
+
+@contextmanager
+def errors_of(name: str, errors: list[Finding], arguments: Arguments) -> Iterator[None]:
+    """Makes an internal error of one scene a finding, so that the others are studied; with `--traceback`, it is raised."""
+    try:
+        yield
+    except (UsageError, MemoryError, Unusable, NoDevice):
+        raise
+    except _Unreadable as error:
+        errors.append(diagnostic("MSAA901", str(error), name))
+    except Exception as error:
+        if arguments.get("traceback"):
+            raise
+        message = f"internal error: {type(error).__name__}: {quoted(str(error), 300)}; please report it with the output of --traceback"
+        errors.append(diagnostic("MSAA941", message, name))
+
+
+class _Unreadable(Exception):
+    """An input that is not a scene; the message is for the user."""
 
 
 def _picture(study_input: StudyInput, size: tuple[int, int]) -> Any:
-    """The scene. UsageError if it cannot be built."""
+    """The scene. _Unreadable if the input is not one, and UsageError if a package is missing."""
     from msaa_lint.experiments.study.sweep import picture
 
     try:
@@ -82,7 +114,7 @@ def _picture(study_input: StudyInput, size: tuple[int, int]) -> Any:
         raise UsageError(needs_extra("msaa-lint study", "study")) from None
     except (OSError, ValueError, LookupError) as error:
         reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
-        raise UsageError(f"{study_input.name}: {reason}") from None
+        raise _Unreadable(reason) from None
 
 
 def _unknown(word: str, names: Sequence[str]) -> str:

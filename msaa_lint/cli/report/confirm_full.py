@@ -8,7 +8,7 @@ from rich.console import Console
 from rich.text import Text
 
 from msaa_lint.core.finding import Finding
-from msaa_lint.experiments.confirm.outcome import STATUSES, WRONG, AgreementRow, DeviceRun, Verdict
+from msaa_lint.experiments.confirm.outcome import FAILED, STATUSES, WRONG, AgreementRow, DeviceRun, Verdict
 from msaa_lint.experiments.confirm.timing import Timing
 
 from . import Options, Write
@@ -17,7 +17,7 @@ from .escape import display
 from .summary import plural
 from .tables import FIGURE, NAME, Column, Table, print_tables
 
-STYLES = {"confirmed": "green", "refused": "yellow", "skipped": "", **dict.fromkeys(WRONG, "bold red")}
+STYLES = {"confirmed": "green", "refused": "yellow", "skipped": "", **dict.fromkeys((*WRONG, FAILED), "bold red")}
 _WORDS = {"both": "both", "ours": "only msaa-lint", "theirs": "only the layer", "explained": "explained", "noise": "noise"}
 """Who reports a mistake, by the verdict on it."""
 

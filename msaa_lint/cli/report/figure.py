@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
+import os
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
+
+from msaa_lint.core.package import FOLDER
 
 _SETTINGS: Any = {
     "svg.hashsalt": "msaa-lint",
@@ -18,9 +22,10 @@ _SETTINGS: Any = {
 
 def save_figure(width: float, height: float, draw: Callable[[Any], None], format: str) -> bytes:
     """What `draw` puts on a figure of a size in inches, as `svg` or `png`. ModuleNotFoundError if matplotlib is not installed."""
-    import matplotlib
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
+    with _without_settings():
+        import matplotlib
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
 
     with matplotlib.rc_context(), warnings.catch_warnings():
         # A missing glyph is drawn as a box: nothing to print.
@@ -34,3 +39,20 @@ def save_figure(width: float, height: float, draw: Callable[[Any], None], format
         metadata: dict[str, Any] = {"Date": None, "Creator": "msaa-lint"} if format == "svg" else {"Software": "msaa-lint"}
         figure.savefig(out, format=format, metadata=metadata, dpi=150)
     return out.getvalue()
+
+
+@contextlib.contextmanager
+def _without_settings() -> Iterator[None]:
+    """While matplotlib is imported: it reads `matplotlibrc` of the working folder before all others."""
+    stated = {name: os.environ.pop(name, None) for name in ("MATPLOTLIBRC", "MPLCONFIGDIR")}
+    os.environ["MATPLOTLIBRC"] = os.devnull
+    if os.path.isabs(cache := stated["MPLCONFIGDIR"] or ""):
+        os.environ["MPLCONFIGDIR"] = cache
+    try:
+        with contextlib.chdir(FOLDER):
+            yield
+    finally:
+        for name, value in stated.items():
+            os.environ.pop(name, None)
+            if value is not None:
+                os.environ[name] = value

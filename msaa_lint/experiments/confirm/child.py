@@ -14,6 +14,8 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from typing import IO, Any, NamedTuple
 
+from msaa_lint.core.isolation import import_path
+
 from .protocol import MAX_LINE, Event, ProtocolError, event, line
 from .worker import EXECUTE
 
@@ -40,16 +42,22 @@ class ChildExit(Exception):
         self.signal = signal
 
 
+_PROGRAM = """\
+import json, runpy, sys
+sys.path[:] = json.loads(sys.argv[1])["path"]
+runpy.run_module("msaa_lint.experiments.confirm.worker", run_name="__main__", alter_sys=True)
+"""
+"""Runs `worker` with this process's import path. -I: neither a folder nor the environment adds to it."""
+
+
 class Child:
     """A running worker. The creator must close it."""
 
     def __init__(self, folder: str, limits: Limits, environment: Mapping[str, str], execute: str = EXECUTE) -> None:
         self.limits = limits
-        given = json.dumps({"memory": limits.memory, "execute": execute})
-        # -P: do not import modules from the working directory.
-        command = [sys.executable, "-P", "-m", "msaa_lint.experiments.confirm.worker", given]
+        given = json.dumps({"memory": limits.memory, "execute": execute, "path": import_path(), "parent": os.getpid()})
         self._process = subprocess.Popen(
-            command,
+            [sys.executable, "-I", "-c", _PROGRAM, given],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,

@@ -30,7 +30,7 @@ class RunOptions(NamedTuple):
 
 
 def run(session: Session, plan: Plan, passes: Sequence[int] | None, want: RunOptions, emit: Emit) -> None:
-    """Creates and draws passes of a plan (None: all that are not refused) in the frame's order, and reports events.
+    """Creates and draws passes of a plan (None: all that can be) in the frame's order, and reports events.
 
     The events are `pass` before a pass is touched, `created`, `message` for those of the layer, `pixels` and `sample` for files, `time`,
     and finally `done`. A pass that the driver fails to create is skipped; a lost device ends the run. Unusable and programming errors are
@@ -38,7 +38,7 @@ def run(session: Session, plan: Plan, passes: Sequence[int] | None, want: RunOpt
     """
     plan = _sized(plan, want)
     asked = range(len(plan.passes)) if passes is None else passes
-    going = [n for n in asked if 0 <= n < len(plan.passes) and not plan.passes[n].refused]
+    going = [n for n in asked if 0 <= n < len(plan.passes) and not (plan.passes[n].refused or plan.passes[n].failed)]
     session.at = None
     session.telling(emit)
     opened = session.opened(plan)

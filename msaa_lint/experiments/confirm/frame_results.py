@@ -15,7 +15,8 @@ SAMPLES_OF = ":samples"
 
 
 class PassOutcome(NamedTuple):
-    """The outcome of one pass. `end` is empty where it went through, otherwise `died`, `timed-out` or `left`, and `reason` says why.
+    """The outcome of one pass. `end` is empty where it went through, otherwise `died`, `timed-out` or `left`, and `reason`
+    says why. `failed` is whether this program failed at it.
 
     `created` is None where the child did not report it. `times` are in milliseconds.
     """
@@ -30,13 +31,14 @@ class PassOutcome(NamedTuple):
     end: str = ""
     signal: str = ""
     reason: str = ""
+    failed: bool = False
 
 
 class FrameRun(NamedTuple):
     """The outcome of a frame: each pass, messages about no pass in particular, and the images that were read back, by name.
 
     `whole` says whether all requested passes went through in one run; only then are the contents of the images meaningful. `failed` says
-    why the frame as a whole could not be run.
+    why a pass, or the frame as a whole, failed inside this program.
     """
 
     passes: Mapping[int, PassOutcome]
@@ -60,8 +62,8 @@ class RunCollector:
         """The outcome of a pass."""
         outcome = self._passes.get(number)
         if outcome is None:
-            return PassOutcome(number, end="left", reason=self.failed or "the child process reported nothing about it")
-        return outcome._replace(end="left", reason=self.failed) if self.failed and self.at == number else outcome
+            return PassOutcome(number, end="left", reason=self.failed or "the child process reported nothing about it", failed=True)
+        return outcome._replace(end="left", reason=self.failed, failed=True) if self.failed and self.at == number else outcome
 
     def add(self, event: Event) -> None:
         """Takes up an event."""

@@ -15,10 +15,11 @@ DISAGREES = "disagrees"
 REFUSED = "refused"
 DIED = "driver-died"
 TIMED_OUT = "timed-out"
+FAILED = "failed"
 SKIPPED = "skipped"
-STATUSES = (CONFIRMED, DISAGREES, REFUSED, DIED, TIMED_OUT, SKIPPED)
+STATUSES = (CONFIRMED, DISAGREES, REFUSED, DIED, TIMED_OUT, FAILED, SKIPPED)
 WRONG = frozenset({DISAGREES, DIED, TIMED_OUT})
-"""The statuses for which the exit code is 1."""
+"""The statuses for which the exit code is 1; for FAILED, it is 2: nothing was learned about the pass."""
 
 AGREEMENTS = ("both", "ours", "theirs", "explained", "noise")
 
@@ -80,10 +81,9 @@ class Verdict(NamedTuple):
             return self._replace(status=SKIPPED, reason=self.reason or "there is nothing to do")
         verdict = self._replace(created=outcome.created)
         for run, version in ((outcome, ""), (fixed, "the fixed version: ")):
-            if run is not None and run.end == "died":
-                return verdict._replace(status=DIED, reason=version + run.reason)
-            if run is not None and run.end == "timed-out":
-                return verdict._replace(status=TIMED_OUT, reason=version + run.reason)
+            status = end_status(run)
+            if run is not None and status is not None:
+                return verdict._replace(status=status, reason=version + run.reason)
         if outcome.end == "left":
             return verdict._replace(status=SKIPPED, reason=outcome.reason)
         reasons = []
@@ -173,8 +173,15 @@ def _text(value: object) -> str:
     return value if isinstance(value, str) else ""
 
 
+def end_status(outcome: PassOutcome | None) -> str | None:
+    """The status of a pass that did not go through; None for another one."""
+    if outcome is None:
+        return None
+    return FAILED if outcome.failed else {"died": DIED, "timed-out": TIMED_OUT}.get(outcome.end)
+
+
 def exit_code(runs: Sequence[DeviceRun], wrong: bool) -> int:
-    """2 where an input or a device could not be used, 1 where a pass on some device is wrong, otherwise 0."""
-    if wrong or any(run.unusable for run in runs):
+    """2 where an input, a device, or a pass could not be tried, 1 where a pass on some device is wrong, otherwise 0."""
+    if wrong or any(run.unusable or any(verdict.status == FAILED for verdict in run.verdicts) for run in runs):
         return 2
     return int(any(verdict.status in WRONG for run in runs for verdict in run.verdicts))

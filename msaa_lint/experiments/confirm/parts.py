@@ -206,7 +206,7 @@ class PassCommand(NamedTuple):
 
 class Pass(NamedTuple):
     """A render pass (`api` 1 or 2: the version of the structures that create it), a dynamic rendering, or the frame itself. `refused` says
-    why no device can run it, empty if one may."""
+    why no device can run it, and `failed` why it could not be planned; empty if one may, and if it could."""
 
     name: str
     path: str
@@ -224,6 +224,7 @@ class Pass(NamedTuple):
     view_mask: int = 0
     single_sampled: int = 0
     images: tuple[int, ...] = ()
+    failed: str = ""
 
 
 class Step(NamedTuple):

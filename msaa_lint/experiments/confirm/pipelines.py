@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-import struct
+import os
 from typing import Any
 
-from . import parts
+from msaa_lint.core.text.files import read
+from msaa_lint.frame.spirv.module import MAX_BYTES, Module
+
+from . import parts, plan_shaders
 from .binding import chain
 from .opening import DeviceObjects
 from .parts import MASK_DYNAMIC, Blend, Pass, Pipeline
@@ -58,19 +61,16 @@ def _stage(objects: DeviceObjects, stage: int, module: Any, name: str = "main", 
 
 def _described(objects: DeviceObjects, stage: parts.Stage) -> Any:
     vk = objects.vk
-    with open(stage.path, "rb") as file:
-        module = objects.own(vk.vkDestroyShaderModule, objects.opened.compiled(file.read()))
+    code = read(stage.path, MAX_BYTES, os.path.dirname(stage.path))
+    module = objects.own(vk.vkDestroyShaderModule, objects.opened.compiled(code))
     specialization = None
     if stage.constants:
-        # The type of a constant is not described: values with a fraction are floats, others integers.
-        data = b"".join(_packed(value) for _, value in stage.constants)
-        entries = [vk.VkSpecializationMapEntry(constantID=n, offset=4 * at, size=4) for at, (n, _) in enumerate(stage.constants)]
+        data, entries = b"", []
+        for number, value in plan_shaders.specialization(Module(code), stage.constants):
+            entries.append(vk.VkSpecializationMapEntry(constantID=number, offset=len(data), size=len(value)))
+            data += value
         specialization = vk.VkSpecializationInfo(pMapEntries=entries, dataSize=len(data), pData=vk.ffi.from_buffer("char[]", data))
     return _stage(objects, stage.stage, module, stage.name, specialization)
-
-
-def _packed(value: float) -> bytes:
-    return struct.pack("<i", int(value)) if value == int(value) else struct.pack("<f", value)
 
 
 def _create(

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 
+from msaa_lint.core.project import folder_of
 from msaa_lint.frame.description.models import Command
 from msaa_lint.frame.description.models import Pipeline as DescribedPipeline
 from msaa_lint.frame.facts.frame import Frame
@@ -16,6 +16,7 @@ from .plan_images import Images
 from .plan_integers import layout, mask
 from .plan_passes import Passes
 from .plan_pipelines import GREATER, LESS, built_in, described
+from .plan_shaders import UnusableShader
 from .resample import resampled, resized
 
 MAX_STEPS = 4096
@@ -41,7 +42,8 @@ def plan(frame: Frame, file: str = "", size: tuple[int, int] | None = None, samp
     """The plan of a frame. `size` and `samples` replace the described size and the described sample counts above one; `api` is the version
     of the structures that create render passes, by default the one that the description allows.
 
-    It never raises for what the frame contains: a pass that no device can run says why (`refused`).
+    It never raises for what the frame contains: a pass that no device can run says why (`refused`), and so does one whose
+    shaders cannot be used (`failed`).
     """
     frame_plan = _Plan(frame, file, api).build()
     frame_plan = resized(frame_plan, size) if size is not None else frame_plan
@@ -52,7 +54,7 @@ class _Plan:
     def __init__(self, frame: Frame, file: str, api: int | None) -> None:
         self.frame = frame
         self.file = file
-        self.folder = os.path.dirname(file)
+        self.folder = folder_of(file)
         self.images = Images(frame)
         self.notes = self.images.notes
         self.passes = Passes(frame, self.images, api)
@@ -62,6 +64,7 @@ class _Plan:
         self.pipelines: list[list[Pipeline]] = [[] for _ in frame.passes]
         self.steps: list[Step] = []
         self.used: set[str] = set()
+        self.failures: dict[int, str] = {}
 
     def build(self) -> Plan:
         if not self.images.sized and self.images.images:
@@ -81,7 +84,10 @@ class _Plan:
             self.pipelines = [[] for _ in passes]
         if passes:
             self._others()
-        passes = [frame_pass._replace(pipelines=tuple(pipelines)) for frame_pass, pipelines in zip(passes, self.pipelines, strict=True)]
+        passes = [
+            frame_pass._replace(pipelines=tuple(pipelines), failed=self.failures.get(number, ""))
+            for number, (frame_pass, pipelines) in enumerate(zip(passes, self.pipelines, strict=True))
+        ]
         passes = _with_images(passes, self.steps, len(self.images.images))
         enabled = self.frame.description.enabled
         stated = enabled.features if enabled is not None else None
@@ -253,7 +259,11 @@ class _Plan:
             if existing.name == record.key:
                 return index
         self.used.add(record.key)
-        planned.append(described(record, compatible, self.folder, self.notes))
+        try:
+            planned.append(described(record, compatible, self.folder, self.notes))
+        except UnusableShader as error:
+            self.failures.setdefault(number, str(error))
+            planned.append(compatible._replace(name=record.key))
         return len(planned) - 1
 
     def _built_in(self, number: int, compatible: Pipeline) -> int:

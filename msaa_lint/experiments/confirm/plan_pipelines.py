@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 
 from msaa_lint.frame.description.models import ColorBlendAttachment
@@ -10,9 +9,9 @@ from msaa_lint.frame.description.models import Pipeline as DescribedPipeline
 from msaa_lint.frame.vulkan.enums import VALUES
 from msaa_lint.frame.vulkan.formats import format_of
 
-from .parts import DEPTH, KEPT_DYNAMIC, SCISSOR, STENCIL, VIEWPORT, Blend, Image, Pipeline, Stage
+from .parts import DEPTH, KEPT_DYNAMIC, SCISSOR, STENCIL, VIEWPORT, Blend, Image, Pipeline
 from .plan_integers import mask, number
-from .shaders.spirv import needs
+from .plan_shaders import stages
 
 LESS, GREATER = 1, 4
 """VkCompareOp."""
@@ -49,7 +48,7 @@ def built_in(
 
 
 def described(record: DescribedPipeline, fitting: Pipeline, folder: str, text: list[str]) -> Pipeline:
-    """A described pipeline, based on one that is compatible with its attachments."""
+    """A described pipeline, based on one that is compatible with its attachments. UnusableShader if a shader of it cannot be used."""
     pipeline = fitting._replace(name=record.key)
     state = record.multisampleState
     if state is not None:
@@ -118,50 +117,11 @@ def _dynamic(record: DescribedPipeline, pipeline: Pipeline, notes: list[str]) ->
 
 
 def _shaders(record: DescribedPipeline, pipeline: Pipeline, folder: str, notes: list[str]) -> Pipeline:
-    """Adds the described SPIR-V of the vertex and fragment stages if the files exist. It is not validated here: the driver runs in its own
-    process."""
-    stages: list[Stage] = []
-    stated_stages = {stage_record.stage for stage_record in record.stages}
-    for stage_record in record.stages:
-        path = os.path.join(folder, stage_record.module) if stage_record.module is not None else ""
-        if stage_record.stage is not None and stage_record.stage not in ("VERTEX", "FRAGMENT"):
-            notes.append(
-                f"the {stage_record.stage.lower()} shader of {record.key} is ignored: only vertex and fragment shaders are supported"
-            )
-            continue
-        if not path or stage_record.stage is None or not os.path.isfile(path):
-            if path or stage_record.stage is not None:
-                notes.append(
-                    f"the {(stage_record.stage or 'unnamed').lower()} shader of {record.key} does not exist: a built-in one is used"
-                )
-            continue
-        reason = _undrivable(path, stage_record.stage, "VERTEX" in stated_stages)
-        if reason:
-            notes.append(f"the {stage_record.stage.lower()} shader of {record.key} {reason}: a built-in one is used")
-            continue
-        constants = tuple((int(constant), float(value)) for constant, value in (stage_record.specialization or {}).items())
-        stages.append(Stage(number("VkShaderStageFlagBits", stage_record.stage), path, stage_record.name or "main", constants))
-    if record.vertexInputState is not None and not any(stage.stage == 1 for stage in stages):
+    """Adds the described SPIR-V of the vertex and fragment stages."""
+    described_stages = stages(record, folder, notes)
+    if record.vertexInputState is not None and not any(stage.stage == 1 for stage in described_stages):
         notes.append(f"the vertex input of {record.key} is ignored: the built-in shader has its own vertices")
-    return pipeline._replace(stages=tuple(stages))
-
-
-MAX_SPIRV = 4 << 20
-"""Maximum size of a shader in bytes."""
-
-
-def _undrivable(path: str, stage: str, has_vertex_stage: bool) -> str:
-    """Why a described shader cannot be run; empty where it can."""
-    try:
-        with open(path, "rb") as file:
-            inputs = needs(file.read(MAX_SPIRV + 1)[:MAX_SPIRV])
-    except (OSError, ValueError) as error:
-        return f"cannot be read ({error.strerror if isinstance(error, OSError) else error})"
-    if "descriptors" in inputs:
-        return "reads descriptors, which are not described"
-    if "inputs" in inputs and (stage == "VERTEX" or not has_vertex_stage):
-        return "has inputs, which are not described"
-    return ""
+    return pipeline._replace(stages=described_stages)
 
 
 def _blend(record: ColorBlendAttachment) -> Blend:

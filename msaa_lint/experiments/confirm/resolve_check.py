@@ -102,6 +102,8 @@ def _probed(session: Session, probe_frame: Probe, device: Mapping[str, Any]) -> 
         want = {"pixels": folder, "samples_of": multisampled}
         try:
             run = session.run(probe_frame.plan, runnable, want)
+            if run.failed:
+                raise RuntimeError(f"the probe of the resolves failed: {run.failed}")
             for number, (resolve, at) in enumerate(probe_frame.resolves):
                 if at in runnable and run.passes[at].created:
                     deviations_found += [(resolve, deviation) for deviation in _judged(resolve, number, multisampled, run, folder)]

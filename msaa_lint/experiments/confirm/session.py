@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import glob
 import os
-import shutil
-import tempfile
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
 from types import TracebackType
 from typing import Any
 
-from msaa_lint.core import package
-
 from .child import Child, ChildExit, Limits
 from .frame_results import FrameRun, PassOutcome, RunCollector
+from .loader_environment import loader_environment
 from .protocol import Event
+from .scratch import ScratchFolder
 from .vulkan_errors import Unusable, missing_package
 from .worker import EXECUTE
 
@@ -30,17 +27,16 @@ OPENING = 30.0
 
 
 def environment(device: str | None) -> dict[str, str]:
-    """The environment of a child: the current one, restricted to lavapipe if it is installed and neither the environment nor `device`
-    selects a driver.
+    """The `loader_environment`, restricted to lavapipe if it is installed and neither the environment nor `device` selects a driver.
 
     Loading one driver takes a third of the time of loading all of Mesa's.
     """
-    made = dict(os.environ)
-    if device is None and not any(made.get(name) for name in PINNED):
+    variables = loader_environment()
+    if device is None and not any(variables.get(name) for name in PINNED):
         found = [path for folder in ICD_FOLDERS for path in sorted(glob.glob(os.path.join(folder, "lvp_icd*.json")))]
         if found:
-            made["VK_DRIVER_FILES"] = found[0]
-    return made
+            variables["VK_DRIVER_FILES"] = found[0]
+    return variables
 
 
 class Session:
@@ -60,26 +56,27 @@ class Session:
         self.validation = validation
         self.vendors = tuple(vendors)
         self.limits = limits or Limits()
-        self.environment = {**(os.environ if environment is None else environment), **_own_path(environment)}
+        self.environment = loader_environment() if environment is None else environment
         self.execute = execute
         self.device: dict[str, Any] = {}
         self.layer: dict[str, Any] | None = None
         self.printed: list[str] = []
         self.meanwhile: Callable[[], None] | None = None
         """Called once while the child works on the next run."""
-        self._folder = ""
+        self._scratch: ScratchFolder | None = None
         self._child: Child | None = None
         self._opened = False
 
     def __enter__(self) -> Session:
-        self._folder = tempfile.mkdtemp(prefix="msaa-lint-confirm-")
+        self._scratch = ScratchFolder()
         return self
 
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
         try:
             self.close()
         finally:
-            shutil.rmtree(self._folder, ignore_errors=True)
+            if self._scratch is not None:
+                self._scratch.remove()
 
     def close(self) -> None:
         """Terminates the child, if there is one."""
@@ -115,7 +112,8 @@ class Session:
 
     def folder(self, name: str) -> str:
         """A folder of the session for the files of a run."""
-        path = os.path.join(self._folder, name)
+        assert self._scratch is not None
+        path = os.path.join(self._scratch.path, name)
         os.makedirs(path, exist_ok=True)
         return path
 
@@ -123,6 +121,7 @@ class Session:
         """Runs passes of a plan in order. The result says how the driver behaved. Unusable if the device cannot be opened any more."""
         done: dict[int, PassOutcome] = {}
         left = list(passes)
+        failed = ""
         while left:
             collected = RunCollector()
             try:
@@ -135,15 +134,19 @@ class Session:
                     done.update((number, _left(number)) for number in left[MAX_DEATHS:])
                     return FrameRun(done, tuple(collected.messages), {}, False)
                 done[guilty] = self._alone(plan, guilty, want, ended)
-                left.remove(guilty)
-                if sum(ran.end != "" for ran in done.values()) >= MAX_DEATHS:
-                    done.update((number, _left(number)) for number in left)
-                    return FrameRun(done, tuple(collected.messages), {}, False)
-                continue
-            whole = not done and not collected.failed
-            done.update((number, collected.outcome(number)) for number in left)
-            return FrameRun(done, tuple(collected.messages), collected.images if whole else {}, whole, collected.failed)
-        return FrameRun(done, whole=False)
+            else:
+                failed = failed or collected.failed
+                guilty = collected.at
+                if not collected.failed or guilty not in left:
+                    whole = not done and not failed
+                    done.update((number, collected.outcome(number)) for number in left)
+                    return FrameRun(done, tuple(collected.messages), collected.images if whole else {}, whole, failed)
+                done[guilty] = collected.outcome(guilty)
+            left.remove(guilty)
+            if sum(ran.end != "" for ran in done.values()) >= MAX_DEATHS:
+                done.update((number, _left(number)) for number in left)
+                return FrameRun(done, tuple(collected.messages), {}, False, failed)
+        return FrameRun(done, whole=False, failed=failed)
 
     def _alone(self, plan: Any, number: int, want: Mapping[str, Any], ended: ChildExit) -> PassOutcome:
         """Runs a pass during which the child died, alone in a fresh child. A pass that timed out is not repeated."""
@@ -177,7 +180,8 @@ class Session:
             raise
 
     def _start(self, request: Mapping[str, Any]) -> None:
-        self._child = Child(self._folder, self.limits, self.environment, self.execute)
+        assert self._scratch is not None
+        self._child = Child(self._scratch.path, self.limits, self.environment, self.execute)
         self._child.send(request, max(OPENING, self.limits.seconds))
 
     def _first(self) -> Event:
@@ -195,7 +199,7 @@ class Session:
 
 
 def _left(number: int) -> PassOutcome:
-    return PassOutcome(number, end="left", reason=f"skipped: the driver died {MAX_DEATHS} times in this frame")
+    return PassOutcome(number, end="left", reason=f"skipped: {MAX_DEATHS} passes of this frame failed or killed the driver")
 
 
 def _advice(found: Event) -> str:
@@ -207,12 +211,3 @@ def _advice(found: Event) -> str:
     if found.get("kind") == "memory":
         return "there is not enough memory to open a device"
     return str(found["reason"])
-
-
-def _own_path(environment: Mapping[str, str] | None) -> dict[str, str]:
-    """The PYTHONPATH with which a child finds this package, however it is installed."""
-    root = os.path.dirname(package.FOLDER)
-    stated = (os.environ if environment is None else environment).get("PYTHONPATH", "")
-    with suppress(ValueError):
-        stated = os.pathsep.join(os.path.abspath(each) for each in stated.split(os.pathsep) if each)
-    return {"PYTHONPATH": root + os.pathsep + stated if stated else root}

@@ -14,14 +14,27 @@ from msaa_lint.frame.facts.parts import Pass
 from . import parts
 from .frame_results import FrameRun
 from .inputs import Input, of_pass
-from .outcome import REFUSED, SKIPPED, AgreementRow, DeviceInfo, DeviceRun, Verdict, about, pixels_equal
+from .outcome import (
+    CONFIRMED,
+    DISAGREES,
+    FAILED,
+    REFUSED,
+    SKIPPED,
+    AgreementRow,
+    DeviceInfo,
+    DeviceRun,
+    Verdict,
+    about,
+    end_status,
+    pixels_equal,
+)
 from .pixels import ImageComparison, RawImage, compare, read
 from .planner import Planner
 from .png import PictureFolder, file_name, show
 from .protocol import Event
 from .session import Session
 from .timing import cannot_show
-from .version_timing import Version, measure_times
+from .version_timing import TimedPasses, Version, measure_times
 from .vulkan_errors import Unusable
 
 MAX_IMAGE = 256 << 20
@@ -36,7 +49,7 @@ class TrialOptions(NamedTuple):
     `gate` skips what the device does not support; `image` is the folder for pictures, which replace other files if `force`
     is true; `time` measures times (None: on a GPU only) with
     `repeats`; `size` and `samples` replace the described ones; `several` gives each device its own folder of pictures; `resolves` checks
-    the color resolves too.
+    the color resolves too. `traceback` raises the exceptions of internal errors.
     """
 
     gate: bool = True
@@ -48,6 +61,7 @@ class TrialOptions(NamedTuple):
     samples: int | None = None
     several: bool = False
     resolves: bool = False
+    traceback: bool = False
 
 
 def trial(
@@ -67,7 +81,7 @@ def trial(
         sources = inputs()
         session.meanwhile = meanwhile
         device_trial = _Trial(session, options, session.open(), planner or Planner())
-        verdicts = [verdict for source in sources for verdict in device_trial.verdicts(source)]
+        verdicts = [verdict for source in sources for verdict in device_trial.try_input(source)]
     except Unusable as error:
         return DeviceRun(None, unusable=str(error), asked=asked)
     finally:
@@ -104,6 +118,18 @@ class _Trial:
             notes.append("the gate is off: what the device does not support was tried too, and those results are meaningless")
         return notes
 
+    def try_input(self, source: Input) -> list[Verdict]:
+        """The verdicts on the passes of one input; if they cannot be determined, one that says why. Unusable if the device is gone."""
+        try:
+            return self.verdicts(source)
+        except Unusable:
+            raise
+        except Exception as error:
+            if self.options.traceback:
+                raise
+            reason = f"internal error: {type(error).__name__}: {str(error)[:300]} (--traceback shows where)"
+            return [Verdict(source.file, "", source.prefix.rstrip("."), FAILED, reason)]
+
     def verdicts(self, source: Input) -> list[Verdict]:
         """The verdicts on the passes of one input."""
         before = self._version(source.frame, source.file)
@@ -114,7 +140,7 @@ class _Trial:
         if not passes:
             return [Verdict(source.file, "", source.prefix.rstrip("."), SKIPPED, "it has no pass")]
         versions = {"as written": before, **({"fixed": after} if after is not None else {})}
-        times = measure_times(self.session, versions, self.options.repeats, self.info.software) if self.timed else {}
+        measured = measure_times(self.session, versions, self.options.repeats, self.info.software) if self.timed else TimedPasses({}, {})
         # The cost model's figures are shown next to times only, and take a while to compute.
         agreement, model = self._agreement(source, before), _model(source) if self.timed else {}
         deviations = self.planner.deviations(self.session, before.planned, self.device, self.options.resolves) if before.run.passes else {}
@@ -122,10 +148,13 @@ class _Trial:
         for number, planned in enumerate(passes):
             verdict = self._verdict(source, before, number)
             verdict = verdict._replace(
-                agreement=tuple(agreement.get(number, ())), times=times.get(number), model=model.get(planned.name)
+                agreement=tuple(agreement.get(number, ())), times=measured.times.get(number), model=model.get(planned.name)
             )  # fmt: skip
             if planned.refused or number in before.refused:
                 verdicts.append(verdict._replace(status=REFUSED, reason=planned.refused or before.refused[number]))
+                continue
+            if planned.failed:
+                verdicts.append(verdict._replace(status=FAILED, reason=planned.failed))
                 continue
             images = [image for image in comparisons if _concerns(image.image, planned, source.frame, len(passes))]
             equal = pixels_equal(images)
@@ -135,7 +164,11 @@ class _Trial:
             fixed_number = after.number(planned.name) if after is not None else None
             fixed = after.run.passes.get(fixed_number) if after is not None and fixed_number is not None else None
             has_errors = any(finding.severity == "error" for finding in _findings(source, planned))
-            verdicts.append(verdict.with_status(before.run.passes.get(number), fixed, has_errors))
+            verdict = verdict.with_status(before.run.passes.get(number), fixed, has_errors)
+            untimed = measured.failures.get(planned.name)
+            if untimed is not None and verdict.status in (CONFIRMED, DISAGREES):
+                verdict = verdict._replace(status=end_status(untimed) or FAILED, reason=f"while it was timed: {untimed.reason}")
+            verdicts.append(verdict)
         if verdicts[-1].status != REFUSED:
             verdicts[-1] = verdicts[-1]._replace(pictures=tuple(pictures))
         return verdicts
@@ -144,7 +177,11 @@ class _Trial:
         """A frame planned, checked against the device, and run."""
         planned = self.planner.plan(frame, file, self.options.size, self.options.samples)
         refused = self.planner.gate(planned, self.device) if self.options.gate else {}
-        runnable = [number for number, planned_pass in enumerate(planned.passes) if not planned_pass.refused and number not in refused]
+        runnable = [
+            number
+            for number, planned_pass in enumerate(planned.passes)
+            if not planned_pass.refused and not planned_pass.failed and number not in refused
+        ]
         if not runnable:
             return Version(planned, refused, FrameRun({}), {})
         folder = self.session.folder("pixels")

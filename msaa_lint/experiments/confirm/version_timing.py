@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from .frame_results import FrameRun
-from .outcome import Times
+from .frame_results import FrameRun, PassOutcome
+from .outcome import Times, end_status
 from .pixels import RawImage
 from .planner import PlannedFrame
 from .session import Session
@@ -28,8 +28,16 @@ class Version(NamedTuple):
         return next((number for number, planned in enumerate(self.planned.passes) if planned.name == name), None)
 
 
-def measure_times(session: Session, versions: Mapping[str, Version], repeats: int, software: bool) -> dict[int, Times]:
-    """The times of the passes that went through, by their number as written. `versions` are `as written` and, if there is one, `fixed`."""
+class TimedPasses(NamedTuple):
+    """The times of passes by their number as written, and the first outcome of each pass that did not go through, by its name."""
+
+    times: Mapping[int, Times]
+    failures: Mapping[str, PassOutcome]
+
+
+def measure_times(session: Session, versions: Mapping[str, Version], repeats: int, software: bool) -> TimedPasses:
+    """The times of the passes that went through. `versions` are `as written` and, if there is one, `fixed`."""
+    failures: dict[str, PassOutcome] = {}
     values: dict[str, dict[int, list[float]]] = {name: {} for name in versions}
     source = "wall"
     # The layer would be timed too: use a session without it.
@@ -51,6 +59,8 @@ def measure_times(session: Session, versions: Mapping[str, Version], repeats: in
                 for number, outcome in timed_session.run(version.planned.plan, runnable, options).passes.items():
                     values[name].setdefault(number, []).extend(outcome.times)
                     source = outcome.source or source
+                    if end_status(outcome) is not None:
+                        failures.setdefault(version.planned.passes[number].name, outcome)
     times = {}
     for number, written_values in values["as written"].items():
         if not written_values:
@@ -61,4 +71,4 @@ def measure_times(session: Session, versions: Mapping[str, Version], repeats: in
             fixed_values = values["fixed"].get(twin, []) if twin is not None else []
             fixed = timing(fixed_values, source) if fixed_values else None
         times[number] = Times(written, fixed, difference(written, fixed, software) if fixed is not None else None)
-    return times
+    return TimedPasses(times, failures)

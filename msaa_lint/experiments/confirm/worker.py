@@ -15,6 +15,8 @@ import sys
 from collections.abc import Callable
 from typing import IO, Any
 
+from msaa_lint.core.parent_process import end_with_parent
+
 from .protocol import MAX_LINE, Event, line
 from .vulkan_errors import Unusable
 
@@ -22,9 +24,10 @@ EXECUTE = "msaa_lint.experiments.confirm.execute"
 
 
 def main(arguments: list[str]) -> int:
-    """Answers requests until there are no more. The only argument is JSON: `memory`, a limit in bytes, and `execute`, the module that runs
-    plans."""
+    """Answers requests until there are no more. The only argument is JSON: `memory`, a limit in bytes; `execute`, the module that runs
+    plans; and `parent`, the process to end with."""
     limits = json.loads(arguments[0]) if arguments else {}
+    end_with_parent(limits.get("parent", os.getppid()))
     with os.fdopen(_private(), "wb", buffering=0) as answers:
         _limit(int(limits.get("memory", 0)))
         return _serve(sys.stdin.buffer, answers, limits.get("execute") or EXECUTE)

@@ -11,6 +11,7 @@ from concurrent.futures import BrokenExecutor
 from typing import Any
 
 from msaa_lint.core.extras import needs_extra, pip_install
+from msaa_lint.core.parent_process import end_with_parent
 
 from .checkpoint import Checkpoint
 from .points import MSAA, Point, Technique
@@ -67,7 +68,7 @@ def costs(
     for technique in dict.fromkeys((Technique(MSAA, 1), *techniques)):
         stored = checkpoint.cost(source, technique, size) if checkpoint is not None else None
         found[technique] = stored if stored is not None else source.of(technique, *size)
-        if checkpoint is not None and stored is None:
+        if checkpoint is not None and stored is None and not found[technique].failed:
             checkpoint.save_cost(source, technique, size, found[technique])
     return found
 
@@ -168,6 +169,8 @@ def _parallel(tasks: Mapping[int, Task], jobs: int, backend: str | None, measure
 
 def _attempt_in_worker(owner: int, number: int, measure: Measure, task: Task) -> tuple[int, Point | str]:
     if os.getpid() != owner:
+        if os.getppid() == owner:
+            end_with_parent(owner)
         # Interrupts are for the parent process, which ends this one.
         with contextlib.suppress(ValueError):
             signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -200,11 +203,18 @@ def _cluster(backend: str | None) -> Any:
         missing = f"{package} is not installed: run `{pip_install(package)}`"
         raise Unusable(needs_extra("more than one job", "study") if package == "joblib" else missing) from None
     if backend == "dask":
-        return contextlib.closing(Client())
+        with _outside_the_working_folder():
+            return contextlib.closing(Client())
     if backend == "ray":
         register_ray()
-        return contextlib.nullcontext() if ray.is_initialized() else ray.init(logging_level="ERROR")
+        with _outside_the_working_folder():
+            return contextlib.nullcontext() if ray.is_initialized() else ray.init(logging_level="ERROR")
     return contextlib.nullcontext()
+
+
+def _outside_the_working_folder() -> contextlib.AbstractContextManager[None]:
+    """While workers start: Ray's import modules from the working folder."""
+    return contextlib.chdir(os.sep)
 
 
 def ordered(results: Iterable[Point | FailedPoint], names: Sequence[str], techniques: Sequence[Technique]) -> list[Point | FailedPoint]:

@@ -15,7 +15,8 @@ from .technique_frames import frame_of
 
 
 class Cost(NamedTuple):
-    """The cost of a technique at a size; None where unknown. `reason` says why a device does not support the technique."""
+    """The cost of a technique at a size; None where unknown. `reason` says why a device does not support the technique, or, with
+    `failed`, why it could not be timed."""
 
     time_ms: float | None = None
     bytes_per_frame: float | None = None
@@ -24,6 +25,7 @@ class Cost(NamedTuple):
     low_ms: float | None = None
     high_ms: float | None = None
     reason: str = ""
+    failed: bool = False
 
 
 class CostSource(Protocol):
@@ -104,6 +106,6 @@ class DeviceClock:
         run = self.session.run(frame_plan, [0], {"repeats": self.repeats, "warmups": warmups})
         outcome = run.passes[0]
         if run.failed or outcome.end or not outcome.times:
-            return cost._replace(reason=run.failed or outcome.reason or outcome.error or "no time was measured")
+            return cost._replace(reason=run.failed or outcome.reason or outcome.error or "no time was measured", failed=True)
         times = timing(outcome.times, outcome.source)
         return cost._replace(time_ms=times.median, low_ms=times.low, high_ms=times.high)

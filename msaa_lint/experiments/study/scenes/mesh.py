@@ -28,6 +28,8 @@ MAX_BYTES = 64 << 20
 MAX_TRIANGLES = 100_000
 """The exact picture of that many overlapping triangles takes minutes."""
 
+MAX_COORDINATE = 1e100
+
 FORMATS = {".obj": "obj", ".ply": "ply"}
 
 
@@ -42,14 +44,20 @@ def from_mesh(path: str, width: int, height: int) -> Scene:
     corners, mesh_colors = _read(path)
     flat = bool(np.ptp(corners[..., 2]) == 0)
     low, high = corners.reshape(-1, 3).min(axis=0), corners.reshape(-1, 3).max(axis=0)
+    # Normals are products of extents.
+    if np.abs(corners).max() > MAX_COORDINATE:
+        raise ValueError(f"a vertex has a coordinate above {MAX_COORDINATE:g}")
     size = high - low
-    if not np.all(np.isfinite(size)) or not size[:2].any():
+    if not size[:2].any():
         raise ValueError("the mesh has no visible extent")
-    scale = min((side - 2) / side_length for side, side_length in zip((width, height), size[:2], strict=True) if side_length > 0)
-    center = (low + high) / 2
-    triangles = np.empty((len(corners), 3, 2))
-    triangles[..., 0] = (corners[..., 0] - center[0]) * scale + width / 2
-    triangles[..., 1] = (center[1] - corners[..., 1]) * scale + height / 2
+    with np.errstate(over="ignore", invalid="ignore"):
+        scale = min((side - 2) / side_length for side, side_length in zip((width, height), size[:2], strict=True) if side_length > 0)
+        center = low + size / 2
+        triangles = np.empty((len(corners), 3, 2))
+        triangles[..., 0] = (corners[..., 0] - center[0]) * scale + width / 2
+        triangles[..., 1] = (center[1] - corners[..., 1]) * scale + height / 2
+    if not np.all(np.isfinite(triangles)):
+        raise ValueError("the mesh is too small: its extent is not a normal number")
     name, description = os.path.basename(path), f"{len(triangles)} triangles from a file"
     if flat and mesh_colors is None and areas_of(triangles, width, height).max() <= 1 + area.TOLERANCE:
         colors = shapes.uniform_colors(len(triangles), WHITE)
@@ -78,13 +86,22 @@ def _read(path: str) -> tuple[Floats, Floats | None]:
         data = read(path, MAX_BYTES, None)
     except Unreadable:
         raise ValueError(f"the file is larger than {MAX_BYTES >> 20} MiB") from None
+    not_valid = f"the file is not a valid {format.upper()} mesh"
+    problem = _broken_obj(data) if format == "obj" else ""
+    if problem:
+        raise ValueError(f"{not_valid}: {problem}")
     try:
         # Bytes have no folder in which trimesh would look for other files that the mesh names (materials, textures).
         mesh = trimesh.load_mesh(io.BytesIO(data), file_type=format, process=False, skip_materials=True)
-        corners = np.asarray(mesh.triangles, np.float64)
-        colors = _colors(mesh)
+        problem = _broken_faces(mesh)
+        corners = np.asarray(mesh.triangles, np.float64) if not problem else np.empty((0, 3, 3))
+        colors = _colors(mesh) if not problem else None
+    except (IndexError, KeyError):
+        raise ValueError(f"{not_valid}: its header and its data do not fit together") from None
     except Exception as error:
-        raise ValueError(f"the file is not a valid {format.upper()} mesh: {type(error).__name__}: {str(error)[:200]}") from None
+        raise ValueError(f"{not_valid}: {type(error).__name__}: {str(error)[:200]}") from None
+    if problem:
+        raise ValueError(f"{not_valid}: {problem}")
     if not len(corners):
         raise ValueError("the file has no triangles")
     if len(corners) > MAX_TRIANGLES:
@@ -92,6 +109,41 @@ def _read(path: str) -> tuple[Floats, Floats | None]:
     if not np.all(np.isfinite(corners)):
         raise ValueError("a vertex has a coordinate that is not finite")
     return corners, colors
+
+
+def _broken_obj(data: bytes) -> str:
+    """What is wrong with the vertices and faces of an OBJ file, at the first line with a mistake; empty if nothing is.
+
+    trimesh renumbers vertices, so that index 0 becomes another one.
+    """
+    vertices, greatest, line_of_greatest = 0, 0, 0
+    for number, line in enumerate(io.BytesIO(data), 1):
+        if line.startswith((b"v ", b"v\t")):
+            vertices += 1
+            if len(line.split(b"#")[0].split()) < 4:
+                return f"line {number}: a vertex needs x, y, and z"
+        elif line.startswith((b"f ", b"f\t")) and not line.rstrip().endswith(b"\\"):
+            try:
+                indices = [int(corner.split(b"/")[0]) for corner in line.split(b"#")[0].split()[1:]]
+            except ValueError:
+                return f"line {number}: a face must consist of numbers of vertices"
+            if len(indices) < 3:
+                return f"line {number}: a face needs three vertices"
+            if 0 in indices or min(indices) < -vertices:
+                wrong = 0 if 0 in indices else min(indices)
+                return f"line {number}: a face refers to vertex {wrong}, which does not exist"
+            if max(indices) > greatest:
+                greatest, line_of_greatest = max(indices), number
+    if greatest > vertices:
+        return f"line {line_of_greatest}: a face refers to vertex {greatest}, but the file has {vertices}"
+    return ""
+
+
+def _broken_faces(mesh: Any) -> str:
+    """What is wrong with the faces of a mesh; empty if nothing is. NumPy counts negative indices from the end."""
+    faces, count = np.asarray(getattr(mesh, "faces", ())), len(getattr(mesh, "vertices", ()))
+    wrong = faces[(faces < 0) | (faces >= count)]
+    return f"a face refers to vertex {wrong[0]} (counting from 0), but the file has {count}" if len(wrong) else ""
 
 
 def _colors(mesh: Any) -> Floats | None:

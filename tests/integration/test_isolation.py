@@ -1,0 +1,151 @@
+"""Nothing in the working folder is imported, run, or read as somebody else's settings, whatever it is called."""
+
+from __future__ import annotations
+
+import functools
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.command import environment_of, run_process
+from tests.integration.test_pre_commit import GOOD
+
+DESCRIPTION = GOOD.replace("renderPasses:", "frame: {width: 64, height: 64}\nrenderPasses:")
+MESH = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+CODE = """\
+VkAttachmentDescription attachment = {.format = VK_FORMAT_R8G8B8A8_UNORM, .samples = VK_SAMPLE_COUNT_4_BIT};
+VkRenderPassCreateInfo create = {.attachmentCount = 1, .pAttachments = &attachment};
+"""
+
+STUDY = ("study", "triangle.obj", "--size", "32x32", "--samples", "1,2", "--techniques", "msaa")
+COMMANDS = [
+    ("--version",),
+    ("--help",),
+    ("check", "frame.msaa.yaml", "--output", "sarif"),
+    ("check", "--fix", "frame.msaa.yaml"),
+    ("check", "code.cpp"),
+    ("convert", "code.cpp"),
+    ("cost", "frame.msaa.yaml"),
+    ("cost", "frame.msaa.yaml", "--chart", "chart.svg"),
+    ("confirm", "frame.msaa.yaml"),
+    ("confirm", "--list-devices"),
+    (*STUDY, "--jobs", "1"),
+    (*STUDY, "--jobs", "2"),
+    (*STUDY, "--jobs", "2", "--backend", "loky", "--plot", "plot.svg"),
+    ("facts", "frame.msaa.yaml"),
+    ("rule", "--all"),
+    ("schema",),
+    ("device", "mali-g76"),
+    ("init", "new"),
+]
+
+
+@pytest.fixture
+def checkout(tmp_path: Path) -> Path:
+    """A folder with inputs."""
+    for name, text in (("frame.msaa.yaml", DESCRIPTION), ("triangle.obj", MESH), ("code.cpp", CODE)):
+        (tmp_path / name).write_text(text)
+    return tmp_path
+
+
+def modules() -> set[str]:
+    """What Python, the packages that are installed, and this program may import."""
+    loaded = {name.partition(".")[0] for name in sys.modules}
+    packages = {name.partition("-")[0].partition(".")[0] for name in os.listdir(Path(pytest.__file__).parent.parent)}
+    names = {*loaded, *packages, *sys.stdlib_module_names, "sitecustomize", "usercustomize", "joblib", "pip", "venv", "vulkan", "trimesh"}
+    return {name for name in names if name.isidentifier()} - {"__main__", "tests"}
+
+
+@functools.lru_cache
+def of_python() -> set[str]:
+    """What Python itself imports for `python -m`, and for the packages of its environment, before any program has a say."""
+    command = [sys.executable, "-c", "import runpy, sys, traceback\nprint(*sys.modules)"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    return {name.partition(".")[0] for name in done.stdout.split()} | {"_distutils_hack", "sitecustomize", "usercustomize"}
+
+
+def poison(folder: Path, names: set[str]) -> None:
+    """Writes modules that say that they were imported."""
+    marker = str(folder / "imported")
+    for name in names:
+        text = f"open({marker!r}, 'a').write({name + chr(10)!r})\n"
+        if len(name) % 2:
+            (folder / f"{name}.py").write_text(text)
+        else:
+            (folder / name).mkdir()
+            (folder / name / "__init__.py").write_text(text)
+    (folder / "evil.pth").write_text(f"import os; open({marker!r}, 'a').write('pth')\n")
+
+
+def imported(folder: Path) -> str:
+    path = folder / "imported"
+    return path.read_text() if path.exists() else ""
+
+
+def run_script(folder: Path, *command: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    """Runs the command as its console script does."""
+    script = folder / "bin of python"
+    script.mkdir(exist_ok=True)
+    (script / "msaa-lint").write_text("import re, sys\nfrom msaa_lint.__main__ import main\nsys.exit(main())\n")
+    arguments = [sys.executable, str(script / "msaa-lint"), *command]
+    return subprocess.run(arguments, cwd=folder, env=environment_of(environment), capture_output=True, text=True, check=False)
+
+
+def test_no_module_of_the_working_folder_is_imported(checkout: Path) -> None:
+    poison(checkout, modules())
+    for command in COMMANDS:
+        done = run_script(checkout, *command)
+        assert imported(checkout) == "", command
+        assert done.returncode in (0, 1) and done.stdout + done.stderr, command
+
+
+def test_nor_by_python_dash_m(checkout: Path) -> None:
+    poison(checkout, modules() - of_python() - {"msaa_lint"})
+    for command in COMMANDS[2:-2]:
+        done = run_process(checkout, *command)
+        assert imported(checkout) == "", command
+        assert done.returncode in (0, 1) and done.stdout + done.stderr, command
+
+
+@pytest.mark.parametrize("stated", ["", f".{os.pathsep}./{os.pathsep}{os.pathsep}/nowhere"])
+def test_no_relative_entry_of_pythonpath_is_searched(checkout: Path, stated: str) -> None:
+    poison(checkout, modules() - of_python())
+    paths = os.pathsep.join([environment_of({})["PYTHONPATH"], stated])
+    done = run_script(checkout, *STUDY, "--jobs", "2", PYTHONPATH=paths)
+    assert imported(checkout) == ""
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.skipif(os.name != "posix", reason="scripts with an interpreter line")
+@pytest.mark.parametrize("path", [f".{os.pathsep}{os.environ['PATH']}", "", f"{os.pathsep}/usr/bin"])
+def test_no_program_of_the_working_folder_is_run(checkout: Path, path: str) -> None:
+    names = {name for folder in ("/bin", "/usr/bin", "/sbin") for name in os.listdir(folder)}
+    for name in names | {"glslangValidator", "git", "adb", "pip", "python", "python3", "msaa-lint", "lscpu"}:
+        (checkout / name).write_text(f"#!/bin/sh\necho {name} >>{checkout}/imported\n")
+        (checkout / name).chmod(0o755)
+    for command in (("check", "."), ("confirm", "frame.msaa.yaml"), (*STUDY, "--jobs", "2")):
+        run_process(checkout, *command, PATH=path)
+    assert imported(checkout) == ""
+
+
+@pytest.mark.parametrize("option", [("cost", "frame.msaa.yaml", "--chart"), (*STUDY, "--plot")])
+def test_no_matplotlibrc_is_read(checkout: Path, option: tuple[str, ...]) -> None:
+    assert run_process(checkout, *option, "plain.svg").returncode == 0
+    (checkout / "matplotlibrc").write_text("backend: module://evil\nfigure.facecolor: red\nno.such.setting: 1\n")
+    (checkout / "settings").mkdir()
+    (checkout / "settings" / "matplotlibrc").write_text("no.such.setting: 1\n")
+    stated = {"MATPLOTLIBRC": "settings", "MPLCONFIGDIR": "settings"}
+    for number, environment in enumerate(({}, stated)):
+        done = run_process(checkout, *option, f"{number}.svg", **environment)
+        assert (done.returncode, "matplotlib" in done.stderr, "no.such" in done.stderr) == (0, False, False)
+        assert (checkout / f"{number}.svg").read_bytes() == (checkout / "plain.svg").read_bytes()
+    assert os.listdir(checkout / "settings") == ["matplotlibrc"]
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes")
+def test_a_pipe_called_matplotlibrc_is_not_waited_for(checkout: Path) -> None:
+    os.mkfifo(checkout / "matplotlibrc")
+    assert run_process(checkout, "cost", "frame.msaa.yaml", "--chart", "chart.svg").returncode == 0
