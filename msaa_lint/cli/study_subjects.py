@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from os.path import abspath, isfile, lexists
 from typing import Any, NamedTuple
 
-from msaa_lint.core.diagnostics import diagnostic
+from msaa_lint.core.diagnostics import diagnostic, internal_error
 from msaa_lint.core.extras import needs_extra
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.quote import quoted
@@ -93,8 +93,7 @@ def errors_of(name: str, errors: list[Finding], arguments: Arguments) -> Iterato
     except Exception as error:
         if arguments.get("traceback"):
             raise
-        message = f"internal error: {type(error).__name__}: {quoted(str(error), 300)}; please report it with the output of --traceback"
-        errors.append(diagnostic("MSAA941", message, name))
+        errors.append(diagnostic("MSAA941", internal_error(error), name))
 
 
 class _Unreadable(Exception):

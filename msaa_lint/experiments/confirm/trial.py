@@ -7,6 +7,7 @@ import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
+from msaa_lint.core.diagnostics import internal_error
 from msaa_lint.core.finding import Finding
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.parts import Pass
@@ -127,8 +128,7 @@ class _Trial:
         except Exception as error:
             if self.options.traceback:
                 raise
-            reason = f"internal error: {type(error).__name__}: {str(error)[:300]} (--traceback shows where)"
-            return [Verdict(source.file, "", source.prefix.rstrip("."), FAILED, reason)]
+            return [Verdict(source.file, "", source.prefix.rstrip("."), FAILED, internal_error(error))]
 
     def verdicts(self, source: Input) -> list[Verdict]:
         """The verdicts on the passes of one input."""
