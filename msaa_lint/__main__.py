@@ -6,8 +6,6 @@ Until `isolate` returns, this module and the package import nothing that a file 
 import gc
 import sys
 
-from .core.isolation import isolate
-
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
@@ -18,7 +16,6 @@ def main() -> None:
     # A run creates many small objects that live to its end, and collecting in between costs a third of the time of reading large inputs.
     # `linter.run` collects between inputs where garbage accumulates.
     gc.disable()
-    isolate()
     if sys.argv[1:] == ["--version"] and sys.stdout is not None:
         # Needs no other module, unless it cannot be written.
         try:
@@ -26,6 +23,9 @@ def main() -> None:
             return
         except OSError:
             pass
+    from .core.isolation import isolate
+
+    isolate()
     from .cli.streams import run_with_streams
 
     code = run_with_streams(_run)
