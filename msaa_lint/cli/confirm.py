@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Sequence
 from functools import partial
@@ -32,6 +31,7 @@ from .common import (
     write_output,
 )  # fmt: skip
 from .options import TEXT_FORMATS, Arguments
+from .report.data import dump_indented
 from .report.escape import escape
 
 COUNTS = (1, 2, 4, 8, 16, 32, 64)
@@ -152,7 +152,7 @@ def _list_devices(options: ConfirmOptions) -> int:
     with Session(limits=options.limits, execute="msaa_lint.experiments.confirm.devices") as session:
         devices = [about(device) for device in session.devices()]
     if any(target.format == "json" for target in options.targets):
-        print(json.dumps({"schema": "msaa-lint/confirm-devices-v1", "devices": [device._asdict() for device in devices]}, indent=2))
+        print(dump_indented({"schema": "msaa-lint/confirm-devices-v1", "devices": [device._asdict() for device in devices]}))
         return 0
     for device in devices:
         words = [device.name, f"Vulkan {device.api_version}", device.type.lower().replace("_", " "), device.driver]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import sys
 from collections.abc import Sequence
@@ -21,6 +20,7 @@ from msaa_lint.frame.profiles import Problem, parsed, profile_of, reports
 from .common import UsageError, report_options, run_command, warn
 from .options import Arguments
 from .report.console import cell
+from .report.data import dump_indented
 from .report.tables import Column, Table, print_tables
 
 Answer = TypeVar("Answer")
@@ -52,7 +52,7 @@ def print_devices(stated: Sequence[str], output: Output = "text", listing: bool 
             failed = True
             warn(str(error).strip())
     if output == "json":
-        print(json.dumps({"schema": SCHEMA, "devices": [record(offer) for offer in offers]}, indent=2))
+        print(dump_indented({"schema": SCHEMA, "devices": [record(offer) for offer in offers]}))
     elif output == "description":
         print("---\n".join(description(offer) for offer in offers), end="")
     else:
@@ -117,7 +117,7 @@ def _list(output: Output) -> int:
     profiles = {name: profile for name in names() if (profile := builtin(name)) is not None}
     if output == "json":
         rows = [{"key": key, "name": profile.name, "source": profile.source} for key, profile in profiles.items()]
-        print(json.dumps({"schema": SCHEMA, "profiles": rows}, indent=2))
+        print(dump_indented({"schema": SCHEMA, "profiles": rows}))
         return 0
     columns = [Column("name"), Column("device"), Column("source")]
     lines = [("", list(map(cell, (key, profile.name, profile.source)))) for key, profile in profiles.items()]

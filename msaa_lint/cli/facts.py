@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING
@@ -18,6 +17,7 @@ from msaa_lint.input.opening import load
 
 from .common import UsageError, internal_errors_of, run_command, warn
 from .options import Arguments
+from .report.data import dump_indented
 from .report.escape import escape
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def print_reference(output: str) -> int:
         rows = [
             {"fact": f.name, "type": TYPES[f.type], "texts": f.enum, "subjects": _subjects(f), "meaning": f.doc} for f in FACTS.values()
         ]
-        print(json.dumps(rows, indent=2))
+        print(dump_indented(rows))
     elif output == "markdown":
         print(reference_page(), end="")
     else:
@@ -121,7 +121,7 @@ def print_facts(path: str, output: str, profile: str | None) -> int:
                 for line in error.args:
                     warn(line)
     if output == "json":
-        print(json.dumps(rows, indent=2, ensure_ascii=True))
+        print(dump_indented(rows))
     else:
         for line in _lines(rows):
             print(line)

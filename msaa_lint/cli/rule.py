@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 import shutil
 import sys
@@ -19,6 +18,7 @@ from msaa_lint.linter.workspace import Request, Workspace
 
 from .common import overrides, run_command, warn
 from .options import Arguments
+from .report.data import dump_indented
 from .report.escape import display, escape_lines
 from .report.markdown import escape_markdown
 from .report.paths import uri
@@ -68,7 +68,7 @@ def list_rules(workspace: Workspace, output: str) -> int:
     """Prints the rules; returns 2 if the configuration or a custom page cannot be used."""
     rules: list[Rule | RuleInfo] = [*workspace.current.engine.registry.rules, *DIAGNOSTICS.values()]
     if output == "json":
-        print(json.dumps([_record(rule) for rule in rules], indent=2))
+        print(dump_indented([_record(rule) for rule in rules]))
     elif output == "markdown":
         print(index(rules), end="")
     else:
@@ -168,7 +168,7 @@ def page(rule: Rule) -> str:
 def _print_page(rule: Rule, output: str) -> None:
     text = page(rule)
     if output == "json":
-        print(json.dumps({**_record(rule), "condition": rule.when, "page": text}, indent=2))
+        print(dump_indented({**_record(rule), "condition": rule.when, "page": text}))
     elif output == "markdown" or not sys.stdout.isatty():
         print(escape_lines(text))
     else:
@@ -180,6 +180,6 @@ def _print_page(rule: Rule, output: str) -> None:
 
 def _print_diagnostic(diagnostic: RuleInfo, output: str) -> None:
     if output == "json":
-        print(json.dumps(_record(diagnostic), indent=2))
+        print(dump_indented(_record(diagnostic)))
     else:
         print(f"# {diagnostic.name}\n\n**{diagnostic.code}**, {diagnostic.severity}. {diagnostic.summary}")

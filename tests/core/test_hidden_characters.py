@@ -8,7 +8,9 @@ from pathlib import Path
 import pytest
 
 from msaa_lint.core.hidden_characters import MAX_FINDINGS, hidden_characters
+from msaa_lint.core.text.emitter import emit
 from msaa_lint.core.text.source import Source
+from msaa_lint.core.text.tree import Limits, parse
 from tests.command import run
 
 FRAME = "images:\n  a: {format: R8G8B8A8_UNORM, samples: 1}\n"
@@ -81,3 +83,12 @@ def test_code_and_the_code_of_a_page(tmp_path: Path) -> None:
     assert [(each["file"], each["rule"], each["line"], each["confidence"]) for each in found] == [
         ("a.cpp", "hidden-character", 1, "high"), ("a.md", "hidden-character", 3, "high"),
     ]  # fmt: skip
+
+
+def test_a_description_that_is_written_shows_them_as_escapes() -> None:
+    name = "a\x1b\u202e\u200b\u2028\u3164\U000e0041"
+    (root,) = parse(Source("a", json.dumps({name: name})), Limits()).documents
+    text = emit(root)
+    assert text.isascii() and text == '"a\\x1B\\u202E\\u200B\\u2028\\u3164\\U000E0041": "a\\x1B\\u202E\\u200B\\u2028\\u3164\\U000E0041"\n'
+    (again,) = parse(Source("a", text), Limits()).documents
+    assert [(key, value.value) for key, value in again.value.items()] == [(name, name)]

@@ -9,7 +9,7 @@ from msaa_lint.core.finding import Result
 from msaa_lint.core.text.span import Span
 
 from . import Write
-from .escape import clip, escape_surrogates
+from .escape import clip, escape_json, escape_surrogates
 from .place import place
 
 Json = dict[str, object]
@@ -19,8 +19,13 @@ _ENCODER = json.JSONEncoder(ensure_ascii=True, allow_nan=False)
 
 
 def dump(value: object) -> str:
-    """`value` on one line. It is ASCII, so every encoding of an output stream can hold it and no terminal acts on it."""
-    return _ENCODER.encode(value)
+    """`value` on one line. It is ASCII, so every encoding of an output stream can hold it, and no terminal and no CI runner acts on it."""
+    return escape_json(_ENCODER.encode(value))
+
+
+def dump_indented(value: object) -> str:
+    """`value` on as many lines as it has members, otherwise as `dump`."""
+    return escape_json(json.dumps(value, indent=2))
 
 
 def text(value: str) -> str:

@@ -8,15 +8,11 @@ from __future__ import annotations
 
 import re
 
+from msaa_lint.core.visible import is_visible
+
 MAX_LENGTH = 4096
 """Code points of a message, note, subject, or name; the rest is cut, so that one scalar cannot inflate a report."""
 
-# Printable according to Unicode's categories, but invisible: fillers, the Braille blank, variation selectors.
-_INVISIBLE = frozenset(
-    "\u034f\u115f\u1160\u17b4\u17b5\u180b\u180c\u180d\u180f\u2800\u3164\uffa0\U00016fe4\U0001d159"
-    + "".join(map(chr, range(0xFE00, 0xFE10)))
-    + "".join(map(chr, range(0xE0100, 0xE01F0)))
-)
 # CI runners obey `##[command]` and `##vso[command]` anywhere in a line of their log.
 _RUNNER_COMMAND = re.compile(r"#(?=#\w*\[)")
 _SHORT_ESCAPES = {"\n": "\\n", "\r": "\\r", "\t": "\\t"}
@@ -26,7 +22,7 @@ def escape_each(text: str) -> list[str]:
     """The displayed form of each character of `text`: itself, or an escape such as `\\x1b` or `\\u202e`."""
     parts = list(text)
     if not text.isprintable() or not text.isascii():
-        parts = [c if c.isprintable() and c not in _INVISIBLE else _escape(c) for c in text]
+        parts = [c if is_visible(c) else _escape(c) for c in text]
     for command in _RUNNER_COMMAND.finditer(text) if "##" in text else ():
         parts[command.start()] = "\\x23"
     return parts
@@ -37,6 +33,11 @@ def escape(text: str) -> str:
     if text.isascii() and text.isprintable() and "##" not in text:
         return text
     return "".join(escape_each(text))
+
+
+def escape_json(text: str) -> str:
+    """JSON of ASCII, with what CI runners obey anywhere in a line as an escape of JSON."""
+    return _RUNNER_COMMAND.sub(r"\\u0023", text) if "##" in text else text
 
 
 def escape_commands(text: str) -> str:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from msaa_lint.core.visible import is_visible
+
 from .node import Node
 from .scalars import WORDS, resolve
 
@@ -16,7 +18,6 @@ MAX_KEY = 1000
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_./-]*(?: [A-Za-z0-9_./-]+)*")
 _PLAIN_KEY = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]*")
 _WORDS = frozenset(word.lower() for word in (*WORDS, "yes", "no", "on", "off"))
-_PRINTABLE = re.compile("[\t\n\r -~\xa0-\u2027\u202a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
 _ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\r": "\\r", "\t": "\\t", "\0": "\\0"}
 
 
@@ -128,14 +129,14 @@ def _key(text: str) -> str:
 
 
 def _quoted(text: str) -> str:
-    """The text in double quotes, with the characters that YAML forbids in a stream escaped."""
+    """The text in double quotes, with the characters escaped that YAML forbids in a stream or that cannot be seen."""
     return '"' + "".join(_escaped(character) for character in text) + '"'
 
 
 def _escaped(character: str) -> str:
     if character in _ESCAPES:
         return _ESCAPES[character]
-    if _PRINTABLE.match(character):
+    if is_visible(character):
         return character
     code = ord(character)
     return f"\\x{code:02X}" if code < 0x100 else f"\\u{code:04X}" if code < 0x10000 else f"\\U{code:08X}"

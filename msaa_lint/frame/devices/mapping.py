@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from msaa_lint.core.visible import is_visible
+
 from . import DeviceProfile, builtin
 from .msaa_features import EXTENSIONS, FEATURES
 from .offer import Offer, tile_model
@@ -98,7 +100,7 @@ def _text(text: str) -> str:
 
 
 def _printable(text: str) -> str:
-    return "".join(letter if letter.isprintable() else _escape(ord(letter)) for letter in text)
+    return "".join(letter if is_visible(letter) else _escape(ord(letter)) for letter in text)
 
 
 def _escape(point: int) -> str:

@@ -8,6 +8,7 @@ from typing import Any
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.scalars import resolve
+from msaa_lint.core.visible import is_visible
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.description.shapes import Shape
 
@@ -87,6 +88,6 @@ def quote_scalar(text: str, quote: str, is_literal: bool = False) -> str:
 def _escaped(character: str) -> str:
     if character in '"\\':
         return "\\" + character
-    if character.isprintable():
+    if is_visible(character):
         return character
     return f"\\u{ord(character):04x}" if ord(character) < 0x10000 else character
