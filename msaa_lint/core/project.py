@@ -15,6 +15,9 @@ NAMES = ("msaa-lint.toml", "pyproject.toml")
 MAX_PATH = 1 << 15
 """Characters of a path, as in Windows; other systems have less. Resolving a longer one takes time that grows with its square."""
 
+MAX_LINKS = 40
+"""Symbolic links that are followed to resolve a path, as in Linux."""
+
 _VCS_DATA = (".git", ".hg", ".jj", ".svn", ".bzr", "_darcs", ".fslckout")
 
 
@@ -50,11 +53,31 @@ def resolved(path: str) -> str:
     if len(path) > MAX_PATH:
         raise OSError(errno.ENAMETOOLONG, os.strerror(errno.ENAMETOOLONG))
     try:
-        return os.path.realpath(path)
+        return os.path.realpath(path) if os.name == "nt" else _resolved(os.path.join(os.getcwd(), path))
     except ValueError as error:
         raise OSError(f"invalid file name: {error}") from None
-    except RecursionError:
-        raise OSError(errno.ELOOP, os.strerror(errno.ELOOP)) from None
+
+
+def _resolved(path: str) -> str:
+    """An absolute path with all symbolic links resolved. `os.path.realpath` follows any number of links, and recurses for each."""
+    real, links = os.sep, 0
+    rest = path.split(os.sep)[::-1]
+    while rest:
+        name = rest.pop()
+        if name == "..":
+            real = os.path.dirname(real)
+        elif name not in ("", os.curdir):
+            real = os.path.join(real, name)
+            try:
+                target = os.readlink(real)
+            except OSError:
+                continue  # It is not a link, does not exist, or cannot be read.
+            links += 1
+            if links > MAX_LINKS:
+                raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
+            rest += target.split(os.sep)[::-1]
+            real = os.sep if os.path.isabs(target) else os.path.dirname(real)
+    return real
 
 
 def real_path(path: str, project: str) -> str:

@@ -16,7 +16,6 @@ _KINDS = {
     stat.S_IFSOCK: "a socket",
     stat.S_IFCHR: "a device",
     stat.S_IFBLK: "a device",
-    stat.S_IFLNK: "a link that leads back to itself",
 }
 
 # O_NONBLOCK: opening a pipe must not wait for a writer.

@@ -123,7 +123,7 @@ def test_a_link_stays_in_the_project(project: Path) -> None:
     for path in ("link", "folder/b/file", "absolute/b/file", "a/b/../b/file", "../project/link", str((project / "link").resolve())):
         assert inside(project, path) == b"a: 1", path
     (project / "loop").symlink_to("loop")
-    with pytest.raises(OSError, match="it is a link that leads back to itself, not a regular file"):
+    with pytest.raises(OSError, match="Too many levels of symbolic links"):
         inside(project, "loop")
     (project / "gone").symlink_to("nowhere")
     with pytest.raises(FileNotFoundError):
