@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable
+from itertools import islice
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from msaa_lint.core.quote import quoted
@@ -25,6 +26,10 @@ class Entry(NamedTuple):
 
     name: str
     span: Span
+
+
+MAX_ENTRIES = 100_000
+"""Maximum number of rules that the suppressions of a file name; each takes almost a kilobyte of memory."""
 
 
 class Directive(NamedTuple):
@@ -52,9 +57,10 @@ def read(comments: Iterable[Comment], source: Source, report: Report, comment_li
     `comment_lines`, for source code, are the lines with nothing but comments; None for a text in which comments begin with `#`.
     """
     directives: list[Directive] = []
+    count = 0
     lines = _Lines(source, comment_lines)
     for comment in sorted(comments, key=lambda comment: comment.span.start):
-        starts = list(_BEGINNING.finditer(comment.text))
+        starts = list(islice(_BEGINNING.finditer(comment.text), MAX_ENTRIES + 1))
         if not starts:
             continue
         lines.move_to(comment)
@@ -63,8 +69,14 @@ def read(comments: Iterable[Comment], source: Source, report: Report, comment_li
         for match, end in zip(starts, ends, strict=True):
             start = 0 if first and match is starts[0] else match.start()
             directive = _read(comment, match, start, end, lines, report)
-            if directive is not None:
-                directives.append(directive)
+            if directive is None:
+                continue
+            count += len(directive.entries)
+            if count > MAX_ENTRIES:
+                message = f"limit exceeded: suppressions name more than {MAX_ENTRIES:,} rules; this one and those after it are not read"
+                report("MSAA906", message, directive.span)
+                return directives
+            directives.append(directive)
     return directives
 
 
@@ -184,7 +196,7 @@ def _unknown_word(match: re.Match[str], base: int, lines: _Lines, report: Report
 def _entries(text: str, start: int) -> tuple[Entry, ...]:
     """The comma-separated names, each with its location."""
     entries = []
-    for part in text.split(","):
+    for part in text.split(",", MAX_ENTRIES + 1):
         name = part.strip()
         if name:
             at = start + len(part) - len(part.lstrip())

@@ -12,6 +12,7 @@ from msaa_lint.core.text.comments import Comment, comments
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Label, Span
 from msaa_lint.core.text.tree import Limits, parse
+from msaa_lint.linter.suppress import comments as suppression_comments
 from msaa_lint.linter.suppress.suppressions import MAX_FINDINGS, apply
 
 
@@ -336,6 +337,16 @@ def test_removal_is_safe_and_a_guess_is_not() -> None:
 
 
 # --- bounds and laws ------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "comment", ["# msaa-lint: ignore[stored]\n", "# msaa-lint: ignore[stored,stored]\n", "#m # msaa-lint: ignore[stored]\n"]
+)
+def test_suppressions_beyond_a_limit_are_not_read(comment: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(suppression_comments, "MAX_ENTRIES", 10)
+    outcome = run("a: 1\n" + comment * 11)
+    message = "limit exceeded: suppressions name more than 10 rules; this one and those after it are not read"
+    assert [each.message for each in outcome.extra if each.code == "MSAA906"] == [message]
 
 
 def test_a_flood_of_comments_gives_a_bounded_number_of_findings() -> None:
