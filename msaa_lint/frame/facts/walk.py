@@ -96,7 +96,14 @@ class Walk:
 
     def recorded_runs_of(self, render_pass: Pass) -> list[PassRun]:
         """Those of `recorded_runs` that are of a pass."""
-        return [self.recorded_runs[position] for position in render_pass.begun]
+        return self._runs_of.get(id(render_pass), [])
+
+    @cached_property
+    def _runs_of(self) -> dict[int, list[PassRun]]:
+        found: dict[int, list[PassRun]] = {}
+        for run in self.recorded_runs.values():
+            found.setdefault(id(run.render_pass), []).append(run)
+        return found
 
     def _walk(self) -> Iterator[Step]:
         begins = {position: render_pass for render_pass in self.frame.passes for position in render_pass.begun}

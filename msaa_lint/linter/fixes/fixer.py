@@ -196,7 +196,7 @@ def _leaving_an_entry(plans: Iterable[tuple[Finding, tuple[Change, ...]]]) -> li
         lengths = {(id(change.record), change.member): len(getattr(change.record, change.member)) for change in drops}
         if any(drop_counts[member] and drop_counts[member] + count >= lengths[member] for member, count in counts.items()):
             continue
-        drop_counts += counts
+        drop_counts.update(counts)
         remaining.append((finding, changes))
     return remaining
 
@@ -306,11 +306,12 @@ def _blamed(group: Sequence[_Fix], objections: Sequence[Objection]) -> dict[int,
     for objection in objections:
         keys = (finding_kind(objection.finding), *objection.finding.images) if objection.finding is not None else ()
         lists = [suspects[key] for key in keys if key in suspects]
-        numbers = sorted(set().union(*lists)) if sum(map(len, lists)) <= MAX_SUSPECTS else []
+        numbers = set[int]().union(*lists) if all(len(each) <= MAX_SUSPECTS for each in lists) else set()
         if len(numbers) == 1:
-            blamed[numbers[0]] = blamed.get(numbers[0]) or objection.reason
-        elif numbers:
-            blamed.setdefault(numbers[-1], None)
+            number = numbers.pop()
+            blamed[number] = blamed.get(number) or objection.reason
+        elif 1 < len(numbers) <= MAX_SUSPECTS:
+            blamed.setdefault(max(numbers), None)
     return blamed
 
 

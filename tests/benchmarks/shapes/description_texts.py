@@ -10,7 +10,8 @@ from pathlib import Path
 from .descriptions import BEGINS, FRAME, IMAGES, PAIR, PASSES, TEXTURES, documents, many, names
 from .shape import Shape, text
 
-STORED = many(*IMAGES, *PASSES)
+DRAWN = ("images:", "  ms@: {format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT]}")
+STORED = many(*DRAWN, *PASSES)
 """Passes that each store samples that nothing reads."""
 RESOLVED = many(
     *IMAGES,
@@ -209,7 +210,7 @@ REPORTED = (
         "--output",
         "sarif",
     ),
-    outputs("documents with prices", documents(*PAIR, PASSES[0], PASSES[1].replace("ms@", "ms")), "--output", "sarif"),
+    outputs("documents with prices", documents(*DRAWN, *PASSES), "--output", "sarif"),
     outputs(
         "Metal passes with prices",
         many(
@@ -232,7 +233,7 @@ REPORTED = (
         "--unsafe-fixes",
     ),
     outputs("fixes that fail", many(*IMAGES, *PASSES, "commands:", BEGINS), "--diff", "--unsafe-fixes"),
-    outputs("fixes of documents", documents(*PAIR, PASSES[0], PASSES[1].replace("ms@", "ms")), "--diff"),
+    outputs("fixes of documents", documents(*DRAWN, *PASSES), "--diff"),
     Shape("files", files(many(*PAIR)(1))),
     Shape("files with fixes", files(STORED(1))),
     commanded("costs", RESOLVED, "cost"),
