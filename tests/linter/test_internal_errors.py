@@ -10,6 +10,7 @@ from unittest import mock
 import pytest
 
 from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.rules import registry
 from tests.command import run
 
 STORED = """\
@@ -94,3 +95,52 @@ def test_calls_with_too_few_arguments(call: str, tmp_path: Path) -> None:
     )
     done = run(tmp_path, "check", "--isolated", "--output", "concise", "a.frag")
     assert done.returncode == 0, done.stdout
+
+
+def fail(*_: object, **__: object) -> Any:
+    raise RecursionError("maximum recursion depth exceeded")
+
+
+@pytest.mark.parametrize("format", ["json", "sarif", "gitlab", "junit"])
+def test_a_run_that_fails_is_its_only_finding(folder: Path, format: str) -> None:
+    """A program that reads the output finds a whole document."""
+    with mock.patch("msaa_lint.linter.run.Workspace", fail):
+        done = run(folder, "check", "--isolated", "--output", format, ".")
+    assert done.returncode == 2 and "internal error: RecursionError" in done.stdout
+    if format != "junit":
+        json.loads(done.stdout)
+
+
+@pytest.mark.parametrize("words", ["rule --all --output json", "check --isolated --output json a.msaa.yaml"])
+def test_a_rule_page_that_fails_is_a_finding_of_the_page(folder: Path, words: str) -> None:
+    for name in ("acme-one", "acme-two"):
+        code = "ACME1" if name == "acme-one" else "ACME2"
+        page = f"---\ncode: {code}\nseverity: warning\nsubject: image\nwhen: image.samples > 1\nmessage: x\n---\nText.\n"
+        (folder / f"{name}.md").write_text(page)
+    read = registry.read_page
+
+    def failing(path: str, *rest: Any) -> Any:
+        return fail() if path.endswith("acme-one.md") else read(path, *rest)
+
+    with mock.patch.object(registry, "read_page", failing):
+        done = run(folder, *words.split(), "--rules", "acme-one.md", "--rules", "acme-two.md")
+    assert done.returncode == 2 and "internal error: RecursionError" in done.stdout + done.stderr
+    json.loads(done.stdout)
+    assert words.startswith("check") or "ACME2" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "target", "kept"),
+    [
+        ("convert a.msaa.yaml", "msaa_lint.cli.convert.load", ""),
+        ("facts a.msaa.yaml", "msaa_lint.cli.facts.load", ""),
+        ("facts a.msaa.yaml --output json", "msaa_lint.frame.facts.subjects.subjects", "[]\n"),
+    ],
+)
+def test_a_command_of_one_input_names_it(folder: Path, words: str, target: str, kept: str) -> None:
+    with mock.patch(target, fail):
+        done = run(folder, *words.split())
+    assert (done.returncode, done.stdout) == (2, kept)
+    assert done.stderr.startswith("msaa-lint: a.msaa.yaml: internal error: RecursionError: ") and done.stderr.count("\n") == 1
+    with mock.patch(target, fail), pytest.raises(RecursionError):
+        run(folder, *words.split(), "--traceback")
