@@ -128,14 +128,21 @@ def read(source: "Source", language: str) -> Program:
 
 def _readings(code: "Code") -> "Iterator[Read]":
     """Yields the trees that the module of the language reads from code."""
-    from .parsing import Read
+    from msaa_lint.core.text.node_builder import mapping
+    from msaa_lint.core.text.span import Span
+
+    from .parsing import Read, Unread
 
     lowered = code.text.lower()
     if not any(word in lowered for word in WORDS):
         return
     module = import_module(f".{MODULES[code.language]}", __package__)
-    for tree in module.trees(code):
-        yield tree if isinstance(tree, Read) else Read(tree)
+    try:
+        for tree in module.trees(code):
+            yield tree if isinstance(tree, Read) else Read(tree)
+    except RecursionError:
+        start = Span(0, 0)
+        yield Read(mapping([], start), unread=(Unread("the code nests too deeply to be read; it is not checked", start),))
 
 
 MAX_ASSUMED = 3

@@ -22,6 +22,12 @@ _ONE = re.compile(
 )
 """A sample count of one, or no value."""
 
+_ASSIGNED = re.compile(
+    r"(?<![.>\w])(?P<name>[A-Za-z_]\w*)\s*(?:=(?!=)|\{)(?=\s*(?P<assigned>[^;,{}\n]{0,200}))"
+    r"|#\s*define\s+(?P<macro>\w+)[ \t]+(?P<defined>[^\n]{0,200})"
+)
+"""A name that gets a value. The value may contain another one."""
+
 _COUNT = r"(?:VK_SAMPLE_COUNT_(?:2|4|8|16|32|64)_BIT|(?:\w+::){0,9}SampleCountFlagBits::e(?:2|4|8|16|32|64)\b)"
 _NAMED = r"\b(?:\w{1,80}(?:\.|->|::)){0,2}\w{0,80}(?i:sample|msaa)\w{0,80}"
 _VALUE = r"(?P<value>[^,;{}\n]{1,200}|\{\s*\})"
@@ -68,17 +74,30 @@ def creations(codes: Iterable[Code]) -> Iterator[Creation]:
         yield from _of_language(code.language, text)
 
 
-def _is_one(value: str, text: str) -> bool:
-    """Whether an expression is a sample count of one, or not a sample count: a literal, or a name that the text gives no other value."""
-    if _ONE.fullmatch(value) is not None:
-        return True
-    if value.isdecimal():
-        # Audio devices have samples, too.
-        return value not in COUNTS
-    if not value.isidentifier():
-        return False
-    values = re.findall(rf"(?<![.>\w]){value}\s*(?:=(?!=)|\{{)\s*([^;,{{}}\n]{{0,200}})|#\s*define\s+{value}[ \t]+([^\n]{{0,200}})", text)
-    return bool(values) and all(_ONE.fullmatch((assigned or defined).strip()) is not None for assigned, defined in values)
+class _Ones:
+    """Which expressions of a text are a sample count of one, or not a sample count."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.names: dict[str, bool] | None = None
+        """The names that the text gives a value, and whether each of their values is one."""
+
+    def holds(self, value: str) -> bool:
+        """Whether an expression is: a literal, or a name that the text gives no other value."""
+        if _ONE.fullmatch(value) is not None:
+            return True
+        if value.isdecimal():
+            # Audio devices have samples, too.
+            return value not in COUNTS
+        if not value.isidentifier():
+            return False
+        if self.names is None:
+            self.names = {}
+            for match in _ASSIGNED.finditer(self.text):
+                name = match["name"] or match["macro"]
+                one = _ONE.fullmatch((match["assigned"] or match["defined"] or "").strip()) is not None
+                self.names[name] = one and self.names.get(name, True)
+        return self.names.get(value, False)
 
 
 def _of_language(language: str, text: str) -> Iterator[Creation]:
@@ -89,13 +108,11 @@ def _of_language(language: str, text: str) -> Iterator[Creation]:
         return
     pattern, images, pipelines = (_METAL, _METAL_IMAGES, None) if language == "swift" else (_VULKAN, _VULKAN_IMAGES, _VULKAN_PIPELINES)
     has_images, has_pipelines = images.search(text) is not None, pipelines is None or pipelines.search(text) is not None
-    ones: dict[str, bool] = {}
+    ones = _Ones(text)
     for match in pattern.finditer(text):
         groups = match.groupdict()
         value = next(groups[name] for name in ("value", "argument", "initializer", "passed") if groups.get(name) is not None).strip()
-        if value not in ones:
-            ones[value] = _is_one(value, text)
-        if ones[value]:
+        if ones.holds(value):
             continue
         setter = groups.get("setter") or "samples"
         member = groups.get("member") or setter[:1].lower() + setter[1:]

@@ -1,15 +1,15 @@
 """What reading one source file may cost. Beyond a limit, the rest of the file is not read, and a finding says so."""
 
-MAX_CHARACTERS = 8 << 20
+MAX_CHARACTERS = 4 << 20
 """The maximum length of a source file."""
 
 BASE_STEPS = 200_000
 """The number of steps that executing any file may take."""
 
-STEPS_PER_CHARACTER = 3
+STEPS_PER_CHARACTER = 6
 """The number of further steps for each character of a file, so that the time that a file takes is linear in its length.
 
-Ordinary code takes less than one: its statements are executed up to three times, and functions once for each call.
+Most code takes less than one, and compilers up to three: functions are executed up to three times, and once for each call.
 """
 
 

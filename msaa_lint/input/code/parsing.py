@@ -26,8 +26,12 @@ GRAMMARS = {"c": "tree_sitter_c", "cpp": "tree_sitter_cpp", "swift": "tree_sitte
 """The package of each language's grammar."""
 
 
-MAX_WORK = 30_000
-"""The maximum number of progress callbacks of the parser: enough for 4 MB of ordinary code, or a minute of code made to parse slowly."""
+MAX_CALLBACKS = 30_000
+"""The maximum number of progress callbacks of the parser, enough for 4 MB of ordinary code. Each takes up to half a millisecond."""
+
+BASE_CALLBACKS = 1000
+CALLBACKS_PER_KILOBYTE = 25
+"""The number of callbacks that a text of any length, and each 1000 bytes of it, may take. Ordinary code takes 7, broken code 15."""
 
 MAX_DECLARATORS = 120
 """The maximum nesting of declarators."""
@@ -130,11 +134,12 @@ def tree(code: Code) -> "Tree":
         warnings.simplefilter("ignore", DeprecationWarning)
         parser = Parser(Language(grammar.language()))
     calls = 0
+    limit = min(BASE_CALLBACKS + CALLBACKS_PER_KILOBYTE * len(data) // 1000, MAX_CALLBACKS)
 
     def stop(_offset: int, _has_error: bool) -> bool:
         nonlocal calls
         calls += 1
-        return calls > MAX_WORK
+        return calls > limit
 
     try:
         return parser.parse(lambda offset, _point: data[offset : offset + _CHUNK], progress_callback=stop)

@@ -125,7 +125,7 @@ class ObjectCreation(ListMethods):
                     # The function assigns an unknown value.
                     cell.write((Alternative(UNKNOWN, place),), place, scope.guards)
             elif not name.startswith(("vk", "vma")):
-                self.escape_argument(name, argument, position, scope)
+                self.escape_argument(name, values[position], position)
         if name and not name.startswith(("vk", "vma")) and not name.isupper() and not _HARMLESS.search(name):
             for value in values:
                 mark_escaped(value, self.work)
@@ -141,12 +141,12 @@ class ObjectCreation(ListMethods):
         parameters = self.unit.prototypes.get(name, ())
         return parameters[position] if position < len(parameters) else None
 
-    def escape_argument(self, name: str, argument: Term, position: int, scope: Scope) -> None:
+    def escape_argument(self, name: str, argument: Value, position: int) -> None:
         """Handles a list or a structure that is passed to an external function, which may change it through a reference."""
         parameter = self.declared_parameter(name, position)
         # In C++, any argument may be passed by reference; a macro may do anything.
         by_reference = parameter.by_reference if parameter is not None else self.is_cpp or name.isupper()
-        for value in [item.value for item in self.value(argument, scope)]:
+        for value in [item.value for item in argument]:
             if isinstance(value, Closure):
                 forget_captures(value)
             elif (parameter is None or not parameter.fixed) and (by_reference or name in _MOVES or not isinstance(value, Struct)):

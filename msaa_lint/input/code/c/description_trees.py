@@ -15,6 +15,9 @@ from .interpreter import Interpreter
 from .syntax import unit
 from .tree_writer import DescriptionWriter
 
+_VULKAN = re.compile(r"\b(?:Vk|vk)[A-Z]|\bvk\w*\s*::|=\s*vk\b|VULKAN_HPP")
+"""What code contains that fills in Vulkan structures, unless it is a page's; compilers of shaders, too, speak of samples."""
+
 _WAITS = re.compile(r"ipelineBarrier|Queue(?:Submit|Present)[^}]{0,1500}WaitIdle")
 """Synchronization that can replace the dependencies of a render pass between frames."""
 
@@ -30,7 +33,8 @@ def trees(code: Code) -> list[Read]:
         code = code._replace(text=text)
         root = tree(code).root_node
     interpreter = Interpreter(unit(code, root, sections), code.fragments, code.language == "cpp", Work(len(code.text)))
-    interpreter.run()
+    if code.fragments or _VULKAN.search(code.text) is not None:
+        interpreter.run()
     read = DescriptionWriter(interpreter, code.fragments, _WAITS.search(code.text) is not None or _FRAMES.search(code.text) is None).read()
     # Sample count masks have this in their name, whatever their source.
     chosen = choices(root, code) if "ampleCounts" in code.text else []

@@ -33,7 +33,14 @@ BLOCKS = frozenset({
 CHAIN_TESTS = frozenset({"preproc_if", "preproc_ifdef", "preproc_elif", "preproc_elifdef"})
 
 
+MAX_DIGITS = 100
+"""The maximum length of a number; no type of C has longer ones."""
+
+
 def number(text: str) -> int | float | None:
+    """Returns the value of a literal, or None."""
+    if len(text) > MAX_DIGITS:
+        return None
     match = NUMBER.fullmatch(text)
     if match is not None:
         digits = match[1].replace("'", "")

@@ -38,7 +38,10 @@ class ListMethods(Structures):
     def method(self, owner: Term, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value | None:
         """Returns the result of a method of a structure or list, or None for other objects."""
         cell = self.cell_of(owner, scope) if owner[0] != CALL else None
-        content = cell.read(scope.guards) if cell is not None else self.value(owner, scope)
+        if cell is not None:
+            content = cell.read(scope.guards)
+        else:
+            content = self.value(owner, scope) if owner[0] not in (FIELD, INDEX) else UNKNOWN_VALUE
         value = pointee(sole_value(content))
         if len(content) > 1 and any(isinstance(pointee(item.value), Array) for item in content):
             return self.on_alternatives(content, name, place)

@@ -221,10 +221,15 @@ class Variables(ABC):
             if scope.this_object is not None:
                 return self.own_member(name, scope.this_object, scope)
             return self.member_cell(self.member_key(name, scope))
-        cell = self.cell_of(operand, scope)
-        if cell is None:
-            value = self.target(operand, scope)
-            return value.cell(name) if isinstance(value, Struct) else None
+        if operand[0] in (NAME, FIELD, INDEX):
+            cell = self.cell_of(operand, scope)
+            if cell is None:
+                return None
+        else:
+            content = self.sole(operand, scope)
+            if not isinstance(content, Ref):
+                return content.cell(name) if isinstance(content, Struct) else None
+            cell = content.cell
         value = pointee(sole_value(cell.read(scope.guards)))
         if isinstance(value, Array) and value.items:
             # A pointer to the first element of a list.

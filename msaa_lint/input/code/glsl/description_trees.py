@@ -85,7 +85,7 @@ def _shaders(code: Code) -> Iterator[tuple[int, int]]:
 def _tree(lowered: Shader, reflected: Reflected, module: str) -> Node | None:
     """Returns a shader as a frame: the images, their reads, and the draw that performs them."""
     named = [(name, image) for name, image in _images(lowered, reflected) if NOT_COLOR.search(name) is None]
-    if not named or len(named) != len(reflected.images):
+    if not named or len(named) != len(reflected.images) or not lowered.fetches:
         return None
     places = {name: _fetched(lowered, name) for name, _ in named}
     at = next(iter(places.values()))
