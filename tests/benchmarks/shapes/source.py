@@ -170,8 +170,8 @@ def swift_optionals(count: int) -> str:
 
 def swift_wide_closures(count: int) -> str:
     body = "        let d = MTLTextureDescriptor()\n        let f0 = { (x: Int) in x }\n"
-    calls = " + ".join(["f{n}(x)"] * 20)
-    return body + repeated(f"        let f{{m}} = {{{{ (x: Int) in {calls} }}}}\n", count) + f"        d.sampleCount = f{count}(4)\n"
+    calls = ", ".join(["f{n}(x)"] * 20)
+    return body + repeated(f"        let f{{m}} = {{{{ (x: Int) in [{calls}] }}}}\n", count) + f"        d.sampleCount = f{count}(4)\n"
 
 
 def swift_equal_tuples(count: int) -> str:

@@ -11,7 +11,7 @@ from msaa_lint.input.code.limits import Work
 from .creation import COUNTS, VIEW, ObjectCreation
 from .names import element_type, vulkan_struct
 from .overloads import Overloads
-from .scope import MAX_CALLS, MAX_WAYS, MEMBER, Scope, Scopes
+from .scope import MAX_CALLS, MAX_CLOSURES, MAX_WAYS, MEMBER, Scope, Scopes
 from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, Function, Parameter, Term, Unit
 from .values import (
     MAX_ALTERNATIVES,
@@ -56,6 +56,8 @@ class Calls(ObjectCreation):
         else:
             closure = self.closure(name, scope) if function[0] == NAME else None
         if closure is not None:
+            if place in scope.active_functions or len(scope.calls) >= MAX_CLOSURES:
+                return UNKNOWN_VALUE
             body = Function("", "", "", closure.parameters, closure.body, place, scope.namespace)
             return self.execute(body, term, scope, scope.this_object, closure.scopes)
         callee = self.find_function(name, len(arguments), function, scope)

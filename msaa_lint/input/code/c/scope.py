@@ -20,6 +20,9 @@ Scopes = tuple[dict[str, Cell], ...]
 MAX_CALLS = 5
 """The maximum depth of calls that are executed."""
 
+MAX_CLOSURES = 20
+"""The maximum depth of calls in which lambdas are executed; they may call each other."""
+
 MAX_WAYS = 4
 """The maximum number of times that a call is executed."""
 
