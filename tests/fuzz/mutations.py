@@ -232,7 +232,7 @@ class Mutator:
             return data
         if self.random.random() < 0.3:
             return "\n---\n".join(json.dumps(root, default=str) for root in roots).encode()
-        return yaml.safe_dump_all(roots, sort_keys=False).encode("utf-8", "surrogatepass")
+        return yaml.dump_all(roots, Dumper=yaml.CSafeDumper, sort_keys=False).encode("utf-8", "surrogatepass")
 
     def _json(self, data: bytes, changes: int) -> bytes:
         ascii_only = self.random.random() < 0.5

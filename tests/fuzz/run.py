@@ -132,8 +132,8 @@ class Campaign:
 
 def _features(command: tuple[str, ...], outcome: Outcome) -> set[str]:
     """The forms of the lines that a command prints."""
-    lines = (outcome.out[:200_000] + outcome.errors[:20_000]).splitlines()
-    return {f"{command[0]} {_VARIABLE.sub('_', line)[:160]}" for line in lines[:3000]}
+    lines = (outcome.out[:20_000] + outcome.errors[:20_000]).splitlines()
+    return {f"{command[0]} {_VARIABLE.sub('_', line[:300])}" for line in lines}
 
 
 def place(folder: Path, kind: Kind, data: bytes) -> None:
