@@ -259,3 +259,29 @@ def test_an_output_that_cannot_be_created_is_one_line(output: str, folder: Path)
     done = run(folder, "check", "--isolated", "--output", f"json={output}", "frame.msaa.yaml")
     assert done.returncode == 2 and done.stderr.startswith(f"msaa-lint: cannot write {output}: ")
     assert done.stderr.count("\n") == 1 and sorted(os.listdir(folder)) == ["folder", "frame.msaa.yaml"]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "confirm --isolated --no-layer --no-time --image out frame.msaa.yaml",
+        "cost --isolated --chart out/a.svg frame.msaa.yaml",
+        "study --samples 1,2 --techniques msaa --size 96x64 --crops out edge-fan",
+        "study --samples 1,2 --techniques msaa --size 96x64 --plot out/a.svg edge-fan",
+        "study --samples 1,2 --techniques msaa --size 96x64 --resume out edge-fan",
+        "study --samples 1,2 --techniques msaa --size 96x64 --record frame.msaa.yaml",
+    ],
+)
+def test_pictures_and_records_replace_nothing_of_others(words: str, folder: Path) -> None:
+    for package in ("matplotlib", "numpy", "joblib", *(["vulkan"] if words.startswith("confirm") else [])):
+        pytest.importorskip(package)
+    outside = outside_link(folder, "out")
+    (folder / "frame.msaa.yaml").write_text(STORED)
+    (folder / "frame.msaa.yaml.msaa-study.json").write_text('{"mine": 1}')
+    done = run_process(folder, *words.split())
+    if "no Vulkan" in done.stderr or "libvulkan" in done.stderr:
+        pytest.skip("no Vulkan device")
+    assert done.returncode == 2, done.stderr
+    message = "msaa-lint did not write the file that is there" if "--record" in words else "`out` is a link that leads out of the project"
+    assert done.stderr.count(message) == 1 and done.stderr.count("\n") == 1
+    assert os.listdir(outside) == [] and (folder / "frame.msaa.yaml.msaa-study.json").read_text() == '{"mine": 1}'

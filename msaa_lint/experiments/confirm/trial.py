@@ -36,7 +36,7 @@ from .protocol import Event
 from .session import Session
 from .timing import cannot_show
 from .version_timing import TimedPasses, Version, measure_times
-from .vulkan_errors import Unusable
+from .vulkan_errors import NotWritten, Unusable
 
 MAX_IMAGE = 256 << 20
 """Maximum size in bytes of an image that is read back."""
@@ -120,10 +120,13 @@ class _Trial:
         return notes
 
     def try_input(self, source: Input) -> list[Verdict]:
-        """The verdicts on the passes of one input; if they cannot be determined, one that says why. Unusable if the device is gone."""
+        """The verdicts on the passes of one input; if they cannot be determined, one that says why.
+
+        Unusable if the device is gone, NotWritten if a picture cannot be written.
+        """
         try:
             return self.verdicts(source)
-        except Unusable:
+        except (Unusable, NotWritten):
             raise
         except Exception as error:
             if self.options.traceback:
