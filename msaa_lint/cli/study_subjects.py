@@ -113,7 +113,8 @@ def _picture(study_input: StudyInput, size: tuple[int, int]) -> Any:
         raise UsageError(needs_extra("msaa-lint study", "study")) from None
     except (OSError, ValueError, LookupError) as error:
         reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
-        raise _Unreadable(reason) from None
+        # Of a scene by name, only the size can be wrong.
+        raise UsageError(f"{study_input.name}: {reason}") if study_input.kind == "scene" else _Unreadable(reason) from None
 
 
 def _unknown(word: str, names: Sequence[str]) -> str:
