@@ -225,6 +225,8 @@ class _Walk:
             else:
                 self.files.setdefault(shown(path), search.project)
                 search.inputs += 1
+        elif kind == INPUT and not entry.is_dir():
+            self.notes.append(f"{shown(path)} is not a regular file: not linted")
 
     def _kind(self, entry: os.DirEntry[str], path: str, include: Sequence[Glob]) -> str:
         """Whether a candidate is an input. A link's target is not read: it may be anywhere."""

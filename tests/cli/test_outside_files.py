@@ -376,6 +376,7 @@ def test_a_folder_has_no_inputs_elsewhere(project: Path) -> None:
     assert SECRET not in done.stdout + done.stderr
     for name in ("gone", "link"):
         assert f"{name}.msaa.yaml is a link that is broken or leaves the project: name it to lint it" in done.stderr
+    assert "pipe.msaa.yaml is not a regular file: not linted" in done.stderr
     named = run(project, "check", "up/frame.msaa.yaml", "link.msaa.yaml")
     for name in ("up/frame", "link"):
         assert f"{name}.msaa.yaml:1:63: warning[multisampled-image-not-transient] `{SECRET}`" in named.stdout, "the command line names it"

@@ -167,12 +167,13 @@ def test_a_walk_has_a_floor() -> None:
     assert result.notes == ["/".join(["f", *"d" * 65]) + " is more than 64 folders deep: name it to lint it"]
 
 
-def test_what_is_no_regular_file_is_passed_over_in_a_folder() -> None:
+def test_what_is_no_regular_file_in_a_folder_is_a_note() -> None:
     write("f/a.msaa.yaml")
     os.mkfifo("f/b.msaa.yaml")
     os.mkfifo("f/c.yaml")
     Path("f/d.msaa.yaml").mkdir()
-    assert clean("f") == ["f/a.msaa.yaml"]
+    result = found("f")
+    assert (result.files, result.notes) == (["f/a.msaa.yaml"], ["f/b.msaa.yaml is not a regular file: not linted"])
 
 
 def test_a_folder_that_cannot_be_read_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
