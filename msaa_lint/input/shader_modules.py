@@ -22,9 +22,12 @@ from msaa_lint.frame.spirv.module import MAX_BYTES, Module
 from msaa_lint.frame.spirv.reflect import Reflected, reflected
 from msaa_lint.frame.spirv.words import SpirvError
 
-MAX_WORK = 64_000_000
-"""The budget of a run: the words of modules, for each analysis, and the instructions followed, each of which counts as STEP words.
-It corresponds to about 30 seconds; a game's frame takes a hundredth of it."""
+MAX_WORK = 16_000_000
+"""The budget of a run, however small its modules: the words of modules, for each analysis, and the instructions followed, each of which
+counts as STEP words. It corresponds to about 8 seconds; a game's frame takes a twentieth of it."""
+
+ANALYSES = 16
+"""The budget's part that grows with the modules of a run, as a multiple of their words."""
 
 STEP, ANALYSIS = 16, 1000
 """What an instruction that is followed, and any analysis, count as, in words."""
@@ -58,6 +61,7 @@ class ShaderAnalyses:
         self._known: dict[object, Reflected | _Unusable] = {}
         self._modules: dict[object, Module | _Unusable] = {}
         self._words = 0
+        self._sources: set[object] = set()
 
     def reflected(self, source: object, name: str, code: Callable[[], bytes], query: tuple[Any, ...]) -> Reflected:
         """What a module says. `source` identifies it in the run, `code` reads it; the query is the entry point, the constants, and whether
@@ -97,7 +101,7 @@ class ShaderAnalyses:
         kept = self._modules.pop(source, None)
         if kept is None:
             try:
-                kept = self._read(name, code())
+                kept = self._read(source, name, code())
                 self._words += len(kept.words)
             except _Unusable as error:
                 if error.code == "MSAA906":
@@ -111,7 +115,10 @@ class ShaderAnalyses:
             raise kept
         return kept
 
-    def _read(self, name: str, code: bytes) -> Module:
+    def _read(self, source: object, name: str, code: bytes) -> Module:
+        if source not in self._sources:
+            self._sources.add(source)
+            self.left += ANALYSES * (len(code) // 4)
         self.spend(ANALYSIS + len(code) // 4)
         if name.endswith(GLSL) and code[:4] not in MAGIC:
             self.spend(STEP * len(code))

@@ -232,6 +232,7 @@ class Workspace:
         except (OSError, Unreadable) as error:
             self.findings.append(opening.unreadable(error, name))
             return None
+        self._limits.rules.extend(len(data if isinstance(data, bytes) else data.source.text))
         device = resolved.device
         severity = resolved.selection.for_file(name, device.vendor if device is not None else None)
         options = LintOptions(severity, resolved.limits, request.format, device, request.ignores, False, self._keys, request.all_keys)

@@ -130,6 +130,7 @@ def test_a_costly_case_is_a_finding_at_the_case(tmp_path: Path) -> None:
 def test_the_budget_is_that_of_the_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Pages together, over documents and files: who takes most is turned off first, and who takes little goes on."""
     monkeypatch.setattr(budget.Budget.__init__, "__defaults__", (300_000,))
+    monkeypatch.setattr(budget, "INPUT", 0)
     when = "'[1, 2, 3, 4, 5, 6, 7, 8, 9].map(a, [1, 2, 3].map(b, image.name + image.name)).size() > 0 && image.samples < 0'"
     frames = ["---\n".join(f"images: {{{'n' * 400}{file}{number}: {{samples: 4}}}}\n" for number in range(2)) for file in range(8)]
     said, fired, code = reported(tmp_path, [page(when=when), page("ACME002", when), page("ACME003")], *frames)
@@ -143,6 +144,7 @@ def test_the_budget_is_that_of_the_run(tmp_path: Path, monkeypatch: pytest.Monke
 
 def test_findings_count_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(budget.Budget.__init__, "__defaults__", (200_000,))
+    monkeypatch.setattr(budget, "INPUT", 0)
     rows = ", ".join(f"i{number}: {{samples: 4}}" for number in range(500))
     said, fired, code = reported(tmp_path, [page(message="'{image.samples} {image.name} " + "m" * 1000 + "'")], f"images: {{{rows}}}")
     assert [place for place, _ in said] == ["rules/page-0.md:6:10"]
@@ -152,6 +154,7 @@ def test_findings_count_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
 
 def test_pages_of_two_configurations_share_the_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(budget.Budget.__init__, "__defaults__", (60_000,))
+    monkeypatch.setattr(budget, "INPUT", 0)
     for name in "abcdef":
         (tmp_path / name / "rules").mkdir(parents=True)
         (tmp_path / name / "msaa-lint.toml").write_text('rules = ["rules"]\n')
@@ -240,9 +243,18 @@ def test_suppressions_of_a_page_that_is_off_are_not_unused(tmp_path: Path) -> No
 
 def test_trials_for_missing_keys_count(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(budget.Budget.__init__, "__defaults__", (200_000,))
+    monkeypatch.setattr(budget, "INPUT", 0)
     when = " || ".join(f"image.samples == {n} && image.width == {n}" for n in range(40))
     (tmp_path / "a.md").write_text(page(when=when))
     (tmp_path / "a.msaa.yaml").write_text("images: {" + ", ".join(f"i{n}: {{}}" for n in range(100)) + "}")
     done = run(tmp_path, "check", "--isolated", "--rules", "a.md", "--explain-undecided", "a.msaa.yaml")
     assert "it has used up its part of the 200000 steps" in done.stdout
     assert done.returncode == 2
+
+
+def test_large_inputs_have_a_larger_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What many pages take of a large corpus is no attack."""
+    monkeypatch.setattr(budget.Budget.__init__, "__defaults__", (200_000,))
+    rows = ", ".join(f"i{number}: {{samples: 4}}" for number in range(500))
+    said, fired, _ = reported(tmp_path, [page()], f"images: {{{rows}}}")
+    assert (said, len(fired)) == ([], 500)
