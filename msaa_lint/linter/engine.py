@@ -318,7 +318,9 @@ def _hidden_characters_of_code(code: SourceFile) -> Iterable[Finding]:
     if not findings or code.language != "markdown":
         return findings
     lines = _LINE.findall(_code_only(code).text)
-    return [found for found in findings if found.span and lines[code.source.position(found.span.start).line - 1].strip()]
+    # The blanked text may have fewer lines: it has none for what follows the last code.
+    numbers = [found.span and code.source.position(found.span.start).line for found in findings]
+    return [found for found, number in zip(findings, numbers, strict=True) if number and any(map(str.strip, lines[number - 1 : number]))]
 
 
 def _code_only(code: SourceFile) -> Source:
