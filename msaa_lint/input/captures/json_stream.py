@@ -19,8 +19,8 @@ BLOCK = 1 << 18
 MAX_VALUE = 64 << 20
 """Maximum size of a line or an array element, in bytes."""
 
-MAX_PARSED = 16 << 20
-"""Maximum size of a value that is parsed, in bytes; parsed small values take about 30 times as much memory."""
+MAX_PARSED = 12 << 20
+"""Maximum size of a value that is parsed, in bytes; parsed small values take up to 70 times as much memory."""
 
 MAX_DEPTH = 100
 

@@ -312,7 +312,7 @@ def test_a_call_that_is_too_large_to_parse_ends_the_capture() -> None:
     program.call("vkUnknown", x="a" * json_stream.MAX_PARSED)
     program.calls.reverse()
     (found,) = lint(program.text())
-    assert (found.code, found.message) == ("MSAA901", "the capture ends here: a call that is read exceeds 16 MiB")
+    assert (found.code, found.message) == ("MSAA901", "the capture ends here: a call that is read exceeds 12 MiB")
 
 
 def test_objects_beyond_a_limit_are_not_followed(monkeypatch: pytest.MonkeyPatch) -> None:
