@@ -67,12 +67,13 @@ class LintOptions(NamedTuple):
 
 
 class Engine:
-    """A set of rules, compiled once for any number of inputs. The `limits` are those of the run."""
+    """A set of rules, compiled once for any number of inputs. The `limits` are those of the run; an engine without them is of no one run, and
+    reads shaders anew for each document."""
 
     def __init__(self, registry: Registry, limits: RunLimits | None = None) -> None:
         self.registry = registry
-        self._limits = limits or RunLimits()
-        self._runner = RuleRunner(registry.rules, self._limits.rules)
+        self._limits = limits
+        self._runner = RuleRunner(registry.rules, (limits or RunLimits()).rules)
 
     def lint(self, data: bytes | CaptureInput | SourceFile, file: str, options: LintOptions) -> FileResult:
         """The findings of one input in order of location. `data` is a file's bytes, or a capture or source code already read."""
@@ -196,7 +197,7 @@ class Engine:
             from msaa_lint.input.shader_modules import Modules
 
             if not modules:
-                modules.append(Modules(document, file, self._limits.shaders))
+                modules.append(Modules(document, file, self._limits.shaders if self._limits else None))
             return modules[0].reflected(stage, alpha)
 
         analysis = FrameAnalysis(Frame(document), profile(document.description, device), study, shader)
