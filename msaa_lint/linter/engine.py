@@ -67,8 +67,10 @@ class LintOptions(NamedTuple):
 
 
 class Engine:
-    """A set of rules, compiled once for any number of inputs. The `limits` are those of the run; an engine without them is of no one run, and
-    reads shaders anew for each document."""
+    """A set of rules, compiled once for any number of inputs.
+
+    The `limits` are those of the run. An engine without them belongs to no run, and reads shaders anew for each document.
+    """
 
     def __init__(self, registry: Registry, limits: RunLimits | None = None) -> None:
         self.registry = registry
@@ -118,7 +120,7 @@ class Engine:
             undecided.extend(rule._replace(subject=prefix + rule.subject) for rule in verdicts.undecided)
             results.append(DocumentResult(document, verdicts.fix_specs, number, device, verdicts.checked))
         if modules is None:
-            findings += hidden_characters(source)
+            findings += _untold(hidden_characters(source), findings)
         suppressed: list[Suppressed] = []
         if options.ignores and _has_suppressions(source.text):
             from msaa_lint.core.text.comments import comments
@@ -311,6 +313,12 @@ def _of_code(finding: Finding) -> Finding:
         return finding
     fix = finding.fix and finding.fix._replace(edits=(), shown=True)
     return finding._replace(confidence=CONFIDENCES[0], fix=fix)
+
+
+def _untold(hidden: Iterable[Finding], findings: Iterable[Finding]) -> list[Finding]:
+    """The notes about hidden characters that no error about the same word names: an unknown key may have one."""
+    told = [found.span for found in findings if found.span is not None and "invisible character U+" in found.message]
+    return [note for note in hidden if not any(note.span and span.start <= note.span.start < span.end for span in told)]
 
 
 def _hidden_characters_of_code(code: SourceFile) -> Iterable[Finding]:

@@ -211,7 +211,7 @@ def test_the_running_driver(folder: Path) -> None:
 
 def test_no_driver(folder: Path) -> None:
     pytest.importorskip("vulkan")
-    done = run(folder, "device", VK_DRIVER_FILES=str(folder / "none.json"))
+    done = run(folder, "device", VK_DRIVER_FILES=str(folder.parent / "none.json"))
     assert (done.returncode, done.stdout) == (2, "")
     assert "finds no driver" in done.stderr or "no Vulkan loader" in done.stderr
     assert "apt install" in done.stderr

@@ -28,12 +28,13 @@ RESOLVE = Rule("MSAA301", "resolve-outside-pass", "note")
 NEWER = Rule("MSAA218", "something-new", edition="2026.10")
 OWN = Rule("ACME1", "own-rule", "error", "")
 RULES = [STORED, LOADED, RESOLVE, NEWER, OWN]
-COMMENTS = {"unused-suppression", "unknown-rule-in-suppression", "blanket-suppression"}
+NOT_OF_FRAMES = {"unused-suppression", "unknown-rule-in-suppression", "blanket-suppression", "hidden-character"}
+"""What can be turned off that is no rule about a frame."""
 
 
 def names(settings: Settings, file: str | None = None) -> set[str]:
     """Those of the frame's rules that are on."""
-    return set(Selection(settings, RULES).names(file)) - COMMENTS
+    return set(Selection(settings, RULES).names(file)) - NOT_OF_FRAMES
 
 
 def codes(settings: Settings) -> str:
@@ -142,11 +143,11 @@ def test_per_file_ignores_count_from_their_root() -> None:
     assert names(override(settings, select=["MSAA201"]), "project/tests/a.yaml") == set()
 
 
-def test_what_comments_say_stays_on_unless_ignored() -> None:
-    assert Selection(Settings(select=("MSAA201",)), RULES).names() == {STORED.name, *COMMENTS}
-    assert Selection(override(Settings(), select=["MSAA201"]), RULES).names() == {STORED.name, *COMMENTS}
+def test_what_is_not_about_frames_stays_on_unless_ignored() -> None:
+    assert Selection(Settings(select=("MSAA201",)), RULES).names() == {STORED.name, *NOT_OF_FRAMES}
+    assert Selection(override(Settings(), select=["MSAA201"]), RULES).names() == {STORED.name, *NOT_OF_FRAMES}
     assert Selection(Settings(select=(), ignore=("MSAA91",)), RULES).names() == set()
-    assert Selection(Settings(select=(), severity={"unused-suppression": "off"}), RULES).names() == COMMENTS - {"unused-suppression"}
+    assert Selection(Settings(select=(), severity={"unused-suppression": "off"}), RULES).names() == NOT_OF_FRAMES - {"unused-suppression"}
 
 
 def test_settle_gives_9xx_warnings_the_configured_severity_and_leaves_the_errors() -> None:
