@@ -1,9 +1,10 @@
 """Doubles inputs and prints how time grows: `python tests/benchmarks/scaling.py [--quick] [NAME...]`. A table in Markdown.
 
 Each shape is an input of one structure at any size, and a command that reads it. Its size starts where the command's work can be told from
-its start, and is doubled four times (twice with `--quick`). The exponent is that of a power law through the last three sizes: 1 is linear,
-2 quadratic. Times are CPU times of a process forked from one that has imported everything, so they hold no start; the time of the smallest
-input is taken off. A shape above the limit is measured again, and its least exponent counts: other work on the machine only adds to one.
+its start, and is doubled four times (twice with `--quick`, which takes one in twelve). The exponent is that of a power law through the
+last three sizes: 1 is linear, 2 quadratic. Times are CPU times of a process forked from one that has imported everything, so they hold no
+start; the time of the smallest input is taken off. A shape above the limit is measured again, and its least exponent counts: other work on
+the machine only adds to one.
 
 `NAME` selects the shapes whose names contain it. Exits with 1 where an exponent is above the limit (not with `--quick`, whose times are too
 short to tell), and with 2 where a command failed: a signal ended it, or its code says something else than "linted".
@@ -36,6 +37,10 @@ MOST_BYTES = 4 << 20
 """Of the first size: a command that is this fast needs no larger input."""
 
 
+QUICK = 12
+"""Of so many shapes, `--quick` doubles one, unless names select them."""
+
+
 class Failed(Exception):
     """A command that did not do its work."""
 
@@ -57,15 +62,18 @@ class Row(NamedTuple):
 
 
 def warm() -> None:
-    """Imports what the commands import, so that no run pays for it: a small input of each kind is linted in this process's child-to-be."""
-    import msaa_lint.__main__  # noqa: F401
-
+    """Imports what the commands import, so that no run pays for it: each command reads a small input of each kind in this process."""
+    known = set()
     with tempfile.TemporaryDirectory() as folder:
-        for shape in {shape.write: shape for shape in SHAPES}.values():
-            path = Path(folder) / shape.name.replace(" ", "-").replace("/", "-")
+        for number, shape in enumerate(SHAPES):
+            path = Path(folder) / str(number)
             path.mkdir()
             shape.write(path, 1)
-            call(shape, path)
+            kind = (*shape.arguments, *sorted({each.suffix for each in path.rglob("*")}))
+            if kind not in known:
+                known.add(kind)
+                call(shape, path)
+                gc.collect()
 
 
 def call(shape: Shape, folder: Path) -> int:
@@ -154,6 +162,8 @@ def main() -> int:
     names = [each for each in sys.argv[1:] if each != "--quick"]
     quick = "--quick" in sys.argv[1:]
     chosen = [shape for shape in SHAPES if not names or any(name in shape.name for name in names)]
+    if quick and not names:
+        chosen = chosen[::QUICK]
     for name in [name for name in os.environ if name.startswith(("COVERAGE", "MSAA_LINT_"))]:
         del os.environ[name]
     os.environ["NO_COLOR"] = "1"

@@ -111,7 +111,7 @@ WRONG = (
     ),
     Shape("files with misspelt enumerants", files("images: {i: {format: R8G8B8A8_UNROM, usage: [COLOR_ATACHMENT]}}\n"), codes=(2,)),
     wrong("wrong types", "images:", "  i@: {format: 4, samples: [], usage: {a: 1}, memory: null}"),
-    wrong("duplicate keys", "images:", "  i: {} # @"),
+    wrong("duplicate keys", "images:", "  i: {} # @", codes=(0, 2)),
     wrong("unknown keys of merges", "base: &base {unknown: 1}\nimages:", "  i@: {<<: *base, format: R8G8B8A8_UNORM}"),
     wrong("merges of many unknown keys", "base: &base", "  key@: 1", "images:\n  i: {<<: *base}"),
     outputs(
