@@ -266,10 +266,10 @@ def test_an_output_that_cannot_be_created_is_one_line(output: str, folder: Path)
     [
         "confirm --isolated --no-layer --no-time --image out frame.msaa.yaml",
         "cost --isolated --chart out/a.svg frame.msaa.yaml",
-        "study --samples 1,2 --techniques msaa --size 96x64 --crops out edge-fan",
-        "study --samples 1,2 --techniques msaa --size 96x64 --plot out/a.svg edge-fan",
-        "study --samples 1,2 --techniques msaa --size 96x64 --resume out edge-fan",
-        "study --samples 1,2 --techniques msaa --size 96x64 --record frame.msaa.yaml",
+        "study --samples 1,2 --techniques msaa --size 96x64 --jobs 1 --crops out edge-fan",
+        "study --samples 1,2 --techniques msaa --size 96x64 --jobs 1 --plot out/a.svg edge-fan",
+        "study --samples 1,2 --techniques msaa --size 96x64 --jobs 1 --resume out edge-fan",
+        "study --samples 1,2 --techniques msaa --size 96x64 --jobs 1 --record frame.msaa.yaml",
     ],
 )
 def test_pictures_and_records_replace_nothing_of_others(words: str, folder: Path) -> None:

@@ -4,17 +4,18 @@ import os
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.core.project import MAX_LINKS, resolved
+from tests.strength import examples
 
 NAMES = st.sampled_from(["a", "b", "c", "d", ".", "..", ""])
 PATHS = st.lists(NAMES, min_size=1, max_size=5).map("/".join)
 
 
 @given(links=st.dictionaries(st.sampled_from(["a/c", "b/d", "c", "d", "a/b/c"]), PATHS, max_size=4), path=PATHS)
-@settings(max_examples=300, deadline=None)
+@examples()
 def test_links_are_resolved_as_python_does(links: dict[str, str], path: str, tmp_path_factory: pytest.TempPathFactory) -> None:
     root = tmp_path_factory.mktemp("tree")
     (root / "a/b").mkdir(parents=True)

@@ -19,11 +19,11 @@ pytestmark = pytest.mark.skipif(not hasattr(os, "pidfd_open"), reason="the fuzze
 
 
 def test_no_mutated_input_does_harm(tmp_path: Path) -> None:
-    command = [sys.executable, str(ROOT / "tests/fuzz/run.py"), "--inputs", "6", "--seed", "16", "--output", str(tmp_path / "failures")]
+    command = [sys.executable, str(ROOT / "tests/fuzz/run.py"), "--inputs", "1", "--seed", "16", "--output", str(tmp_path / "failures")]
     environment = {name: value for name, value in os.environ.items() if name != "MSAA_LINT_SAMPLES"}
     done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
-    assert f"{6 * len(KINDS)} inputs" in done.stdout
+    assert f"{len(KINDS)} inputs" in done.stdout
 
 
 def test_mutations_are_the_same_for_the_same_seed() -> None:

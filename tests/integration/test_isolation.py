@@ -20,24 +20,18 @@ VkAttachmentDescription attachment = {.format = VK_FORMAT_R8G8B8A8_UNORM, .sampl
 VkRenderPassCreateInfo create = {.attachmentCount = 1, .pAttachments = &attachment};
 """
 
-STUDY = ("study", "triangle.obj", "--size", "32x32", "--samples", "1,2", "--techniques", "msaa")
+STUDY = ("study", "triangle.obj", "--size", "32x32", "--samples", "1", "--techniques", "msaa")
 COMMANDS = [
     ("--version",),
     ("--help",),
     ("check", "frame.msaa.yaml", "--output", "sarif"),
-    ("check", "--fix", "frame.msaa.yaml"),
-    ("check", "code.cpp"),
+    ("check", "--fix", "frame.msaa.yaml", "code.cpp"),
     ("convert", "code.cpp"),
-    ("cost", "frame.msaa.yaml"),
     ("cost", "frame.msaa.yaml", "--chart", "chart.svg"),
     ("confirm", "frame.msaa.yaml"),
-    ("confirm", "--list-devices"),
     (*STUDY, "--jobs", "1"),
-    (*STUDY, "--jobs", "2"),
     (*STUDY, "--jobs", "2", "--backend", "loky", "--plot", "plot.svg"),
-    ("facts", "frame.msaa.yaml"),
     ("rule", "--all"),
-    ("schema",),
     ("device", "mali-g76"),
     ("init", "new"),
 ]
@@ -104,23 +98,22 @@ def test_no_module_of_the_working_folder_is_imported(checkout: Path) -> None:
 
 def test_nor_by_python_dash_m(checkout: Path) -> None:
     poison(checkout, modules() - of_python() - {"msaa_lint"})
-    for command in COMMANDS[2:-2]:
+    for command in (("check", "code.cpp"), ("confirm", "frame.msaa.yaml"), (*STUDY, "--jobs", "2")):
         done = run_process(checkout, *command)
         assert imported(checkout) == "", command
-        assert done.returncode in ((2,) if command[0] == "convert" else (0, 1)) and done.stdout + done.stderr, command
+        assert done.returncode in (0, 1) and done.stdout + done.stderr, command
 
 
-@pytest.mark.parametrize("stated", ["", f".{os.pathsep}./{os.pathsep}{os.pathsep}/nowhere"])
-def test_no_relative_entry_of_pythonpath_is_searched(checkout: Path, stated: str) -> None:
+def test_no_relative_entry_of_pythonpath_is_searched(checkout: Path) -> None:
     poison(checkout, modules() - of_python())
-    paths = os.pathsep.join([environment_of({})["PYTHONPATH"], stated])
+    paths = os.pathsep.join([environment_of({})["PYTHONPATH"], ".", "", "./", "/nowhere", ""])
     done = run_script(checkout, *STUDY, "--jobs", "2", PYTHONPATH=paths)
     assert imported(checkout) == ""
     assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.skipif(os.name != "posix", reason="scripts with an interpreter line")
-@pytest.mark.parametrize("path", [f".{os.pathsep}{os.environ['PATH']}", "", f"{os.pathsep}/usr/bin"])
+@pytest.mark.parametrize("path", [f".{os.pathsep}{os.pathsep}{os.environ['PATH']}", ""])
 def test_no_program_of_the_working_folder_is_run(checkout: Path, path: str) -> None:
     names = {name for folder in ("/bin", "/usr/bin", "/sbin") for name in os.listdir(folder)}
     for name in names | {"glslangValidator", "git", "adb", "pip", "python", "python3", "msaa-lint", "lscpu"}:
@@ -131,17 +124,17 @@ def test_no_program_of_the_working_folder_is_run(checkout: Path, path: str) -> N
     assert imported(checkout) == ""
 
 
-@pytest.mark.parametrize("option", [("cost", "frame.msaa.yaml", "--chart"), (*STUDY, "--plot")])
+@pytest.mark.parametrize("option", [("cost", "frame.msaa.yaml", "--chart"), (*STUDY, "--jobs", "1", "--plot")])
 def test_no_matplotlibrc_is_read(checkout: Path, option: tuple[str, ...]) -> None:
     assert run_process(checkout, *option, "plain.svg").returncode == 0
     (checkout / "matplotlibrc").write_text("backend: module://evil\nfigure.facecolor: red\nno.such.setting: 1\n")
     (checkout / "settings").mkdir()
     (checkout / "settings" / "matplotlibrc").write_text("no.such.setting: 1\n")
-    stated = {"MATPLOTLIBRC": "settings", "MPLCONFIGDIR": "settings"}
-    for number, environment in enumerate(({}, stated)):
-        done = run_process(checkout, *option, f"{number}.svg", **environment)
+    environments: dict[str, dict[str, str]] = {"found": {}, "stated": {"MATPLOTLIBRC": "settings", "MPLCONFIGDIR": "settings"}}
+    for name in environments if option[0] == "cost" else ["stated"]:
+        done = run_process(checkout, *option, f"{name}.svg", **environments[name])
         assert (done.returncode, "matplotlib" in done.stderr, "no.such" in done.stderr) == (0, False, False)
-        assert (checkout / f"{number}.svg").read_bytes() == (checkout / "plain.svg").read_bytes()
+        assert (checkout / f"{name}.svg").read_bytes() == (checkout / "plain.svg").read_bytes()
     assert os.listdir(checkout / "settings") == ["matplotlibrc"]
 
 

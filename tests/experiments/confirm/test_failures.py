@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import fcntl
 import json
 import os
@@ -10,6 +11,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -147,15 +149,15 @@ def test_no_manifest_of_the_checkout_is_loaded(tmp_path: Path) -> None:
         (tmp_path / folder / "evil.json").write_text(json.dumps({"file_format_version": "1.0.0", **kind}))
     environments: list[dict[str, str]] = []
     for root in ("", str(tmp_path)):
+        driver_file, layers = os.path.join(root, "vulkan/icd.d/evil.json"), os.path.join(root, "vulkan/explicit_layer.d")
+        implicit = os.path.join(root, "vulkan/implicit_layer.d")
+        # Only what the loader reads beside the others is together.
         environments += [
-            {"VK_ICD_FILENAMES": os.path.join(root, "vulkan/icd.d/evil.json")},
-            {"VK_DRIVER_FILES": os.path.join(root, "vulkan/icd.d/evil.json")},
-            {"VK_ADD_DRIVER_FILES": os.path.join(root, "vulkan/icd.d/evil.json")},
-            {"VK_LAYER_PATH": os.path.join(root, "vulkan/explicit_layer.d"), "VK_INSTANCE_LAYERS": "VK_LAYER_EVIL"},
-            {"VK_IMPLICIT_LAYER_PATH": os.path.join(root, "vulkan/implicit_layer.d")},
-            {"XDG_DATA_HOME": root or ".", "XDG_DATA_DIRS": root, "HOME": os.path.join(root, "home")},
+            {"VK_ICD_FILENAMES": driver_file, "VK_LAYER_PATH": layers, "VK_INSTANCE_LAYERS": "VK_LAYER_EVIL"},
+            {"VK_DRIVER_FILES": driver_file, "VK_IMPLICIT_LAYER_PATH": implicit, "LD_LIBRARY_PATH": str(tmp_path), "LD_PRELOAD": ""},
+            {"VK_ADD_DRIVER_FILES": driver_file, "XDG_DATA_HOME": root or ".", "XDG_DATA_DIRS": root, "HOME": os.path.join(root, "home")},
         ]
-    for environment in [*environments, {"LD_LIBRARY_PATH": str(tmp_path), "LD_PRELOAD": ""}]:
+    for environment in environments:
         done = run_process(tmp_path, "confirm", "f.msaa.yaml", "--no-layer", EVIL=str(tmp_path / "owned"), **environment)
         assert not (tmp_path / "owned").exists(), environment
         assert done.returncode == 0, (environment, done.stderr)
@@ -217,21 +219,32 @@ STUDY = ("study", "edge-fan", "foliage", "--size", "1024x1024", "--jobs", "2")
 SLOW = ("confirm", "f.msaa.yaml", "--time", "--repeats", "10000", "--size", "4096x4096")
 
 
-def started(folder: Path, temporary: Path, *command: str) -> subprocess.Popen[bytes]:
-    """A run that has started its child processes."""
+@contextlib.contextmanager
+def started(folder: Path, temporary: Path, command: tuple[str, ...]) -> Iterator[subprocess.Popen[bytes]]:
+    """A run that has started its child processes. At the end, it is killed, and so are they."""
     (folder / "f.msaa.yaml").write_text(FRAME.partition("pipelines:")[0])
     environment = environment_of({"TMPDIR": str(temporary), "MARK": str(temporary)})
-    process = subprocess.Popen(
-        [sys.executable, "-m", "msaa_lint", *command], cwd=folder, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-    )
-    deadline = time.monotonic() + 60
-    while time.monotonic() < deadline and process.poll() is None:
-        if (list(temporary.glob(f"{PREFIX}*")) or command is STUDY) and children(process.pid):
-            time.sleep(1.5)
-            break
-        time.sleep(0.05)
-    assert process.poll() is None
-    return process
+    quiet = subprocess.DEVNULL
+    process = subprocess.Popen([sys.executable, "-m", "msaa_lint", *command], cwd=folder, env=environment, stdout=quiet, stderr=quiet)
+    descendants: list[int] = []
+    try:
+        deadline = time.monotonic() + 60
+        while time.monotonic() < deadline and process.poll() is None:
+            descendants = children(process.pid)
+            if descendants and (command is STUDY or list(temporary.glob(f"{PREFIX}*"))):
+                break
+            time.sleep(0.05)
+        # They are at work, not starting.
+        time.sleep(0.7)
+        assert process.poll() is None, "the run has ended before its signal"
+        descendants = children(process.pid)
+        yield process
+    finally:
+        process.kill()
+        process.wait()
+        for number in alive(descendants):
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(number, signal.SIGKILL)
 
 
 def children(parent: int) -> list[int]:
@@ -246,40 +259,42 @@ def alive(numbers: list[int]) -> list[int]:
     return [number for number, path in states.items() if path.exists() and path.read_text().rpartition(")")[2].split()[0] != "Z"]
 
 
+def ended(numbers: list[int]) -> bool:
+    """Whether the processes end within five seconds."""
+    deadline = time.monotonic() + 5
+    while alive(numbers) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    return not alive(numbers)
+
+
 @pytest.mark.parametrize("command", [SLOW, STUDY], ids=["confirm", "study"])
 @pytest.mark.parametrize("number", [signal.SIGHUP, signal.SIGQUIT, signal.SIGTERM, signal.SIGINT])
 def test_no_signal_leaves_a_folder_or_a_process(tmp_path: Path, number: signal.Signals, command: tuple[str, ...]) -> None:
     temporary = tmp_path / "temporary"
     temporary.mkdir()
-    process = started(tmp_path, temporary, *command)
-    descendants = children(process.pid)
-    process.send_signal(number)
-    assert process.wait(30) == (130 if number == signal.SIGINT else 128 + number)
-    for _ in range(100):
-        if not alive(descendants):
-            break
-        time.sleep(0.05)
-    assert alive(descendants) == []
+    with started(tmp_path, temporary, command) as process:
+        descendants = children(process.pid)
+        process.send_signal(number)
+        assert process.wait(30) == (130 if number == signal.SIGINT else 128 + number)
+        assert ended(descendants)
     assert list(temporary.iterdir()) == []
 
 
 def test_a_killed_run_leaves_nothing_after_the_next_start(tmp_path: Path) -> None:
     temporary = tmp_path / "temporary"
     temporary.mkdir()
-    process = started(tmp_path, temporary, *SLOW)
-    descendants = children(process.pid)
-    (abandoned,) = temporary.iterdir()
-    # Another run does not remove the folder of one that still runs.
-    assert run_process(tmp_path, "confirm", "--list-devices", TMPDIR=str(temporary)).returncode == 0
-    assert abandoned.exists()
-    process.kill()
-    process.wait()
-    for _ in range(100):
-        if not alive(descendants):
-            break
-        time.sleep(0.05)
-    assert alive(descendants) == []
-    assert abandoned.exists()
+    with started(tmp_path, temporary, SLOW) as process:
+        descendants = children(process.pid)
+        # One for the session with the validation layer, and one for that which measures times.
+        abandoned = list(temporary.iterdir())
+        assert abandoned and all(path.name.startswith(PREFIX) for path in abandoned)
+        # Another run does not remove the folders of one that still runs.
+        assert run_process(tmp_path, "confirm", "--list-devices", TMPDIR=str(temporary)).returncode == 0
+        assert all(path.exists() for path in abandoned)
+        process.kill()
+        process.wait()
+        assert ended(descendants)
+    assert all(path.exists() for path in abandoned)
     # Neither a link to a folder nor a locked folder is removed.
     victim, other = tmp_path / "victim", temporary / f"{PREFIX}locked"
     for folder in (victim, other):
