@@ -359,3 +359,14 @@ def test_nothing_heavy_is_imported_to_read_the_options() -> None:
     code = "import sys, msaa_lint.cli.options, msaa_lint.experiments.study.points, msaa_lint.linter.study_record; print(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
     assert {"numpy", "joblib", "matplotlib", "rich", "typer", "pydantic", "json"}.isdisjoint(done.stdout.split())
+
+
+def test_a_mesh_with_too_many_overlaps_is_one_error_and_others_are_studied(tmp_path: Path) -> None:
+    corners = 600
+    vertices = "".join(f"v {n} {n * n % 601} 0\n" for n in range(corners))
+    (tmp_path / "dense.obj").write_text(vertices + f"f {' '.join(map(str, range(1, corners + 1)))}\n")
+    options = ("--size", "32x32", "--jobs", "1", "--samples", "2", "--techniques", "msaa")
+    done = run(tmp_path, "dense.obj", "edge-fan", "--output", "json", *options)
+    message = "too many triangles overlap in the same pixels for an exact picture; simplify the mesh, or use a larger --size"
+    assert (done.returncode, done.stderr) == (2, f"msaa-lint: dense.obj: {message}\n")
+    assert {point["scene"] for point in report(done.stdout)["points"]} == {"edge-fan"}

@@ -323,6 +323,42 @@ def test_meshes_have_limits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
         from_mesh(str(tmp_path / "none.obj"), 64, 64)
 
 
+def _random_triangles(count: int, size: float) -> str:
+    """An OBJ file of triangles in random places at random depths."""
+    numbers = np.random.default_rng(1)
+    corners = numbers.random((count, 1, 3)) + size * numbers.random((count, 3, 3))
+    vertices = "".join(f"v {x:.6f} {y:.6f} {z:.6f}\n" for x, y, z in corners.reshape(-1, 3))
+    return vertices + "".join(f"f {n} {n + 1} {n + 2}\n" for n in range(1, 3 * count, 3))
+
+
+def test_the_exact_picture_of_a_mesh_takes_a_limited_number_of_comparisons(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn = 0
+
+    def counted(tile: list[visible.Region], *rest: object) -> list[visible.Region]:
+        nonlocal drawn
+        drawn += len(tile)
+        return draw(tile, *rest)  # type: ignore[arg-type]
+
+    draw = visible._draw
+    monkeypatch.setattr(visible, "_draw", counted)
+    monkeypatch.setattr(visible, "MAX_STEPS", 1000)
+    limit = 1000 + 100 * visible.STEPS_PER_TRIANGLE + 4 * visible.STEPS_PER_TILE
+    with pytest.raises(ValueError, match="too many triangles overlap in the same pixels"):
+        from_mesh(written(tmp_path, "a.obj", _random_triangles(100, 1)), 32, 32)
+    assert limit - 1000 < drawn <= limit
+
+
+def test_the_comparisons_of_small_triangles_grow_with_their_number(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = written(tmp_path, "a.obj", _random_triangles(300, 0.02))
+    quartered = from_mesh(path, 32, 32)
+    monkeypatch.setattr(visible, "MAX_STEPS", 0)
+    from_mesh(path, 64, 64)
+    monkeypatch.undo()
+    monkeypatch.setattr(visible, "MAX_IN_CELL", 300)
+    whole = from_mesh(path, 32, 32)
+    assert quartered.exact(quartered.triangles) == pytest.approx(whole.exact(whole.triangles), abs=1e-9)
+
+
 def test_a_mesh_opens_no_other_file(tmp_path: Path) -> None:
     """Materials that it names are left alone, though they are there and would be no text."""
     written(tmp_path, "secret.mtl", b"newmtl a\nKd 1 0 0\nmap_Kd /etc/passwd\n")

@@ -17,7 +17,9 @@ from msaa_lint.core.extras import needs_extra
 from msaa_lint.core.text.files import read
 from msaa_lint.core.text.source import Unreadable
 from msaa_lint.experiments.study.exact_area import areas_of
+from msaa_lint.experiments.study.locations import SUBPIXELS
 from msaa_lint.experiments.study.resolve import from_srgb
+from msaa_lint.experiments.study.snap import snapped
 
 from . import area, shapes, visible
 from .scene import WHITE, Scene, check_size
@@ -26,7 +28,7 @@ Floats = NDArray[np.float64]
 
 MAX_BYTES = 64 << 20
 MAX_TRIANGLES = 100_000
-"""The exact picture of that many overlapping triangles takes minutes."""
+"""Of those that overlap, `visible` has a further limit."""
 
 MAX_COORDINATE = 1e100
 
@@ -38,7 +40,7 @@ def from_mesh(path: str, width: int, height: int) -> Scene:
 
     Flat meshes (all z equal) without colors are white on black, a scene of coverage; others have the colors of their faces or vertices
     (taken as sRGB), or a gray by how much a triangle faces the viewer. OSError where the file cannot be read, ValueError where it is not
-    such a mesh or too large, ModuleNotFoundError without trimesh.
+    such a mesh, too large, or with too many triangles over the same pixels, ModuleNotFoundError without trimesh.
     """
     check_size(width, height)
     corners, mesh_colors = _read(path)
@@ -65,6 +67,8 @@ def from_mesh(path: str, width: int, height: int) -> Scene:
     colors = mesh_colors if mesh_colors is not None else _grays(corners)
     depths = 0.01 + 0.98 * (high[2] - corners[..., 2]) / size[2] if not flat else None
     pictures = visible.overlapping(colors, depths, width, height, visible.Visibility(depth=not flat))
+    # The picture that the points are compared with is computed now, so that its limit is an error of the mesh, not of each point.
+    pictures[0](snapped(triangles) / SUBPIXELS)
     scene = Scene(width, height, triangles, colors, *pictures, False, depths, name=name, description=description)
     if flat:
         return scene

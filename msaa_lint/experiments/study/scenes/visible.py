@@ -17,7 +17,7 @@ from msaa_lint.experiments.study.exact_area import areas_of
 
 from .area import TOLERANCE
 from .scene import BLACK
-from .shapes import Point, depth_planes, fan
+from .shapes import Point, depth_planes, fan, rectangle
 
 Floats = NDArray[np.float64]
 Polygon = list[Point]
@@ -25,13 +25,25 @@ Line = tuple[float, float, float]
 Color = tuple[float, float, float, float]
 
 TILE = 16
-"""Side of a tile in pixels. Few triangles overlap a tile, so that the work grows with their number and not with its square."""
+"""Side of a tile in pixels. A tile of many small triangles is quartered, down to single pixels."""
+
+MAX_IN_CELL = 8
+"""Triangles that overlap a part of a tile that is never quartered."""
+
+MAX_STEPS = 500_000
+"""Comparisons of a triangle with a region, of 3 µs each, for one picture. It grows with the square of the triangles over a pixel."""
+
+STEPS_PER_TRIANGLE, STEPS_PER_TILE = 5, 100
+"""Comparisons beyond MAX_STEPS for each triangle and each tile of the picture."""
 
 BATCH_TILES = 64
 """Tiles, horizontally and vertically, whose areas are computed together."""
 
 MIN_AREA = 1e-12
 """Regions of a smaller area, in pixels, are dropped."""
+
+
+TOO_MANY = "too many triangles overlap in the same pixels for an exact picture; simplify the mesh, or use a larger --size"
 
 
 class Region(NamedTuple):
@@ -127,27 +139,66 @@ def _blend(color: Color, behind: Color) -> Color:
     return red, green, blue, alpha + (1 - alpha) * behind[3]
 
 
+class _Drawing(NamedTuple):
+    """The triangles to draw, with the comparisons that remain."""
+
+    low: Floats
+    high: Floats
+    edges: list[list[Line]]
+    surfaces: list[Region]
+    visibility: Visibility
+    steps: list[int]
+
+    def overlapping(self, left: int, top: int, right: int, bottom: int, numbers: NDArray[np.intp]) -> NDArray[np.intp]:
+        """The triangles of these numbers whose bounds overlap a part of the picture."""
+        low, high = self.low[numbers], self.high[numbers]
+        return numbers[(low[:, 0] < right) & (high[:, 0] > left) & (low[:, 1] < bottom) & (high[:, 1] > top)]
+
+    def regions(self, left: int, top: int, right: int, bottom: int, numbers: NDArray[np.intp]) -> list[Region]:
+        """The regions of a part of the picture that the triangles of these numbers overlap. ValueError if that takes too many steps."""
+        if len(numbers) > MAX_IN_CELL and max(right - left, bottom - top) > 1:
+            parts = [(x0, y0, x1, y1) for y0, y1 in _halves(top, bottom) for x0, x1 in _halves(left, right)]
+            overlaps = [self.overlapping(*part, numbers) for part in parts]
+            # The work grows with the square of the triangles, and those that are larger than a part are in several.
+            if 2 * sum(len(overlap) ** 2 for overlap in overlaps) <= len(numbers) ** 2:
+                return [region for part, overlap in zip(parts, overlaps, strict=True) for region in self.regions(*part, overlap)]
+        corners = [(float(x), float(y)) for x, y in rectangle(left, top, right, bottom)]
+        regions = [Region(corners, BLACK, (0.0, 0.0, 0.0 if self.visibility.reversed else 1.0))]
+        for number in numbers:
+            self.steps[0] -= len(regions)
+            if self.steps[0] < 0:
+                raise ValueError(
+                    "too many triangles overlap in the same pixels for an exact picture; simplify the mesh, or use a larger --size"
+                )
+            regions = _draw(regions, self.edges[number], self.surfaces[number], self.visibility)
+        return regions
+
+
+def _halves(start: int, end: int) -> list[tuple[int, int]]:
+    """Both halves of a range of pixels; the range itself if it is a single pixel."""
+    middle = (start + end) // 2
+    return [(start, middle), (middle, end)] if start < middle else [(start, end)]
+
+
 def tiles(
     triangles: Floats, colors: Floats, depths: Floats | None, size: tuple[int, int], visibility: Visibility
 ) -> Iterator[tuple[int, int, list[Region]]]:
-    """The tiles of a picture of `size` (width, height): the left, top and regions of each."""
+    """The tiles of a picture of `size` (width, height): the left, top and regions of each. ValueError where the overlaps take more than
+    MAX_STEPS comparisons, and those for each triangle and tile."""
     width, height = size
     planes = depth_planes(triangles, depths) if depths is not None else np.zeros((len(triangles), 3))
-    low, high = triangles.min(axis=1), triangles.max(axis=1)
     edges = [_edges(triangle) for triangle in triangles]
     surfaces = [Region([], _color(color), (float(a), float(b), float(c))) for color, (a, b, c) in zip(colors, planes, strict=True)]
-    clear = 0.0 if visibility.reversed else 1.0
+    tile_count = -(-width // TILE) * -(-height // TILE)
+    steps = MAX_STEPS + STEPS_PER_TRIANGLE * len(triangles) + STEPS_PER_TILE * tile_count
+    drawing = _Drawing(triangles.min(axis=1), triangles.max(axis=1), edges, surfaces, visibility, [steps])
+    with_area = np.array([number for number, lines in enumerate(edges) if lines], np.intp)
     for top in range(0, height, TILE):
         bottom = min(top + TILE, height)
-        in_row = np.flatnonzero((low[:, 1] < bottom) & (high[:, 1] > top))
+        in_row = drawing.overlapping(0, top, width, bottom, with_area)
         for left in range(0, width, TILE):
             right = min(left + TILE, width)
-            corners = [(float(left), float(top)), (float(right), float(top)), (float(right), float(bottom)), (float(left), float(bottom))]
-            regions = [Region(corners, BLACK, (0.0, 0.0, clear))]
-            for number in in_row[(low[in_row, 0] < right) & (high[in_row, 0] > left)]:
-                if edges[number]:
-                    regions = _draw(regions, edges[number], surfaces[number], visibility)
-            yield left, top, regions
+            yield left, top, drawing.regions(left, top, right, bottom, drawing.overlapping(left, top, right, bottom, in_row))
 
 
 def _color(color: Floats) -> Color:
