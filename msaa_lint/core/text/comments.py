@@ -41,12 +41,18 @@ def comments(source: Source, roots: Iterable[Node]) -> list[Comment]:
 
     `roots` are the documents that could be read. Comments cannot be told apart in one that could not: the search ends where it begins.
     """
-    text = source.text
-    return [
-        Comment(Span(*match.span()), match[0])
-        for start, end in _between(text, max((root.end for root in roots), default=0))
-        for match in _COMMENT.finditer(text, start, end)
-    ]
+    return list(_comments(source.text, max((root.end for root in roots), default=0)))
+
+
+def comments_within(source: Source, start: int, end: int) -> list[Comment]:
+    """The comments between two places of a text, which are outside scalars and have a whole document between them. Nothing else is read."""
+    return list(_comments(source.text[start:end], end - start, start))
+
+
+def _comments(text: str, known: int, offset: int = 0) -> Iterator[Comment]:
+    for start, end in _between(text, known):
+        for match in _COMMENT.finditer(text, start, end):
+            yield Comment(Span(match.start() + offset, match.end() + offset), match[0])
 
 
 def _between(text: str, known: int) -> Iterator[tuple[int, int]]:

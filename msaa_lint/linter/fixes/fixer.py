@@ -266,6 +266,20 @@ def _with_suppressed(result: FileResult) -> list[Finding]:
     return [*result.findings, *(suppressed.finding for suppressed in result.suppressed)]
 
 
+def _document(finding: Finding) -> str:
+    """The document of a stream that a finding is in, by the start of its subject. What a fix introduces is in its own document."""
+    return finding.subject.partition(".")[0] if finding.subject.startswith("documents[") else ""
+
+
+def _kind(finding: Finding) -> tuple[str, ...]:
+    return (_document(finding), *finding_kind(finding))
+
+
+def _images(finding: Finding) -> list[tuple[str, ...]]:
+    document = _document(finding)
+    return [(document, image) for image in finding.images]
+
+
 class Objection(NamedTuple):
     """A reason why the result of fixes cannot be kept, and the finding that it is about, if a fix may be told from that."""
 
@@ -275,14 +289,14 @@ class Objection(NamedTuple):
 
 def _objections(before: FileResult, after: FileResult, fixed_findings: Sequence[Finding]) -> list[Objection]:
     """The reasons why the result of fixes cannot be kept."""
-    kinds_before = set(map(finding_kind, before.findings))
-    error = next((finding for finding in after.findings if finding.fatal and finding_kind(finding) not in kinds_before), None)
+    kinds_before = set(map(_kind, before.findings))
+    error = next((finding for finding in after.findings if finding.fatal and _kind(finding) not in kinds_before), None)
     if error is not None:
         return [Objection(f"the result would have an error: {error.message}")]
-    fixed_kinds = set(map(finding_kind, fixed_findings))
+    fixed_kinds = set(map(_kind, fixed_findings))
     return [
         Objection("it would not remove the finding", addition)
-        if finding_kind(addition) in fixed_kinds
+        if _kind(addition) in fixed_kinds
         else Objection(f"it would introduce {addition.rule}: {addition.message}", addition)
         for addition in _additions(before, after, fixed_findings)
         if addition.code != UNUSED_SUPPRESSION
@@ -300,11 +314,11 @@ def _blamed(group: Sequence[_Fix], objections: Sequence[Objection]) -> dict[int,
     """
     suspects: dict[object, list[int]] = {}
     for number, fix in enumerate(group):
-        for key in dict.fromkeys(key for finding in fix.findings for key in (finding_kind(finding), *finding.images)):
+        for key in dict.fromkeys(key for finding in fix.findings for key in (_kind(finding), *_images(finding))):
             suspects.setdefault(key, []).append(number)
     blamed: dict[int, str | None] = {}
     for objection in objections:
-        keys = (finding_kind(objection.finding), *objection.finding.images) if objection.finding is not None else ()
+        keys = (_kind(objection.finding), *_images(objection.finding)) if objection.finding is not None else ()
         lists = [suspects[key] for key in keys if key in suspects]
         numbers = set[int]().union(*lists) if all(len(each) <= MAX_SUSPECTS for each in lists) else set()
         if len(numbers) == 1:
@@ -321,26 +335,26 @@ def _additions(before: FileResult, after: FileResult, fixed_findings: Sequence[F
     A fix may move a finding: a resolve that becomes part of a pass has the same problem there. It is then by the same rule and about the
     same image as one that is gone.
     """
-    expected = Counter(map(finding_kind, _with_suppressed(before)))
-    expected.subtract(map(finding_kind, fixed_findings))
+    expected = Counter(map(_kind, _with_suppressed(before)))
+    expected.subtract(map(_kind, fixed_findings))
     new = []
     for finding in _with_suppressed(after):
-        kind = finding_kind(finding)
+        kind = _kind(finding)
         expected[kind] -= 1
         if expected[kind] < 0:
             new.append(finding)
     if not new:
         return
-    gone: dict[tuple[str, str], list[int]] = {}
+    gone: dict[tuple[str, tuple[str, ...]], list[int]] = {}
     for number, finding in enumerate(_with_suppressed(before)):
-        kind = finding_kind(finding)
+        kind = _kind(finding)
         if expected[kind] > 0:
             expected[kind] -= 1
-            for image in finding.images:
+            for image in _images(finding):
                 gone.setdefault((finding.code, image), []).append(number)
     matched: set[int] = set()
     for finding in new:
-        candidates = [gone.get((finding.code, image), []) for image in finding.images]
+        candidates = [gone.get((finding.code, image), []) for image in _images(finding)]
         for numbers in candidates:
             while numbers and numbers[-1] in matched:
                 numbers.pop()

@@ -35,7 +35,7 @@ class TextEditor:
 
     def __init__(self, document: Document) -> None:
         self.document = document
-        self.text = TextScanner(document.source, [document.description.node])
+        self.text = TextScanner(document.source, document.description.node)
         self.is_dump = not document.whole
         self._collections: dict[int, CollectionEditor] = {}
 

@@ -303,10 +303,10 @@ def test_items_with_comments_between_are_not_removed() -> None:
     text = "[a, # 1\n b, c]"
     (root,) = parse(Source("", text), Limits()).documents
     with pytest.raises(NoFix):
-        CollectionEditor(TextScanner(Source("", text), [root]), root).remove([1, 2])
+        CollectionEditor(TextScanner(Source("", text), root), root).remove([1, 2])
     clean = "[a,   b, c , d]"
     (root,) = parse(Source("", clean), Limits()).documents
-    edits = CollectionEditor(TextScanner(Source("", clean), [root]), root).remove([1, 2])
+    edits = CollectionEditor(TextScanner(Source("", clean), root), root).remove([1, 2])
     assert apply(clean, edits) == "[a , d]"
 
 
