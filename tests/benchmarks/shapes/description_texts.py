@@ -234,6 +234,17 @@ REPORTED = (
     ),
     outputs("fixes that fail", many(*IMAGES, *PASSES, "commands:", BEGINS), "--diff", "--unsafe-fixes"),
     outputs("fixes of documents", documents(*DRAWN, *PASSES), "--diff"),
+    outputs(
+        "unsafe fixes of documents",
+        documents(
+            *IMAGES,
+            *PASSES,
+            "commands:",
+            "- beginRenderPass: {renderPass: pass@}\n- endRenderPass\n- resolveImage: {srcImage: ms@, dstImage: one@} # a comment\n- readImage: {image: one@, stage: FRAGMENT}",
+        ),
+        "--diff",
+        "--unsafe-fixes",
+    ),
     Shape("files", files(many(*PAIR)(1))),
     Shape("files with fixes", files(STORED(1))),
     commanded("costs", RESOLVED, "cost"),
