@@ -157,7 +157,7 @@ def load(kind: Kind, folder: Path) -> None:
 
     packaged = functools.cache(lambda: engine.load_rules([]))
     workspace.load_rules = lambda paths, *more: engine.load_rules(paths, *more) if paths else packaged()  # type: ignore[attr-defined]
-    place(folder, kind, seeds(kind)[0])
+    place(folder, kind, next(iter(kind.seeds())))
     for command in kind.commands[:1] + tuple(set(kind.commands) - _loaded):
         run(folder, *arguments_of(kind, command))
     _loaded.update(kind.commands)
