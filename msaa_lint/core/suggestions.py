@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from functools import lru_cache
 from itertools import islice
+from typing import NamedTuple
 
 MAX_LENGTH = 128
 """Characters of a name: no suggestion is made for a longer one, as the time to compare two grows with the product of their lengths."""
@@ -15,9 +17,52 @@ MAX_SEARCHES = 50
 """Unknown names that suggestions are searched for among the same candidates."""
 
 
+CUTOFF = 0.7
+"""Twice the letters that two names have in common, as a share of all their letters, from which they are near."""
+
+
 def letters_and_digits(name: str) -> str:
     """What is left of a name without separators and in one case."""
     return "".join(filter(str.isalnum, name.upper()))
+
+
+class _Candidates(NamedTuple):
+    """Candidates by their letters and digits, and simplified; the letters of the latter as bits."""
+
+    by_letters: dict[str, str]
+    simplified: dict[str, str]
+    letters: dict[str, int]
+
+    def alike(self, bare: str) -> list[str]:
+        """The simplified candidates that may be near a name: not those whose length, or whose letters that the other lacks, exclude it.
+        difflib takes a hundred times as long for each."""
+        bits, length = _letter_bits(bare), len(bare)
+        return [
+            key
+            for key, others in self.letters.items()
+            if 2 * min(length - (bits & ~others).bit_count(), len(key) - (others & ~bits).bit_count()) >= CUTOFF * (length + len(key))
+        ]
+
+
+@lru_cache(maxsize=32)
+def _candidates(known: tuple[str, ...], simplify: Callable[[str], str]) -> _Candidates:
+    """Prepared once for the names that are searched for among the same candidates."""
+    by_letters: dict[str, str] = {}
+    simplified: dict[str, str] = {}
+    for candidate in known:
+        by_letters.setdefault(letters_and_digits(candidate), candidate)
+        simplified.setdefault(simplify(candidate), candidate)
+    # A name of separators alone is meant by no other.
+    simplified.pop("", None)
+    return _Candidates(by_letters, simplified, {key: _letter_bits(key) for key in simplified})
+
+
+def _letter_bits(name: str) -> int:
+    """A bit for each letter; different letters may share one."""
+    bits = 0
+    for letter in name:
+        bits |= 1 << (ord(letter) & 63)
+    return bits
 
 
 def nearest(name: str, candidates: Iterable[str], simplify: Callable[[str], str] = letters_and_digits) -> str | None:
@@ -30,16 +75,11 @@ def nearest(name: str, candidates: Iterable[str], simplify: Callable[[str], str]
     bare = simplify(name) if len(name) <= MAX_LENGTH else ""
     if not bare:
         return None
-    known = [candidate for candidate in islice(candidates, MAX_CANDIDATES) if len(candidate) <= MAX_LENGTH]
+    known = _candidates(tuple(candidate for candidate in islice(candidates, MAX_CANDIDATES) if len(candidate) <= MAX_LENGTH), simplify)
     plain = letters_and_digits(name)
-    for candidate in known:
-        if letters_and_digits(candidate) == plain:
-            return candidate
-    simplified: dict[str, str] = {}
-    for candidate in known:
-        simplified.setdefault(simplify(candidate), candidate)
-    # A name of separators alone is meant by no other.
-    simplified.pop("", None)
+    if plain in known.by_letters:
+        return known.by_letters[plain]
+    simplified = known.simplified
     if bare in simplified:
         return simplified[bare]
     if len(bare) >= 3:
@@ -48,7 +88,7 @@ def nearest(name: str, candidates: Iterable[str], simplify: Callable[[str], str]
             return min(longer, key=len)
     import difflib
 
-    close = difflib.get_close_matches(bare, simplified, n=1, cutoff=0.7)
+    close = difflib.get_close_matches(bare, known.alike(bare), n=1, cutoff=CUTOFF)
     if close and difflib.SequenceMatcher(None, close[0], bare).ratio() > 0.9:
         return simplified[close[0]]
     if len(bare) >= 4:

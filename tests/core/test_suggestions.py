@@ -2,9 +2,24 @@
 
 from __future__ import annotations
 
-import pytest
+import difflib
+import itertools
 
-from msaa_lint.core.suggestions import MAX_CANDIDATES, MAX_LENGTH, MAX_SEARCHES, Suggestions, did_you_mean, nearest
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from msaa_lint.core.suggestions import (
+    CUTOFF,
+    MAX_CANDIDATES,
+    MAX_LENGTH,
+    MAX_SEARCHES,
+    Suggestions,
+    _candidates,
+    did_you_mean,
+    letters_and_digits,
+    nearest,
+)
 
 
 @pytest.mark.parametrize(
@@ -50,3 +65,25 @@ def test_a_limited_number_of_names_is_searched_for() -> None:
     for _ in range(2):
         found = [suggestions.nearest(f"sample{number}") for number in range(MAX_SEARCHES + 1)]
         assert found == ["samples"] * MAX_SEARCHES + [None]
+
+
+def test_few_candidates_are_compared_letter_by_letter(monkeypatch: pytest.MonkeyPatch) -> None:
+    compared: list[str] = []
+    matches = difflib.get_close_matches
+
+    def counted(word: str, candidates: list[str], n: int, cutoff: float) -> list[str]:
+        compared.extend(candidates)
+        return matches(word, candidates, n, cutoff)
+
+    monkeypatch.setattr(difflib, "get_close_matches", counted)
+    words = ["".join(chars) for chars in itertools.product("abcdefghij", "klmnopqrst", "uvwxyz")] + ["samples"]
+    assert nearest("smaples", words) == "samples"
+    assert compared == ["SAMPLES"]
+
+
+@given(st.text("abCD_é-", max_size=12), st.lists(st.text("abcDE_é-", max_size=12), max_size=8))
+def test_no_candidate_is_left_out_that_is_near(name: str, words: list[str]) -> None:
+    bare = letters_and_digits(name)
+    known = _candidates(tuple(words), letters_and_digits)
+    near = difflib.get_close_matches(bare, known.simplified, len(words) + 1, CUTOFF)
+    assert near == difflib.get_close_matches(bare, known.alike(bare), len(words) + 1, CUTOFF)

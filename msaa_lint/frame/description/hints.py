@@ -75,13 +75,13 @@ def meant(name: str, candidates: Iterable[str], near: Callable[[str, Iterable[st
     """The candidate that a name means, in other words or misspelled; None if none is near."""
     known = list(candidates)
     plain = letters_and_digits(name) if len(name) <= 64 else ""
-    by_letters = {letters_and_digits(candidate): candidate for candidate in reversed(known)}
+    groups = [group for group in _SAME if plain in group]
+    by_letters = {letters_and_digits(candidate): candidate for candidate in reversed(known)} if groups else {}
     if plain not in by_letters:
-        for group in _SAME:
-            if plain in group:
-                same = next((candidate for letters, candidate in by_letters.items() if letters in group), None)
-                if same is not None:
-                    return same
+        for group in groups:
+            same = next((candidate for letters, candidate in by_letters.items() if letters in group), None)
+            if same is not None:
+                return same
     return near(name, known)
 
 
