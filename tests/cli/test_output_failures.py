@@ -69,6 +69,8 @@ def run_broken(folder: Path, words: str, number: int, monkeypatch: pytest.Monkey
     ):
         monkeypatch.setattr(sys, name, value)
     monkeypatch.setattr(sys, "argv", ["msaa-lint", *words.split()])
+    # typer asks which shell it was started from, which may be one that it has no completion for.
+    monkeypatch.setattr("shellingham.detect_shell", lambda *_: ("bash", "/bin/bash"))
     with mock.patch.dict(os.environ, environment_of({}), clear=True), pytest.raises(SystemExit) as end:
         try:
             main()
