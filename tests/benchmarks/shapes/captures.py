@@ -300,7 +300,6 @@ PROGRAMS: dict[str, Callable[[Program, int], None]] = {
     "queries": queries,
     "unknown calls": unknown_calls,
     "imageless framebuffer": imageless,
-    "chained structures": chained,
 }
 
 LIMITED: dict[str, Callable[[Program, int], None]] = {
@@ -308,8 +307,9 @@ LIMITED: dict[str, Callable[[Program, int], None]] = {
     "executions of a secondary": executions,
     "submissions of many passes": submissions,
     "clears": clears,
+    "chained structures": chained,
 }
-"""What is not linear by nature: a limit ends it."""
+"""What a limit ends: it is not linear by nature, or one call."""
 
 SHAPES = (
     *(shape(name, build) for name, build in PROGRAMS.items()),
