@@ -41,7 +41,7 @@ class Checkpoint:
     def point(self, task: Task) -> Point | None:
         """The stored point of a task, if any."""
         values = self._read(_key(task), _name(task), Point)
-        if values is None:
+        if values is None or values["scene"] != task.input.name:
             return None
         effects = values["effects"]
         values["effects"] = tuple(map(str, effects)) if isinstance(effects, list) else ()

@@ -218,8 +218,7 @@ def _outside_the_working_folder() -> contextlib.AbstractContextManager[None]:
 
 
 def ordered(results: Iterable[Point | FailedPoint], names: Sequence[str], techniques: Sequence[Technique]) -> list[Point | FailedPoint]:
-    """Results in the order of the scenes and of the techniques, without those of others, which a damaged file of `--resume` may state."""
+    """Results in the order of the scenes and of the techniques."""
     scene_order = {name: n for n, name in enumerate(names)}
     technique_order = {technique: n for n, technique in enumerate(techniques)}
-    known = (result for result in results if result.scene in scene_order and result.technique in technique_order)
-    return sorted(known, key=lambda result: (scene_order[result.scene], technique_order[result.technique]))
+    return sorted(results, key=lambda result: (scene_order[result.scene], technique_order[result.technique]))

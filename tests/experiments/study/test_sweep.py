@@ -114,7 +114,7 @@ def test_failures_are_not_kept(tmp_path: Path) -> None:
 def test_what_was_made_otherwise_is_had_anew(tmp_path: Path, change: dict[str, object]) -> None:
     (task,) = tasks("a", techniques=[Technique(MSAA, 4)])
     kept = Checkpoint(str(tmp_path))
-    kept.save_point(task, point(task.technique))
+    kept.save_point(task, point(task.technique, "a"))
     assert kept.point(task) is not None
     assert kept.point(task._replace(**change)) is None  # type: ignore[arg-type]
 
@@ -142,6 +142,13 @@ def test_what_is_kept_and_broken_is_had_anew(tmp_path: Path, text: str) -> None:
     path.write_bytes(text.encode("utf-8", "surrogateescape"))
     assert list(sweep([task], checkpoint=kept, measure=measure)) == [point(task.technique, "a")]
     assert list(sweep([task], checkpoint=kept, measure=never)) == [point(task.technique, "a")]
+
+
+def test_a_stored_point_of_another_scene_is_simulated_again(tmp_path: Path) -> None:
+    (task,) = tasks("a", techniques=[Technique(MSAA, 4)])
+    checkpoint = Checkpoint(str(tmp_path))
+    checkpoint.save_point(task, point(task.technique, "b"))
+    assert list(sweep([task], checkpoint=checkpoint, measure=measure)) == [point(task.technique, "a")]
 
 
 @given(
