@@ -6,7 +6,10 @@ from collections.abc import Hashable
 from typing import Any, NamedTuple
 
 from .call import Call, Place, without_vendor
+from .labels import BufferLabels
 from .objects import DescriptorSet, Framebuffer, Image, Pipeline, RenderPass
+
+PASS_BEGINS = ("beginRenderPass", "beginRendering")
 
 MAX_FULLSCREEN_VERTICES = 6
 """A draw with at most this many vertices may be a full-screen triangle or quad."""
@@ -79,8 +82,8 @@ class CommandCache:
 class CommandBuffer:
     """A command buffer: its state during recording, and its commands."""
 
-    __slots__ = ("bound", "commands", "compute_bound", "counted", "executes", "fresh", "many", "omitted", "pipeline", "reads", "samples",
-                 "submission", "submitted_length", "subpass_commands")  # fmt: skip
+    __slots__ = ("bound", "commands", "compute_bound", "counted", "executes", "fresh", "labels", "many", "omitted", "pipeline", "reads",
+                 "samples", "submission", "submitted_length", "subpass_commands")  # fmt: skip
 
     def __init__(self) -> None:
         self.commands: list[RecordedCommand | Execution] = []
@@ -105,6 +108,7 @@ class CommandBuffer:
         self.fresh = True
         """Whether descriptor sets were bound since the last draw of the current subpass."""
         self.samples: int | None = None
+        self.labels = BufferLabels()
 
     @property
     def dynamic_samples(self) -> int | None:
@@ -123,6 +127,13 @@ class CommandBuffer:
         if command not in self.subpass_commands:
             self.subpass_commands.add(command)
             self.record(command)
+
+    def record_boundary(self, command: RecordedCommand) -> None:
+        """Adds a command that begins or ends a pass or subpass."""
+        self.start_section()
+        if command.kind != "nextSubpass" and len(self.commands) < MAX_COMMANDS:
+            self.labels.boundary(command.kind in PASS_BEGINS)
+        self.record(command)
 
     def start_section(self) -> None:
         """Starts a new subpass, or the space between passes: later draws are recorded again."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterable
 
 from msaa_lint.frame.description.models import BeginRendering, RenderingAttachment
 
@@ -17,6 +17,7 @@ from .command_buffers import (
     kind_of,
 )
 from .descriptors import Descriptors
+from .labels import Path, inner_path, printable
 from .objects import DescriptorSet, Framebuffer, Image, Pipeline, RenderPass, freeze
 from .structures import Tree, to_tree
 
@@ -24,6 +25,12 @@ GRAPHICS = ("VK_PIPELINE_BIND_POINT_GRAPHICS", 0, "0")
 
 MAX_BOUND = 64
 """Maximum number of descriptor sets that are bound at a time; devices allow 32."""
+
+MAX_QUEUES = 256
+"""Maximum number of queues whose labels are followed."""
+
+MAX_QUEUE_LABELS = 256
+"""Maximum number of labels of a queue that are open at a time."""
 
 MAX_PUSHED = 256
 """Maximum number of images that are pushed at a time; devices allow a few dozen descriptors."""
@@ -43,6 +50,8 @@ class CommandTracker(Descriptors):
         self.buffers: dict[int, CommandBuffer | None] = {}
         """None until a command buffer is used."""
         self.pools: dict[int, set[int]] = {}
+        self.queue_labels: dict[int, list[str]] = {}
+        """The open labels of each queue."""
 
     def buffer(self, call: Call) -> CommandBuffer:
         """The command buffer of a command. It may be new, because a trimmed capture may lack its allocation."""
@@ -93,7 +102,7 @@ class CommandTracker(Descriptors):
         begin = RenderPassBegin(
             render_pass, framebuffer, images, area_of(info.get("renderArea")), values.count(info.get("clearValueCount"))
         )
-        buffer.record(self.commands.command("beginRenderPass", begin, call))
+        buffer.record_boundary(self.commands.command("beginRenderPass", begin, call))
 
     on_CmdBeginRenderPass2 = on_CmdBeginRenderPass
 
@@ -104,9 +113,7 @@ class CommandTracker(Descriptors):
 
     def _record_boundary(self, call: Call, kind: str, key: Hashable) -> None:
         """Records a command that begins or ends a pass or subpass."""
-        buffer = self.buffer(call)
-        buffer.start_section()
-        buffer.record(self.commands.command(kind, key, call))
+        self.buffer(call).record_boundary(self.commands.command(kind, key, call))
 
     def on_CmdBeginRendering(self, call: Call) -> None:
         info = values.record(call.args.get("pRenderingInfo"))
@@ -148,6 +155,7 @@ class CommandTracker(Descriptors):
                 buffer.omitted = buffer.omitted or secondary.omitted
                 if secondary.commands:
                     buffer.executes = True
+                    buffer.labels.execute(secondary.labels)
                     buffer.record(Execution(secondary.commands, len(secondary.commands)))
         # vkCmdExecuteCommands makes all bound state undefined.
         buffer.pipeline = None
@@ -263,22 +271,68 @@ class CommandTracker(Descriptors):
             # An image may be written again between dispatches, but not within a pass.
             (buffer.record_once if stage == "FRAGMENT" else buffer.record)(reads)
 
+    # Debug labels.
+
+    def on_CmdBeginDebugUtilsLabel(self, call: Call) -> None:
+        buffer = self.buffer(call)
+        buffer.labels.begin(self.label(call), pass_is_empty=not buffer.subpass_commands)
+
+    def on_CmdEndDebugUtilsLabel(self, call: Call) -> None:
+        self.buffer(call).labels.end()
+
+    def on_CmdInsertDebugUtilsLabel(self, call: Call) -> None:
+        self.buffer(call).labels.insert(self.label(call))
+
+    on_CmdDebugMarkerBegin, on_CmdDebugMarkerEnd = on_CmdBeginDebugUtilsLabel, on_CmdEndDebugUtilsLabel
+    on_CmdDebugMarkerInsert = on_CmdInsertDebugUtilsLabel
+
+    def on_QueueBeginDebugUtilsLabel(self, call: Call) -> None:
+        text = self.label(call)
+        queue = values.handle(call.args.get("queue"))
+        if queue in self.queue_labels or len(self.queue_labels) < MAX_QUEUES:
+            labels = self.queue_labels.setdefault(queue, [])
+            if len(labels) < MAX_QUEUE_LABELS:
+                labels.append(text)
+
+    def on_QueueEndDebugUtilsLabel(self, call: Call) -> None:
+        labels = self.queue_labels.get(values.handle(call.args.get("queue")))
+        if labels:
+            labels.pop()
+
+    def on_QueueInsertDebugUtilsLabel(self, call: Call) -> None:
+        self.label(call)
+
+    def label(self, call: Call) -> str:
+        """The text of the label that a call begins or inserts."""
+        info = values.record(call.args.get("pLabelInfo") or call.args.get("pMarkerInfo"))
+        return printable(values.text(info.get("pLabelName") or info.get("pMarkerName")) or "")
+
     # Submission.
 
     def on_QueueSubmit(self, call: Call) -> None:
-        for item in values.items(call.args.get("pSubmits")):
-            for handle in values.items(values.record(item).get("pCommandBuffers")):
-                self._submit(handle, call)
+        handles = [
+            handle
+            for item in values.items(call.args.get("pSubmits"))
+            for handle in values.items(values.record(item).get("pCommandBuffers"))
+        ]
+        self._submit(handles, call)
 
     def on_QueueSubmit2(self, call: Call) -> None:
-        for item in values.items(call.args.get("pSubmits")):
-            for info in values.items(values.record(item).get("pCommandBufferInfos")):
-                self._submit(values.record(info).get("commandBuffer"), call)
+        infos = [
+            values.record(info)
+            for item in values.items(call.args.get("pSubmits"))
+            for info in values.items(values.record(item).get("pCommandBufferInfos"))
+        ]
+        self._submit([info.get("commandBuffer") for info in infos], call)
 
-    def _submit(self, handle: object, call: Call) -> None:
-        buffer = self.buffers.get(values.handle(handle))
-        if buffer is not None:
-            self.frames.submit(buffer, call.at, self.commands, self.readable)
+    def _submit(self, handles: Iterable[object], call: Call) -> None:
+        # A label may end in a later command buffer than it begins.
+        outer: Path = tuple(self.queue_labels.get(values.handle(call.args.get("queue")), ()))
+        for handle in handles:
+            buffer = self.buffers.get(values.handle(handle))
+            if buffer is not None:
+                self.frames.submit(buffer, call.at, self.commands, self.readable, outer)
+                outer = inner_path(outer, buffer.labels.ended, buffer.labels.open)
 
 
 def area_of(value: object) -> tuple[int, int, int, int] | None:

@@ -7,11 +7,10 @@ from typing import Any
 
 from msaa_lint.core.text.source import Origin
 
-from .command_buffers import RecordedCommand, RenderPassBegin
+from .command_buffers import PASS_BEGINS, RecordedCommand, RenderPassBegin
 from .frame_boundary import AspectUse, aspect_uses
 from .frame_kinds import FrameKind, Role
 from .objects import CapturedObject, Framebuffer, Image, RenderPass
-from .submissions import PASS_BEGINS
 from .yaml_text import Alias, Lines
 
 SOMETIMES = "SOMETIMES"

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable
 from typing import Any, NamedTuple
 
-from .command_buffers import RecordedCommand, RenderPassBegin
+from .command_buffers import PASS_BEGINS, RecordedCommand, RenderPassBegin
+from .labels import Path
 from .objects import Image, freeze
-from .submissions import PASS_BEGINS
 
 MAX_ALTERNATES = 8
 """Maximum number of framebuffers that a pass alternates between."""
@@ -47,6 +47,8 @@ class FrameKind:
         self.count = 0
         self.images = images
         self.passes = passes
+        self.labels: list[Path] = []
+        """The debug labels of the passes in the first frame."""
         self.alternates: list[dict[Hashable, RenderPassBegin]] = [{} for _ in passes]
         self.pass_commands: list[dict[Hashable, RecordedCommand]] = [{} for _ in passes]
         self.gaps: list[dict[Hashable, GapVariant]] = [{} for _ in range(len(passes) + 1)]

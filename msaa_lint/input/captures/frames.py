@@ -13,6 +13,7 @@ from .call import Place
 from .command_buffers import MAX_COMMANDS, CommandBuffer, CommandCache, RecordedCommand
 from .frame_boundary import aspect_uses
 from .frame_kinds import MAX_PASS_COMMANDS, AspectState, DistinctFrame, FrameKind, Role, add_counts, merge, segments_of, shape_of
+from .labels import BufferLabels, FrameLabels, Path
 from .objects import DescriptorSet, Image
 from .set_reads import SetReads
 from .submissions import MAX_REPEATED, Executions, Submission
@@ -67,6 +68,9 @@ class Frames:
         self.limits: dict[str, Place] = {}
         """What is not checked because it exceeds a limit, with the first call that does."""
         self._current: list[Submission] = []
+        self._labels: list[Path] = []
+        """The debug labels of the current frame's passes."""
+        self.labels = FrameLabels()
         self._length = 0
         self._is_skipped = False
         """Whether the current frame is not looked at."""
@@ -107,8 +111,9 @@ class Frames:
         self._work_left -= work
         return self._work_left >= 0
 
-    def submit(self, buffer: CommandBuffer, at: Place, cache: CommandCache, unknown: DescriptorSet) -> None:
-        """Adds what a command buffer executes. `unknown` has the images that may be in a set whose contents are unknown."""
+    def submit(self, buffer: CommandBuffer, at: Place, cache: CommandCache, unknown: DescriptorSet, outer: Path = ()) -> None:
+        """Adds what a command buffer executes. `unknown` has the images that may be in a set whose contents are unknown; `outer` are the
+        debug labels that are open at its beginning."""
         self._work_left += WORK_PER_SUBMISSION
         if not buffer.counted:
             buffer.counted = True
@@ -128,15 +133,18 @@ class Frames:
             if commands is None:
                 return self._skip(at)
             submission = Submission(commands)
-        self.add(submission, at)
+        self.add(submission, at, buffer.labels, outer)
 
-    def add(self, submission: Submission, at: Place) -> None:
+    def add(self, submission: Submission, at: Place, labels: BufferLabels | None = None, outer: Path = ()) -> None:
         """Adds commands to the current frame."""
         self._length += len(submission.commands)
         if self._length > MAX_FRAME_COMMANDS:
             self.limits.setdefault(TOO_LONG, at)
-        else:
-            self._current.append(submission)
+            return
+        self._current.append(submission)
+        count = len(submission.begins)
+        is_labeled = labels is not None and labels.is_complete and len(labels.passes) == count
+        self._labels += labels.paths(outer) if labels is not None and is_labeled else [()] * count
 
     def _skip(self, at: Place) -> None:
         """Gives up the current frame: looking at it would take too long."""
@@ -173,8 +181,9 @@ class Frames:
 
     def end(self) -> None:
         """Ends the frame."""
-        submissions, is_skipped = tuple(self._current), self._is_skipped
+        submissions, labels, is_skipped = tuple(self._current), self._labels, self._is_skipped
         self._current = []
+        self._labels = []
         self._length = 0
         self._is_skipped = False
         self._executions = Executions()
@@ -195,6 +204,9 @@ class Frames:
             self._recent[submissions] = frame
         elif frame.kind is not None and self._repetitions < 2:
             self._track_contents(frame.kind, frame.commands, {image: Role(number) for number, image in enumerate(frame.images)})
+        if frame.kind is not None:
+            self.labels.observe(labels, frame.kind.labels)
+            frame.kind.labels = frame.kind.labels or labels
         frame.count += 1
         self.dropped += frame.kind is None
         self._repetitions = self._repetitions + 1 if frame is self._last else 0

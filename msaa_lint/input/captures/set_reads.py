@@ -6,9 +6,8 @@ from collections.abc import Callable
 from typing import Any
 
 from .call import Call
-from .command_buffers import CommandCache, DescriptorReads, RecordedCommand, RenderPassBegin
+from .command_buffers import PASS_BEGINS, CommandCache, DescriptorReads, RecordedCommand, RenderPassBegin
 from .objects import DescriptorSet, Image, images_in
-from .submissions import PASS_BEGINS
 
 BOUNDARIES = (*PASS_BEGINS, "nextSubpass", "endRenderPass", "endRendering")
 """Commands that begin or end a pass or subpass."""

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from .command_buffers import CommandBuffer, Execution, RecordedCommand
-
-PASS_BEGINS = ("beginRenderPass", "beginRendering")
+from .command_buffers import PASS_BEGINS, CommandBuffer, Execution, RecordedCommand
 
 MAX_REPEATED = 20_000
 """Maximum number of commands that a frame executes again: those of command buffers that it has executed before."""

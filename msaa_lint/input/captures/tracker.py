@@ -126,7 +126,7 @@ class Tracker(Transfers):
         if cached.boundary:
             buffer.start_section()
             for command in cached.commands:
-                buffer.record(command)
+                buffer.record_boundary(command)
             return
         for command in cached.commands:
             (buffer.record_once if command.kind == "clearAttachments" else buffer.record)(command)
