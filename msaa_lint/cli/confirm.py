@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from functools import partial
 from typing import IO, Any, NamedTuple
 
+from msaa_lint.core.child_environment import ignored_paths
 from msaa_lint.core.quote import quoted
 from msaa_lint.experiments.confirm.child import Limits
-from msaa_lint.experiments.confirm.loader_environment import ignored_paths
 from msaa_lint.experiments.confirm.outcome import DeviceRun, about, exit_code
 from msaa_lint.experiments.confirm.session import Session, environment
 from msaa_lint.experiments.confirm.vulkan_errors import NotWritten, Unusable

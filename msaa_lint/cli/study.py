@@ -237,7 +237,7 @@ def _clock(arguments: Arguments) -> contextlib.AbstractContextManager[Any]:
     """The clock of the device that `--device` names; None without one."""
     if "device" not in arguments:
         return contextlib.nullcontext()
-    from msaa_lint.experiments.confirm.loader_environment import ignored_paths
+    from msaa_lint.core.child_environment import ignored_paths
     from msaa_lint.experiments.study.times import DeviceClock
 
     for text in ignored_paths():

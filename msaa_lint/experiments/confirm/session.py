@@ -8,11 +8,12 @@ from collections.abc import Callable, Mapping, Sequence
 from types import TracebackType
 from typing import Any
 
+from msaa_lint.core.child_environment import child_environment
+from msaa_lint.core.scratch import ScratchFolder
+
 from .child import Child, ChildExit, Limits
 from .frame_results import FrameRun, PassOutcome, RunCollector
-from .loader_environment import loader_environment
 from .protocol import Event
-from .scratch import ScratchFolder
 from .vulkan_errors import Unusable, missing_package
 from .worker import EXECUTE
 
@@ -27,11 +28,11 @@ OPENING = 30.0
 
 
 def environment(device: str | None) -> dict[str, str]:
-    """The `loader_environment`, restricted to lavapipe if it is installed and neither the environment nor `device` selects a driver.
+    """The `child_environment`, restricted to lavapipe if it is installed and neither the environment nor `device` selects a driver.
 
     Loading one driver takes a third of the time of loading all of Mesa's.
     """
-    variables = loader_environment()
+    variables = child_environment()
     if device is None and not any(variables.get(name) for name in PINNED):
         found = [path for folder in ICD_FOLDERS for path in sorted(glob.glob(os.path.join(folder, "lvp_icd*.json")))]
         if found:
@@ -56,7 +57,7 @@ class Session:
         self.validation = validation
         self.vendors = tuple(vendors)
         self.limits = limits or Limits()
-        self.environment = loader_environment() if environment is None else environment
+        self.environment = child_environment() if environment is None else environment
         self.execute = execute
         self.device: dict[str, Any] = {}
         self.layer: dict[str, Any] | None = None

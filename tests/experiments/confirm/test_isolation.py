@@ -16,7 +16,8 @@ from typing import Any
 
 import pytest
 
-from msaa_lint.experiments.confirm.child import Limits, signal_name
+from msaa_lint.core.child_output import signal_name
+from msaa_lint.experiments.confirm.child import Limits
 from msaa_lint.experiments.confirm.frame_results import MAX_MESSAGES, FrameRun
 from msaa_lint.experiments.confirm.session import MAX_DEATHS, Session
 from msaa_lint.experiments.confirm.vulkan_errors import Unusable

@@ -1,4 +1,5 @@
-"""The environment of the child process that calls a Vulkan driver: what it needs, and no path into the project in the working folder.
+"""The environment of child processes that run native code, a Vulkan driver or a converter: what they need, and no path into the project in
+the working folder.
 
 The loader runs whatever library a manifest names, with all rights of the user, and a checkout may contain manifests and libraries.
 """
@@ -8,7 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 
-from msaa_lint.core.project import Outside, project_root, real_path
+from .project import Outside, project_root, real_path
 
 _LOADER_PATHS = frozenset({
     "VK_DRIVER_FILES", "VK_ICD_FILENAMES", "VK_ADD_DRIVER_FILES", "VK_LAYER_PATH", "VK_ADD_LAYER_PATH", "VK_IMPLICIT_LAYER_PATH",
@@ -35,21 +36,21 @@ _PREFIXES = (
 """Of settings of the loader, the layers and the drivers. `DISABLE_` is how implicit layers are disabled."""
 
 
-def loader_environment() -> dict[str, str]:
+def child_environment() -> dict[str, str]:
     """The variables that the loader, the layers and the drivers need. Of lists of paths, those that are relative or lead into the project
     are left out; so is any other variable that leads into it."""
-    return _loader_environment(os.environ, project_root(os.curdir))
+    return _filtered(os.environ, project_root(os.curdir))
 
 
 def ignored_paths() -> list[str]:
     """What to tell the user about paths of drivers and layers that are left out, one line per variable."""
     root = project_root(os.curdir)
-    used = _loader_environment(os.environ, root)
+    used = _filtered(os.environ, root)
     ignored = [name for name in sorted(_LOADER_PATHS) if os.environ.get(name) and os.environ[name] != used.get(name)]
     return [f"{name}: paths that are relative or in the project {root} are ignored: name drivers and layers outside it" for name in ignored]
 
 
-def _loader_environment(stated: Mapping[str, str], root: str) -> dict[str, str]:
+def _filtered(stated: Mapping[str, str], root: str) -> dict[str, str]:
     variables = {}
     for name, value in stated.items():
         if name.upper() not in _NAMES and not name.startswith(_PREFIXES):

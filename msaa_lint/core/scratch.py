@@ -1,4 +1,4 @@
-"""The folder for the files of a session. What a killed process left is removed when the next one starts."""
+"""A folder for temporary files. What a killed process left is removed when the next one starts."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ except ImportError:
     # Windows: what a killed process leaves stays.
     fcntl = None  # type: ignore[assignment]
 
-PREFIX = "msaa-lint-confirm-"
+PREFIX = "msaa-lint-scratch-"
 
 _LOCK = "lock"
 """A file that the owner of a folder holds a lock on. The system releases it however the owner ends."""
