@@ -10,6 +10,7 @@ from .labels import BufferLabels
 from .objects import DescriptorSet, Framebuffer, Image, Pipeline, RenderPass
 
 PASS_BEGINS = ("beginRenderPass", "beginRendering")
+PASS_ENDS = ("endRenderPass", "endRendering")
 
 MAX_FULLSCREEN_VERTICES = 6
 """A draw with at most this many vertices may be a full-screen triangle or quad."""
@@ -21,13 +22,17 @@ MAX_CACHED_COMMANDS = 100_000
 """Maximum number of distinct commands in the cache."""
 
 
+Parts = tuple[tuple[int, int], ...]
+
+
 class RecordedCommand:
     """A recorded command: its name in a description (`kind`), its objects and values (`key`), and the first call that recorded it.
 
-    Equal commands, with the same `kind` and `key`, are one object. `detail` holds the counts of the first of them.
+    Equal commands, with the same `kind`, `key` and `parts`, are one object. `detail` holds the counts of the first of them, `parts` the
+    first mip level and layer of each attachment of a pass, empty if all are 0.
     """
 
-    __slots__ = ("at", "by", "detail", "key", "kind", "written")
+    __slots__ = ("at", "by", "detail", "key", "kind", "parts", "written")
 
     def __init__(self, kind: str, key: Hashable, at: Place, by: str, detail: tuple[int | None, int | None] | None = None) -> None:
         self.kind = kind
@@ -35,6 +40,7 @@ class RecordedCommand:
         self.at = at
         self.by = by
         self.detail = detail
+        self.parts: Parts = ()
         self.written: tuple[Image | None, ...] | None = None
         """The images that it writes; None until that is asked."""
 
@@ -67,15 +73,18 @@ class CommandCache:
     """The distinct commands of a capture."""
 
     def __init__(self) -> None:
-        self._commands: dict[tuple[str, Hashable], RecordedCommand] = {}
+        self._commands: dict[tuple[str, Hashable, Parts], RecordedCommand] = {}
 
-    def command(self, kind: str, key: Hashable, call: Call, detail: tuple[int | None, int | None] | None = None) -> RecordedCommand:
-        """The command with a kind and key, created on first use."""
-        command = self._commands.get((kind, key))
+    def command(
+        self, kind: str, key: Hashable, call: Call, detail: tuple[int | None, int | None] | None = None, parts: Parts = ()
+    ) -> RecordedCommand:
+        """The command with a kind, key and parts, created on first use."""
+        command = self._commands.get((kind, key, parts))
         if command is None:
             if len(self._commands) > MAX_CACHED_COMMANDS:
                 self._commands.clear()
-            command = self._commands[kind, key] = RecordedCommand(kind, key, call.at, call.name, detail)
+            command = self._commands[kind, key, parts] = RecordedCommand(kind, key, call.at, call.name, detail)
+            command.parts = parts
         return command
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable
+from collections.abc import Hashable
 
 from msaa_lint.frame.description.models import BeginRendering, RenderingAttachment
 
@@ -13,6 +13,7 @@ from .command_buffers import (
     CommandBuffer,
     DescriptorReads,
     Execution,
+    Parts,
     RenderPassBegin,
     kind_of,
 )
@@ -96,13 +97,15 @@ class CommandTracker(Descriptors):
             return
         framebuffer = self.framebuffers.get(values.handle(info.get("framebuffer")))
         images: tuple[Image | None, ...] = framebuffer.images or () if framebuffer is not None else ()
+        parts = framebuffer.parts if framebuffer is not None else ()
         imageless = values.chained(info, "RENDER_PASS_ATTACHMENT_BEGIN_INFO")
         if imageless is not None:
-            images = tuple(self.view(view) for view in values.items(imageless.get("pAttachments"))[:64])
+            views = values.items(imageless.get("pAttachments"))[:64]
+            images, parts = tuple(map(self.view, views)), self.parts_of(views)
         begin = RenderPassBegin(
             render_pass, framebuffer, images, area_of(info.get("renderArea")), values.count(info.get("clearValueCount"))
         )
-        buffer.record_boundary(self.commands.command("beginRenderPass", begin, call))
+        buffer.record_boundary(self.commands.command("beginRenderPass", begin, call, parts=parts))
 
     on_CmdBeginRenderPass2 = on_CmdBeginRenderPass
 
@@ -111,9 +114,9 @@ class CommandTracker(Descriptors):
 
     on_CmdNextSubpass2 = on_CmdEndRenderPass = on_CmdEndRenderPass2 = on_CmdEndRendering = on_CmdEndRendering2 = on_CmdNextSubpass
 
-    def _record_boundary(self, call: Call, kind: str, key: Hashable) -> None:
+    def _record_boundary(self, call: Call, kind: str, key: Hashable, parts: Parts = ()) -> None:
         """Records a command that begins or ends a pass or subpass."""
-        self.buffer(call).record_boundary(self.commands.command(kind, key, call))
+        self.buffer(call).record_boundary(self.commands.command(kind, key, call, parts=parts))
 
     def on_CmdBeginRendering(self, call: Call) -> None:
         info = values.record(call.args.get("pRenderingInfo"))
@@ -121,14 +124,20 @@ class CommandTracker(Descriptors):
         area = area_of(info.get("renderArea"))
         if area is not None:
             tree["renderArea"] = dict(zip(("x", "y", "width", "height"), area, strict=True))
-        tree["colorAttachments"] = [self._attachment(each) for each in values.items(info.get("pColorAttachments"))[:64]]
+        colors = values.items(info.get("pColorAttachments"))[:64]
+        tree["colorAttachments"] = [self._attachment(each) for each in colors]
         for name, member in (("pDepthAttachment", "depthAttachment"), ("pStencilAttachment", "stencilAttachment")):
             attachment = self._attachment(info.get(name))
             if attachment is not None:
                 tree[member] = attachment
         # The commands of a secondary command buffer are inlined where it is executed.
         tree["flags"] = [flag for flag in tree.get("flags", []) if not flag.startswith("CONTENTS")]
-        self._record_boundary(call, "beginRendering", freeze(tree))
+        parts = self.parts_of(
+            values.record(each).get(member)
+            for each in (info.get("pDepthAttachment"), info.get("pStencilAttachment"), *colors)
+            for member in ("imageView", "resolveImageView")
+        )
+        self._record_boundary(call, "beginRendering", freeze(tree), parts)
 
     def _attachment(self, value: object) -> Tree | None:
         """A VkRenderingAttachmentInfo with images in place of views; None if it has no view."""
@@ -310,29 +319,27 @@ class CommandTracker(Descriptors):
     # Submission.
 
     def on_QueueSubmit(self, call: Call) -> None:
-        handles = [
-            handle
-            for item in values.items(call.args.get("pSubmits"))
-            for handle in values.items(values.record(item).get("pCommandBuffers"))
-        ]
-        self._submit(handles, call)
+        batches = (values.items(values.record(item).get("pCommandBuffers")) for item in values.items(call.args.get("pSubmits")))
+        self._submit([handle for batch in batches for handle in batch], call)
 
     def on_QueueSubmit2(self, call: Call) -> None:
-        infos = [
-            values.record(info)
-            for item in values.items(call.args.get("pSubmits"))
-            for info in values.items(values.record(item).get("pCommandBufferInfos"))
-        ]
-        self._submit([info.get("commandBuffer") for info in infos], call)
+        batches = (values.items(values.record(item).get("pCommandBufferInfos")) for item in values.items(call.args.get("pSubmits")))
+        self._submit([values.record(info).get("commandBuffer") for batch in batches for info in batch], call)
 
-    def _submit(self, handles: Iterable[object], call: Call) -> None:
+    def _submit(self, handles: list[object], call: Call) -> None:
+        buffers = [buffer for buffer in (self.buffers.get(values.handle(handle)) for handle in handles) if buffer is not None]
+        self.frames.start_submission(buffers)
         # A label may end in a later command buffer than it begins.
         outer: Path = tuple(self.queue_labels.get(values.handle(call.args.get("queue")), ()))
-        for handle in handles:
-            buffer = self.buffers.get(values.handle(handle))
-            if buffer is not None:
-                self.frames.submit(buffer, call.at, self.commands, self.readable, outer)
-                outer = inner_path(outer, buffer.labels.ended, buffer.labels.open)
+        for buffer in buffers:
+            self.frames.submit(buffer, call.at, self.commands, self.readable, outer)
+            outer = inner_path(outer, buffer.labels.ended, buffer.labels.open)
+
+    def on_WaitForFences(self, call: Call) -> None:
+        if values.integer(call.args.get("timeout")) != 0:
+            self.frames.repetitions.waits += 1
+
+    on_WaitSemaphores = on_QueueWaitIdle = on_DeviceWaitIdle = on_WaitForFences
 
 
 def area_of(value: object) -> tuple[int, int, int, int] | None:

@@ -5,20 +5,18 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable
 from typing import Any, NamedTuple
 
-from .command_buffers import PASS_BEGINS, RecordedCommand, RenderPassBegin
+from .command_buffers import PASS_BEGINS, PASS_ENDS, RecordedCommand, RenderPassBegin
 from .labels import Path
 from .objects import Image, freeze
 
 MAX_ALTERNATES = 8
-"""Maximum number of framebuffers that a pass alternates between."""
+"""Maximum number of framebuffers, each with other images, that a pass alternates between."""
 
 MAX_GAP_VARIANTS = 8
 """Maximum number of different command sequences between two passes."""
 
 MAX_PASS_COMMANDS = 4096
 """Maximum number of different draws, reads and clears in a pass."""
-
-PASS_ENDS = ("endRenderPass", "endRendering")
 
 
 class Role(int):
@@ -109,9 +107,8 @@ def merge(kind: FrameKind, segments: list[Segment], roles: dict[Image, Role]) ->
             continue
         if isinstance(begin.key, RenderPassBegin):
             alternates = kind.alternates[number]
-            imageless = begin.key.framebuffer is None or begin.key.framebuffer.images is None
             if len(alternates) < MAX_ALTERNATES:
-                alternates.setdefault(begin.key.images if imageless else begin.key.framebuffer, begin.key)
+                alternates.setdefault(begin.key.images, begin.key)
         pass_commands = kind.pass_commands[number]
         subpass = 0
         for command in items:

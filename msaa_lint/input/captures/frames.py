@@ -7,11 +7,11 @@ over all frames of a kind; between passes, the most frequent sequence of command
 from __future__ import annotations
 
 from collections.abc import Hashable
-from itertools import count
 
 from .call import Place
 from .command_buffers import MAX_COMMANDS, CommandBuffer, CommandCache, RecordedCommand
 from .frame_boundary import aspect_uses
+from .frame_ends import Repetitions, passes_of
 from .frame_kinds import MAX_PASS_COMMANDS, AspectState, DistinctFrame, FrameKind, Role, add_counts, merge, segments_of, shape_of
 from .labels import BufferLabels, FrameLabels, Path
 from .objects import DescriptorSet, Image
@@ -20,9 +20,6 @@ from .submissions import MAX_REPEATED, Executions, Submission
 
 MAX_KINDS = 32
 """Maximum number of frame kinds."""
-
-MAX_SIMILAR_SUBMISSIONS = 8
-"""Maximum number of similar submissions, each on other images, that count as one frame if nothing marks the end of a frame."""
 
 MAX_DISTINCT_FRAMES = 1024
 """Maximum number of different frames in the cache."""
@@ -81,12 +78,8 @@ class Frames:
         """The number of commands in submitted command buffers, each counted once."""
         self._described = 0
         """The number of commands in the first frames of the kinds."""
-        self._submissions: dict[int, int] = {}
-        """How often the current frame submitted the same passes, or similar ones."""
-        self._shapes: dict[Hashable, tuple[int, int]] = {}
-        """The numbers of the passes of submissions, and of those that are similar to them."""
-        self._similar: dict[Hashable, int] = {}
-        self._shape_numbers = count()
+        self.repetitions = Repetitions()
+        """The passes of the current frame, by which it is seen to end if nothing marks that."""
         self._recent: dict[tuple[Submission, ...], DistinctFrame] = {}
         """Frames by what they submit, to recognize command buffers that are submitted in every frame."""
         self._recent_commands = 0
@@ -111,16 +104,20 @@ class Frames:
         self._work_left -= work
         return self._work_left >= 0
 
+    def start_submission(self, buffers: list[CommandBuffer]) -> None:
+        """Starts a submission of command buffers, which may end the frame."""
+        for buffer in buffers:
+            self._work_left += WORK_PER_SUBMISSION
+            if not buffer.counted:
+                buffer.counted = True
+                self._recorded += len(buffer.commands)
+                self._work_left += WORK_PER_COMMAND * len(buffer.commands)
+        if not self.presents and not self.frameless:
+            self._split_frames(buffers)
+
     def submit(self, buffer: CommandBuffer, at: Place, cache: CommandCache, unknown: DescriptorSet, outer: Path = ()) -> None:
         """Adds what a command buffer executes. `unknown` has the images that may be in a set whose contents are unknown; `outer` are the
         debug labels that are open at its beginning."""
-        self._work_left += WORK_PER_SUBMISSION
-        if not buffer.counted:
-            buffer.counted = True
-            self._recorded += len(buffer.commands)
-            self._work_left += WORK_PER_COMMAND * len(buffer.commands)
-        if not self.presents and not self.frameless:
-            self._split_frames(Executions().submission(buffer))
         submission = self._executions.submission(buffer)
         if buffer.omitted:
             self.limits.setdefault(TOO_MANY_RECORDED, at)
@@ -151,26 +148,14 @@ class Frames:
         self._is_skipped = True
         self.limits.setdefault(TOO_MUCH_WORK, at)
 
-    def _split_frames(self, submission: Submission) -> None:
-        """Ends the frame if this submission starts a new one. Without presents, that is a submission that repeats the frame's passes on the
-        same images, or repeatedly on new images."""
-        if not submission.begins:
-            return
-        if submission.shape is None:
-            same = tuple(map(id, submission.begins))
-            submission.shape = self._shapes.get(same)
-            if submission.shape is None:
-                if len(self._shapes) > MAX_DISTINCT_FRAMES and not self._submissions:
-                    self._shapes.clear()
-                    self._similar.clear()
-                similar = tuple(shape_of(command, {}) for command in submission.begins)
-                number = self._similar.setdefault(similar, next(self._shape_numbers))
-                submission.shape = self._shapes[same] = next(self._shape_numbers), number
-        same_number, similar_number = submission.shape
-        if same_number in self._submissions or self._submissions.get(similar_number, 0) >= MAX_SIMILAR_SUBMISSIONS:
-            self.end()
-        for number in submission.shape:
-            self._submissions[number] = self._submissions.get(number, 0) + 1
+    def _split_frames(self, buffers: list[CommandBuffer]) -> None:
+        """Ends the frame if a submission of command buffers repeats its passes."""
+        executions = Executions()
+        passes = [each for buffer in buffers for each in passes_of(executions.submission(buffer))]
+        if passes:
+            if self.repetitions.repeats(passes):
+                self.end()
+            self.repetitions.add(passes)
 
     def end_of_capture(self) -> None:
         """Ends the capture. The remaining commands are a frame if they begin a pass."""
@@ -188,7 +173,7 @@ class Frames:
         self._is_skipped = False
         self._executions = Executions()
         self._reads = SetReads(self.spend)
-        self._submissions.clear()
+        self.repetitions.clear()
         self.total += 1
         if is_skipped:
             return

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Hashable, Sized
+from collections.abc import Hashable, Iterable, Sized
 from itertools import count
 
 from msaa_lint.frame.description.models import Image as ImageRecord
 
 from . import values
 from .call import Call
-from .command_buffers import CommandCache
+from .command_buffers import CommandCache, Parts
 from .devices import Devices
 from .frames import Frames
 from .objects import DescriptorSet, Image, Swapchain, freeze
@@ -39,6 +39,8 @@ class Images(Devices):
         self.readable = DescriptorSet()
         """The images that a set whose contents are unknown may have."""
         self.views: dict[int, Image] = {}
+        self.parts: dict[int, tuple[int, int]] = {}
+        """The first mip level and layer of views that do not start at 0."""
         self.swapchains: dict[int, Swapchain] = {}
         self.memory: dict[int, int] = {}
         """The memory type index of each allocation."""
@@ -61,6 +63,7 @@ class Images(Devices):
         handle = values.handle(call.args.get("pImage"))
         tree = to_tree(ImageRecord, info)
         image = Image(call, next(self.numbers[Image]), tree)
+        self.frames.repetitions.created = image.number + 1
         self._add(handle, image)
         if image.samples > 1 and len(self.multisampled) < MAX_DISTINCT:
             self.multisampled.setdefault(freeze(tree), image)
@@ -84,7 +87,24 @@ class Images(Devices):
         info = values.record(call.args.get("pCreateInfo"))
         image = self.images.get(values.handle(info.get("image")))
         if image is not None:
-            self.views[values.handle(call.args.get("pView"))] = image
+            handle = values.handle(call.args.get("pView"))
+            self.views[handle] = image
+            part = values.record(info.get("subresourceRange"))
+            start = (values.integer(part.get("baseMipLevel")) or 0, values.integer(part.get("baseArrayLayer")) or 0)
+            if any(start):
+                self.parts[handle] = start
+            else:
+                self.parts.pop(handle, None)
+
+    def on_DestroyImageView(self, call: Call) -> None:
+        handle = values.handle(call.args.get("imageView"))
+        self.views.pop(handle, None)
+        self.parts.pop(handle, None)
+
+    def parts_of(self, views: Iterable[object]) -> Parts:
+        """The first mip level and layer of each view; empty if all are 0."""
+        parts = tuple(self.parts.get(values.handle(view), (0, 0)) for view in views) if self.parts else ()
+        return parts if any(map(any, parts)) else ()
 
     def view(self, value: object) -> Image | None:
         """The image of a view."""

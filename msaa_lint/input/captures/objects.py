@@ -73,13 +73,19 @@ class RenderPass(CapturedObject):
 
 
 class Framebuffer(CapturedObject):
-    """A framebuffer: its size, and its images, None for an unknown one; `images` is None for an imageless framebuffer."""
+    """A framebuffer: its size, and its images, None for an unknown one; `images` is None for an imageless framebuffer.
 
-    __slots__ = ("images",)
+    `parts` are the first mip level and layer of each image, empty if all are 0.
+    """
 
-    def __init__(self, call: Call, number: int, tree: Tree, images: tuple[Image | None, ...] | None) -> None:
+    __slots__ = ("images", "parts")
+
+    def __init__(
+        self, call: Call, number: int, tree: Tree, images: tuple[Image | None, ...] | None, parts: tuple[tuple[int, int], ...] = ()
+    ) -> None:
         super().__init__(call, number, tree)
         self.images = images
+        self.parts = parts
 
 
 class Pipeline(CapturedObject):

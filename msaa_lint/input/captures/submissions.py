@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 from .command_buffers import PASS_BEGINS, CommandBuffer, Execution, RecordedCommand
 
@@ -15,13 +16,13 @@ Item = RecordedCommand | Execution
 class Submission:
     """The commands that a command buffer executes, and those of them that begin passes."""
 
-    __slots__ = ("begins", "commands", "shape")
+    __slots__ = ("begins", "commands", "passes")
 
     def __init__(self, commands: list[RecordedCommand]) -> None:
         self.commands = commands
         self.begins = tuple(command for command in commands if command.kind in PASS_BEGINS)
-        self.shape: tuple[int, int] | None = None
-        """Numbers that are the same for the same passes, and for similar ones."""
+        self.passes: tuple[Any, ...] | None = None
+        """The identities of the passes; None until they are asked."""
 
 
 class Executions:

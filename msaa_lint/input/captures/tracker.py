@@ -32,7 +32,6 @@ RECURRING = BOUNDARY | {name.replace("on_", "vk", 1) for name in vars(Transfers)
 """Commands whose effect depends only on their arguments."""
 
 DESTROYERS = {
-    "DestroyImageView": ("imageView", "views"),
     "FreeMemory": ("memory", "memory"),
     "DestroyRenderPass": ("renderPass", "render_passes"),
     "DestroyFramebuffer": ("framebuffer", "framebuffers"),
@@ -166,11 +165,11 @@ class Tracker(Transfers):
         info = values.record(call.args.get("pCreateInfo"))
         tree = to_tree(FramebufferRecord, {key: item for key, item in info.items() if key not in ("pAttachments", "attachments")})
         imageless = "IMAGELESS" in tree.get("flags", ())
-        views = values.items(info.get("pAttachments"))
-        images = None if imageless else tuple(self.view(view) for view in views[:64])
+        views = values.items(info.get("pAttachments"))[:64]
+        images = None if imageless else tuple(map(self.view, views))
         handle = values.handle(call.args.get("pFramebuffer"))
         size: Tree = {member: tree[member] for member in ("width", "height", "layers") if member in tree}
-        self.framebuffers[handle] = Framebuffer(call, next(self.numbers[Framebuffer]), size, images)
+        self.framebuffers[handle] = Framebuffer(call, next(self.numbers[Framebuffer]), size, images, self.parts_of(views))
 
     # Shaders and pipelines.
 
