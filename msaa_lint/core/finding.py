@@ -77,6 +77,7 @@ class Finding(NamedTuple):
 
     `span` is None if the input has no text (binary captures) or could not be decoded. `subject` is the structural path of the object that
     the finding is about, such as `renderPasses.forward.attachments.color`; `images` are the names of the images that it concerns.
+    `context` is the beginning of the message, which names the debug labels of its pass.
     """
 
     code: str
@@ -94,6 +95,7 @@ class Finding(NamedTuple):
     price: Price | None = None
     capture_location: CaptureLocation | None = None
     images: frozenset[str] = frozenset()
+    context: str = ""
 
     @property
     def fatal(self) -> bool:

@@ -84,7 +84,12 @@ def capture_findings(capture: CaptureInput, findings: Sequence[Finding]) -> list
         if found.fix is not None:
             # There is no file with the text that the fix would edit.
             found = found._replace(fix=found.fix._replace(edits=(), shown=True))
-        key = (found.rule, found.severity, found.message, _COMMAND.sub("commands", _DOCUMENT.sub("", found.subject, count=1)))
+        key = (
+            found.rule,
+            found.severity,
+            found.message.removeprefix(found.context),
+            _COMMAND.sub("commands", _DOCUMENT.sub("", found.subject, count=1)),
+        )
         first = merged.get(key)
         if first is None or first.subject == found.subject:
             merged[key if first is None else (key, len(merged))] = found

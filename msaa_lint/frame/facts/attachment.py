@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from msaa_lint.frame.description.models import AttachmentDescription, BeginRenderPass
+from msaa_lint.frame.description.models import AttachmentDescription, BeginRendering, BeginRenderPass
 
 from .facts import Facts
 from .frame import Frame
@@ -15,11 +15,21 @@ def pass_facts(render_pass: Pass, frame: Frame) -> Facts:
     facts = Facts()
     facts.put("pass.kind", render_pass.kind)
     facts.put("pass.name", render_pass.name)
+    facts.put("pass.labels", _labels(render_pass, frame))
     facts.put("pass.begun", frame.whether_begun(render_pass))
     facts.put("pass.partial_area", render_pass.partial_area)
     facts.put("pass.custom_resolve", render_pass.custom_resolve)
     facts.put("pass.suspends", render_pass.suspends)
     return facts
+
+
+def _labels(render_pass: Pass, frame: Frame) -> list[str]:
+    """The debug labels within which a pass is begun."""
+    labels: dict[str, None] = {}
+    for body in [frame.commands[position].body for position in render_pass.begun]:
+        stated = body.label if isinstance(body, (BeginRenderPass, BeginRendering)) else None
+        labels.update(dict.fromkeys((stated,) if isinstance(stated, str) else stated or ()))
+    return list(labels)
 
 
 def clear_value_facts(facts: Facts, render_pass: Pass, frame: Frame) -> None:

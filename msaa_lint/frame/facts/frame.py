@@ -299,7 +299,8 @@ class Frame:
         for position, body in self.recorded(BeginRendering):
             anchor = id(body.node.anchor if body.node.anchor is not None else body.node)
             if anchor not in by_anchor:
-                by_anchor[anchor] = Pass(RENDERING, f"rendering{len(by_anchor)}", body)
+                name = body.label if isinstance(body.label, str) else f"rendering{len(by_anchor)}"
+                by_anchor[anchor] = Pass(RENDERING, name, body)
                 self._rendering(by_anchor[anchor], body)
             by_anchor[anchor].begun.append(position)
         self.passes.extend(by_anchor.values())

@@ -200,6 +200,7 @@ WITHOUT_KEY = frozenset(
         "attachment.read_as_input",
         "pass.kind",
         "pass.name",
+        "pass.labels",
         "pass.begun",
         "pass.custom_resolve",
         "pass.suspends",

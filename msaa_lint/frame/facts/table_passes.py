@@ -15,6 +15,7 @@ PASS = (
     ),
     Fact("pass.partial_area", "BOOL", "it begins with a stated render area smaller than its images; unknown if no size is stated"),
     Fact("pass.custom_resolve", "BOOL", "one of its subpasses resolves with a shader"),
+    Fact("pass.labels", "LIST", "debug labels within which it is begun: the labels around one begin are joined by ` / `"),
     Fact("pass.suspends", "BOOL", "it is a suspended rendering: a later one continues it"),
     Fact("pass.attachments", "INT", "number of attachments"),
     Fact("pass.clears", "BOOL", "render pass: an attachment that a subpass uses has load operation CLEAR for one of its aspects"),

@@ -10,47 +10,17 @@ from msaa_lint.core.text.source import Origin
 from .command_buffers import PASS_BEGINS, RecordedCommand, RenderPassBegin
 from .frame_boundary import AspectUse, aspect_uses
 from .frame_kinds import FrameKind, Role
-from .objects import CapturedObject, Framebuffer, Image, RenderPass
+from .labels import FrameLabels
+from .names import Names
+from .objects import Image
 from .yaml_text import Alias, Lines
 
 SOMETIMES = "SOMETIMES"
 """Stands for the stage of a read that occurs only in some frames."""
 
 
-class Names:
-    """Assigns names that are unique within a kind. An object has the same name in all documents of a capture."""
-
-    def __init__(self) -> None:
-        self._of: dict[Hashable, str] = {}
-        self._taken: dict[tuple[str, str], int] = {}
-        """The names, each with the number of the last name that starts with it."""
-
-    def of(self, kind: str, created: CapturedObject) -> str:
-        """The name of a render pass or a pipeline."""
-        return self._name(kind, (kind, created), created.label or f"{kind}_{created.number}")
-
-    def image(self, image: Image) -> str:
-        """The name of an image; swapchain images are numbered within their swapchain."""
-        plain = f"image_{image.number}"
-        if image.swapchain is not None:
-            plain = f"{image.swapchain.label or f'swapchain_{image.swapchain.number}'}_{image.number}"
-        return self._name("image", ("image", image), image.label or plain)
-
-    def framebuffer(self, framebuffer: Framebuffer, images: tuple[Image | None, ...], render_pass: RenderPass) -> str:
-        """The name of a framebuffer with these images; an imageless framebuffer can have several sets."""
-        plain = framebuffer.label or f"framebuffer_{framebuffer.number}"
-        return self._name("framebuffer", ("framebuffer", framebuffer, images, render_pass), plain)
-
-    def _name(self, kind: str, key: Hashable, base: str) -> str:
-        if key not in self._of:
-            name, number = base, self._taken.get((kind, base), 1)
-            while (kind, name) in self._taken:
-                number += 1
-                name = f"{base}_{number}"
-            self._taken[kind, base] = number
-            self._taken.setdefault((kind, name), 1)
-            self._of[key] = name
-        return self._of[key]
+MAX_LABELS = 16
+"""Maximum number of labels that are written of equal renderings."""
 
 
 class CommandWriter:
@@ -61,7 +31,14 @@ class CommandWriter:
     """
 
     def __init__(
-        self, lines: Lines, names: Names, kind: FrameKind, described_images: set[Image], framebuffers: Mapping[Hashable, str], total: int
+        self,
+        lines: Lines,
+        names: Names,
+        kind: FrameKind,
+        described_images: set[Image],
+        framebuffers: Mapping[Hashable, str],
+        total: int,
+        labels: FrameLabels,
     ) -> None:
         self.lines = lines
         self.names = names
@@ -70,6 +47,14 @@ class CommandWriter:
         self.framebuffers = framebuffers
         self.total = total
         self.renderings: dict[Hashable, str] = {}
+        known = len(kind.labels) == len(kind.passes)
+        self.labels = [labels.name(path) for path in kind.labels] if known else [""] * len(kind.passes)
+        """The debug labels of the passes."""
+        self.rendering_labels: dict[Hashable, dict[str, None]] = {}
+        """The debug labels of equal renderings."""
+        for begin, label in zip(kind.passes, self.labels, strict=True):
+            if label and begin.kind == "beginRendering":
+                self.rendering_labels.setdefault(begin.key, {})[label] = None
         self.roles = {image: Role(number) for number, image in enumerate(kind.images)}
 
     def write(self) -> None:
@@ -110,10 +95,12 @@ class CommandWriter:
         if command.kind in ("nextSubpass", "endRenderPass", "endRendering"):
             return command.kind
         if command.kind == "beginRenderPass":
-            return {"beginRenderPass": self._begin(key, list(self.kind.alternates[number].values()))}
+            return {"beginRenderPass": self._begin(key, list(self.kind.alternates[number].values()), self.labels[number])}
         if command.kind == "beginRendering":
             name = self.renderings.setdefault(key, f"rendering_{len(self.renderings)}")
-            tree = {member: value for member, value in thaw(key).items() if value not in ([], None)}
+            labels = list(self.rendering_labels.get(key, ()))
+            tree = {"label": labels[0] if len(labels) == 1 else labels[:MAX_LABELS], **thaw(key)}
+            tree = {member: value for member, value in tree.items() if value not in ([], None)}
             return {"beginRendering": Alias(name, self._with_names(tree))}
         if command.kind == "draw":
             return {"draw": _draw(command, self.names)}
@@ -146,8 +133,9 @@ class CommandWriter:
         image = self.kind.images[part] if isinstance(part, Role) else part
         return self.names.image(image) if isinstance(image, Image) and image in self.described_images else None
 
-    def _begin(self, begin: RenderPassBegin, alternates: list[RenderPassBegin]) -> dict[str, Any]:
-        tree: dict[str, Any] = {"renderPass": self.names.of("render_pass", begin.render_pass)}
+    def _begin(self, begin: RenderPassBegin, alternates: list[RenderPassBegin], label: str) -> dict[str, Any]:
+        tree: dict[str, Any] = {"label": label} if label else {}
+        tree |= {"renderPass": self.names.render_pass(begin.render_pass)}
         names = [self.framebuffers.get((alternate.framebuffer, alternate.images, alternate.render_pass)) for alternate in alternates]
         framebuffers = list(dict.fromkeys(name for name in names if name is not None))
         if framebuffers:
@@ -261,6 +249,6 @@ def _draw(command: RecordedCommand, names: Names) -> dict[str, Any]:
     count, instances = command.detail or (None, None)
     body: dict[str, Any] = {}
     if pipeline is not None:
-        body["pipeline"] = names.of("pipeline", pipeline)
+        body["pipeline"] = names.pipeline(pipeline)
     body.update({name: value for name, value in ((counted, count), ("instanceCount", instances)) if value is not None and value >= 0})
     return body

@@ -11,11 +11,12 @@ from typing import Any
 from msaa_lint.core.text.source import Origin
 
 from .command_buffers import RenderPassBegin
-from .command_writer import CommandWriter, Names, commands_of
+from .command_writer import CommandWriter, commands_of
 from .frame_kinds import FrameKind
+from .names import Names
 from .objects import CapturedObject, Image, Pipeline, RenderPass, freeze, images_in
 from .tracker import Tracker
-from .yaml_text import Lines
+from .yaml_text import Lines, scalar
 
 MAX_UNUSED = 500
 """Maximum number of objects of a kind that are written although no frame uses them."""
@@ -41,7 +42,7 @@ class _Writer:
     def __init__(self, tracker: Tracker, lines: Lines) -> None:
         self.tracker = tracker
         self.lines = lines
-        self.names = Names()
+        self.names = Names(tracker.frames.kinds.values(), tracker.frames.labels)
         self.modules: dict[str, bytes] = {}
         self.described_images: set[Image] = set()
         """The images of the current document."""
@@ -80,7 +81,7 @@ class _Writer:
         self._passes(passes)
         framebuffers = self._framebuffers(kind)
         self._pipelines(pipelines)
-        CommandWriter(self.lines, self.names, kind, self.described_images, framebuffers, self.total).write()
+        CommandWriter(self.lines, self.names, kind, self.described_images, framebuffers, self.total, self.tracker.frames.labels).write()
 
     def _head(self, kind: FrameKind | None) -> None:
         lines = self.lines
@@ -110,7 +111,7 @@ class _Writer:
         for render_pass in passes:
             tree, origin = render_pass.tree, self.origin(render_pass)
             value = "" if tree else " {}"
-            self.lines.line(f"  {self.names.of('render_pass', render_pass)}:{value}  # {origin_comment(render_pass)}", origin)
+            self.lines.line(f"  {scalar(self.names.render_pass(render_pass))}:{value}  # {origin_comment(render_pass)}", origin)
             if "flags" in tree:
                 self.lines.member(4, "flags", tree["flags"], origin)
             for member in ("attachments", "subpasses", "dependencies"):
@@ -130,7 +131,7 @@ class _Writer:
                 if not names:
                     self.lines.line("framebuffers:")
                 names[key] = self.names.framebuffer(begin.framebuffer, begin.images, begin.render_pass)
-                tree: dict[str, Any] = {"renderPass": self.names.of("render_pass", begin.render_pass)}
+                tree: dict[str, Any] = {"renderPass": self.names.render_pass(begin.render_pass)}
                 # With another count, the capture lacks some views: it is unknown which image belongs to which attachment.
                 if len(begin.images) == len(begin.render_pass.tree.get("attachments", [])):
                     tree["attachments"] = [self.names.image(image) if image is not None else None for image in begin.images]
@@ -144,10 +145,10 @@ class _Writer:
         for pipeline in pipelines:
             tree: dict[str, Any] = {}
             if pipeline.render_pass is not None:
-                tree["renderPass"] = self.names.of("render_pass", pipeline.render_pass)
+                tree["renderPass"] = self.names.render_pass(pipeline.render_pass)
             tree.update(pipeline.tree)
             self.modules.update(pipeline.modules)
-            self.lines.member(2, self.names.of("pipeline", pipeline), tree, self.origin(pipeline), origin_comment(pipeline))
+            self.lines.member(2, self.names.pipeline(pipeline), tree, self.origin(pipeline), origin_comment(pipeline))
 
 
 def origin_comment(created: CapturedObject) -> str:

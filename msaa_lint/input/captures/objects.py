@@ -16,10 +16,10 @@ ATTACHMENT_USAGES = frozenset(("COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT", "
 class CapturedObject:
     """An object: the call that created it, its number within its kind (from 0), and its debug name (`label`), empty if it has none.
 
-    `tree` describes it. `frames` counts the frames that use it.
+    `namer` is the type and the handle by which it was named. `tree` describes it. `frames` counts the frames that use it.
     """
 
-    __slots__ = ("at", "by", "frames", "label", "number", "tree")
+    __slots__ = ("at", "by", "frames", "label", "namer", "number", "tree")
 
     def __init__(self, call: Call, number: int, tree: Tree) -> None:
         self.by = call.name
@@ -27,6 +27,7 @@ class CapturedObject:
         self.number = number
         self.tree = tree
         self.label = ""
+        self.namer: tuple[str, int] | None = None
         self.frames = 0
 
 

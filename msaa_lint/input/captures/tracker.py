@@ -17,6 +17,7 @@ from .call import Call, Mark, without_vendor
 from .command_buffers import RecordedCommand
 from .create_infos import pipeline_of, render_pass_of
 from .images import MAX_DISTINCT
+from .labels import printable
 from .objects import CapturedObject, Framebuffer, Pipeline, RenderPass, freeze
 from .structures import Tree, to_tree
 from .transfers import Transfers
@@ -196,10 +197,16 @@ class Tracker(Transfers):
 
     def on_SetDebugUtilsObjectName(self, call: Call) -> None:
         info = values.record(call.args.get("pNameInfo"))
-        number, name = values.handle(info.get("objectHandle", info.get("object"))), values.text(info.get("pObjectName"))
-        objects: dict[int, CapturedObject] = getattr(self, LABELED.get(_object_type(info.get("objectType")), ""), {})
-        if name and number in objects and not objects[number].label:
-            objects[number].label = name[:MAX_NAME]
+        namer = _object_type(info.get("objectType")), values.handle(info.get("objectHandle", info.get("object")))
+        kind, handle = namer
+        objects: dict[int, CapturedObject] = getattr(self, LABELED.get(kind, ""), {})
+        created = self.view(handle) if kind == "IMAGE_VIEW" else objects.get(handle)
+        if created is None:
+            return
+        # An object may stand for several that were created alike. An image's own name counts more than its view's.
+        if created.namer is None or created.namer == namer or (kind == "IMAGE" and created.namer[0] == "IMAGE_VIEW"):
+            created.label = printable(values.text(info.get("pObjectName")) or "")
+            created.namer = namer if created.label else None
 
     on_DebugMarkerSetObjectName = on_SetDebugUtilsObjectName
 
@@ -217,9 +224,10 @@ def _remove(objects: dict[int, Any], parameter: str, call: Call) -> None:
         objects.pop(values.handle(handle), None)
 
 
-MAX_NAME = 80
-_TYPES = {10: "IMAGE", 18: "RENDER_PASS", 19: "PIPELINE", 24: "FRAMEBUFFER", 1000001000: "SWAPCHAIN_KHR"}
-"""VkObjectType."""
+_TYPES = {
+    10: "IMAGE", 14: "IMAGE_VIEW", 18: "RENDER_PASS", 19: "PIPELINE", 24: "FRAMEBUFFER", 27: "SWAPCHAIN_KHR", 1000001000: "SWAPCHAIN_KHR"
+}  # fmt: skip
+"""VkObjectType and VkDebugReportObjectTypeEXT."""
 LABELED = {
     "IMAGE": "images",
     "RENDER_PASS": "render_passes",

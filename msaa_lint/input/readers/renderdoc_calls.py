@@ -25,6 +25,7 @@ RENAMED = {
     "SubpassBegin": "pSubpassBeginInfo",
     "SubpassEnd": "pSubpassEndInfo",
     "Label": "pLabelInfo",
+    "Marker": "pMarkerInfo",
     "CmdPool": "pCommandPool",
     "destImage": "dstImage",
     "destImageLayout": "dstImageLayout",
@@ -65,6 +66,7 @@ APPLICATION_MEMBERS = {
 
 NAMED_OBJECTS = {
     "vkCreateImage": ("Image", "IMAGE"),
+    "vkCreateImageView": ("View", "IMAGE_VIEW"),
     "vkCreateRenderPass": ("RenderPass", "RENDER_PASS"),
     "vkCreateRenderPass2": ("RenderPass", "RENDER_PASS"),
     "vkCreateGraphicsPipelines": ("Pipeline", "PIPELINE"),

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from msaa_lint.core.allowance import Allowance
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import CONFIDENCES, Finding, Fix, MissingKey, Undecided
-from msaa_lint.core.quote import shortened
+from msaa_lint.core.quote import quoted, shortened
 from msaa_lint.core.text.span import Label, Span
 from msaa_lint.frame.facts.facts import Facts, Subject, Value
 from msaa_lint.frame.facts.table import PASS_PARTS
@@ -43,6 +43,12 @@ MAX_CACHED = 4096
 
 MAX_CACHED_CHARACTERS = 1 << 24
 """Of the names in these sets."""
+
+MAX_LABEL = 120
+"""Characters of a debug label in a message."""
+
+MAX_LABELS = 2
+"""Maximum number of debug labels in a message."""
 
 MAX_VALUE = 500
 """Characters of a fact's value in a text."""
@@ -294,6 +300,8 @@ def finding(rule: Rule, case: Case | None, subject: Subject, file: str, severity
     # Without `at`, the finding is at the first fact of the condition that has a location.
     names = rule.at or named(rule.when)
     span = next((facts.places[name] for name in names if name in facts.places), None) or subject.head
+    # A pipeline may be used in other passes than the one that it is created for.
+    context = _within(facts.values.get("pass.labels")) if subject.kind != "pipeline" else ""
     labels = []
     for fact, text in rule.labels:
         place = facts.places.get(fact)
@@ -304,7 +312,7 @@ def finding(rule: Rule, case: Case | None, subject: Subject, file: str, severity
         rule.name,
         severity,
         confidence,
-        fill_in(message, facts),
+        context + fill_in(message, facts),
         file,
         span,
         subject.path,
@@ -313,7 +321,18 @@ def finding(rule: Rule, case: Case | None, subject: Subject, file: str, severity
         fill_in(help, facts),
         Fix(fill_in(spec.title, facts), spec.safe, (), spec.safety == "shown", spec.safety == "shown") if spec is not None else None,
         images=subject.images,
+        context=context,
     )
+
+
+def _within(labels: object) -> str:
+    """The beginning of a message about a pass: ``in `Shadow / cascade 2`, ``; empty without debug labels."""
+    if not isinstance(labels, list) or not labels:
+        return ""
+    names = [quoted(str(label), MAX_LABEL) for label in labels[:MAX_LABELS]]
+    more = [f"{len(labels) - len(names)} more"] if len(labels) > len(names) else []
+    *first, last = [*names, *more]
+    return f"in {', '.join(first)} and {last}, " if first else f"in {last}, "
 
 
 def fill_in(text: str, facts: Facts) -> str:

@@ -39,8 +39,9 @@ class Rect(Record):
 
 
 class BeginRenderPass(Record):
-    """VkRenderPassBeginInfo; a list of framebuffers alternates from frame to frame."""
+    """VkRenderPassBeginInfo; a list of framebuffers alternates from frame to frame. `label` is the debug labels around it."""
 
+    label: str | None = None
     renderPass: RenderPassName | None = None
     framebuffer: FramebufferName | tuple[FramebufferName, ...] | None = None
     renderArea: Rect | None = None
@@ -60,8 +61,9 @@ class RenderingAttachment(Record):
 
 
 class BeginRendering(Record):
-    """VkRenderingInfo; null is an unused color attachment."""
+    """VkRenderingInfo; null is an unused color attachment. `label` is the debug labels around it; several of one that is begun again."""
 
+    label: str | tuple[str, ...] | None = None
     flags: RenderingFlags = ()
     renderArea: Rect | None = None
     layerCount: Size | None = None
