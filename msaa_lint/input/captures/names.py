@@ -59,7 +59,7 @@ class Names:
         words.append(_samples(image.samples))
         if swapchain is not None:
             words[0] = f"swapchain image {image.number}"
-        own = f"{swapchain.label} {image.number}" if swapchain is not None and swapchain.label else ""
+        own = f"{swapchain.label}_{image.number}" if swapchain is not None and swapchain.label else ""
         return self._name("image", image, image.label or own or _described(words, image))
 
     def framebuffer(self, framebuffer: Framebuffer, images: tuple[Image | None, ...], render_pass: RenderPass) -> str:
@@ -72,7 +72,7 @@ class Names:
             name, number = base, self._taken.get((kind, base), 1)
             while (kind, name) in self._taken:
                 number += 1
-                name = f"{base} ({number})"
+                name = f"{base}_{number}"
             self._taken[kind, base] = number
             self._taken.setdefault((kind, name), 1)
             self._of[kind, key] = name

@@ -99,7 +99,7 @@ def test_a_person_sees_the_call_and_the_structure(tmp_path: Path) -> None:
     made = run(tmp_path, "check", "--isolated", "--fix", "--output", "full", "--select", "MSAA201", "game.jsonl")
     index = next(number for number, (name, _) in enumerate(program.calls, 1) if name == "vkCreateRenderPass")
     lines = made.stdout.splitlines()
-    message = "`image_0 (attachment 0)` stores 4x samples that nothing reads; set storeOp to DONT_CARE"
+    message = "`color 256x128 RGBA8 4x #5 (attachment 0)` stores 4x samples that nothing reads; set storeOp to DONT_CARE"
     assert lines[0] == f"warning[multisampled-attachment-stored]: {message}"
     assert lines[1].strip() == f"--> game.jsonl:{index + 1}:1"
     assert "        storeOp: STORE" in made.stdout
