@@ -65,19 +65,12 @@ def _mistake(text: bytes, error: orjson.JSONDecodeError) -> str:
     return re.sub(r" at line \d+, column \d+", "", json_problem(text.decode("utf-8", "replace"), error.pos).message)
 
 
-def parse_call(text: bytes, kind: str) -> tuple[Any, str | None] | None:
-    """The arguments and the result of a call. None if the text needs `loads`: it is not JSON, is not a call, or is large or deep."""
-    if len(text) > MAX_PARSED:
-        return None
-    try:
-        body = orjson.loads(text)[kind]
-        args = body["args"]
-        result = body.get("return")
-    except (orjson.JSONDecodeError, LookupError, TypeError):
-        return None
-    if type(args) is not dict or (len(text) > MAX_DEPTH and text.count(b"{") + text.count(b"[") > MAX_DEPTH):
-        return None
-    return args, result if type(result) is str else None
+def is_plain(text: bytes) -> bool:
+    """Whether the text of a value is certainly neither too large nor too deep, without parsing it."""
+    # An object takes five characters at least, `{"":` and `}`. To count all brackets takes longer.
+    if len(text) // 5 + text.count(b"[") <= MAX_DEPTH:
+        return True
+    return len(text) <= MAX_PARSED and text.count(b"{") + text.count(b"[") <= MAX_DEPTH
 
 
 def _repair(text: bytes) -> str:

@@ -9,12 +9,14 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator
-from typing import Any, BinaryIO, NamedTuple
+from typing import Any, BinaryIO
+
+import orjson
 
 from msaa_lint.core.text.files import read
 from msaa_lint.core.text.source import Unreadable
 from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place, is_wanted
-from msaa_lint.input.captures.json_stream import BYTE_ORDER_MARK, TRUNCATED, Blocks, Cursor, PeekedStream, loads, parse_call
+from msaa_lint.input.captures.json_stream import BYTE_ORDER_MARK, TRUNCATED, Blocks, Cursor, PeekedStream, is_plain, loads
 from msaa_lint.input.captures.values import chain, items, record
 
 DEVICE_COMMANDS = frozenset({"SetDevicePropertiesCommand", "SetDeviceMemoryPropertiesCommand"})
@@ -28,21 +30,22 @@ HEAD = re.compile(
 TRIMMED = re.compile(r"_frames?_\d+(?:_through_\d+)?\b|_trim_trigger")
 START = re.compile(rb'\{\s*"index"\s*:\s*(\d{1,18})\s*,\s*"(vkFunc|function|meta|method)"\s*:\s*\{\s*"name"\s*:\s*"(\w{1,100})"')
 PREFIX = b'{"index":'
-LINE_START = re.compile(rb'\{"index":\d{1,18}(,"(vkFunc|function|meta|method)":\{"name":"(\w{1,100})")')
+LINE_START = re.compile(rb'\{"index":\d{1,18}(,"(vkFunc|function|meta|method)":\{"name":"(\w{2,100}))"')
+NAME_END = len(',"function":{"name":"')
+"""Where to look for the quote that ends the name in a match of LINE_START's first group; a name has two letters or more."""
+MAX_STARTS = 10_000
 
-MAX_CACHE = 12 << 20
+MAX_CACHE = 8 << 20
 """Maximum total size of cached lines, in bytes of text; the parsed calls take about five times as much memory."""
 MAX_CACHED_CALL = 1 << 16  # bytes
-MAX_HISTORY = 1 << 19
-"""How many lines back a repetition is found."""
-MIN_HIT_RATIO = 1.25
+CREDIT = 1 << 13
+"""How many lines of a call are cached although none of them recurs. After that, none is for 16 times as many lines."""
+CREDIT_PER_HIT = 2
+PAUSE = 16 * CREDIT
 MAX_FILE = 16 << 20
 """Maximum size of a shader file in bytes; larger ones are skipped."""
 
 MAX_PATH = 4096
-
-PAUSE = 16
-"""If fewer than a fifth of the lines repeat earlier ones, nothing is cached for 16 times as many lines."""
 
 
 def claims(head: bytes) -> bool:
@@ -75,24 +78,52 @@ def _file_beside(capture: str | None, path: str) -> bytes | None:
         return None
 
 
-CachedLine = tuple[bytes, int, str, Any, str | None]
-"""A line: its text after the index, including the line end, and the length of that; the call's name, arguments and result.
+class LineStart:
+    """The start of a line, up to the call's name. `plain` says whether the arguments need no conversion and may recur."""
 
-For an unwanted call the text ends after the name, and the name is empty.
-"""
+    __slots__ = ("credit", "kind", "name", "plain", "wanted")
 
-NO_LINE: CachedLine = (b"\0", 1, "", None, None)
-"""Matches no line."""
+    def __init__(self, kind: str, name: str, wanted: bool) -> None:
+        self.kind = kind
+        self.name = name
+        self.wanted = wanted
+        self.plain = kind != "meta" and _recurs(name)
+        self.credit = CREDIT
+        """How many further lines are cached, or if it is negative, are not. Lines that recur raise it."""
 
 
-class LineStart(NamedTuple):
-    """The start of a line, up to the call's name. `unwanted` matches such lines if the call is unwanted; `plain` says whether the arguments
-    need no conversion and may recur."""
+class CachedLine:
+    """A line that may recur: its text after the index, its call, and the cached line that followed it last, at first itself."""
 
-    unwanted: CachedLine | None
-    kind: str
-    name: str
-    plain: bool
+    __slots__ = ("args", "body", "following", "result", "start")
+
+    def __init__(self, body: bytes, start: LineStart, args: dict[str, Any], result: str | None) -> None:
+        self.body = body
+        self.start = start
+        self.args = args
+        self.result = result
+        self.following = self
+
+
+class LineCache(dict[bytes, CachedLine]):
+    """The cached lines by their text after the index. They refer to each other until `forget` is called."""
+
+    def __init__(self) -> None:
+        self.size = 0
+
+    def add(self, line: CachedLine) -> None:
+        """Adds a line, and forgets all others if they are too many."""
+        self.size += len(line.body)
+        if self.size > MAX_CACHE:
+            self.forget()
+            self.size = len(line.body)
+        self[line.body] = line
+
+    def forget(self) -> None:
+        """Removes all lines."""
+        for line in self.values():
+            del line.following
+        self.clear()
 
 
 class Reader:
@@ -109,11 +140,10 @@ class Reader:
 
     def start(self, match: re.Match[bytes]) -> LineStart:
         """Interprets a match of LINE_START."""
-        text, kind, name = match[1], match[2].decode("ascii"), match[3].decode("ascii")
-        unwanted = None if self.is_wanted(kind, name) else (text, len(text), "", None, None)
-        start = LineStart(unwanted, kind, name, kind != "meta" and _recurs(name))
-        if len(self.starts) < 10_000:
-            self.starts[text] = start
+        kind, name = match[2].decode("ascii"), match[3].decode("ascii")
+        start = LineStart(kind, name, self.is_wanted(kind, name))
+        if len(self.starts) < MAX_STARTS:
+            self.starts[match[1]] = start
         return start
 
     def is_wanted(self, kind: str, name: str) -> bool:
@@ -197,103 +227,88 @@ def _recurs(name: str) -> bool:
 def _lines(blocks: Blocks, reader: Reader) -> Iterator[Call | Mark]:
     """The calls of JSON Lines.
 
-    A frame usually resembles the one before it, so the next line is predicted to be the line that followed the current one last time,
-    apart from its index. Comparing the two is many times faster than parsing. If predictions rarely hold, caching pauses for a while.
+    Lines of unwanted calls are skipped for their first characters. Lines that recur, apart from their index, are not parsed again: a frame
+    usually resembles the one before it, so that most are recognized as the line that followed last time.
     """
     new = tuple.__new__
-    cache: dict[bytes, tuple[int, CachedLine]] = {}
-    """The lines that may recur, each with its last position in the history."""
-    size = 0
-    history: list[CachedLine] = [NO_LINE]
-    dropped = 0
-    guess = 0
-    offset = 10
+    parse = orjson.loads
+    find_start = reader.starts.get
+    cache = LineCache()
+    last = CachedLine(b"", LineStart("", "", False), {}, None)
+    index_end = 10
     """The length of a line's text up to the end of its index."""
-    number = 0
-    slow = since = resumes = 0
     for block in blocks:
-        at = 0
-        block_size = len(block)
-        while at < block_size:
-            number += 1
-            body_start = at + offset
-            text, length, name, args, result = cached = history[guess]
-            if block.startswith(text, body_start):
-                if name:
-                    try:
-                        call = new(Call, (name, args, new(Place, (number, 1, int(block[at + 9 : body_start]))), result))
-                    except ValueError:
-                        pass  # not an index
-                    else:
-                        at = body_start + length
-                        guess += 1
-                        history.append(cached)
-                        yield call
-                        continue
-                elif block.startswith(PREFIX, at):
-                    at = block.find(b"\n", body_start) + 1
-                    guess += 1
-                    history.append(cached)
-                    continue
-            start, line = at, number
-            at = block.find(b"\n", at) + 1
-            slow += 1
-            guess += 1
-            cached = NO_LINE
-            call_or_mark: Call | Mark | None = None
-            match = LINE_START.match(block, start, at)
-            if match is None:
-                if not block[start:at].isspace():
-                    call_or_mark = reader.read(block[start:at], line, 1)
+        lines = block.split(b"\n")
+        lines.pop()
+        for number, line in enumerate(lines, blocks.lines + 1):
+            body = line[index_end:]
+            cached = last.following
+            if body == cached.body and line.startswith(PREFIX):
+                last = cached
+                start = cached.start
+                start.credit += CREDIT_PER_HIT
+                args, result = cached.args, cached.result
             else:
-                body_start = match.start(1)
-                offset = body_start - start
-                unwanted, kind, name, plain = reader.starts.get(match[1]) or reader.start(match)
-                text = block[body_start:at]
-                earlier = cache.get(text) if plain and line >= resumes else None
-                if unwanted is not None:
-                    cached = unwanted
-                elif earlier is not None:
-                    position, cached = earlier
-                    cache[text] = (len(history) + dropped, cached)
-                    guess = max(0, position + 1 - dropped)
-                    call_or_mark = new(Call, (name, cached[3], new(Place, (line, 1, int(block[start + 9 : body_start]))), cached[4]))
+                known = find_start(body[: body.find(b'"', NAME_END)])
+                if known is not None and line.startswith(PREFIX):
+                    start = known
+                else:
+                    match = LINE_START.match(line)
+                    if match is None:
+                        call_or_mark = reader.read(line, number, 1) if line and not line.isspace() else None
+                        if call_or_mark is not None:
+                            yield call_or_mark
+                        continue
+                    start = find_start(match[1]) or reader.start(match)
+                    index_end = match.start(1)
+                    body = line[index_end:]
+                if not start.wanted:
+                    continue
+                credit = start.credit
+                found = cache.get(body) if credit > 0 else None
+                if found is not None:
+                    last.following = last = found
+                    args, result = found.args, found.result
+                    start.credit = credit + CREDIT_PER_HIT
                 else:
                     # Common calls are parsed here, unusual ones by the reader.
-                    values = parse_call(block[start:at], kind) if plain else None
-                    if values is None:
-                        call_or_mark = reader.read(block[start:at], line, 1)
+                    args = None
+                    if start.plain and is_plain(line):
+                        try:
+                            call = parse(line)[start.kind]
+                            args, result = call["args"], call.get("return")
+                        except (ValueError, LookupError, TypeError):
+                            pass  # not JSON, or not a call
+                    if type(args) is not dict or (type(result) is not str and result is not None):
+                        call_or_mark = reader.read(line, number, 1)
+                        if call_or_mark is not None:
+                            yield call_or_mark
+                        continue
+                    if credit <= 0:
+                        start.credit = credit + 1 or CREDIT
                     else:
-                        args, result = values
-                        call_or_mark = new(Call, (name, args, new(Place, (line, 1, int(block[start + 9 : body_start]))), result))
-                        if line >= resumes and at - body_start <= MAX_CACHED_CALL:
-                            if size > MAX_CACHE:
-                                if line - since < slow * MIN_HIT_RATIO:
-                                    resumes = line + PAUSE * slow
-                                cache.clear()
-                                history.clear()
-                                size = dropped = slow = 0
-                                since = line
-                            cached = (text, at - body_start, name, args, result)
-                            cache[text] = (len(history) + dropped, cached)
-                            size += at - body_start
-            history.append(cached)
-            if guess >= len(history):
-                guess = 0
-            if call_or_mark is not None:
-                yield call_or_mark
-        blocks.lines = number
-        if len(history) > 2 * MAX_HISTORY:
-            del history[:MAX_HISTORY]
-            dropped += MAX_HISTORY
-            guess = max(0, guess - MAX_HISTORY)
+                        start.credit = min(credit, CREDIT) - 1 or -PAUSE
+                        if len(body) <= MAX_CACHED_CALL:
+                            found = CachedLine(body, start, args, result)
+                            cache.add(found)
+                            last.following = last = found
+            try:
+                place = new(Place, (number, 1, int(line[len(PREFIX) : index_end])))
+            except ValueError:
+                call_or_mark = reader.read(line, number, 1)
+                if call_or_mark is not None:
+                    yield call_or_mark
+            else:
+                yield new(Call, (start.name, args, place, result))
+        blocks.lines += len(lines)
+    cache.forget()
     if blocks.rest.strip():
         try:
-            call_or_mark = reader.read(blocks.rest, number + 1, 1)
+            call_or_mark = reader.read(blocks.rest, blocks.lines + 1, 1)
         except CaptureError as error:
             if not error.message.startswith("invalid JSON"):
                 raise
-            raise CaptureError(f"{TRUNCATED} in this line", Place(number + 1, 1)) from None
+            raise CaptureError(f"{TRUNCATED} in this line", Place(blocks.lines + 1, 1)) from None
         if call_or_mark is not None:
             yield call_or_mark
     reader.finish()

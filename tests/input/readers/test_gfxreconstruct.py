@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import orjson
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -169,12 +170,12 @@ pieces = st.lists(st.tuples(st.sampled_from(BODIES), st.integers(-2, 3)) | st.sa
     ending=st.sampled_from(("\n", "\r\n")),
     last=st.booleans(),
     block=st.sampled_from((1, 16, 64, 100, 1000, 1 << 18)),
-    past=st.sampled_from((2, 5, 1 << 19)),
+    credit=st.sampled_from((1, 3, 1 << 13)),
     size=st.sampled_from((50, 200, 1 << 20)),
 )
 @examples(3)
 def test_what_recurs_is_read_as_if_it_were_new(
-    pieces: list[tuple[list[Any], int]], first: int, ending: str, last: bool, block: int, past: int, size: int
+    pieces: list[tuple[list[Any], int]], first: int, ending: str, last: bool, block: int, credit: int, size: int
 ) -> None:
     index = first
     lines = ['{"index":1,"function":{"name":"vkCmdDraw","args":{}}}']
@@ -189,7 +190,8 @@ def test_what_recurs_is_read_as_if_it_were_new(
     text = ending.join(lines).encode() + (ending.encode() if last else b"")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(json_stream, "BLOCK", block)
-        patch.setattr(gfxreconstruct, "MAX_HISTORY", past)
+        patch.setattr(gfxreconstruct, "CREDIT", credit)
+        patch.setattr(gfxreconstruct, "PAUSE", 2 * credit)
         patch.setattr(gfxreconstruct, "MAX_CACHE", size)
         assert calls(text, frozenset({"vkCmdDraw", "vkCreateImage"})) == list(plainly(text, frozenset({"vkCmdDraw", "vkCreateImage"})))
 
@@ -206,20 +208,34 @@ class Counting:
         return self.pattern.match(*arguments)
 
 
-@pytest.mark.parametrize(("past", "most"), [(1 << 19, 5), (30, 25)])
-def test_frames_alike_are_neither_parsed_nor_looked_into(past: int, most: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_frames_alike_are_not_parsed(monkeypatch: pytest.MonkeyPatch) -> None:
     # Draws recur within a frame, and a call that nobody follows differs in each.
     frame = [draw(1), draw(2), draw(1), draw(3), draw(1), draw(1), '{"name":"vkWaitForFences","args":{"a":%d}}', draw(4), draw(2), draw(5)]
     text = lined([line(8 + at, frame[at % 10].replace("%d", str(at))) for at in range(2000)])
     slow, parsed = Counting(gfxreconstruct.LINE_START), []
     monkeypatch.setattr(gfxreconstruct, "LINE_START", slow)
-    monkeypatch.setattr(gfxreconstruct, "parse_call", lambda *arguments: parsed.append(1) or json_stream.parse_call(*arguments))
-    monkeypatch.setattr(gfxreconstruct, "MAX_HISTORY", past)
+    monkeypatch.setattr(orjson, "loads", lambda line, parse=orjson.loads: parsed.append(1) or parse(line))
     monkeypatch.setattr(json_stream, "BLOCK", 1000)
     assert len(calls(text)) == 1800
     assert len(parsed) == 5, "the calls that differ"
-    # The lines of the first frame, the beginning of the second, and those where the index has another digit.
-    assert slow.count <= len(frame) + most
+    # The names, and the lines where the index has another digit.
+    assert slow.count <= 2 + 4
+
+
+def test_lines_that_never_recur_are_hardly_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    added: list[bytes] = []
+
+    class Counted(gfxreconstruct.LineCache):
+        def add(self, line: gfxreconstruct.CachedLine) -> None:
+            added.append(line.body)
+            super().add(line)
+
+    monkeypatch.setattr(gfxreconstruct, "LineCache", Counted)
+    monkeypatch.setattr(gfxreconstruct, "CREDIT", 10)
+    monkeypatch.setattr(gfxreconstruct, "PAUSE", 160)
+    frames = [each for frame in range(100) for each in (draw(frame), '{"name":"vkCmdDrawIndexed","args":{"indexCount":5}}')]
+    assert len(calls(lined([line(at, each) for at, each in enumerate(frames)]), frozenset({"vkCmdDraw", "vkCmdDrawIndexed"}))) == 200
+    assert len(added) == 10 + 1, "the others are not worth it, which is known of each call apart"
 
 
 def test_an_empty_line_before_one_that_is_foreseen() -> None:
@@ -255,7 +271,6 @@ def test_memory_does_not_grow_with_the_lines() -> None:
                 return lined([line(at, draw(at)) for at in range(self.at - 1000, self.at)])
 
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(gfxreconstruct, "MAX_HISTORY", 500)
             patch.setattr(gfxreconstruct, "MAX_CACHE", 50_000)
             tracemalloc.start()
             try:
