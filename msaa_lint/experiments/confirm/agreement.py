@@ -18,6 +18,7 @@ from .explanations import CONSEQUENCES, EXPLANATIONS, Noise
 from .families import FAMILIES, Family
 from .inputs import concerns
 from .layer_scope import LayerScope
+from .message_scope import MessageScope, MessageScopes
 from .messages import Message, bare, classify, sentence
 from .outcome import AgreementRow
 
@@ -87,9 +88,11 @@ class _Matcher:
     def __init__(self, frame: Frame, passes: Mapping[int, str], frame_scope: _Scope) -> None:
         self.frame_scope = frame_scope
         self.by_pass: dict[int, _Scope] = {}
+        self._scopes = MessageScopes(frame)
         by_name = {described.name: described for described in frame.passes}
-        for number, name in passes.items():
-            described = by_name.get(name)
+        self._passes = {number: by_name[name] for number, name in passes.items() if name in by_name}
+        for number in passes:
+            described = self._passes.get(number)
             self.by_pass[number] = _pass_scope(frame, described, frame_scope) if described is not None else frame_scope
         self._by_path: dict[str, list[Subject]] = {}
         for subject in frame_scope.subjects:
@@ -97,9 +100,19 @@ class _Matcher:
 
     def match(self, message: Message) -> tuple[int, _Match]:
         """The pass that a message is reported with, and its rows there."""
-        numbers = [message.number] if message.number in self.by_pass else list(self.by_pass)
-        matches = [(number, self._match_within(message, self.by_pass[number])) for number in numbers]
         family = classify(message.id, message.text)
+        image = self._scopes.image(message.image) if message.image else None
+        if image is not None:
+            # An image is created with the first pass that needs it, which may be one that only reads it, and resolved after another pass.
+            attaching = [number for number, described in self._passes.items() if described.name in image.pass_names]
+            number = next((number for number in (*attaching, message.number) if number in self.by_pass), next(iter(self.by_pass)))
+            return number, self._match_within(message, _narrowed(self.frame_scope, image))
+        numbers = [message.number] if message.number in self.by_pass else list(self.by_pass)
+        matches = []
+        for number in numbers:
+            part = self._scopes.attachment(message, family if isinstance(family, Family) else None, self._passes.get(number))
+            scope = self.by_pass[number]
+            matches.append((number, self._match_within(message, _narrowed(scope, part) if part is not None else scope)))
         if message.number not in self.by_pass or (isinstance(family, Family) and family.scope.instead):
             # The message is about the frame, or about the effect of one pass on another.
             matches.append((numbers[0], self._match_within(message, self.frame_scope)))
@@ -138,6 +151,15 @@ def _pass_scope(frame: Frame, described: Pass, frame_scope: _Scope) -> _Scope:
         [finding for finding in frame_scope.findings if concerns(frame, described, finding.subject)],
         [rule for rule in frame_scope.undecided if concerns(frame, described, rule.subject)],
         [subject for subject in frame_scope.subjects if concerns(frame, described, subject.path)],
+    )
+
+
+def _narrowed(scope: _Scope, part: MessageScope) -> _Scope:
+    """What of a scope concerns the parts of a frame that a message is about."""
+    return _Scope(
+        [finding for finding in scope.findings if part.has(finding.subject)],
+        [rule for rule in scope.undecided if part.has(rule.subject)],
+        [subject for subject in scope.subjects if part.has(subject.path)],
     )
 
 
@@ -212,5 +234,5 @@ def _holds(when: str, subject: Subject) -> bool:
 
 
 def _unique(messages: Iterable[Message]) -> list[Message]:
-    """Each message of a pass once, however many objects it is reported for."""
-    return list({(message.id, message.number, sentence(message.text)): message for message in messages}.values())
+    """Each message of a pass or an image once, however many objects it is reported for."""
+    return list({(message.id, message.number, message.image, sentence(message.text)): message for message in messages}.values())

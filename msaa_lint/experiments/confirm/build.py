@@ -7,7 +7,7 @@ from typing import Any
 from . import parts, pipelines
 from .binding import chain
 from .opening import DeviceObjects, OpenDevice
-from .parts import NONE, Framebuffer, Pass, Plan, Reference
+from .parts import NONE, Dependency, Framebuffer, Pass, Plan, Reference
 from .scene import VERTEX_BYTES
 
 DEVICE_LOCAL, HOST_VISIBLE, COHERENT, CACHED, LAZY = 0x1, 0x2, 0x4, 0x8, 0x10
@@ -17,6 +17,9 @@ UNUSED = 0xFFFFFFFF
 """VK_ATTACHMENT_UNUSED and VK_SUBPASS_EXTERNAL."""
 
 MAX_32_BITS = 0xFFFFFFFF
+
+ALL_GRAPHICS = 0x8000
+"""VK_PIPELINE_STAGE_ALL_GRAPHICS_BIT."""
 
 
 class FrameObjects(DeviceObjects):
@@ -71,14 +74,30 @@ class FrameObjects(DeviceObjects):
             frame_pass = self.plan.passes[number]
             like = next((p for p in frame_pass.pipelines if p.subpass == subpass and not p.discard), None)
             shader = "read_samples.frag" if samples else "read.frag"
-            created = pipelines.create_reader(self, frame_pass, like, self.render_passes.get(number), shader) if like is not None else None
+            created = None
+            if like is not None:
+                like = like._replace(samples=self._attached_samples(frame_pass, subpass) or like.samples)
+                created = pipelines.create_reader(self, frame_pass, like, self.render_passes.get(number), shader)
             self._readers[key] = created
         return self._readers[key]
 
+    def _attached_samples(self, frame_pass: Pass, subpass: int) -> int:
+        """The sample count that a subpass is rendered with; 0 without attachments."""
+        if frame_pass.kind == parts.RENDERING:
+            counts = [self.plan.images[rendered.image].samples for rendered in frame_pass.rendered if rendered.image != NONE]
+            return frame_pass.single_sampled or max(counts, default=0)
+        attached = (*frame_pass.subpasses[subpass].colors, *frame_pass.subpasses[subpass].depth_stencil)
+        counts = [frame_pass.attachments[reference.attachment].samples for reference in attached if reference.attachment != NONE]
+        return frame_pass.subpasses[subpass].single_sampled or max(counts, default=0)
+
     def image(self, number: int) -> Any:
         """An image with its memory."""
-        if number in self.images:
-            return self.images[number]
+        if number not in self.images:
+            with self.opened.session.about(self.plan.images[number].name):
+                self.images[number] = self._image(number)
+        return self.images[number]
+
+    def _image(self, number: int) -> Any:
         vk, handle, image = self.vk, self.opened.handle, self.plan.images[number]
         create = vk.VkImageCreateInfo(
             flags=image.flags,
@@ -100,7 +119,6 @@ class FrameObjects(DeviceObjects):
         # Memory must be freed after the image that is bound to it is destroyed.
         self._created[-2:] = reversed(self._created[-2:])
         vk.vkBindImageMemory(handle, created, memory, 0)
-        self.images[number] = created
         return created
 
     def view(self, number: int, layers: int = 1, aspects: int = 0, format: int = 0) -> Any:
@@ -176,7 +194,7 @@ class FrameObjects(DeviceObjects):
             )  # fmt: skip
             subpasses.append(chain(head, *chained_structures))
         dependencies = []
-        for d in frame_pass.dependencies:
+        for d in map(self._dependency, frame_pass.dependencies):
             head = vk.VkSubpassDependency2(
                 srcSubpass=UNUSED if d.source == NONE else d.source, dstSubpass=UNUSED if d.target == NONE else d.target,
                 srcStageMask=d.source_stages & MAX_32_BITS, dstStageMask=d.target_stages & MAX_32_BITS,
@@ -194,6 +212,17 @@ class FrameObjects(DeviceObjects):
             flags=frame_pass.flags, pAttachments=attachments, pSubpasses=subpasses, pDependencies=dependencies
         )
         return self.opened.call("vkCreateRenderPass2")(self.opened.handle, create, None)
+
+    def _dependency(self, stated: Dependency) -> Dependency:
+        """A dependency without the stages and accesses that the device lacks."""
+        source, source_accesses = self.opened.masks(stated.source_stages, stated.source_accesses)
+        target, target_accesses = self.opened.masks(stated.target_stages, stated.target_accesses)
+        return stated._replace(
+            source_stages=source or (stated.source_stages and ALL_GRAPHICS),
+            target_stages=target or (stated.target_stages and ALL_GRAPHICS),
+            source_accesses=source_accesses,
+            target_accesses=target_accesses,
+        )
 
     def _reference(self, reference: Reference) -> Any:
         index = UNUSED if reference.attachment == NONE else reference.attachment
@@ -227,7 +256,7 @@ class FrameObjects(DeviceObjects):
                 srcStageMask=d.source_stages & MAX_32_BITS, dstStageMask=d.target_stages & MAX_32_BITS,
                 srcAccessMask=d.source_accesses & MAX_32_BITS, dstAccessMask=d.target_accesses & MAX_32_BITS, dependencyFlags=d.flags,
             )
-            for d in frame_pass.dependencies
+            for d in map(self._dependency, frame_pass.dependencies)
         ]  # fmt: skip
         create = vk.VkRenderPassCreateInfo(
             flags=frame_pass.flags, pAttachments=attachments, pSubpasses=subpasses, pDependencies=dependencies

@@ -221,8 +221,10 @@ class Recorder:
         number = images[inner.value] if inner.aspects & COLOR and inner.value < len(images) else NONE
         clear = self._clear(number) if number != NONE else vk.VkClearValue(depthStencil=self._clear_depth())
         attachment = vk.VkClearAttachment(aspectMask=inner.aspects, colorAttachment=inner.value, clearValue=clear)
-        rect = vk.VkClearRect(rect=self._rect(step.area), baseArrayLayer=0, layerCount=1)
-        vk.vkCmdClearAttachments(buffer, 1, [attachment], 1, [rect])
+        areas = [clipped(rect, step.area) for rect in inner.rects] if inner.rects else [step.area]
+        rects = [vk.VkClearRect(rect=self._rect(area), baseArrayLayer=0, layerCount=1) for area in areas if min(area[2:]) > 0]
+        if rects:
+            vk.vkCmdClearAttachments(buffer, 1, [attachment], len(rects), rects)
 
     def _drawn(self, frame_pass: Pass, step: Step, subpass: int) -> list[int]:
         if frame_pass.kind == parts.RENDERING:
@@ -258,7 +260,8 @@ class Recorder:
     def _barrier(self, buffer: Any, step: Step) -> None:
         """Records a barrier of the frame with its stated masks; the old layouts are the actual ones."""
         vk = self.vk
-        source, target, source_access, target_access = step.masks
+        source, source_access = self.built.opened.masks(step.masks[0], step.masks[2])
+        target, target_access = self.built.opened.masks(step.masks[1], step.masks[3])
         if not source or not target:
             source, target = source or 0x10000, target or 0x10000
         names = ("srcStageMask", "srcAccessMask", "dstStageMask", "dstAccessMask")
@@ -302,7 +305,8 @@ class Recorder:
         region = structure(
             srcSubresource=self._layers(step.source, aspects), dstSubresource=self._layers(step.target, aspects), extent=self._extent(step)
         )
-        command(buffer, source, SOURCE_LAYOUT, target, TARGET_LAYOUT, 1, [region])
+        with self.built.opened.session.about(self.plan.images[step.source].name):
+            command(buffer, source, SOURCE_LAYOUT, target, TARGET_LAYOUT, 1, [region])
 
     def _blit(self, buffer: Any, step: Step) -> None:
         vk = self.vk
@@ -328,6 +332,12 @@ class Recorder:
         else:
             clear = self._clear_depth()
             vk.vkCmdClearDepthStencilImage(buffer, self.built.image(step.target), TARGET_LAYOUT, clear, 1, [whole])
+
+
+def clipped(rect: tuple[int, ...], area: tuple[int, ...]) -> tuple[int, ...]:
+    """The part of a rectangle (x, y, width, height) that is within another."""
+    x, y = max(rect[0], area[0]), max(rect[1], area[1])
+    return x, y, min(rect[0] + rect[2], area[0] + area[2]) - x, min(rect[1] + rect[3], area[1] + area[3]) - y
 
 
 _TRANSFERS = {"resolve": Recorder._copy, "copy": Recorder._copy, "blit": Recorder._blit, "clear": Recorder._clear_image}

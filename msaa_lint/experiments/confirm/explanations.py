@@ -166,6 +166,11 @@ CONSEQUENCES = (
         "the operation that needs memory is the mistake",
     ),
     Consequence(
+        ("attachment-needs-readback", "image-requires-memory", "discarded-then-loaded", "redundant-store"),
+        ("attachment-untouched",),
+        "the pass does not use the attachment",
+    ),
+    Consequence(
         ("non-transient-ms-image",),
         ("lazily-allocated-without-transient",),
         "it lacks the same usage",

@@ -40,7 +40,7 @@ class Family(NamedTuple):
 
     `ids` are the numbers of VUIDs (`03067`) and the parts that the names of best practices share across versions and vendors
     (`non-transient-ms-image`). A VUID with an unknown number belongs to the family if the structure or command in its id matches
-    `structure_pattern` and its text matches `text_pattern`.
+    `structure_pattern` and its text matches `text_pattern`. `of_attachment` says that its texts name an attachment by its index.
     """
 
     name: str
@@ -50,6 +50,7 @@ class Family(NamedTuple):
     structure_pattern: str = ""
     text_pattern: str = ""
     scope: CheckScope = CheckScope()
+    of_attachment: bool = False
 
 
 def _ids(text: str) -> tuple[str, ...]:
@@ -130,6 +131,7 @@ FAMILIES = (
         "an attachment is loaded from the layout UNDEFINED",
         _ATTACHMENT,
         r"LOAD_OP_LOAD.*UNDEFINED|UNDEFINED.*LOAD_OP_LOAD",
+        of_attachment=True,
     ),
     Family(
         "resolve-without-ends",
@@ -239,6 +241,7 @@ FAMILIES = (
         ("attachment-should-be-transient",),
         "an attachment that a framebuffer neither loads nor stores is not TRANSIENT_ATTACHMENT",
         scope=CheckScope(passes=LEGACY, lazy=True),
+        of_attachment=True,
     ),
     Family(
         "should-not-be-transient",
@@ -246,6 +249,7 @@ FAMILIES = (
         ("attachment-should-not-be-transient",),
         "a transient attachment of a framebuffer is loaded or stored",
         scope=CheckScope(passes=LEGACY),
+        of_attachment=True,
     ),
     Family(
         "non-lazy-transient-image",
@@ -267,6 +271,7 @@ FAMILIES = (
         ("image-requires-memory",),
         "a multisampled attachment is loaded or stored",
         scope=CheckScope(passes=(RENDER_PASS,)),
+        of_attachment=True,
     ),
     Family(
         "attachment-needs-readback",
@@ -283,6 +288,7 @@ FAMILIES = (
         scope=CheckScope(
             passes=LEGACY, vendors=MOBILE, when=(("aspect", 'aspect.load == "LOAD"', "it checks loads, not clears and stores"),)
         ),
+        of_attachment=True,
     ),
     Family(
         "discarded-then-loaded",

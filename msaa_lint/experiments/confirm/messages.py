@@ -10,11 +10,13 @@ from .families import FAMILIES, Family
 
 
 class Message(NamedTuple):
-    """A message of the layer. `number` is the pass that it is about; None for no pass in particular."""
+    """A message of the layer. `number` is the pass that it is about, None for no pass in particular; `image` is the image that
+    it is about, by its name in the plan: one that was being created, copied, or resolved."""
 
     id: str
     text: str
     number: int | None = None
+    image: str = ""
 
 
 _OWN = re.compile(r"^(?:UNASSIGNED-)?BestPractices-(?:(?:Arm|AMD|IMG|NVIDIA)-)?", re.IGNORECASE)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from . import binding
@@ -36,11 +37,14 @@ TAKEN_UP = {
     "VK_KHR_separate_depth_stencil_layouts": (1, 2),
 }  # fmt: skip
 
-FEATURES = (
-    "sampleRateShading", "alphaToOne", "independentBlend", "depthClamp", "fillModeNonSolid", "dualSrcBlend",
-    "shaderStorageImageMultisample",
-)  # fmt: skip
-"""Features of VkPhysicalDeviceFeatures that are enabled if offered."""
+NOT_ENABLED = ("robustBufferAccess",)
+"""Features of VkPhysicalDeviceFeatures that are not enabled although offered: they cost time, and no pipeline needs them."""
+
+STAGES, ACCESSES = 0x7F0001FFFF, 0x70001FFFF
+"""The bits of VkPipelineStageFlags2 and VkAccessFlags2 of Vulkan's core; the others need extensions."""
+
+FEATURE_STAGES = {"geometryShader": 0x40, "tessellationShader": 0x30}
+"""The stages of VkPipelineStageFlags2 that need a feature."""
 
 FORMAT_USAGES = {"attachment": 0, "sampled": 0x4, "storage": 0x8, "input": 0x80, "transient": 0x40}
 """Usages, in addition to attachment, for which the sample counts of formats are queried."""
@@ -63,6 +67,7 @@ class Session:
         self.vk = load()
         self.vendors = tuple(vendors)
         self.at: int | None = None
+        self.image: str | None = None
         self.emit: Emit | None = None
         self._waiting: list[Message] = []
         self._deaf = False
@@ -105,7 +110,8 @@ class Session:
         if self.emit is None:
             self._waiting.append(message)
         else:
-            self.emit({"event": "message", "pass": self.at, "id": message.id, "severity": message.severity, "text": message.text[:4000]})
+            about = {"pass": self.at, "image": self.image}
+            self.emit({"event": "message", **about, "id": message.id, "severity": message.severity, "text": message.text[:4000]})
 
     def telling(self, emit: Emit) -> None:
         """Sends the messages of the layer to `emit`, including those it sent earlier."""
@@ -113,6 +119,15 @@ class Session:
         waiting, self._waiting = self._waiting, []
         for message in waiting:
             self._said(message)
+
+    @contextmanager
+    def about(self, image: str) -> Iterator[None]:
+        """A block in which messages are about an image."""
+        self.image, before = image, self.image
+        try:
+            yield
+        finally:
+            self.image = before
 
     def _chosen(self, name: str | None) -> Any:
         found = self.instance.physical_devices()
@@ -170,7 +185,7 @@ class OpenDevice:
 
     def _features(self, special: tuple[str, ...], without: tuple[str, ...]) -> Any:
         vk, offered = self.vk, self.session.device
-        own = {name: 1 for name in FEATURES if offered["features"].get(name) and name not in without}
+        own = {name: 1 for name, there in offered["features"].items() if there and name not in (*NOT_ENABLED, *without)}
         following = []
         for structure, names in {
             "VkPhysicalDeviceVulkan11Features": ("multiview",),
@@ -194,6 +209,12 @@ class OpenDevice:
         if self.session.version < (1, 3) and "VK_KHR_dynamic_rendering" in self.extensions:
             following.append(vk.VkPhysicalDeviceDynamicRenderingFeatures(dynamicRendering=1))
         return chain(vk.VkPhysicalDeviceFeatures2(features=core), *following)
+
+    def masks(self, stages: int, accesses: int) -> tuple[int, int]:
+        """Stages and accesses of a barrier without those that the device lacks, in which no work can be waited for."""
+        features = self.session.device["features"]
+        lacking = sum(bits for name, bits in FEATURE_STAGES.items() if not features.get(name))
+        return stages & STAGES & ~lacking, accesses & ACCESSES
 
     def call(self, name: str) -> Callable[..., Any]:
         """A function of the device, core or of an extension. VulkanError if it has neither."""

@@ -191,7 +191,8 @@ class PassCommand(NamedTuple):
     """A command within a pass.
 
     `draw` draws the scene with `pipeline`, over a backdrop if `backdrop` is set; `covers` says that it then writes to every pixel. `read`
-    writes `image` to every pixel, as a shader that reads it does; `samples` sets the dynamic sample count to `value`; `clear` clears.
+    writes `image` to every pixel, as a shader that reads it does; `samples` sets the dynamic sample count to `value`; `clear` clears
+    `rects` (x, y, width, height), or the render area without any.
     """
 
     kind: str
@@ -202,6 +203,7 @@ class PassCommand(NamedTuple):
     image: int = NONE
     value: int = 0
     aspects: int = 0
+    rects: tuple[tuple[int, ...], ...] = ()
 
 
 class Pass(NamedTuple):

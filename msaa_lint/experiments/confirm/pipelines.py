@@ -11,7 +11,7 @@ from msaa_lint.frame.spirv.module import MAX_BYTES, Module
 from . import parts, plan_shaders
 from .binding import chain
 from .opening import DeviceObjects
-from .parts import MASK_DYNAMIC, Blend, Pass, Pipeline
+from .parts import MASK_DYNAMIC, SCISSOR, VIEWPORT, Blend, Pass, Pipeline
 from .scene import DRAWN_STENCIL, VERTEX_BYTES
 
 KINDS = {"UINT": "uint", "SINT": "sint", "": ""}
@@ -42,7 +42,7 @@ def create_reader(objects: DeviceObjects, frame_pass: Pass, like: Pipeline, rend
     """A pipeline that fills the targets of another with what `shader` reads."""
     plain = tuple(Blend() for _ in like.blends)
     pipeline = like._replace(
-        sample_shading=-1.0, mask=(), alpha_to_coverage=False, alpha_to_one=False, dynamic=like.dynamic, depth_test=False,
+        sample_shading=-1.0, mask=(), alpha_to_coverage=False, alpha_to_one=False, dynamic=(VIEWPORT, SCISSOR), depth_test=False,
         depth_write=False, stencil_test=False, blends=plain, stages=(), depth_bias=False, polygon_mode=0,
     )  # fmt: skip
     opened = objects.opened

@@ -17,6 +17,7 @@ from .plan_integers import layout, mask
 from .plan_passes import Passes
 from .plan_pipelines import GREATER, LESS, built_in, described
 from .plan_shaders import UnusableShader
+from .plan_transfers import TRANSFERS, clears, ignored_transfer
 from .resample import resampled, resized
 
 MAX_STEPS = 4096
@@ -31,11 +32,6 @@ SPECIAL = (
 
 OPTIONAL = ("sampleRateShading", "alphaToOne")
 """Features that stay disabled if the frame lists its enabled features without them."""
-
-TRANSFERS = {
-    "resolveImage": "resolve", "copyImage": "copy", "blitImage": "blit", "clearColorImage": "clear", "clearDepthStencilImage": "clear",
-    "copyImageToBuffer": "copyOut", "copyBufferToImage": "copyIn", "present": "present", "pipelineBarrier": "barrier",
-}  # fmt: skip
 
 
 def plan(frame: Frame, file: str = "", size: tuple[int, int] | None = None, samples: int | None = None, api: int | None = None) -> Plan:
@@ -118,12 +114,16 @@ class _Plan:
         commands_within: list[Command] | None = None
         begin: tuple[DescribedPass, int] | None = None
         current = 0
+        dynamic: list[Command] = []
         for position, command in enumerate(self.frame.commands):
             if len(self.steps) >= MAX_STEPS:
                 self.notes.append(f"commands after the first {MAX_STEPS} are ignored")
                 return
+            if command.kind == "setRasterizationSamples":
+                # Dynamic state outlives passes.
+                dynamic = [command]
             if position in by_position:
-                begin, commands_within = (by_position[position], position), []
+                begin, commands_within = (by_position[position], position), [*dynamic]
                 current = self.numbers[id(begin[0])]
             elif command.kind in ("endRenderPass", "endRendering"):
                 if begin is not None and commands_within is not None:
@@ -150,9 +150,11 @@ class _Plan:
         target = self.images.named(getattr(body, "dstImage", None) or getattr(body, "image", None))
         if (source, target) == (NONE, NONE) or (kind in ("resolve", "copy", "blit") and NONE in (source, target)):
             return
-        if NONE not in (source, target) and not self.images.images[source].aspects & self.images.images[target].aspects:
-            self.notes.append(f"{command.kind} between color and depth is ignored")
-            return
+        if kind in ("resolve", "copy", "blit"):
+            ignored = ignored_transfer(kind, self.images.images[source], self.images.images[target])
+            if ignored:
+                self.notes.append(f"{command.kind} {ignored} is ignored")
+                return
         self.steps.append(Step(kind, current, source=source, target=target))
 
     def _barrier(self, body: object, current: int) -> None:
@@ -192,9 +194,13 @@ class _Plan:
         inner: list[PassCommand] = []
         commands: list[list[Command]] = [[] for _ in fitting]
         subpass = 0
+        dynamic: tuple[Command, ...] = ()
         for command in commands_within:
+            if command.kind == "setRasterizationSamples":
+                dynamic = (command,)
             if command.kind == "nextSubpass":
                 subpass = min(subpass + 1, len(fitting) - 1)
+                commands[subpass] += dynamic
             else:
                 commands[subpass].append(command)
         for subpass, compatible in enumerate(fitting):
@@ -290,10 +296,7 @@ class _Plan:
             elif command.kind == "setRasterizationSamples" and isinstance(body, int):
                 draws.append(PassCommand("samples", subpass, value=body))
             elif command.kind == "clearAttachments":
-                draws += [
-                    PassCommand("clear", subpass, value=c.colorAttachment or 0, aspects=mask("VkImageAspectFlagBits", c.aspect))
-                    for c in getattr(body, "attachments", ())
-                ]
+                draws += clears(body, subpass)
             elif command.kind == "readImage":
                 image = self.images.named(getattr(body, "image", None))
                 if image != NONE and image not in attached and getattr(body, "stage", None) in (None, "FRAGMENT", "FRAGMENT_SHADER"):
@@ -366,11 +369,12 @@ def _loads(frame_pass: Pass, subpass: int) -> tuple[list[int], int]:
 
 
 def _with_images(passes: Sequence[Pass], steps: Sequence[Step], images: int) -> list[Pass]:
-    """Passes with the images that they need; images that no pass needs are created with the first one."""
+    """Passes with the images that they need; images that no pass needs are created with the first one. A barrier needs none: it may be for
+    images of other passes."""
     needed: list[set[int]] = [{n for f in frame_pass.framebuffers for n in f.images} for frame_pass in passes]
     for step in steps:
         if step.number < len(needed):
-            needed[step.number].update({step.source, step.target, *(inner.image for inner in step.inner), *(n for n, *_ in step.layouts)})
+            needed[step.number].update({step.source, step.target, *(inner.image for inner in step.inner)})
     if needed:
         needed[0].update(set(range(images)) - set().union(*needed))
     return [

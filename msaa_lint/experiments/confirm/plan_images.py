@@ -97,7 +97,7 @@ class Images:
         return self._used[key]
 
     def _targets(self, described: Pass, attachment: Attachment) -> list[_Used]:
-        return [self._add(t, t.name if t.image is not None else f"{described.name}.{attachment.name}") for t in attachment.targets]
+        return [self._add(target, image_name(described, attachment, target)) for target in attachment.targets]
 
     def _pass(self, described: Pass) -> None:
         by_attachment = {id(a): self._targets(described, a) for a in described.attachments}
@@ -221,6 +221,11 @@ class Images:
             used.name, number("VkFormat", format.name), used.samples, usage, width, 1 if kind == 0 else height, depth, layers, levels,
             kind, tiling, flags, lazy, aspects, format.numeric, format.bytes,
         )  # fmt: skip
+
+
+def image_name(described: Pass, attachment: Attachment, target: Target) -> str:
+    """The name of an attachment's image in a plan, which is the attachment's if it names no image."""
+    return target.name if target.image is not None else f"{described.name}.{attachment.name}"
 
 
 def _base(frame: Frame) -> tuple[tuple[int, int], bool]:

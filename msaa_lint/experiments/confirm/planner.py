@@ -54,7 +54,7 @@ class Planner:
         kinds = {number: pass_kind(ran.api, ran.kind != RENDER_PASS) for number, ran in passes.items()}
         names = {number: ran.name for number, ran in passes.items()}
         events = [*run.messages, *(event for outcome in run.passes.values() for event in outcome.messages)]
-        messages = [Message(event["id"], event["text"], event.get("pass")) for event in events]
+        messages = [Message(event["id"], event["text"], event.get("pass"), event.get("image") or "") for event in events]
         scope = layer_scope(session.layer, session.device, kinds, session.vendors)
         findings, undecided = source.by_vulkan or ([*source.findings, *source.silenced], source.undecided)
         return agreement(source.frame, names, findings, messages, scope, undecided, source.device)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
+from types import NoneType
 from typing import Any
 
 MAX_LINE = 8 << 20
@@ -61,7 +62,10 @@ _WELL_FORMED: dict[str, Callable[[Event], bool]] = {
     "pass": _numbered,
     "created": lambda found: _numbered(found) and isinstance(found.get("ok"), bool),
     "message": lambda found: (
-        (found.get("pass") is None or _numbered(found)) and isinstance(found.get("id"), str) and isinstance(found.get("text"), str)
+        (found.get("pass") is None or _numbered(found))
+        and isinstance(found.get("image"), (str, NoneType))
+        and isinstance(found.get("id"), str)
+        and isinstance(found.get("text"), str)
     ),
     "pixels": lambda found: _image(found, "format", "width", "height"),
     "sample": lambda found: _image(found, "format", "width", "height", "samples"),

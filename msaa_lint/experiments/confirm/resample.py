@@ -42,6 +42,17 @@ def _scaled(plan: Plan, by_x: tuple[int, int], by_y: tuple[int, int]) -> Plan:
     def framebuffer(each: Framebuffer) -> Framebuffer:
         return each._replace(width=across(each.width), height=down(each.height))
 
+    def rect(each: tuple[int, ...], before: tuple[int, ...], area: tuple[int, ...]) -> tuple[int, ...]:
+        # A rectangle that covers part of the render area still does when it is smaller.
+        scaled = []
+        for axis, by in ((0, by_x), (1, by_y)):
+            begin, end = max(each[axis], before[axis]), min(each[axis] + each[axis + 2], before[axis] + before[axis + 2])
+            far = area[axis] + area[axis + 2]
+            low = area[axis] if begin == before[axis] else min(max(begin * by[0] // by[1], area[axis] + 1), far)
+            high = far if end == before[axis] + before[axis + 2] else min(end * by[0] // by[1], far - 1)
+            scaled.append((low, max(high - low, 0)))
+        return scaled[0][0], scaled[1][0], scaled[0][1], scaled[1][1]
+
     def step(each: Step) -> Step:
         if not each.area:
             return each
@@ -49,7 +60,9 @@ def _scaled(plan: Plan, by_x: tuple[int, int], by_y: tuple[int, int]) -> Plan:
         whole = framebuffer(plan.passes[each.number].framebuffers[each.framebuffer])
         left, top = min(x * by_x[0] // by_x[1], whole.width - 1), min(y * by_y[0] // by_y[1], whole.height - 1)
         right, bottom = min(across(x + width), whole.width), min(down(y + height), whole.height)
-        return each._replace(area=(left, top, max(1, right - left), max(1, bottom - top)))
+        area = (left, top, max(1, right - left), max(1, bottom - top))
+        inner = tuple(each._replace(rects=tuple(rect(r, (x, y, width, height), area) for r in each.rects)) for each in each.inner)
+        return each._replace(area=area, inner=inner)
 
     passes = tuple(each._replace(framebuffers=tuple(map(framebuffer, each.framebuffers))) for each in plan.passes)
     return plan._replace(images=tuple(map(image, plan.images)), passes=passes, steps=tuple(map(step, plan.steps)))

@@ -1051,7 +1051,13 @@ def test_commands_are_recorded_in_their_order() -> None:
         PassCommand("clear", 1, aspects=parts.COLOR),
         PassCommand("draw", 1, 0),
     )
-    reads = (PassCommand("read", 0, image=b), PassCommand("read", 0, image=a), PassCommand("draw", 0, 0))
+    # The dynamic sample count outlives the first pass.
+    reads = (
+        PassCommand("read", 0, image=b),
+        PassCommand("read", 0, image=a),
+        PassCommand("samples", 0, value=2),
+        PassCommand("draw", 0, 0),
+    )
     assert made.steps == (
         Step("clear", 0, source=b, target=b),
         Step("begin", 0, 0, (0, 0, 32, 16), within),
