@@ -130,6 +130,11 @@ class Frame:
     def target(self, name: str | None) -> Target | None:
         return self.targets.get(name) if name is not None else None
 
+    def may_be_read(self, name: str) -> bool:
+        """Whether something that is not described may read an image."""
+        target = self.targets.get(name)
+        return target is not None and target.image is not None and bool(target.image.mayBeRead)
+
     def _complete_targets(self) -> None:
         """Gives images the format and count that they leave out and an attachment they are bound to states.
 

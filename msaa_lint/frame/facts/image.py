@@ -227,7 +227,8 @@ def _read(target: Target, bindings: Bindings, frame: Frame, readers: Readers) ->
         return None
     uses = readers.uses(target.name)
     if frame.has_commands and (uses or id(image) in bindings.begun):
-        return any(effect == READS and event.aspect is None for event, effect in uses)
+        read = any(effect == READS and event.aspect is None for event, effect in uses)
+        return None if not read and image.mayBeRead else read
     return None if image.usage is None else not READING_USAGES.isdisjoint(image.usage)
 
 

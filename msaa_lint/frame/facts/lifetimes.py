@@ -75,6 +75,8 @@ def _unread_outside(target: Target, attachment: Attachment, aspect: Aspect, same
     image = target.image
     assert image is not None
     commands, presents = contents.frame.has_commands, contents.timeline.presents
+    if image.mayBeRead:
+        return None
     if commands and same_frame:
         return True
     if contents.read_when_idle(target.name) or image.presentable:

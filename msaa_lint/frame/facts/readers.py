@@ -94,7 +94,7 @@ class Readers:
                 elif follows == MAY_READ:
                     yield None
                 elif run.position is not None:
-                    yield False
+                    yield None if target.image.mayBeRead else False
                 else:
                     yield True if target.image.presentable else _usage_reads(target)
 
@@ -145,7 +145,7 @@ class Readers:
         if key not in self._stated:
             idle = (_effect(event) for event in self.timeline.idle.get(target.name, ()) if same_aspect(event.aspect, aspect.name))
             read = READS in idle or any(effect == READS for _, effect in self.uses(target.name, aspect.name))
-            self._stated[key] = True if read else _usage_reads(target)
+            self._stated[key] = True if read else None if target.image.mayBeRead else _usage_reads(target)
         return self._stated[key]
 
     @cached_property

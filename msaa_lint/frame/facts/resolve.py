@@ -71,7 +71,8 @@ def read_in_vain(readers: Readers) -> set[str]:
         lost = bool(drawn) and all(aspect.store in ("DONT_CARE", "NONE") for a in drawn for aspect in a.aspects)
         if resolved or lost:
             in_vain[source.name] = in_vain.get(source.name, 0) + 1
-    return {name for name, count in in_vain.items() if len(readers.reads(name)) == count}
+    counts = {name: count for name, count in in_vain.items() if not frame.may_be_read(name)}
+    return {name for name, count in counts.items() if len(readers.reads(name)) == count}
 
 
 def formats_match(resolve: Resolve, source: Format | None, target: Format | None) -> bool | None:

@@ -100,9 +100,10 @@ class ResolveUses:
     def _read_at(self, ref: EventRef) -> bool | None:
         """Whether something reads what is written at a place, as far as commands say."""
         event, _ = self.search.first_use(ref)
-        if event is None:
-            return None if self.search.steps_left < 0 else False
-        return None if is_unknown(event) else reads(event)
+        if event is not None and reads(event):
+            return True
+        unknown = self.search.steps_left < 0 if event is None else is_unknown(event)
+        return None if unknown or self.frame.may_be_read(ref.image) else False
 
     # Whether it is only copied on.
 
@@ -122,7 +123,7 @@ class ResolveUses:
     def _copy_of(self, ref: EventRef) -> tuple[Command, Target, Target] | None:
         """The command that copies what is written at a place to a presentable image, the image and that one, if nothing else uses it."""
         written = self.search.event(ref)
-        if not every_time(written) or ref.image in self._presented:
+        if not every_time(written) or ref.image in self._presented or self.frame.may_be_read(ref.image):
             return None
         copy: Command | None = None
         for event, next_frame in self.search.after(ref, written.aspect):
@@ -174,7 +175,7 @@ class ResolveUses:
     def _unread_at(self, ref: EventRef) -> bool | None:
         written = self.search.event(ref)
         event, next_frame = self.search.first_use(ref)
-        if event is None and self.search.steps_left < 0:
+        if (event is None and self.search.steps_left < 0) or self.frame.may_be_read(ref.image):
             return None
         if event is not None and event.run is written.run and written.run is not None and not next_frame:
             # What the pass throws away itself is another mistake.

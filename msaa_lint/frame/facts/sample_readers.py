@@ -10,6 +10,11 @@ from .parts import Aspect, Attachment
 ONE, ALL, NOT_STATED, OTHER = "ONE", "ALL", "NOT_STATED", "OTHER"
 
 
+def _is_shader(body: ReadImage) -> bool:
+    """Whether a shader reads, as far as the access is stated."""
+    return body.access is None or any("SHADER" in access for access in body.access)
+
+
 def samples_fetched(attachment: Attachment, aspect: Aspect, search: EventSearch) -> str | None:
     """What the readers of a stored aspect are until it is overwritten, round the loop.
 
@@ -23,7 +28,7 @@ def samples_fetched(attachment: Attachment, aspect: Aspect, search: EventSearch)
         for event, _ in search.after(ref, aspect.name):
             if is_unknown(event):
                 return None
-            if event.command is not None and isinstance(event.command.body, ReadImage):
+            if event.command is not None and isinstance(event.command.body, ReadImage) and _is_shader(event.command.body):
                 bodies.append(event.command.body)
             elif reads(event):
                 return OTHER
@@ -33,4 +38,6 @@ def samples_fetched(attachment: Attachment, aspect: Aspect, search: EventSearch)
         return None
     # What is done with several samples says that they are fetched.
     answers = {ALL if body.samples == "ALL" or body.resolves is not None else ONE if body.samples == 1 else NOT_STATED for body in bodies}
-    return next((answer for answer in (ALL, NOT_STATED, ONE) if answer in answers), OTHER)
+    answer = next((answer for answer in (ALL, NOT_STATED, ONE) if answer in answers), OTHER)
+    may_be_read = any(search.frame.may_be_read(target.name) for target in attachment.targets)
+    return answer if answer in (ALL, OTHER) or not may_be_read else None

@@ -38,9 +38,12 @@ class Variable(NamedTuple):
 
 
 class Module:
-    """The declarations of a module. Raises SpirvError if it is invalid or too large."""
+    """The declarations of a module. Raises SpirvError if it is invalid or too large.
 
-    def __init__(self, code: bytes) -> None:
+    `declarations_only` reads no functions, which are most of a module.
+    """
+
+    def __init__(self, code: bytes, declarations_only: bool = False) -> None:
         if len(code) > MAX_BYTES:
             raise SpirvError(f"it is larger than {MAX_BYTES >> 20} MiB")
         self.words: array.array[int] = words_of(code)
@@ -58,9 +61,9 @@ class Module:
         self.variables: dict[int, Variable] = {}
         self.imports: dict[int, str] = {}
         self.functions: dict[int, Function] = {}
-        self._read()
+        self.words_read = self._read(declarations_only)
 
-    def _read(self) -> None:
+    def _read(self, declarations_only: bool) -> int:
         words = self.words
         end = len(words)
         at = HEADER
@@ -79,6 +82,8 @@ class Module:
                 elif number == op.FUNCTION_PARAMETER and length >= 3:
                     parameters.append(words[at + 2])
             elif number == op.FUNCTION:
+                if declarations_only:
+                    return at
                 if length < 5:
                     raise SpirvError("not SPIR-V: an instruction is too short")
                 within, parameters = (words[at + 2], at + length), []
@@ -89,6 +94,7 @@ class Module:
             at += length
         if within is not None:
             raise SpirvError("not SPIR-V: a function does not end")
+        return end
 
     def _declare(self, number: int, at: int, end: int) -> None:
         words = self.words

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from .call import Call, Place, without_vendor
 from .labels import BufferLabels
-from .objects import DescriptorSet, Framebuffer, Image, Pipeline, RenderPass
+from .objects import DescriptorSet, Framebuffer, Image, Pipeline, ReadableBindings, RenderPass, SetBindings
 
 PASS_BEGINS = ("beginRenderPass", "beginRendering")
 PASS_ENDS = ("endRenderPass", "endRendering")
@@ -23,6 +23,9 @@ MAX_CACHED_COMMANDS = 100_000
 
 
 Parts = tuple[tuple[int, int], ...]
+
+ANY_SET = -1
+"""The number of a set that stands for all sets of a pipeline: their contents are in buffers."""
 
 
 class RecordedCommand:
@@ -46,9 +49,12 @@ class RecordedCommand:
 
 
 class DescriptorReads(NamedTuple):
-    """Descriptor sets that a draw or dispatch may read. Their contents are looked up when the commands are submitted."""
+    """Descriptor sets that a draw or dispatch may read, each with the bindings that its pipeline can read (None if that is unknown).
 
-    sets: tuple[DescriptorSet, ...]
+    Their contents are looked up when the commands are submitted.
+    """
+
+    sets: tuple[tuple[DescriptorSet, ReadableBindings | None], ...]
     stage: str
 
 
@@ -88,11 +94,31 @@ class CommandCache:
         return command
 
 
+class BindPoint:
+    """What is bound for draws, dispatches, or traced rays: descriptor sets by number, and what the pipeline can read of them."""
+
+    __slots__ = ("bindings", "sets")
+
+    def __init__(self) -> None:
+        self.sets: dict[int, DescriptorSet] = {}
+        self.bindings: SetBindings | None = None
+
+    def reads(self) -> tuple[tuple[DescriptorSet, ReadableBindings | None], ...]:
+        """The sets that the pipeline can read, as in DescriptorReads."""
+        if self.bindings is None:
+            return tuple((descriptors, None) for _, descriptors in sorted(self.sets.items()))
+        pairs: list[tuple[DescriptorSet, ReadableBindings | None]] = []
+        for number, descriptors in sorted(self.sets.items()):
+            of_set = self.bindings[number : number + 1] if number != ANY_SET else self.bindings
+            pairs += [(descriptors, bindings) for bindings in of_set if bindings is None or bindings.kinds]
+        return tuple(pairs)
+
+
 class CommandBuffer:
     """A command buffer: its state during recording, and its commands."""
 
-    __slots__ = ("bound", "commands", "compute_bound", "counted", "executes", "fresh", "labels", "many", "omitted", "pipeline", "reads",
-                 "samples", "submission", "submitted_length", "subpass_commands")  # fmt: skip
+    __slots__ = ("commands", "compute", "counted", "executes", "fresh", "graphics", "labels", "many", "omitted", "pipeline",
+                 "ray_tracing", "reads", "samples", "submission", "submitted_length", "subpass_commands")  # fmt: skip
 
     def __init__(self) -> None:
         self.commands: list[RecordedCommand | Execution] = []
@@ -108,14 +134,15 @@ class CommandBuffer:
         """The Submission of its first `submitted_length` commands, if it does not depend on the frame."""
         self.submitted_length = 0
         self.pipeline: Pipeline | None = None
-        self.bound: dict[int, DescriptorSet] = {}
-        self.compute_bound: dict[int, DescriptorSet] = {}
+        self.graphics = BindPoint()
+        self.compute = BindPoint()
+        self.ray_tracing = BindPoint()
         self.subpass_commands: set[RecordedCommand] = set()
         """The draws and clears of the current subpass."""
         self.many: set[Pipeline | None] = set()
         """The pipelines that drew many vertices in the current subpass."""
         self.fresh = True
-        """Whether descriptor sets were bound since the last draw of the current subpass."""
+        """Whether descriptor sets, or a pipeline that reads others, were bound since the last draw of the current subpass."""
         self.samples: int | None = None
         self.labels = BufferLabels()
 

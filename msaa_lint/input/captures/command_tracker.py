@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
+from typing import Any
 
 from msaa_lint.frame.description.models import BeginRendering, RenderingAttachment
 
-from . import values
+from . import set_layouts, values
 from .call import Call
 from .command_buffers import (
+    ANY_SET,
     MAX_FULLSCREEN_VERTICES,
+    BindPoint,
     CommandBuffer,
     DescriptorReads,
     Execution,
@@ -19,10 +22,11 @@ from .command_buffers import (
 )
 from .descriptors import Descriptors
 from .labels import Path, inner_path, printable
-from .objects import DescriptorSet, Framebuffer, Image, Pipeline, RenderPass, freeze
+from .objects import DescriptorSet, Framebuffer, Image, Pipeline, RenderPass, SetBindings, freeze
 from .structures import Tree, to_tree
 
 GRAPHICS = ("VK_PIPELINE_BIND_POINT_GRAPHICS", 0, "0")
+RAY_TRACING = ("VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR", "VK_PIPELINE_BIND_POINT_RAY_TRACING_NV", 1000165000, "1000165000")
 
 MAX_BOUND = 64
 """Maximum number of descriptor sets that are bound at a time; devices allow 32."""
@@ -36,6 +40,9 @@ MAX_QUEUE_LABELS = 256
 MAX_PUSHED = 256
 """Maximum number of images that are pushed at a time; devices allow a few dozen descriptors."""
 
+INFOS = ("pBindDescriptorSetsInfo", "pPushDescriptorSetInfo", "pPushDescriptorSetWithTemplateInfo")
+"""The parameters that hold those of the calls of Vulkan 1.4, which name stages instead of a bind point."""
+
 COUNTED = {"vkCmdDraw": "vertexCount", "vkCmdDrawIndexed": "indexCount"}
 """The parameter with the number of vertices or indices of a draw; other draws have it in a buffer."""
 
@@ -48,6 +55,8 @@ class CommandTracker(Descriptors):
         self.render_passes: dict[int, RenderPass] = {}
         self.framebuffers: dict[int, Framebuffer] = {}
         self.pipelines: dict[int, Pipeline] = {}
+        self.pipeline_bindings: dict[int, SetBindings | None] = {}
+        """What each pipeline can read of descriptor sets; None if that is unknown."""
         self.buffers: dict[int, CommandBuffer | None] = {}
         """None until a command buffer is used."""
         self.pools: dict[int, set[int]] = {}
@@ -168,17 +177,27 @@ class CommandTracker(Descriptors):
                     buffer.record(Execution(secondary.commands, len(secondary.commands)))
         # vkCmdExecuteCommands makes all bound state undefined.
         buffer.pipeline = None
-        buffer.bound.clear()
+        buffer.graphics.sets.clear()
         buffer.fresh = True
 
     # State, draws and dispatches.
 
     def on_CmdBindPipeline(self, call: Call) -> None:
-        if call.args.get("pipelineBindPoint") in GRAPHICS:
-            self.buffer(call).pipeline = self.pipelines.get(values.handle(call.args.get("pipeline")))
+        buffer = self.buffer(call)
+        handle = values.handle(call.args.get("pipeline"))
+        kind = call.args.get("pipelineBindPoint")
+        bindings = self.pipeline_bindings.get(handle)
+        point = _point(buffer, kind)
+        if kind in GRAPHICS:
+            buffer.pipeline = self.pipelines.get(handle)
+            buffer.fresh = buffer.fresh or bindings != point.bindings
+        point.bindings = bindings
 
     def on_CmdBindShaders(self, call: Call) -> None:
-        self.buffer(call).pipeline = None
+        buffer = self.buffer(call)
+        buffer.pipeline = None
+        buffer.graphics.bindings = buffer.compute.bindings = None
+        buffer.fresh = True
 
     def on_CmdSetRasterizationSamples(self, call: Call) -> None:
         count = values.samples(call.args.get("rasterizationSamples"))
@@ -190,55 +209,77 @@ class CommandTracker(Descriptors):
 
     def on_CmdBindDescriptorSets(self, call: Call) -> None:
         buffer = self.buffer(call)
-        point = call.args.get("pipelineBindPoint")
-        bound = buffer.bound if point in GRAPHICS else buffer.compute_bound
-        slot = values.integer(call.args.get("firstSet")) or 0
-        for item in values.items(call.args.get("pDescriptorSets"))[: max(MAX_BOUND - slot, 0) if slot >= 0 else 0]:
-            descriptors = self.set(item)
-            if descriptors is not bound.get(slot):
-                # Rebinding the same set with other offsets does not change its images.
-                buffer.fresh = True
-                if descriptors is not None:
-                    bound[slot] = descriptors
-                else:
-                    del bound[slot]
-            slot += 1
+        for args, point in _points(buffer, call):
+            slot = values.integer(args.get("firstSet")) or 0
+            for item in values.items(args.get("pDescriptorSets"))[: max(MAX_BOUND - slot, 0) if slot >= 0 else 0]:
+                descriptors = self.set(item)
+                if descriptors is not point.sets.get(slot):
+                    # Rebinding the same set with other offsets does not change its images.
+                    buffer.fresh = True
+                    if descriptors is not None:
+                        point.sets[slot] = descriptors
+                    else:
+                        del point.sets[slot]
+                slot += 1
+
+    on_CmdBindDescriptorSets2 = on_CmdBindDescriptorSets
 
     def on_CmdPushDescriptorSet(self, call: Call) -> None:
         buffer = self.buffer(call)
-        point = call.args.get("pipelineBindPoint")
-        bound = buffer.bound if point in GRAPHICS else buffer.compute_bound
+        for args, point in _points(buffer, call):
+            pushed = self._pushed(point, args)
+            if pushed is not None:
+                for item in values.items(args.get("pDescriptorWrites")):
+                    self.write(pushed, values.record(item))
+            self._push(buffer, point, args, pushed)
+
+    on_CmdPushDescriptorSet2 = on_CmdPushDescriptorSet
+
+    def on_CmdPushDescriptorSetWithTemplate(self, call: Call) -> None:
+        buffer = self.buffer(call)
+        for args, _ in _points(buffer, call):
+            template = self.templates.get(values.handle(args.get("descriptorUpdateTemplate")))
+            for point in (_point(buffer, template.point),) if template is not None else (buffer.graphics, buffer.compute):
+                pushed = self._pushed(point, args)
+                if pushed is not None:
+                    self.write_template(pushed, args)
+                self._push(buffer, point, args, pushed)
+
+    on_CmdPushDescriptorSetWithTemplate2 = on_CmdPushDescriptorSetWithTemplate
+
+    @staticmethod
+    def _pushed(point: BindPoint, args: dict[str, Any]) -> DescriptorSet | None:
+        """A copy of the set that descriptors are pushed to; None if its number is invalid."""
+        number = values.integer(args.get("set")) or 0
+        if not 0 <= number < MAX_BOUND:
+            return None
         pushed = DescriptorSet()
-        index = values.integer(call.args.get("set")) or 0
-        if not 0 <= index < MAX_BOUND:
-            return
-        before = bound.get(index)
+        before = point.sets.get(number)
         if before is not None:
             for slot, use in before.images.items():
                 pushed.put(slot, *use)
             pushed.opaque = before.opaque
-        for item in values.items(call.args.get("pDescriptorWrites")):
-            self.write(pushed, values.record(item))
-        for slot in list(pushed.images)[:-MAX_PUSHED]:
-            pushed.remove(slot)
-        bound[index] = pushed
-        buffer.fresh = True
+            pushed.unknown.update(before.unknown)
+        return pushed
 
-    def on_CmdPushDescriptorSetWithTemplate(self, call: Call) -> None:
-        index = values.integer(call.args.get("set")) or 0
-        if 0 <= index < MAX_BOUND:
-            self._opaque(call, index)
+    @staticmethod
+    def _push(buffer: CommandBuffer, point: BindPoint, args: dict[str, Any], pushed: DescriptorSet | None) -> None:
+        if pushed is not None:
+            for slot in list(pushed.images)[:-MAX_PUSHED]:
+                pushed.remove(slot)
+            point.sets[values.integer(args.get("set")) or 0] = pushed
+            buffer.fresh = True
 
     def on_CmdBindDescriptorBuffers(self, call: Call) -> None:
-        self._opaque(call, -1)
-
-    def _opaque(self, call: Call, index: int) -> None:
         """Binds descriptors whose contents the capture omits: they may hold any image."""
         buffer = self.buffer(call)
         unknown = DescriptorSet()
         unknown.opaque = True
-        buffer.bound[index] = buffer.compute_bound[index] = unknown
+        for point in (buffer.graphics, buffer.compute, buffer.ray_tracing):
+            point.sets[ANY_SET] = unknown
         buffer.fresh = True
+
+    on_CmdBindResourceHeap = on_CmdBindDescriptorBuffers
 
     def on_CmdDraw(self, call: Call) -> None:
         counted = COUNTED.get(call.name, "")
@@ -255,7 +296,7 @@ class CommandTracker(Descriptors):
         few = vertices is not None and vertices <= MAX_FULLSCREEN_VERTICES and instances == 1
         key = (buffer.pipeline, counted, vertices if few else None, buffer.dynamic_samples)
         if buffer.fresh:
-            self._reads(buffer, buffer.bound, "FRAGMENT", call)
+            self._reads(buffer, buffer.graphics, "FRAGMENT", call)
             buffer.fresh = False
         buffer.record_once(self.commands.command("draw", key, call, (vertices, instances)))
         if counted and not few:
@@ -267,15 +308,21 @@ class CommandTracker(Descriptors):
 
     def on_CmdDispatch(self, call: Call) -> None:
         buffer = self.buffer(call)
-        self._reads(buffer, buffer.compute_bound, "COMPUTE", call)
+        self._reads(buffer, buffer.compute, "COMPUTE", call)
 
-    on_CmdDispatchIndirect = on_CmdDispatchBase = on_CmdTraceRays = on_CmdTraceRaysIndirect = on_CmdTraceRaysIndirect2 = on_CmdDispatch
+    on_CmdDispatchIndirect = on_CmdDispatchBase = on_CmdDispatch
 
-    def _reads(self, buffer: CommandBuffer, bound: dict[int, DescriptorSet], stage: str, call: Call) -> None:
+    def on_CmdTraceRays(self, call: Call) -> None:
+        buffer = self.buffer(call)
+        self._reads(buffer, buffer.ray_tracing, "COMPUTE", call)
+
+    on_CmdTraceRaysIndirect = on_CmdTraceRaysIndirect2 = on_CmdTraceRays
+
+    def _reads(self, buffer: CommandBuffer, point: BindPoint, stage: str, call: Call) -> None:
         # Contents are looked up at submission: a set with UPDATE_AFTER_BIND may be written after it is bound.
-        if bound:
+        sets = point.reads() if point.sets else ()
+        if sets:
             buffer.reads = True
-            sets = tuple(each for _, each in sorted(bound.items())) if len(bound) > 1 else tuple(bound.values())
             reads = self.commands.command("reads", DescriptorReads(sets, stage), call)
             # An image may be written again between dispatches, but not within a pass.
             (buffer.record_once if stage == "FRAGMENT" else buffer.record)(reads)
@@ -332,7 +379,7 @@ class CommandTracker(Descriptors):
         # A label may end in a later command buffer than it begins.
         outer: Path = tuple(self.queue_labels.get(values.handle(call.args.get("queue")), ()))
         for buffer in buffers:
-            self.frames.submit(buffer, call.at, self.commands, self.readable, outer)
+            self.frames.submit(buffer, call.at, self.commands, self.layouts, outer)
             outer = inner_path(outer, buffer.labels.ended, buffer.labels.open)
 
     def on_WaitForFences(self, call: Call) -> None:
@@ -340,6 +387,22 @@ class CommandTracker(Descriptors):
             self.frames.repetitions.waits += 1
 
     on_WaitSemaphores = on_QueueWaitIdle = on_DeviceWaitIdle = on_WaitForFences
+
+
+def _point(buffer: CommandBuffer, point: object) -> BindPoint:
+    """What is bound at a VkPipelineBindPoint."""
+    return buffer.graphics if point in GRAPHICS else buffer.ray_tracing if point in RAY_TRACING else buffer.compute
+
+
+def _points(buffer: CommandBuffer, call: Call) -> list[tuple[dict[str, Any], BindPoint]]:
+    """The parameters of a call that binds descriptors, and what it binds them for: a bind point, or those of some stages."""
+    args = call.args
+    info = next((args[name] for name in INFOS if isinstance(args.get(name), dict)), None)
+    if info is None:
+        return [(args, _point(buffer, args.get("pipelineBindPoint")))]
+    stages = values.bits("VkShaderStageFlagBits", info.get("stageFlags"))
+    points = ((buffer.graphics, set_layouts.GRAPHICS), (buffer.compute, set_layouts.COMPUTE), (buffer.ray_tracing, set_layouts.RAY_TRACING))
+    return [(info, point) for point, mask in points if stages is None or stages & mask]
 
 
 def area_of(value: object) -> tuple[int, int, int, int] | None:

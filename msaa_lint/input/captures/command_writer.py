@@ -18,6 +18,9 @@ from .yaml_text import Alias, Lines
 SOMETIMES = "SOMETIMES"
 """Stands for the stage of a read that occurs only in some frames."""
 
+TRANSFERS = ("RESOLVE", "TRANSFER")
+"""The stages of reads and writes by commands outside of passes."""
+
 
 MAX_LABELS = 16
 """Maximum number of labels that are written of equal renderings."""
@@ -77,17 +80,17 @@ class CommandWriter:
             if body is not None:
                 comment = f"call {command.at.call}" if command.at.call is not None and command.kind in PASS_BEGINS else ""
                 self.lines.item(2, body, origin, comment)
-        for image in self._for_later_frames(uses_by_image):
-            self._note("readImage", image, "by a later frame")
-        for image, uses in uses_by_image.items():
-            if image.shared and image in self.described_images and any(use.last == "unread" for use in uses.values()):
-                self._note("readImage", image, "its memory is shared")
+        for image, is_fetched in self._for_later_frames(uses_by_image):
+            self._note("readImage", image, "by a later frame", *(() if is_fetched else ("MEMORY_READ",)))
         if len(self.lines.text) == start:
             self.lines.text[-1] += " []"
 
-    def _note(self, kind: str, image: Image, why: str) -> None:
+    def _note(self, kind: str, image: Image, why: str, *access: str) -> None:
         """Writes a use of an image by something outside this frame."""
-        self.lines.item(2, {kind: {"image": self.names.image(image)}}, None, why)
+        body: dict[str, Any] = {"image": self.names.image(image)}
+        if access:
+            body["access"] = list(access)
+        self.lines.item(2, {kind: body}, None, why)
 
     def _command(self, command: RecordedCommand, number: int) -> Any:
         """A command in the form of a description; None if it affects no described image."""
@@ -125,7 +128,7 @@ class CommandWriter:
             stage = key[1]
             body["stage"] = stage
             # A shader may or may not read a descriptor set. Only a transfer is certain, so only it states an access.
-            if stage == "RESOLVE":
+            if stage in TRANSFERS:
                 body["access"] = "TRANSFER_READ" if command.kind == "readImage" else "TRANSFER_WRITE"
         return {command.kind: body}
 
@@ -155,7 +158,7 @@ class CommandWriter:
         return self.names.image(value) if isinstance(value, Image) else value
 
     def _barrier(self, key: Any) -> Any:
-        masks, part, layouts = key
+        masks, part, layouts, _ = key
         body: dict[str, Any] = thaw(masks)
         if part is not None:
             name = self._name(part)
@@ -175,12 +178,13 @@ class CommandWriter:
             if image in self.described_images and roles & defined:
                 yield image
 
-    def _for_later_frames(self, uses_by_image: dict[Image, dict[str, AspectUse]]) -> Iterator[Image]:
-        """Images read by a later frame of another kind, but not by a repetition of this frame."""
+    def _for_later_frames(self, uses_by_image: dict[Image, dict[str, AspectUse]]) -> Iterator[tuple[Image, bool]]:
+        """Images read by a later frame of another kind, but not by a repetition of this frame, and whether by its shaders."""
         for image, uses in uses_by_image.items():
             unread = [aspect for aspect, use in uses.items() if use.last == "unread" and use.first != "read"]
-            if image in self.described_images and any((self._role(image), aspect) in self.kind.later for aspect in unread):
-                yield image
+            reads = {self.kind.later.get((self._role(image), aspect)) for aspect in unread} - {None}
+            if image in self.described_images and reads:
+                yield image, True in reads
 
     def _role(self, image: Image) -> Hashable:
         """The role of an image in the frame; the image itself if it has none."""
@@ -207,7 +211,8 @@ def commands_of(kind: FrameKind) -> Iterator[tuple[RecordedCommand, int]]:
             source = _source_image(command)
             if source is not None and source not in read:
                 read.add(source)
-                yield RecordedCommand("readImage", (source, SOMETIMES), command.at, command.by), number
+                stage = SOMETIMES if command.kind == "readImage" else "TRANSFER"
+                yield RecordedCommand("readImage", (source, stage), command.at, command.by), number
         if number == len(kind.passes):
             return
         begin = kind.passes[number]

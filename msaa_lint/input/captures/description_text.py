@@ -103,7 +103,7 @@ class _Writer:
         if images:
             self.lines.line("images:")
         for image in images:
-            self.lines.member(2, self.names.image(image), image.tree, self.origin(image), origin_comment(image))
+            self.lines.member(2, self.names.image(image), image.description, self.origin(image), origin_comment(image))
 
     def _passes(self, passes: list[RenderPass]) -> None:
         if passes:

@@ -1,53 +1,46 @@
 """Tracks the images in descriptor sets."""
 
-from __future__ import annotations
-
-from typing import Any
+from collections.abc import Iterator
+from typing import Any, NamedTuple
 
 from . import values
 from .call import Call
-from .images import Images
-from .objects import DescriptorSet
+from .layouts import readable
+from .objects import DescriptorSet, UnknownDescriptors
+from .set_layouts import SetLayout, SetLayouts, Template, TemplateEntry, storage_of
 
 MAX_COPIED = 64
 """Maximum number of images that copies always copy."""
 
 _ENDS = ("src", "dst")
-_STORAGE_IMAGE = 3
-_IMAGES = (1, 2, _STORAGE_IMAGE)
-"""VkDescriptorType: COMBINED_IMAGE_SAMPLER, SAMPLED_IMAGE, STORAGE_IMAGE. Input attachments are read on the tile and omitted."""
-_NAMES = {
-    "VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER": False,
-    "VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE": False,
-    "VK_DESCRIPTOR_TYPE_STORAGE_IMAGE": True,
-}
 
 
-class Descriptors(Images):
+class Descriptors(SetLayouts):
     """Tracks the descriptor sets of a capture."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.sets: dict[int, DescriptorSet | None] = {}
-        """None until a set is used."""
+        self.sets: dict[int, DescriptorSet | SetLayout | None] = {}
+        """The layout alone, or None if it is unknown, until a set is used."""
         self.set_pools: dict[int, dict[int, None]] = {}
 
     def on_AllocateDescriptorSets(self, call: Call) -> None:
         info = values.record(call.args.get("pAllocateInfo"))
         pool = self.set_pools.setdefault(values.handle(info.get("descriptorPool")), {})
-        for item in values.items(call.args.get("pDescriptorSets")):
+        layouts = values.items(info.get("pSetLayouts"))
+        for number, item in enumerate(values.items(call.args.get("pDescriptorSets"))):
             handle = values.handle(item)
             if self.has_room(self.sets, call):
-                self.sets[handle] = None
+                self.sets[handle] = self.set_layouts.get(values.handle(layouts[number])) if number < len(layouts) else None
                 pool[handle] = None
 
     def set(self, value: object) -> DescriptorSet | None:
         """The set of a handle; None if there is none."""
         handle = values.handle(value)
         descriptors = self.sets.get(handle)
-        if descriptors is None and handle in self.sets:
-            descriptors = self.sets[handle] = DescriptorSet()
-        return descriptors
+        if not isinstance(descriptors, DescriptorSet) and handle in self.sets:
+            descriptors = self.sets[handle] = DescriptorSet(descriptors)
+        return descriptors if isinstance(descriptors, DescriptorSet) else None
 
     def on_ResetDescriptorPool(self, call: Call) -> None:
         for handle in self.set_pools.pop(values.handle(call.args.get("descriptorPool")), ()):
@@ -79,6 +72,7 @@ class Descriptors(Images):
         More than one descriptor may continue in the next binding, so all images are copied then: the rules only ask what may be read.
         """
         target.opaque = target.opaque or source.opaque
+        target.unknown.update(source.unknown)
         if values.integer(copy.get("descriptorCount")) == 1:
             ends = [(values.integer(copy.get(f"{end}Binding")) or 0, values.integer(copy.get(f"{end}ArrayElement")) or 0) for end in _ENDS]
             use = source.images.get(ends[0])
@@ -96,27 +90,90 @@ class Descriptors(Images):
     def on_UpdateDescriptorSetWithTemplate(self, call: Call) -> None:
         target = self.set(call.args.get("descriptorSet"))
         if target is not None:
-            target.opaque = True
+            self.write_template(target, call.args)
 
     def write(self, target: DescriptorSet, write: dict[str, Any]) -> None:
         """Applies a VkWriteDescriptorSet to a set."""
-        storage = _storage(write.get("descriptorType"))
-        if storage is None:
+        storage = storage_of(write.get("descriptorType"))
+        if not storage:
             return
-        binding = values.integer(write.get("dstBinding")) or 0
-        first = values.integer(write.get("dstArrayElement")) or 0
-        for offset, item in enumerate(values.items(write.get("pImageInfo"))):
-            image = self.views.get(values.handle(values.record(item).get("imageView")))
-            slot = (binding, first + offset)
-            if image is not None and image.attachable:
-                target.put(slot, image, storage)
+        infos = values.items(write.get("pImageInfo"))
+        binding, first = values.count(write.get("dstBinding")) or 0, values.count(write.get("dstArrayElement")) or 0
+        start = 0
+        for run in _runs(target, binding, first, len(infos)):
+            for element, item in enumerate(infos[start : start + run.size], run.element):
+                image = self.views.get(values.handle(values.record(item).get("imageView")))
+                slot = (run.binding, element)
+                if image is not None and image.attachable:
+                    target.put(slot, image, storage[-1])
+                else:
+                    target.remove(slot)
+            start += run.size
+            unknown = target.unknown.get(run.binding)
+            if unknown is not None and not run.element and run.size >= unknown.size:
+                del target.unknown[run.binding]
+
+    def write_template(self, target: DescriptorSet, args: dict[str, Any]) -> None:
+        """Applies an update template to a set. What it writes is unknown if the capture omits it, or the template."""
+        writes = args.get("pDescriptorWrites")
+        template = self.templates.get(values.handle(args.get("descriptorUpdateTemplate")))
+        if isinstance(writes, list):
+            # RenderDoc resolves the template.
+            for write in writes:
+                self.write(target, values.record(write))
+        elif template is not None:
+            self._write_entries(target, template, values.record(args.get("pData")))
+        else:
+            target.opaque = True
+
+    def _write_entries(self, target: DescriptorSet, template: Template, data: dict[str, Any]) -> None:
+        # gfxreconstruct 0.9 writes all structures of the data in order, in a VkWriteDescriptorSet without handles; 1.x writes handles.
+        infos = values.items(data.get("imageInfos", data.get("pImageInfo")))
+        states_handles = "imageInfos" in data or any(values.handle(values.record(info).get("imageView")) for info in infos)
+        start = 0
+        for entry in template.entries:
+            part = infos[start : start + entry.size]
+            start += entry.size
+            if not entry.storage:
+                continue
+            if states_handles and len(part) == entry.size:
+                ends = {"dstBinding": entry.binding, "dstArrayElement": entry.element}
+                self.write(target, {**ends, "descriptorType": entry.descriptor_type, "pImageInfo": part})
             else:
-                target.remove(slot)
+                _write_unknown(target, entry, part)
 
 
-def _storage(kind: object) -> bool | None:
-    """Whether shaders may write a descriptor type; None if it is an input attachment or not an image."""
-    number = values.integer(kind)
-    if number is not None:
-        return number == _STORAGE_IMAGE if number in _IMAGES else None
-    return _NAMES.get(kind) if isinstance(kind, str) else None
+class _Run(NamedTuple):
+    """Descriptors of one binding that an update writes."""
+
+    binding: int
+    element: int
+    size: int
+
+
+def _runs(target: DescriptorSet, binding: int, element: int, count: int) -> Iterator[_Run]:
+    """The descriptors that an update writes, by binding: with the set's layout, those beyond the end of a binding are in the next one."""
+    layout: SetLayout | None = target.layout
+    if layout is None or layout.size(binding) >= element + count:
+        yield _Run(binding, element, count)
+        return
+    for run in layout.runs(binding, element, count):
+        yield _Run(*run)
+
+
+def _write_unknown(target: DescriptorSet, entry: TemplateEntry, infos: list[Any]) -> None:
+    """Writes descriptors whose images are unknown; the capture may state their layouts."""
+    layouts: frozenset[str] | None = None
+    if len(infos) == entry.size:
+        names = {values.enum("VkImageLayout", values.record(info).get("imageLayout")) for info in infos}
+        layouts = frozenset().union(*map(readable, names))
+    for run in _runs(target, entry.binding, entry.element, entry.size):
+        for element in range(run.element, run.element + min(run.size, MAX_COPIED)):
+            target.remove((run.binding, element))
+        before = target.unknown.get(run.binding)
+        if before is not None and (run.element or run.size < before.size):
+            # The other descriptors of the binding are what they were.
+            both = layouts | before.layouts if layouts is not None and before.layouts is not None else None
+            target.unknown[run.binding] = UnknownDescriptors(max(before.size, run.element + run.size), before.storage, both)
+        else:
+            target.unknown[run.binding] = UnknownDescriptors(run.element + run.size, entry.storage, layouts)

@@ -12,6 +12,8 @@ from .command_buffers import RecordedCommand, RenderPassBegin
 from .objects import Image
 
 READ = "read"
+FETCH = "fetch"
+"""A shader reads."""
 OVERWRITE = "overwrite"
 STORE = "store"
 DISCARD = "discard"
@@ -20,12 +22,13 @@ DISCARD = "discard"
 class AspectUse(NamedTuple):
     """The use of one aspect of an image in a frame.
 
-    `first` is its first use: `read`, `overwrite`, or None. `last` is its state at the end: `unread` (stored and not read since), `read`,
-    `discarded`, or None if the frame does not write it.
+    `first` is its first use: `read`, `overwrite`, or None; `is_fetched` says whether that is a shader's read. `last` is its state at the
+    end: `unread` (stored and not read since), `read`, `discarded`, or None if the frame does not write it.
     """
 
     first: str | None
     last: str | None
+    is_fetched: bool = False
 
 
 def aspect_uses(commands: list[RecordedCommand]) -> dict[Image, dict[str, AspectUse]]:
@@ -33,20 +36,20 @@ def aspect_uses(commands: list[RecordedCommand]) -> dict[Image, dict[str, Aspect
     uses: dict[Image, dict[str, AspectUse]] = {}
     for image, aspect, use in _uses(commands):
         for used_aspect in image.aspects if aspect is None else (aspect,):
-            first, last = uses.setdefault(image, {}).get(used_aspect, (None, None))
-            if first is None and use in (READ, OVERWRITE):
-                first = use
-            if use == READ:
+            first, last, is_fetched = uses.setdefault(image, {}).get(used_aspect, AspectUse(None, None))
+            if first is None and use in (READ, FETCH, OVERWRITE):
+                first, is_fetched = OVERWRITE if use == OVERWRITE else READ, use == FETCH
+            if use in (READ, FETCH):
                 last = "read" if last is not None else None
             elif use == STORE:
                 last = "unread"
             elif use == DISCARD:
                 last = "discarded"
-            uses[image][used_aspect] = AspectUse(first, last)
+            uses[image][used_aspect] = AspectUse(first, last, is_fetched)
     return uses
 
 
-_SOURCES = ("readImage", "present", "copyImageToBuffer")
+_SOURCES = ("present", "copyImageToBuffer")
 
 
 def _uses(commands: list[RecordedCommand]) -> Iterator[tuple[Image, str | None, str]]:
@@ -57,6 +60,8 @@ def _uses(commands: list[RecordedCommand]) -> Iterator[tuple[Image, str | None, 
             yield from _render_pass(key)
         elif command.kind == "beginRendering":
             yield from _rendering(key)
+        elif command.kind == "readImage":
+            yield key[0], None, READ if key[1] in ("RESOLVE", "TRANSFER") else FETCH
         elif command.kind in _SOURCES:
             yield _image(key), None, READ
         elif command.kind in ("resolveImage", "copyImage", "blitImage"):
@@ -103,20 +108,15 @@ def _rendering(key: Any) -> Iterator[tuple[Image, str | None, str]]:
         image = attachment.get("image")
         if image is None:
             continue
-        yield from _load(image, aspect, "LOAD" if "RESUMING" in flags else attachment.get("loadOp"), _is_single_level(image))
+        yield from _load(image, aspect, "LOAD" if "RESUMING" in flags else attachment.get("loadOp"), image.is_single_level)
         stored = attachment.get("storeOp") in ("STORE", None) or "SUSPENDING" in flags
         stores.append((image, aspect, STORE if stored else DISCARD))
         target = attachment.get("resolveImage")
         if target is not None and attachment.get("resolveMode") not in (None, "NONE"):
-            if _is_single_level(target):
+            if target.is_single_level:
                 yield target, aspect, OVERWRITE
             stores.append((target, aspect, STORE))
     yield from stores
-
-
-def _is_single_level(image: Image) -> bool:
-    """Whether an image has one mip level and one layer, so that one pass can write all of it."""
-    return all(count == 1 for count in (image.tree.get("mipLevels", 1), image.tree.get("arrayLayers", 1), _depth(image)))
 
 
 def _depth(image: Image) -> int:

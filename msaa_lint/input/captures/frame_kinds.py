@@ -52,8 +52,8 @@ class FrameKind:
         self.gaps: list[dict[Hashable, GapVariant]] = [{} for _ in range(len(passes) + 1)]
         self.is_complete = True
         """Whether a pass has no more commands than MAX_PASS_COMMANDS."""
-        self.later: set[tuple[Hashable, str]] = set()
-        """Images and aspects whose contents a later frame reads."""
+        self.later: dict[tuple[Hashable, str], bool] = {}
+        """Images and aspects whose contents a later frame reads, and whether a shader of it does."""
         self.defined: set[tuple[Hashable, str]] = set()
         self.undefined: set[tuple[Hashable, str]] = set()
         """Images and aspects that the frame reads first: `defined` if an earlier frame stored them, `undefined` if it discarded them."""

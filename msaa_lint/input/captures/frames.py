@@ -14,7 +14,8 @@ from .frame_boundary import aspect_uses
 from .frame_ends import Repetitions, passes_of
 from .frame_kinds import MAX_PASS_COMMANDS, AspectState, DistinctFrame, FrameKind, Role, add_counts, merge, segments_of, shape_of
 from .labels import BufferLabels, FrameLabels, Path
-from .objects import DescriptorSet, Image
+from .layouts import ImageLayouts
+from .objects import Image
 from .set_reads import SetReads
 from .submissions import MAX_REPEATED, Executions, Submission
 
@@ -115,9 +116,8 @@ class Frames:
         if not self.presents and not self.frameless:
             self._split_frames(buffers)
 
-    def submit(self, buffer: CommandBuffer, at: Place, cache: CommandCache, unknown: DescriptorSet, outer: Path = ()) -> None:
-        """Adds what a command buffer executes. `unknown` has the images that may be in a set whose contents are unknown; `outer` are the
-        debug labels that are open at its beginning."""
+    def submit(self, buffer: CommandBuffer, at: Place, cache: CommandCache, layouts: ImageLayouts, outer: Path = ()) -> None:
+        """Adds what a command buffer executes. `layouts` follows it; `outer` are the debug labels that are open at its beginning."""
         submission = self._executions.submission(buffer)
         if buffer.omitted:
             self.limits.setdefault(TOO_MANY_RECORDED, at)
@@ -126,10 +126,16 @@ class Frames:
         if (buffer.reads or submission is not buffer.submission) and not self.spend(len(submission.commands)):
             return self._skip(at)
         if buffer.reads:
-            commands = self._reads.resolve(submission.commands, cache, unknown)
+            commands = self._reads.resolve(submission.commands, cache, layouts)
             if commands is None:
                 return self._skip(at)
             submission = Submission(commands)
+        else:
+            if submission.layout_changes is None:
+                submission.layout_changes = layouts.net_changes(submission.commands)
+            if not self.spend(len(submission.layout_changes)):
+                return self._skip(at)
+            layouts.apply(submission.layout_changes)
         self.add(submission, at, buffer.labels, outer)
 
     def add(self, submission: Submission, at: Place, labels: BufferLabels | None = None, outer: Path = ()) -> None:
@@ -192,6 +198,8 @@ class Frames:
         if frame.kind is not None:
             self.labels.observe(labels, frame.kind.labels)
             frame.kind.labels = frame.kind.labels or labels
+            for image, described in zip(frame.images, frame.kind.images, strict=False):
+                described.may_be_read = described.may_be_read or image.may_be_read
         frame.count += 1
         self.dropped += frame.kind is None
         self._repetitions = self._repetitions + 1 if frame is self._last else 0
@@ -247,7 +255,8 @@ class Frames:
                 state: AspectState | None = image.aspect_states.get(aspect)
                 if use.first == "read":
                     if state is not None and state.state == "unread":
-                        state.kind.later.add((state.role, aspect))
+                        read = (state.role, aspect)
+                        state.kind.later[read] = state.kind.later.get(read, False) or use.is_fetched
                     if state is not None and state.state == "discarded":
                         kind.undefined.add((role, aspect))
                     else:

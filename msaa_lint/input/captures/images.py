@@ -13,7 +13,8 @@ from .call import Call
 from .command_buffers import CommandCache, Parts
 from .devices import Devices
 from .frames import Frames
-from .objects import DescriptorSet, Image, Swapchain, freeze
+from .layouts import ImageLayouts
+from .objects import Image, Swapchain, freeze
 from .structures import to_tree
 from .submissions import Submission
 
@@ -36,8 +37,7 @@ class Images(Devices):
     def __init__(self) -> None:
         super().__init__()
         self.images: dict[int, Image] = {}
-        self.readable = DescriptorSet()
-        """The images that a set whose contents are unknown may have."""
+        self.layouts = ImageLayouts()
         self.views: dict[int, Image] = {}
         self.parts: dict[int, tuple[int, int]] = {}
         """The first mip level and layer of views that do not start at 0."""
@@ -67,18 +67,17 @@ class Images(Devices):
         self._add(handle, image)
         if image.samples > 1 and len(self.multisampled) < MAX_DISTINCT:
             self.multisampled.setdefault(freeze(tree), image)
-        image.shared = any(values.chained(info, kind) is not None for kind in EXTERNAL_MEMORY)
+        image.may_be_read = any(values.chained(info, kind) is not None for kind in EXTERNAL_MEMORY)
 
     def _add(self, handle: int, image: Image) -> None:
+        self._forget(handle)
         self.images[handle] = image
-        if image.attachable and "SAMPLED" in image.tree.get("usage", ("SAMPLED",)):
-            self.readable.put((handle, 0), image, False)
-        else:
-            self.readable.remove((handle, 0))
+        self.layouts.add(image)
 
     def _forget(self, handle: int) -> None:
-        self.images.pop(handle, None)
-        self.readable.remove((handle, 0))
+        image = self.images.pop(handle, None)
+        if image is not None:
+            self.layouts.forget(image)
 
     def on_DestroyImage(self, call: Call) -> None:
         self._forget(values.handle(call.args.get("image")))

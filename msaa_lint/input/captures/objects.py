@@ -1,9 +1,7 @@
 """The objects of a capture that matter for multisampling."""
 
-from __future__ import annotations
-
-from collections.abc import Hashable, Iterator
-from typing import Any
+from collections.abc import Hashable, Iterator, Mapping
+from typing import Any, NamedTuple
 
 from msaa_lint.frame.vulkan.formats import format_of
 
@@ -31,29 +29,50 @@ class CapturedObject:
         self.frames = 0
 
 
+ImageKind = tuple[bool, bool]
+"""Of an image in a descriptor: whether shaders may write it, and whether it is multisampled."""
+
+
 class Image(CapturedObject):
     """An image, possibly of a swapchain. `aspect_states` holds the state of each aspect after its last use, `present` the submission that
     presents it."""
 
-    __slots__ = ("aspect_states", "aspects", "attachable", "present", "shared", "swapchain")
+    __slots__ = ("aspect_states", "aspects", "attachable", "kinds", "layouts", "may_be_read", "present", "swapchain")
 
     def __init__(self, call: Call, number: int, tree: Tree) -> None:
         super().__init__(call, number, tree)
         format = format_of(tree["format"]) if "format" in tree else None
         self.aspects = format.aspects if format is not None else ()
         self.swapchain: Swapchain | None = None
-        self.shared = False
-        """Whether another process or API may read its memory."""
         usage = tree.get("usage")
         self.attachable = usage is None or self.samples > 1 or not ATTACHMENT_USAGES.isdisjoint(usage)
         """Whether a pass may draw to it. Other textures, which are most images of a program, are not tracked."""
         self.aspect_states: dict[str, Any] = {}
         self.present: Any = None
+        self.may_be_read = False
+        """Whether a shader may read it through a descriptor whose contents the capture omits, or another process or API its memory."""
+        by_usage = (("SAMPLED", False), ("STORAGE", True)) if self.attachable else ()
+        self.kinds: tuple[ImageKind, ...] = tuple(
+            (written, self.samples > 1) for name, written in by_usage if usage is None or name in usage
+        )
+        """What it can be in such a descriptor, and `layouts`: those in which it is now. Empty if that is no longer followed."""
+        self.layouts: frozenset[str] = frozenset()
 
     @property
     def samples(self) -> int:
         """The sample count; 1 if the capture does not state it."""
         return self.tree.get("samples") or 1
+
+    @property
+    def description(self) -> Tree:
+        """Its tree, and whether something that is not described may read it."""
+        return {**self.tree, "mayBeRead": True} if self.may_be_read else self.tree
+
+    @property
+    def is_single_level(self) -> bool:
+        """Whether it has one mip level and one layer, so that one pass can write all of it."""
+        depth = self.tree.get("extent", {}).get("depth", 1)
+        return all(count == 1 for count in (self.tree.get("mipLevels", 1), self.tree.get("arrayLayers", 1), depth))
 
 
 class Swapchain(CapturedObject):
@@ -68,9 +87,13 @@ class Swapchain(CapturedObject):
 
 
 class RenderPass(CapturedObject):
-    """A render pass. Render passes created with the same parameters are one object."""
+    """A render pass. Render passes created with the same parameters are one object. `layouts` are those of its attachments."""
 
-    __slots__ = ()
+    __slots__ = ("layouts",)
+
+    def __init__(self, call: Call, number: int, tree: Tree) -> None:
+        super().__init__(call, number, tree)
+        self.layouts: Any = None
 
 
 class Framebuffer(CapturedObject):
@@ -105,21 +128,51 @@ Use = tuple[Image, bool]
 """An image in a descriptor set, and whether shaders may also write it."""
 
 
-class DescriptorSet:
-    """The attachable images of a descriptor set, by binding and element.
+class ReadableBindings:
+    """The bindings of a set that a pipeline can read as images, each with the kinds of image."""
 
-    The contents of an `opaque` set are unknown. `uses` counts the slots of an image. `log` has what was put into the set in order, so that
-    a reader finds what is new since it last read the set; when the log is shortened, `epoch` grows.
+    __slots__ = ("kinds",)
+
+    def __init__(self, kinds: dict[int, tuple[ImageKind, ...]]) -> None:
+        self.kinds = kinds
+
+    def accept(self, bindings: Mapping[int, int], kind: ImageKind) -> bool:
+        """Whether the pipeline can read an image of a kind through one of some bindings."""
+        few, many = sorted((bindings, self.kinds), key=len)
+        return any(binding in many and kind in self.kinds[binding] for binding in few)
+
+
+SetBindings = tuple[ReadableBindings | None, ...]
+"""What a pipeline can read, by set; None for a set whose layout is unknown."""
+
+
+class UnknownDescriptors(NamedTuple):
+    """Descriptors of a binding whose images the capture omits: how many, whether shaders may write them, and their layouts as far as they
+    are stated (as `layouts.readable` tells them apart; None for any)."""
+
+    size: int
+    storage: tuple[bool, ...]
+    layouts: frozenset[str] | None
+
+
+class DescriptorSet:
+    """The attachable images of a descriptor set, by binding and element, and what is unknown of it.
+
+    The contents of an `opaque` set are unknown. `uses` counts the slots of an image by binding. `log` has what was put into the set in
+    order, so that a reader finds what is new since it last read the set; when the log is shortened, `epoch` grows.
     """
 
-    __slots__ = ("epoch", "images", "log", "opaque", "uses")
+    __slots__ = ("epoch", "images", "layout", "log", "opaque", "unknown", "uses")
 
-    def __init__(self) -> None:
+    def __init__(self, layout: Any = None) -> None:
+        self.layout = layout
+        """The SetLayout; None if it is unknown."""
         self.images: dict[tuple[int, int], Use] = {}
-        self.uses: dict[Use, int] = {}
+        self.uses: dict[Use, dict[int, int]] = {}
         self.log: list[Use] = []
         self.epoch = 0
         self.opaque = False
+        self.unknown: dict[int, UnknownDescriptors] = {}
 
     def put(self, slot: tuple[int, int], image: Image, storage: bool) -> None:
         """Writes an image to a slot."""
@@ -130,19 +183,24 @@ class DescriptorSet:
         if before is not None:
             self.remove(slot)
         self.images[slot] = use
-        if use not in self.uses:
+        bindings = self.uses.get(use, {})
+        if slot[0] not in bindings:
             if len(self.log) > 2 * len(self.uses) + 64:
                 self.log = list(self.uses)
                 self.epoch += 1
             self.log.append(use)
-        self.uses[use] = self.uses.get(use, 0) + 1
+        bindings[slot[0]] = bindings.get(slot[0], 0) + 1
+        self.uses[use] = bindings
 
     def remove(self, slot: tuple[int, int]) -> None:
         """Empties a slot."""
         use = self.images.pop(slot, None)
         if use is not None:
-            self.uses[use] -= 1
-            if not self.uses[use]:
+            bindings = self.uses[use]
+            bindings[slot[0]] -= 1
+            if not bindings[slot[0]]:
+                del bindings[slot[0]]
+            if not bindings:
                 del self.uses[use]
 
 

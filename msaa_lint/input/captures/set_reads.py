@@ -7,7 +7,8 @@ from typing import Any
 
 from .call import Call
 from .command_buffers import PASS_BEGINS, CommandCache, DescriptorReads, RecordedCommand, RenderPassBegin
-from .objects import DescriptorSet, Image, images_in
+from .layouts import CHANGING, ImageLayouts, attached
+from .objects import DescriptorSet, Image, ReadableBindings, images_in
 
 BOUNDARIES = (*PASS_BEGINS, "nextSubpass", "endRenderPass", "endRendering")
 """Commands that begin or end a pass or subpass."""
@@ -17,6 +18,9 @@ MAX_READERS = 8
 
 _WRITERS = frozenset(("clearColorImage", "clearDepthStencilImage", "copyBufferToImage", "writeImage", *PASS_BEGINS))
 _TRANSFERS = frozenset(("resolveImage", "copyImage", "blitImage"))
+
+
+EVERY_KIND = tuple((written, multisampled) for written in (False, True) for multisampled in (False, True))
 
 
 class _SetState:
@@ -42,16 +46,18 @@ class SetReads:
 
     def __init__(self, spend: Callable[[int], bool]) -> None:
         self._spend = spend
-        self._states: dict[tuple[DescriptorSet, str], _SetState] = {}
+        self._states: dict[tuple[DescriptorSet, ReadableBindings | None, str], _SetState] = {}
         self._written: list[Image] = []
         self._readers: dict[Image, dict[tuple[str, str], tuple[int, int]]] = {}
         """By image, then by command and stage: the number of reads since the last write, and the section of the last one."""
         self._section = 0
+        self._attachments: frozenset[Image] = frozenset()
+        """The attachments of the current pass that shaders cannot read during it."""
 
-    def resolve(self, commands: list[RecordedCommand], cache: CommandCache, unknown: DescriptorSet) -> list[RecordedCommand] | None:
+    def resolve(self, commands: list[RecordedCommand], cache: CommandCache, layouts: ImageLayouts) -> list[RecordedCommand] | None:
         """The commands of a submission, with descriptor sets replaced by reads of the images that they hold now.
 
-        None if that takes too long. `unknown` has the images that may be in a set whose contents are unknown.
+        None if that takes too long. `layouts` follows the commands, and marks the images that unknown descriptors may hold.
         """
         resolved: list[RecordedCommand] = []
         self._section += 1
@@ -59,16 +65,21 @@ class SetReads:
             key: Any = command.key
             if isinstance(key, DescriptorReads):
                 at = Call(command.by, {}, command.at)
-                for descriptors in key.sets:
-                    for source in (descriptors, unknown) if descriptors.opaque else (descriptors,):
-                        reads = self._reads(source, key.stage)
-                        if reads is None:
-                            return None
-                        for kind, image in reads:
-                            resolved.append(cache.command(kind, (image, key.stage), at))
+                for descriptors, bindings in key.sets:
+                    _mark_unknown(descriptors, bindings, layouts)
+                    reads = self._reads(descriptors, bindings, key.stage)
+                    if reads is None:
+                        return None
+                    for kind, image in reads:
+                        resolved.append(cache.command(kind, (image, key.stage), at))
                 continue
             if command.kind in BOUNDARIES:
                 self._section += 1
+                begins = command.kind in PASS_BEGINS
+                attachments = attached(command) if begins else {}
+                self._attachments = frozenset(image for image, readable in attachments.items() if not readable)
+            if command.kind in CHANGING:
+                layouts.apply(layouts.changes(command))
             if command.kind in _WRITERS or command.kind in _TRANSFERS:
                 self._write(command)
             resolved.append(command)
@@ -83,11 +94,12 @@ class SetReads:
             if image is not None and self._readers.pop(image, None) is not None:
                 self._written.append(image)
 
-    def _reads(self, descriptors: DescriptorSet, stage: str) -> list[tuple[str, Image]] | None:
+    def _reads(self, descriptors: DescriptorSet, bindings: ReadableBindings | None, stage: str) -> list[tuple[str, Image]] | None:
         """The reads and writes of a set's images that the frame does not have yet; None if too many images have been looked at."""
-        state = self._states.get((descriptors, stage))
+        key = (descriptors, bindings, stage)
+        state = self._states.get(key)
         if state is None or state.epoch != descriptors.epoch:
-            state = self._states[descriptors, stage] = _SetState(descriptors.epoch)
+            state = self._states[key] = _SetState(descriptors.epoch)
         new = dict.fromkeys(descriptors.log[state.logged :])
         for image in self._written[state.written :]:
             new.update((use, None) for use in ((image, False), (image, True)) if use in descriptors.uses)
@@ -102,9 +114,17 @@ class SetReads:
             return None
         reads: list[tuple[str, Image]] = []
         for use in new:
-            if use not in descriptors.uses:
+            slots = descriptors.uses.get(use)
+            if slots is None:
                 continue
             image, storage = use
+            if bindings is not None:
+                self._spend(min(len(slots), len(bindings.kinds)))
+                if not bindings.accept(slots, (storage, image.samples > 1)):
+                    continue
+            if image in self._attachments:
+                state.pending[use] = None
+                continue
             readers = self._readers.setdefault(image, {})
             for kind in ("readImage", "writeImage") if storage else ("readImage",):
                 count, section = readers.get((kind, stage), (0, -1))
@@ -114,3 +134,16 @@ class SetReads:
             if readers["readImage", stage][0] < MAX_READERS:
                 state.pending[use] = None
         return reads
+
+
+def _mark_unknown(descriptors: DescriptorSet, bindings: ReadableBindings | None, layouts: ImageLayouts) -> None:
+    """Marks the images that the descriptors of a set whose contents are unknown may hold now."""
+    if descriptors.opaque:
+        for kinds in bindings.kinds.values() if bindings is not None else (EVERY_KIND,):
+            layouts.mark(kinds, None)
+    for binding, unknown in descriptors.unknown.items():
+        kinds = EVERY_KIND if bindings is None else bindings.kinds.get(binding, ())
+        if kinds:
+            kinds = tuple(kind for kind in kinds if kind[0] in unknown.storage)
+            for layout in (None,) if unknown.layouts is None else unknown.layouts:
+                layouts.mark(kinds, layout)

@@ -16,13 +16,15 @@ Item = RecordedCommand | Execution
 class Submission:
     """The commands that a command buffer executes, and those of them that begin passes."""
 
-    __slots__ = ("begins", "commands", "passes")
+    __slots__ = ("begins", "commands", "layout_changes", "passes")
 
     def __init__(self, commands: list[RecordedCommand]) -> None:
         self.commands = commands
         self.begins = tuple(command for command in commands if command.kind in PASS_BEGINS)
         self.passes: tuple[Any, ...] | None = None
         """The identities of the passes; None until they are asked."""
+        self.layout_changes: Any = None
+        """The changes of layouts that the commands make together; None until that is asked."""
 
 
 class Executions:

@@ -11,14 +11,18 @@ from functools import partial
 from typing import Any, NamedTuple
 
 from msaa_lint.frame.description.models import Framebuffer as FramebufferRecord
+from msaa_lint.frame.spirv.bindings import image_bindings
+from msaa_lint.frame.spirv.words import SpirvError
 
-from . import values
+from . import set_layouts, values
 from .call import Call, Mark, without_vendor
 from .command_buffers import RecordedCommand
 from .create_infos import pipeline_of, render_pass_of
 from .images import MAX_DISTINCT
 from .labels import printable
+from .layouts import readable
 from .objects import CapturedObject, Framebuffer, Pipeline, RenderPass, freeze
+from .set_layouts import ShaderImages
 from .structures import Tree, to_tree
 from .transfers import Transfers
 
@@ -36,8 +40,9 @@ DESTROYERS = {
     "FreeMemory": ("memory", "memory"),
     "DestroyRenderPass": ("renderPass", "render_passes"),
     "DestroyFramebuffer": ("framebuffer", "framebuffers"),
-    "DestroyShaderModule": ("shaderModule", "modules"),
-    "DestroyPipeline": ("pipeline", "pipelines"),
+    "DestroyDescriptorSetLayout": ("descriptorSetLayout", "set_layouts"),
+    "DestroyPipelineLayout": ("pipelineLayout", "pipeline_layouts"),
+    "DestroyDescriptorUpdateTemplate": ("descriptorUpdateTemplate", "templates"),
 }
 """The calls that only destroy objects: the parameter with their handles, and the tracker's mapping that holds them."""
 
@@ -45,6 +50,12 @@ MAX_CONTAINERS = 1_000_000
 """Maximum number of structures and arrays in all different render passes and pipelines."""
 
 TOO_MANY_STRUCTURES = f"render passes and pipelines have more than {MAX_CONTAINERS:,} structures; further ones are not followed"
+
+MAX_STAGES = 16
+"""Maximum number of stages of a pipeline whose shaders are read; with more, it is unknown what they read."""
+
+MAX_WORDS = 4_000_000
+"""Maximum number of words of declarations in shaders; what further shaders read is unknown."""
 
 MAX_CACHED_COMMANDS = 4096
 """Maximum number of commands cached by their arguments."""
@@ -68,6 +79,9 @@ class Tracker(Transfers):
     def __init__(self) -> None:
         super().__init__()
         self.modules: dict[int, bytes] = {}
+        self.shader_images: dict[int, dict[str, ShaderImages | None]] = {}
+        """The images that the entry points of modules declare, as far as pipelines have used them."""
+        self._words_left = MAX_WORDS
         self.generation = 0
         """The number of destroyed objects. After a destruction, a handle may refer to another object."""
         self._cache: dict[int, CachedCommand] = {}
@@ -91,6 +105,8 @@ class Tracker(Transfers):
         """Processes one call or mark."""
         if isinstance(call, Mark):
             self.frames.mark(call.kind)
+            if call.kind in ("trimmed", "frameless"):
+                self.layouts.initial = readable(None)
             return
         cached = self._cache.get(id(call.args))
         if cached is not None and cached.args is call.args and cached.generation == self.generation:
@@ -176,8 +192,20 @@ class Tracker(Transfers):
 
     def on_CreateShaderModule(self, call: Call) -> None:
         code = values.record(call.args.get("pCreateInfo")).get("pCode")
+        handle = values.handle(call.args.get("pShaderModule"))
+        self.shader_images.pop(handle, None)
         if isinstance(code, bytes):
-            self.modules[values.handle(call.args.get("pShaderModule"))] = code
+            self.modules[handle] = code
+
+    def on_DestroyShaderModule(self, call: Call) -> None:
+        handle = values.handle(call.args.get("shaderModule"))
+        self.modules.pop(handle, None)
+        self.shader_images.pop(handle, None)
+
+    def on_DestroyPipeline(self, call: Call) -> None:
+        handle = values.handle(call.args.get("pipeline"))
+        self.pipelines.pop(handle, None)
+        self.pipeline_bindings.pop(handle, None)
 
     def on_CreateGraphicsPipelines(self, call: Call) -> None:
         infos = values.items(call.args.get("pCreateInfos"))
@@ -192,6 +220,54 @@ class Tracker(Transfers):
                 self.pipelines[values.handle(handle)] = pipeline
             else:
                 self.pipelines.pop(values.handle(handle), None)
+        self._bindings(call, set_layouts.GRAPHICS)
+
+    def on_CreateComputePipelines(self, call: Call) -> None:
+        self._bindings(call, set_layouts.COMPUTE)
+
+    def on_CreateRayTracingPipelines(self, call: Call) -> None:
+        self._bindings(call, set_layouts.RAY_TRACING)
+
+    def _bindings(self, call: Call, stages: int) -> None:
+        """Keeps what new pipelines can read of descriptor sets."""
+        for item, handle in zip(values.items(call.args.get("pCreateInfos")), values.items(call.args.get("pPipelines")), strict=False):
+            info = values.record(item)
+            self.pipeline_bindings.pop(values.handle(handle), None)
+            if self.has_room(self.pipeline_bindings, call):
+                bindings = self.bindings_of(info.get("layout"), stages, self._images_of_shaders(info))
+                self.pipeline_bindings[values.handle(handle)] = bindings
+
+    def _images_of_shaders(self, info: dict[str, Any]) -> ShaderImages | None:
+        """The images that the shaders of a pipeline declare; None if the code of one of them is unknown."""
+        stages = values.items(info.get("pStages")) or [info.get("stage")]
+        found: dict[tuple[int, int], frozenset[bool]] = {}
+        if values.chained(info, "PIPELINE_LIBRARY_CREATE_INFO") is not None:
+            return None
+        for stage in map(values.record, stages[:MAX_STAGES]):
+            handle, name = values.handle(stage.get("module")), values.text(stage.get("pName"))
+            code = self.modules.get(handle)
+            if code is None or name is None:
+                return None
+            of_module = self.shader_images.setdefault(handle, {})
+            if name not in of_module:
+                of_module[name] = self._images_of(code, name)
+            images = of_module[name]
+            if images is None:
+                return None
+            for place, multisampled in images.items():
+                found[place] = found.get(place, frozenset()) | multisampled
+        return found if len(stages) <= MAX_STAGES else None
+
+    def _images_of(self, code: bytes, name: str) -> ShaderImages | None:
+        """The images that an entry point declares; None if the module is invalid, or many large ones came before it."""
+        if len(code) > 4 * self._words_left:
+            return None
+        try:
+            images, words = image_bindings(code, name)
+        except SpirvError:
+            return None
+        self._words_left -= words
+        return images
 
     # Names.
 

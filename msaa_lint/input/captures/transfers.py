@@ -99,7 +99,26 @@ class Transfers(CommandTracker):
                 masks = to_tree(SubpassDependency, {**barrier, **stages})
                 tree = {key: masks[key] for key in PipelineBarrier.SHAPE if key in masks}
                 layouts = tuple(values.enum("VkImageLayout", barrier.get(each)) for each in ("oldLayout", "newLayout"))
-                buffer.record(self.commands.command("pipelineBarrier", (freeze(tree), image, layouts), call))
+                is_whole = image is not None and _is_whole(image, values.record(barrier.get("subresourceRange")))
+                buffer.record(self.commands.command("pipelineBarrier", (freeze(tree), image, layouts, is_whole), call))
+
+
+_ASPECTS = {"color": 1, "depth": 2, "stencil": 4}
+"""VkImageAspectFlagBits."""
+
+_REMAINING = 0xFFFFFFFF
+
+
+def _is_whole(image: Image, range: dict[str, Any]) -> bool:
+    """Whether a VkImageSubresourceRange is certainly all of an image."""
+    aspects = values.bits("VkImageAspectFlagBits", range.get("aspectMask")) or 0
+    if not image.aspects or any(not aspects & _ASPECTS[aspect] for aspect in image.aspects):
+        return False
+    for base, count, total in (("baseMipLevel", "levelCount", "mipLevels"), ("baseArrayLayer", "layerCount", "arrayLayers")):
+        number, size = values.count(range.get(count)), image.tree.get(total)
+        if values.count(range.get(base)) != 0 or number is None or (number != _REMAINING and (size is None or number < size)):
+            return False
+    return True
 
 
 def _covers_target(regions: list[Any], target: Image) -> bool:

@@ -53,7 +53,7 @@ class Extent(Record):
 
 
 class Image(Record):
-    """VkImageCreateInfo, the memory it is bound to, and what its values encode."""
+    """VkImageCreateInfo, the memory it is bound to, what its values encode, and whether something that is not described may read it."""
 
     format: Format | None = None
     samples: Samples | None = None
@@ -69,6 +69,7 @@ class Image(Record):
     sharingMode: SharingMode | None = None
     initialLayout: Layout | None = None
     encoding: Literal["LINEAR", "GAMMA", "DATA"] | None = None
+    mayBeRead: bool | None = None
 
 
 class AttachmentDescription(Record):

@@ -1,0 +1,196 @@
+"""Tracks the layouts of descriptor sets and pipelines, and update templates: what a pipeline can read of a set."""
+
+from bisect import bisect_left
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+from . import values
+from .call import Call
+from .images import Images
+from .objects import ImageKind, ReadableBindings, SetBindings
+
+GRAPHICS, COMPUTE, RAY_TRACING = 0xDF, 0x20, 0x3F00
+"""VkShaderStageFlagBits of the stages of a bind point."""
+
+_ALL_STAGES = 0x7FFFFFFF
+
+SAMPLER, INPUT_ATTACHMENT = (0, "VK_DESCRIPTOR_TYPE_SAMPLER"), (10, "VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT")
+_STORAGE_IMAGE = (3, "VK_DESCRIPTOR_TYPE_STORAGE_IMAGE")
+_SAMPLED_IMAGES = (
+    1, 2, 1000440000, 1000440001, "VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER", "VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE",
+    "VK_DESCRIPTOR_TYPE_SAMPLE_WEIGHT_IMAGE_QCOM", "VK_DESCRIPTOR_TYPE_BLOCK_MATCH_IMAGE_QCOM",
+)  # fmt: skip
+_MUTABLE = (1000351000, "VK_DESCRIPTOR_TYPE_MUTABLE_EXT", "VK_DESCRIPTOR_TYPE_MUTABLE_VALVE")
+"""VkDescriptorType. A mutable descriptor may be an image."""
+
+MAX_BINDINGS = 4096
+"""Maximum number of bindings in a layout, and of entries in a template; what larger ones contain is unknown."""
+
+MAX_BINDINGS_TOTAL = 1_000_000
+"""Maximum number of bindings and entries in all of them; what further ones contain is unknown."""
+
+Storage = tuple[bool, ...]
+"""The kinds of image that a descriptor can be: whether shaders may write it."""
+
+SAMPLED: Storage = (False,)
+STORAGE: Storage = (True,)
+EITHER: Storage = (False, True)
+
+
+def storage_of(kind: object) -> Storage:
+    """The kinds of image that a VkDescriptorType can be; none for buffers and samplers, and for input attachments, which are read on the
+    tile."""
+    number = values.integer(kind)
+    kind = number if number is not None else values.enumerant_name(kind)
+    return SAMPLED if kind in _SAMPLED_IMAGES else STORAGE if kind in _STORAGE_IMAGE else EITHER if kind in _MUTABLE else ()
+
+
+ShaderImages = dict[tuple[int, int], frozenset[bool]]
+"""The images that shaders declare, by set and binding, and whether they are multisampled."""
+
+
+class SetLayout:
+    """The bindings of a descriptor set in order with their number of descriptors, and those that are images: their kinds and stages."""
+
+    __slots__ = ("counts", "images", "order", "readable")
+
+    def __init__(self, bindings: list[tuple[int, int, Storage, int]]) -> None:
+        ordered = sorted(bindings)
+        self.order = [binding for binding, _, _, _ in ordered]
+        self.counts = [count for _, count, _, _ in ordered]
+        self.images = {binding: (storage, stages) for binding, _, storage, stages in ordered if storage}
+        self.readable: dict[int, ReadableBindings] = {}
+        """What shaders that are not known can read, by the stages of the bind point."""
+
+    def size(self, binding: int) -> int:
+        """The number of descriptors of a binding; 0 if there is no such binding."""
+        at = bisect_left(self.order, binding)
+        return self.counts[at] if at < len(self.order) and self.order[at] == binding else 0
+
+    def runs(self, binding: int, element: int, count: int) -> Iterator[tuple[int, int, int]]:
+        """The descriptors that an update writes, by binding: those beyond the end of a binding are in the next one."""
+        at = bisect_left(self.order, binding)
+        while count > 0 and at < len(self.order):
+            run = min(count, self.counts[at] - element)
+            if run > 0:
+                yield self.order[at], element, run
+                count -= run
+            element = max(element - self.counts[at], 0)
+            at += 1
+
+    def readable_by(self, stages: int, shaders: Mapping[int, frozenset[bool]] | None) -> ReadableBindings:
+        """What the stages of a bind point can read; `shaders` are the images that they declare in this set, None if that is unknown."""
+        if shaders is None:
+            if stages not in self.readable:
+                every = (False, True)
+                self.readable[stages] = ReadableBindings(
+                    {binding: _kinds(storage, every) for binding, (storage, of) in self.images.items() if of & stages}
+                )
+            return self.readable[stages]
+        found = {
+            binding: _kinds(self.images[binding][0], multisampled)
+            for binding, multisampled in shaders.items()
+            if binding in self.images and self.images[binding][1] & stages
+        }
+        return ReadableBindings(found)
+
+
+def _kinds(storage: Storage, multisampled: frozenset[bool] | tuple[bool, ...]) -> tuple[ImageKind, ...]:
+    return tuple((written, samples) for written in storage for samples in multisampled)
+
+
+class TemplateEntry(NamedTuple):
+    """Descriptors that a template writes and that have a VkDescriptorImageInfo: `storage` is empty for samplers and input attachments."""
+
+    binding: int
+    element: int
+    size: int
+    storage: Storage
+    descriptor_type: object
+
+
+class Template(NamedTuple):
+    """A descriptor update template; `point` is the bind point if it pushes descriptors."""
+
+    entries: tuple[TemplateEntry, ...]
+    point: object
+
+
+class SetLayouts(Images):
+    """Tracks the layouts of a capture."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.set_layouts: dict[int, SetLayout] = {}
+        self.pipeline_layouts: dict[int, tuple[SetLayout | None, ...]] = {}
+        self.templates: dict[int, Template] = {}
+        self._bindings_left = MAX_BINDINGS_TOTAL
+        self._shared: dict[frozenset[tuple[int, tuple[ImageKind, ...]]], ReadableBindings] = {}
+        """One object for equal bindings, so that what pipelines read of a set is looked up once."""
+
+    def _take(self, entries: list[Any]) -> bool:
+        """Whether so many bindings are followed."""
+        self._bindings_left -= len(entries) + 1
+        return len(entries) <= MAX_BINDINGS and self._bindings_left >= 0
+
+    def on_CreateDescriptorSetLayout(self, call: Call) -> None:
+        handle = values.handle(call.args.get("pSetLayout"))
+        items = values.items(values.record(call.args.get("pCreateInfo")).get("pBindings"))
+        self.set_layouts.pop(handle, None)
+        if self._take(items):
+            self.set_layouts[handle] = SetLayout([_binding(values.record(item)) for item in items])
+
+    def on_CreatePipelineLayout(self, call: Call) -> None:
+        handle = values.handle(call.args.get("pPipelineLayout"))
+        items = values.items(values.record(call.args.get("pCreateInfo")).get("pSetLayouts"))
+        self.pipeline_layouts.pop(handle, None)
+        if self._take(items):
+            self.pipeline_layouts[handle] = tuple(self.set_layouts.get(values.handle(item)) for item in items)
+
+    def on_CreateDescriptorUpdateTemplate(self, call: Call) -> None:
+        handle = values.handle(call.args.get("pDescriptorUpdateTemplate"))
+        info = values.record(call.args.get("pCreateInfo"))
+        items = values.items(info.get("pDescriptorUpdateEntries"))
+        self.templates.pop(handle, None)
+        if self._take(items):
+            entries = tuple(_entry(values.record(item)) for item in items)
+            self.templates[handle] = Template(tuple(entry for entry in entries if entry is not None), info.get("pipelineBindPoint"))
+
+    def bindings_of(self, layout: object, stages: int, shaders: ShaderImages | None) -> SetBindings | None:
+        """What a pipeline with a layout can read, by set; None if the layout is unknown."""
+        sets = self.pipeline_layouts.get(values.handle(layout))
+        if sets is None:
+            return None
+        by_set: dict[int, dict[int, frozenset[bool]]] | None = None
+        if shaders is not None:
+            by_set = {}
+            for (number, binding), multisampled in shaders.items():
+                by_set.setdefault(number, {})[binding] = multisampled
+        return tuple(
+            self._share(each.readable_by(stages, by_set.get(number, {}) if by_set is not None else None)) if each is not None else None
+            for number, each in enumerate(sets)
+        )
+
+    def _share(self, bindings: ReadableBindings) -> ReadableBindings:
+        if len(self._shared) > MAX_BINDINGS:
+            self._shared.clear()
+        return self._shared.setdefault(frozenset(bindings.kinds.items()), bindings)
+
+
+def _binding(info: dict[str, Any]) -> tuple[int, int, Storage, int]:
+    stages = values.bits("VkShaderStageFlagBits", info.get("stageFlags"))
+    return (
+        values.count(info.get("binding")) or 0, values.count(info.get("descriptorCount")) or 0, storage_of(info.get("descriptorType")),
+        stages if stages is not None else _ALL_STAGES,
+    )  # fmt: skip
+
+
+def _entry(info: dict[str, Any]) -> TemplateEntry | None:
+    kind = info.get("descriptorType")
+    storage = storage_of(kind)
+    number = values.integer(kind)
+    name = number if number is not None else values.enumerant_name(kind)
+    if not storage and name not in SAMPLER and name not in INPUT_ATTACHMENT:
+        return None
+    binding, element, size = (values.count(info.get(member)) or 0 for member in ("dstBinding", "dstArrayElement", "descriptorCount"))
+    return TemplateEntry(binding, element, size, storage, kind)
