@@ -12,7 +12,7 @@ ONE, ALL, NOT_STATED, OTHER = "ONE", "ALL", "NOT_STATED", "OTHER"
 
 def _is_shader(body: ReadImage) -> bool:
     """Whether a shader reads, as far as the access is stated."""
-    return body.access is None or any("SHADER" in access for access in body.access)
+    return body.access is None or "SHADER" in body.access
 
 
 def samples_fetched(attachment: Attachment, aspect: Aspect, search: EventSearch) -> str | None:

@@ -81,15 +81,15 @@ class CommandWriter:
                 comment = f"call {command.at.call}" if command.at.call is not None and command.kind in PASS_BEGINS else ""
                 self.lines.item(2, body, origin, comment)
         for image, is_fetched in self._for_later_frames(uses_by_image):
-            self._note("readImage", image, "by a later frame", *(() if is_fetched else ("MEMORY_READ",)))
+            self._note("readImage", image, "by a later frame", None if is_fetched else "MEMORY_READ")
         if len(self.lines.text) == start:
             self.lines.text[-1] += " []"
 
-    def _note(self, kind: str, image: Image, why: str, *access: str) -> None:
+    def _note(self, kind: str, image: Image, why: str, access: str | None = None) -> None:
         """Writes a use of an image by something outside this frame."""
         body: dict[str, Any] = {"image": self.names.image(image)}
-        if access:
-            body["access"] = list(access)
+        if access is not None:
+            body["access"] = access
         self.lines.item(2, {kind: body}, None, why)
 
     def _command(self, command: RecordedCommand, number: int) -> Any:

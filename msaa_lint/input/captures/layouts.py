@@ -5,7 +5,7 @@ Only images that such a shader has not been able to read yet are followed: the a
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from .command_buffers import RecordedCommand, RenderPassBegin
@@ -61,6 +61,11 @@ class ImageLayouts:
         """Follows an image no longer."""
         self.apply(((image, NONE, True),))
         image.kinds = ()
+
+    def followed(self) -> Iterator[Mapping[Image, None]]:
+        """The images that are followed, by kind and layout."""
+        for by_layout in self._images.values():
+            yield from by_layout.values()
 
     def apply(self, changes: Iterable[Change]) -> None:
         """Changes layouts."""

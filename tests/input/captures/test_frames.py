@@ -155,7 +155,7 @@ def test_a_frame_of_another_kind_reads_what_this_one_left() -> None:
             program.submit(buffer)
             program.present()
     made = read(program).source.text
-    assert '- readImage: {image: "color 256x128 RGBA8 4x #5", access: [MEMORY_READ]}  # by a later frame' in made
+    assert '- readImage: {image: "color 256x128 RGBA8 4x #5", access: MEMORY_READ}  # by a later frame' in made
     assert "MSAA201" not in codes(lint(program.text()))
 
 

@@ -237,7 +237,7 @@ def test_pushed_and_bound_sets_are_bounded() -> None:
         )
     recorded = tracked(program).buffers[buffer]
     assert recorded is not None
-    bound = recorded.bound
+    bound = recorded.graphics.sets
     assert (len(bound), len(bound[0].images)) == (64, 256)
 
 
@@ -261,7 +261,7 @@ def test_destroyed_and_freed_objects_are_forgotten() -> None:
     tracker = tracked(program)
     held: list[Any] = [
         tracker.images, tracker.views, tracker.render_passes, tracker.framebuffers, tracker.pipelines, tracker.sets, tracker.buffers,
-        tracker.swapchains, tracker.readable.images, *tracker.pools.values(), *tracker.set_pools.values(),
+        tracker.swapchains, tracker.pipeline_bindings, *tracker.layouts.followed(), *tracker.pools.values(), *tracker.set_pools.values(),
     ]  # fmt: skip
     assert [len(each) for each in held] == [0] * len(held)
     assert len(tracker.queried[1]["properties"]) == 1
