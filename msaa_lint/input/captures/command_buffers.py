@@ -18,7 +18,7 @@ MAX_FULLSCREEN_VERTICES = 6
 MAX_COMMANDS = 200_000
 """Maximum number of commands per command buffer: equal draws and reads are stored once per subpass, the rest are passes and transfers."""
 
-MAX_CACHED_COMMANDS = 100_000
+MAX_CACHED_COMMANDS = 32_768
 """Maximum number of distinct commands in the cache."""
 
 
@@ -76,21 +76,26 @@ class RenderPassBegin(NamedTuple):
 
 
 class CommandCache:
-    """The distinct commands of a capture."""
+    """The distinct commands of a capture that were used last."""
 
     def __init__(self) -> None:
         self._commands: dict[tuple[str, Hashable, Parts], RecordedCommand] = {}
+        self._older: dict[tuple[str, Hashable, Parts], RecordedCommand] = {}
 
     def command(
         self, kind: str, key: Hashable, call: Call, detail: tuple[int | None, int | None] | None = None, parts: Parts = ()
     ) -> RecordedCommand:
         """The command with a kind, key and parts, created on first use."""
-        command = self._commands.get((kind, key, parts))
+        identity = (kind, key, parts)
+        command = self._commands.get(identity)
         if command is None:
-            if len(self._commands) > MAX_CACHED_COMMANDS:
-                self._commands.clear()
-            command = self._commands[kind, key, parts] = RecordedCommand(kind, key, call.at, call.name, detail)
-            command.parts = parts
+            command = self._older.pop(identity, None)
+            if command is None:
+                command = RecordedCommand(kind, key, call.at, call.name, detail)
+                command.parts = parts
+            if len(self._commands) >= MAX_CACHED_COMMANDS // 2:
+                self._commands, self._older = {}, self._commands
+            self._commands[identity] = command
         return command
 
 

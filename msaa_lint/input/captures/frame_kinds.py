@@ -15,6 +15,12 @@ MAX_ALTERNATES = 8
 MAX_GAP_VARIANTS = 8
 """Maximum number of different command sequences between two passes."""
 
+MAX_VARIANT_COMMANDS = 20_000
+"""Maximum number of commands in these sequences for a kind, beyond one sequence each."""
+
+MAX_MERGED = 32_768
+"""Maximum number of commands that are added to the passes of all kinds after their first frames."""
+
 MAX_PASS_COMMANDS = 4096
 """Maximum number of different draws, reads and clears in a pass."""
 
@@ -40,8 +46,12 @@ class GapVariant:
 class FrameKind:
     """Frames of the same kind: the passes and images of the first, the number of frames, and the merged contents."""
 
-    def __init__(self, number: int, images: list[Image], passes: list[RecordedCommand]) -> None:
+    def __init__(self, number: int, images: list[Image], passes: list[RecordedCommand], length: int) -> None:
         self.number = number
+        self.length = length
+        """The number of commands of the first frame."""
+        self.variant_commands = 0
+        """The number of commands in `gaps`."""
         self.count = 0
         self.images = images
         self.passes = passes
@@ -51,12 +61,19 @@ class FrameKind:
         self.pass_commands: list[dict[Hashable, RecordedCommand]] = [{} for _ in passes]
         self.gaps: list[dict[Hashable, GapVariant]] = [{} for _ in range(len(passes) + 1)]
         self.is_complete = True
-        """Whether a pass has no more commands than MAX_PASS_COMMANDS."""
+        """Whether the passes have all of their commands."""
         self.later: dict[tuple[Hashable, str], bool] = {}
         """Images and aspects whose contents a later frame reads, and whether a shader of it does."""
         self.defined: set[tuple[Hashable, str]] = set()
         self.undefined: set[tuple[Hashable, str]] = set()
         """Images and aspects that the frame reads first: `defined` if an earlier frame stored them, `undefined` if it discarded them."""
+
+
+class Merged:
+    """The number of commands that were added to the passes of all kinds after their first frames."""
+
+    def __init__(self) -> None:
+        self.count = 0
 
 
 class AspectState(NamedTuple):
@@ -76,6 +93,8 @@ class DistinctFrame:
         self.kind = kind
         self.gaps = gaps
         self.commands = commands
+        self.weight = 0
+        """The number of its commands; those that keep much memory count for several."""
         self.count = 0
         self.images = list(roles)
         begins = [command.key for command in commands if isinstance(command.key, RenderPassBegin)]
@@ -92,14 +111,19 @@ def add_counts(frame: DistinctFrame) -> None:
         frame.kind.count += frame.count
         for variants, items in zip(frame.kind.gaps, frame.gaps, strict=True):
             sequence = tuple((command.kind, command.key) for command in items)
-            if sequence in variants or len(variants) < MAX_GAP_VARIANTS:
-                variants.setdefault(sequence, GapVariant(items)).count += frame.count
+            if sequence not in variants:
+                if variants and (len(variants) >= MAX_GAP_VARIANTS or frame.kind.variant_commands + len(items) > MAX_VARIANT_COMMANDS):
+                    continue
+                frame.kind.variant_commands += len(items)
+                variants[sequence] = GapVariant(items)
+            variants[sequence].count += frame.count
     frame.count = 0
 
 
-def merge(kind: FrameKind, segments: list[Segment], roles: dict[Image, Role]) -> list[list[RecordedCommand]]:
+def merge(kind: FrameKind, segments: list[Segment], roles: dict[Image, Role], merged: Merged) -> list[list[RecordedCommand]]:
     """Merges the contents of a frame's passes into its kind, and returns the commands between them."""
     number = 0
+    is_first = not any(kind.pass_commands)
     gaps: list[list[RecordedCommand]] = []
     for begin, items in segments:
         if begin is None:
@@ -117,8 +141,9 @@ def merge(kind: FrameKind, segments: list[Segment], roles: dict[Image, Role]) ->
             identity = (subpass, command_with_roles.kind, command_with_roles.key)
             if identity in pass_commands:
                 continue
-            if len(pass_commands) < MAX_PASS_COMMANDS:
+            if len(pass_commands) < MAX_PASS_COMMANDS and merged.count < MAX_MERGED:
                 pass_commands[identity] = command_with_roles
+                merged.count += not is_first
             else:
                 kind.is_complete = False
         number += 1
@@ -152,7 +177,7 @@ def shape_of(begin: RecordedCommand, roles: dict[Image, Role]) -> Hashable:
     if isinstance(begin.key, RenderPassBegin):
         size = tuple(begin.key.framebuffer.tree.items()) if begin.key.framebuffer is not None else None
         images = tuple(_role(image, roles) if image is not None else None for image in begin.key.images)
-        return ("renderPass", id(begin.key.render_pass), images, size, begin.key.area)
+        return ("renderPass", begin.key.render_pass.number, images, size, begin.key.area)
     return ("rendering", _rendering_shape(begin.key, roles))
 
 

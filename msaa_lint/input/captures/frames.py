@@ -7,12 +7,25 @@ over all frames of a kind; between passes, the most frequent sequence of command
 from __future__ import annotations
 
 from collections.abc import Hashable
+from itertools import count
 
 from .call import Place
 from .command_buffers import MAX_COMMANDS, CommandBuffer, CommandCache, RecordedCommand
 from .frame_boundary import aspect_uses
 from .frame_ends import Repetitions, passes_of
-from .frame_kinds import MAX_PASS_COMMANDS, AspectState, DistinctFrame, FrameKind, Role, add_counts, merge, segments_of, shape_of
+from .frame_kinds import (
+    MAX_MERGED,
+    MAX_PASS_COMMANDS,
+    AspectState,
+    DistinctFrame,
+    FrameKind,
+    Merged,
+    Role,
+    add_counts,
+    merge,
+    segments_of,
+    shape_of,
+)
 from .labels import BufferLabels, FrameLabels, Path
 from .layouts import ImageLayouts
 from .objects import Image
@@ -28,14 +41,25 @@ MAX_DISTINCT_FRAMES = 1024
 MAX_RECENT_FRAMES = 64
 """Maximum number of frames that are recognized by their submissions."""
 
-MAX_STORED_COMMANDS = 1_000_000
+MAX_STORED_COMMANDS = 100_000
 """Maximum total number of commands of these frames."""
 
-MAX_FRAME_COMMANDS = 1_000_000
+PASS_WEIGHT = 16
+"""A command that begins a pass counts as so many: it keeps a framebuffer and its images."""
+
+MAX_CANDIDATES = 4096
+"""Maximum number of kinds of frames that are counted in order to keep the most frequent ones."""
+
+MAX_FOREIGN = 1024
+"""Maximum number of images for each kind of frame that no pass uses, and that it reads from earlier frames or leaves to later ones."""
+
+MAX_FRAME_COMMANDS = 200_000
 """Maximum number of commands per frame."""
 
 MAX_DESCRIBED = 100_000
-"""Maximum number of commands of all kinds of frames, beyond those that the capture records: frames that share commands repeat them."""
+MAX_DESCRIBED_TOTAL = 300_000
+"""Maximum number of commands of all kinds of frames, beyond those that the capture records, because frames that share commands repeat them;
+and in total."""
 
 WORK = 2_000_000
 WORK_PER_SUBMISSION = 2048
@@ -48,6 +72,7 @@ REPEATED = f"a frame executes command buffers again that have {MAX_REPEATED:,} c
 TOO_LONG = f"a frame has more than {MAX_FRAME_COMMANDS:,} commands; those after them are not checked"
 TOO_MANY_RECORDED = f"a command buffer records more than {MAX_COMMANDS:,} commands; those after them are not checked"
 TOO_MANY_IN_PASS = f"a pass has more than {MAX_PASS_COMMANDS:,} different commands; those after them are not checked"
+TOO_MANY_MERGED = f"later frames add more than {MAX_MERGED:,} commands to the passes of earlier ones; those after them are not checked"
 TOO_MUCH_WORK = "frames execute far more commands, or read far more images, than the capture records; some of them are not checked"
 """The limits, as findings state them."""
 
@@ -84,6 +109,10 @@ class Frames:
         self._recent: dict[tuple[Submission, ...], DistinctFrame] = {}
         """Frames by what they submit, to recognize command buffers that are submitted in every frame."""
         self._recent_commands = 0
+        self._candidates: dict[int, int] = {}
+        """The number of frames of kinds that are not kept, by the hash of the kind."""
+        self._kind_numbers = count()
+        self._merged = Merged()
         self._distinct: dict[Hashable, DistinctFrame] = {}
         self._stored_commands = 0
         """The number of commands in the cached frames."""
@@ -167,8 +196,7 @@ class Frames:
         """Ends the capture. The remaining commands are a frame if they begin a pass."""
         if any(submission.begins for submission in self._current):
             self.end()
-        for frame in self._distinct.values():
-            add_counts(frame)
+        self._add_counts()
 
     def end(self) -> None:
         """Ends the frame."""
@@ -188,10 +216,14 @@ class Frames:
             frame = self._frame_of([command for submission in submissions for command in submission.commands])
             if frame is None:
                 return
-            self._recent_commands += len(frame.commands)
+            if frame.kind is None:
+                frame.count = 1
+                add_counts(frame)
+                return
+            self._recent_commands += frame.weight
             if len(self._recent) >= MAX_RECENT_FRAMES or self._recent_commands > MAX_STORED_COMMANDS:
                 self._recent.clear()
-                self._recent_commands = len(frame.commands)
+                self._recent_commands = frame.weight
             self._recent[submissions] = frame
         elif frame.kind is not None and self._repetitions < 2:
             self._track_contents(frame.kind, frame.commands, {image: Role(number) for number, image in enumerate(frame.images)})
@@ -201,7 +233,6 @@ class Frames:
             for image, described in zip(frame.images, frame.kind.images, strict=False):
                 described.may_be_read = described.may_be_read or image.may_be_read
         frame.count += 1
-        self.dropped += frame.kind is None
         self._repetitions = self._repetitions + 1 if frame is self._last else 0
         self._last = frame
 
@@ -214,16 +245,20 @@ class Frames:
                 self._track_contents(frame.kind, commands, {image: Role(number) for number, image in enumerate(frame.images)})
             return frame
         frame = self._classify(commands)
-        if frame is not None:
-            self._stored_commands += len(commands)
+        if frame is not None and frame.kind is not None:
+            frame.weight = len(commands) + PASS_WEIGHT * len(frame.kind.passes)
+            self._stored_commands += frame.weight
             if len(self._distinct) >= MAX_DISTINCT_FRAMES or self._stored_commands > MAX_STORED_COMMANDS:
-                for other in self._distinct.values():
-                    add_counts(other)
+                self._add_counts()
                 self._distinct.clear()
                 self._recent.clear()
-                self._stored_commands = len(commands)
+                self._stored_commands = frame.weight
             self._distinct[key] = frame
         return frame
+
+    def _add_counts(self) -> None:
+        for frame in self._distinct.values():
+            add_counts(frame)
 
     def _classify(self, commands: list[RecordedCommand]) -> DistinctFrame | None:
         """Classifies a new frame; None if it has no pass."""
@@ -235,17 +270,45 @@ class Frames:
         roles: dict[Image, Role] = {}
         shape = tuple(shape_of(begin, roles) for begin in passes)
         kind = self.kinds.get(shape)
-        described = self._described + len(commands)
-        if kind is None and len(self.kinds) < MAX_KINDS and described <= MAX_DESCRIBED + self._recorded:
-            self._described = described
-            kind = self.kinds[shape] = FrameKind(len(self.kinds), list(roles), passes)
+        if kind is None and self._has_room(shape, len(commands)):
+            self._described += len(commands)
+            kind = self.kinds[shape] = FrameKind(next(self._kind_numbers), list(roles), passes, len(commands))
+            kind.count = self._candidates.pop(hash(shape), 0)
+            self.dropped -= kind.count
         gaps: list[list[RecordedCommand]] = []
         if kind is not None:
-            gaps = merge(kind, parts, roles)
+            gaps = merge(kind, parts, roles, self._merged)
             if not kind.is_complete:
-                self.limits.setdefault(TOO_MANY_IN_PASS, commands[0].at)
+                self.limits.setdefault(TOO_MANY_MERGED if self._merged.count >= MAX_MERGED else TOO_MANY_IN_PASS, commands[0].at)
             self._track_contents(kind, commands, roles)
+        else:
+            self.dropped += 1
+            if len(self._candidates) >= MAX_CANDIDATES:
+                self._candidates = {key: count for key, count in self._candidates.items() if count > 1}
+            if len(self._candidates) < MAX_CANDIDATES:
+                self._candidates[hash(shape)] = self._candidates.get(hash(shape), 0) + 1
         return DistinctFrame(kind, commands, roles, gaps)
+
+    def _has_room(self, shape: Hashable, length: int) -> bool:
+        """Whether another kind of frame is kept, whose first frame has so many commands. It may replace the least frequent one."""
+        limit = min(MAX_DESCRIBED + self._recorded, MAX_DESCRIBED_TOTAL)
+        if len(self.kinds) < MAX_KINDS and self._described + length <= limit:
+            return True
+        count = self._candidates.get(hash(shape), 0)
+        if not self.kinds or count < 1 or count & (count - 1):
+            return False
+        # Adding the counts takes time, so this is tried after 1, 2, 4, 8 ... frames.
+        self._add_counts()
+        rarest_shape, rarest = min(self.kinds.items(), key=lambda item: item[1].count)
+        if rarest.count > count or self._described - rarest.length + length > limit:
+            return False
+        del self.kinds[rarest_shape]
+        self._described -= rarest.length
+        self.dropped += rarest.count
+        self._distinct = {key: frame for key, frame in self._distinct.items() if frame.kind is not rarest}
+        self._stored_commands = sum(frame.weight for frame in self._distinct.values())
+        self._recent.clear()
+        return True
 
     def _track_contents(self, kind: FrameKind, commands: list[RecordedCommand], roles: dict[Image, Role]) -> None:
         """Updates what frames read from earlier ones, and the state in which this one leaves its images."""
@@ -256,11 +319,11 @@ class Frames:
                 if use.first == "read":
                     if state is not None and state.state == "unread":
                         read = (state.role, aspect)
-                        state.kind.later[read] = state.kind.later.get(read, False) or use.is_fetched
-                    if state is not None and state.state == "discarded":
-                        kind.undefined.add((role, aspect))
-                    else:
-                        kind.defined.add((role, aspect))
+                        if isinstance(state.role, Role) or len(state.kind.later) < MAX_FOREIGN:
+                            state.kind.later[read] = state.kind.later.get(read, False) or use.is_fetched
+                    reads = kind.undefined if state is not None and state.state == "discarded" else kind.defined
+                    if isinstance(role, Role) or len(reads) < MAX_FOREIGN:
+                        reads.add((role, aspect))
                 if use.last is not None:
                     image.aspect_states[aspect] = AspectState(use.last, kind, role)
                 elif use.first == "read" and state is not None and state.state == "unread":

@@ -23,8 +23,8 @@ MAX_HANDLES = 2_000_000
 
 TOO_MANY_OBJECTS = f"more than {MAX_HANDLES:,} objects of a kind exist at a time; further ones are not followed"
 
-MAX_DISTINCT = 20_000
-"""Maximum number of distinct objects that are described even if no frame uses them."""
+MAX_DISTINCT = 4096
+"""Maximum number of distinct images that are described even if no frame uses them."""
 
 
 EXTERNAL_MEMORY = ("EXTERNAL_MEMORY_IMAGE_CREATE_INFO", "EXTERNAL_MEMORY_IMAGE_CREATE_INFO_NV", "NATIVE_BUFFER_ANDROID")

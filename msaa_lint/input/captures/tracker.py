@@ -6,6 +6,7 @@ a value unknown and never stops the tracker.
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable, Hashable
 from functools import partial
 from typing import Any, NamedTuple
@@ -18,10 +19,9 @@ from . import set_layouts, values
 from .call import Call, Mark, without_vendor
 from .command_buffers import RecordedCommand
 from .create_infos import pipeline_of, render_pass_of
-from .images import MAX_DISTINCT
 from .labels import printable
 from .layouts import readable
-from .objects import CapturedObject, Framebuffer, Pipeline, RenderPass, freeze
+from .objects import CapturedObject, Framebuffer, Pipeline, RenderPass
 from .set_layouts import ShaderImages
 from .structures import Tree, to_tree
 from .transfers import Transfers
@@ -46,8 +46,15 @@ DESTROYERS = {
 }
 """The calls that only destroy objects: the parameter with their handles, and the tracker's mapping that holds them."""
 
-MAX_CONTAINERS = 1_000_000
-"""Maximum number of structures and arrays in all different render passes and pipelines."""
+MAX_CONTAINERS = 500_000
+"""Maximum number of structures and arrays in all different render passes and pipelines that exist at a time. 256 bytes of shader code count
+as one."""
+
+MAX_DESTROYED = 50_000
+"""Maximum number of them in those that were destroyed, which a program may create again."""
+
+MIN_DESTROYED = 4096
+"""Minimum number of objects that are destroyed between two searches for them."""
 
 TOO_MANY_STRUCTURES = f"render passes and pipelines have more than {MAX_CONTAINERS:,} structures; further ones are not followed"
 
@@ -86,8 +93,11 @@ class Tracker(Transfers):
         """The number of destroyed objects. After a destruction, a handle may refer to another object."""
         self._cache: dict[int, CachedCommand] = {}
         self._containers = 0
-        self.distinct: dict[Hashable, Any] = {}
-        """Render passes and pipelines by their creation parameters."""
+        self._next_count = MAX_DESTROYED
+        self._next_generation = 0
+        """The number of structures above which destroyed objects are forgotten, and the generation from which on."""
+        self.distinct: dict[Hashable, RenderPass | Pipeline] = {}
+        """Render passes and pipelines by their creation parameters, those created last at the end."""
         self.handlers: dict[str, Callable[[Call], None]] = {
             "vk" + name[len("on_") :]: getattr(self, name) for name in dir(self) if name.startswith("on_")
         }
@@ -164,19 +174,45 @@ class Tracker(Transfers):
 
     on_CreateRenderPass2 = on_CreateRenderPass
 
-    def _deduplicate(self, kind: Callable[..., Any], call: Call, tree: Tree, *related: RenderPass | None) -> Any:
-        """The object of a kind created earlier from the same parameters, or a new one; None if there are too many different ones."""
-        key = (kind, related, freeze(tree))
-        existing = self.distinct.get(key)
+    def _deduplicate(self, kind: Callable[..., Any], call: Call, tree: Tree, related: RenderPass | None = None, code: int = 0) -> Any:
+        """The object of a kind created earlier from the same parameters, or a new one; None if there are too many different ones. `code` is
+        the number of bytes of its shaders."""
+        digest = hashlib.blake2b(repr(tree).encode("utf-8", "surrogatepass"), digest_size=16).digest()
+        key = (kind, related.number if related is not None else None, digest)
+        existing = self.distinct.pop(key, None)
         if existing is None:
-            self._containers += _containers(tree)
+            weight = _containers(tree) + code // 256
+            self._containers += weight
+            if self._containers > min(self._next_count, MAX_CONTAINERS) and self.generation >= self._next_generation:
+                self._forget_destroyed()
+                self._containers += weight
             if self._containers > MAX_CONTAINERS:
                 self.frames.limits.setdefault(TOO_MANY_STRUCTURES, call.at)
                 return None
-            existing = kind(call, next(self.numbers[kind]), tree, *related)
-            if len(self.distinct) < MAX_DISTINCT:
-                self.distinct[key] = existing
+            arguments = (related,) if kind is Pipeline else ()
+            existing = kind(call, next(self.numbers[kind]), tree, *arguments)
+        self.distinct[key] = existing
         return existing
+
+    def _forget_destroyed(self) -> None:
+        """Forgets the objects that were destroyed, except those created last."""
+        pipelines = self.pipelines.values()
+        existing: set[object] = {*self.render_passes.values(), *pipelines, *(pipeline.render_pass for pipeline in pipelines)}
+        kept = []
+        self._containers = destroyed = 0
+        for key, each in reversed(self.distinct.items()):
+            weight = _containers(each.tree)
+            if isinstance(each, Pipeline):
+                weight += sum(map(len, each.modules.values())) // 256
+            if each not in existing:
+                destroyed += weight
+                if destroyed > min(MAX_DESTROYED // 2, MAX_CONTAINERS // 4):
+                    continue
+            self._containers += weight
+            kept.append((key, each))
+        self.distinct = dict(reversed(kept))
+        self._next_count = self._containers + self._containers // 2 + MAX_DESTROYED // 2
+        self._next_generation = self.generation + MIN_DESTROYED
 
     def on_CreateFramebuffer(self, call: Call) -> None:
         info = values.record(call.args.get("pCreateInfo"))
@@ -214,7 +250,8 @@ class Tracker(Transfers):
             render_pass = self.render_passes.get(values.handle(values.record(info).get("renderPass")))
             if render_pass is not None and tree.get("subpass", 0) >= max(len(render_pass.tree.get("subpasses", ())), 1):
                 del tree["subpass"]
-            pipeline: Pipeline | None = self._deduplicate(Pipeline, call, tree, render_pass)
+            code = sum(map(len, modules.values()))
+            pipeline: Pipeline | None = self._deduplicate(Pipeline, call, tree, render_pass, code)
             if pipeline is not None and self.has_room(self.pipelines, call):
                 pipeline.modules.update(modules)
                 self.pipelines[values.handle(handle)] = pipeline

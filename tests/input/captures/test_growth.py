@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import gc
 import re
+import tracemalloc
 from io import BytesIO
 from typing import Any
 
 import pytest
 
 from msaa_lint.core.finding import Finding
-from msaa_lint.input.captures import images, json_stream, submissions
+from msaa_lint.input.captures import command_buffers, frames, images, json_stream, submissions
 from msaa_lint.input.captures import tracker as tracker_module
 from msaa_lint.input.captures.call import Call, Place
 from msaa_lint.input.captures.description_text import describe_capture
 from msaa_lint.input.captures.submissions import MAX_REPEATED
 from msaa_lint.input.captures.tracker import Tracker
+from msaa_lint.input.readers import gfxreconstruct
+from tests.benchmarks.shapes import capture_frames
 from tests.input.captures.program import COLOR, SAMPLED, Program, attachment, codes, info, lint
 
 
@@ -334,3 +338,58 @@ def test_structures_beyond_a_limit_are_not_followed(monkeypatch: pytest.MonkeyPa
     tracker = tracked(program)
     assert (list(tracker.render_passes), list(tracker.pipelines)) == (passes[:2], [])
     assert len(tracker.frames.limits) == 1
+
+
+def test_memory_does_not_grow_with_frames_of_which_no_two_are_alike(monkeypatch: pytest.MonkeyPatch) -> None:
+    for module, name, limit in (
+        (images, "MAX_DISTINCT", 20),
+        (tracker_module, "MAX_DESTROYED", 200),
+        (tracker_module, "MIN_DESTROYED", 10),
+        (tracker_module, "MAX_CACHED_COMMANDS", 20),
+        (command_buffers, "MAX_CACHED_COMMANDS", 100),
+        (frames, "MAX_CANDIDATES", 20),
+        (frames, "MAX_KINDS", 8),
+        (gfxreconstruct, "MAX_CACHE", 50_000),
+        (gfxreconstruct, "MAX_STARTS", 100),
+    ):
+        monkeypatch.setattr(module, name, limit)
+
+    def kept(size: int) -> int:
+        """The memory in bytes that the state takes after a capture of a size."""
+        gc.collect()
+        tracemalloc.start()
+        tracker = Tracker()
+        for call in gfxreconstruct.calls(BytesIO(b"".join(capture_frames.text(size))), tracker.wanted, None):
+            tracker.feed(call)
+        tracker.finish()
+        gc.collect()
+        memory = tracemalloc.get_traced_memory()[0]
+        tracemalloc.stop()
+        assert tracker.frames.dropped == tracker.frames.total - 8 > 0
+        return memory
+
+    kept(400_000)
+    assert kept(1_200_000) < 1.25 * kept(400_000)
+
+
+def test_the_most_frequent_kinds_of_frames_are_kept() -> None:
+    program = Program()
+    program.swap(1)
+    view = program.view(program.image())
+
+    def frame(passes: int) -> None:
+        buffer = program.buffer()
+        for _ in range(passes):
+            program.rendering(buffer, [info(view, store="STORE")])
+            program.end(buffer, rendering=True)
+        program.submit(buffer)
+        program.present()
+
+    for passes in range(1, 60):
+        frame(passes)
+    for _ in range(10):
+        for passes in (50, 55):
+            frame(passes)
+    tracker = tracked(program)
+    counts = {len(kind.passes): kind.count for kind in tracker.frames.kinds.values()}
+    assert (len(counts), counts[50], counts[55], tracker.frames.dropped) == (32, 11, 11, 79 - 22 - 30)
