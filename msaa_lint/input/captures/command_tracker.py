@@ -65,7 +65,9 @@ class CommandTracker(Descriptors):
 
     def buffer(self, call: Call) -> CommandBuffer:
         """The command buffer of a command. It may be new, because a trimmed capture may lack its allocation."""
-        handle = values.handle(call.args.get("commandBuffer"))
+        handle = call.args.get("commandBuffer")
+        if type(handle) is not int:
+            handle = values.handle(handle)
         buffer = self.buffers.get(handle)
         if buffer is None:
             buffer = self.buffers[handle] = CommandBuffer()

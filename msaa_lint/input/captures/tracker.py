@@ -68,6 +68,15 @@ MAX_CACHED_COMMANDS = 4096
 """Maximum number of commands cached by their arguments."""
 
 
+MAX_ROUTES = 4096
+"""Maximum number of names of calls that are remembered."""
+
+RECURS, BEGINS_OR_ENDS, DESTROYS = 1, 2, 3
+"""How a call is processed: commands whose effect is cached, those of them in BOUNDARY, and calls that destroy objects."""
+
+Route = tuple[Callable[[Call], None], int]
+
+
 class CachedCommand(NamedTuple):
     """The effect of a command, cached by the identity of its arguments, because readers reuse the arguments of identical calls.
 
@@ -91,6 +100,8 @@ class Tracker(Transfers):
         self._words_left = MAX_WORDS
         self.generation = 0
         """The number of destroyed objects. After a destruction, a handle may refer to another object."""
+        self._routes: dict[str, Route] = {}
+        """By the name of the call, with its vendor suffix."""
         self._cache: dict[int, CachedCommand] = {}
         self._containers = 0
         self._next_count = MAX_DESTROYED
@@ -113,28 +124,32 @@ class Tracker(Transfers):
 
     def feed(self, call: Call | Mark) -> None:
         """Processes one call or mark."""
+        handler, way = self._routes.get(call[0]) or self._route(call[0])
         if isinstance(call, Mark):
             self.frames.mark(call.kind)
             if call.kind in ("trimmed", "frameless"):
                 self.layouts.initial = readable(None)
-            return
-        cached = self._cache.get(id(call.args))
-        if cached is not None and cached.args is call.args and cached.generation == self.generation:
-            self._replay(cached, call)
-            return
-        name = call.name
-        handler = self.handlers.get(name)
-        if handler is None:
-            name = without_vendor(name)
-            handler = self.handlers.get(name)
-        if handler is None or (call.result is not None and call.result.startswith("VK_ERROR")):
-            return
-        if name in RECURRING:
-            self._record(handler, call, name in BOUNDARY)
-            return
-        if name.startswith("vkDestroy"):
-            self.generation += 1
-        handler(call)
+        elif way == RECURS or way == BEGINS_OR_ENDS:
+            cached = self._cache.get(id(call.args))
+            if cached is not None and cached.args is call.args and cached.generation == self.generation:
+                self._replay(cached, call)
+            else:
+                self._record(handler, call, way == BEGINS_OR_ENDS)
+        elif call.result is None or not call.result.startswith("VK_ERROR"):
+            if way == DESTROYS:
+                self.generation += 1
+            handler(call)
+
+    def _route(self, name: str) -> Route:
+        """How a call is processed; calls without a handler are ignored."""
+        plain_name = name if name in self.handlers else without_vendor(name)
+        way = DESTROYS if plain_name.startswith("vkDestroy") else 0
+        if plain_name in RECURRING:
+            way = BEGINS_OR_ENDS if plain_name in BOUNDARY else RECURS
+        route = self.handlers.get(plain_name, _ignore), way
+        if len(self._routes) < MAX_ROUTES:
+            self._routes[name] = route
+        return route
 
     def _record(self, handler: Callable[[Call], None], call: Call, boundary: bool) -> None:
         """Processes a recurring command and caches its effect."""
@@ -322,6 +337,10 @@ class Tracker(Transfers):
             created.namer = namer if created.label else None
 
     on_DebugMarkerSetObjectName = on_SetDebugUtilsObjectName
+
+
+def _ignore(call: Call) -> None:
+    """Processes a call without a handler."""
 
 
 def _containers(value: Any) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from typing import Any
 
 from msaa_lint.frame.description.models import PipelineBarrier, Rect, SubpassDependency
@@ -14,8 +15,18 @@ from .objects import Image, freeze
 from .structures import to_tree
 
 
+MAX_MASKS = 4096
+"""Maximum number of cached combinations of stages and accesses."""
+
+_MASKS = ("srcStageMask", "dstStageMask", "srcAccessMask", "dstAccessMask")
+
+
 class Transfers(CommandTracker):
     """Tracks the transfers and barriers of a capture."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._masks_cache: dict[Hashable, Hashable] = {}
 
     def on_CmdClearAttachments(self, call: Call) -> None:
         attachments: list[dict[str, Any]] = []
@@ -95,12 +106,22 @@ class Transfers(CommandTracker):
                 image = self.images.get(values.handle(barrier.get("image")))
                 if name == "pImageMemoryBarriers" and (image is None or not image.attachable):
                     continue
-                # The mask members have the same names in a subpass dependency.
-                masks = to_tree(SubpassDependency, {**barrier, **stages})
-                tree = {key: masks[key] for key in PipelineBarrier.SHAPE if key in masks}
                 layouts = tuple(values.enum("VkImageLayout", barrier.get(each)) for each in ("oldLayout", "newLayout"))
                 is_whole = image is not None and _is_whole(image, values.record(barrier.get("subresourceRange")))
-                buffer.record(self.commands.command("pipelineBarrier", (freeze(tree), image, layouts, is_whole), call))
+                buffer.record(self.commands.command("pipelineBarrier", (self._masks({**barrier, **stages}), image, layouts, is_whole), call))
+
+    def _masks(self, barrier: dict[str, Any]) -> Hashable:
+        """The stages and accesses of a barrier, frozen. A program has few different ones."""
+        given = tuple(barrier.get(member) for member in _MASKS)
+        key = given if not barrier.get("pNext") and all(type(value) in (str, int) or value is None for value in given) else None
+        masks = self._masks_cache.get(key)
+        if masks is None:
+            # The mask members have the same names in a subpass dependency.
+            tree = to_tree(SubpassDependency, barrier)
+            masks = freeze({member: tree[member] for member in PipelineBarrier.SHAPE if member in tree})
+            if key is not None and len(self._masks_cache) < MAX_MASKS:
+                self._masks_cache[key] = masks
+        return masks
 
 
 _ASPECTS = {"color": 1, "depth": 2, "stencil": 4}
