@@ -128,6 +128,13 @@ def _overlap(area: Area, other: Area) -> bool:
 
 
 def _identity(begin: RecordedCommand, pipelines: frozenset[Hashable]) -> PassIdentity:
+    identity: PassIdentity | None = begin.identity
+    if identity is None:
+        identity = begin.identity = _new_identity(begin)
+    return identity._replace(pipelines=pipelines)
+
+
+def _new_identity(begin: RecordedCommand) -> PassIdentity:
     key: Any = begin.key
     attachments: Hashable
     if isinstance(key, RenderPassBegin):
@@ -152,7 +159,7 @@ def _identity(begin: RecordedCommand, pipelines: frozenset[Hashable]) -> PassIde
         # The samples of one image may be resolved to others in turns.
         exact.append((image, part) if image is not None and (image.samples > 1 or not multisampled) else alike)
     drawn = tuple(image for image in images if image is not None)
-    return PassIdentity((attachments, tuple(exact)), (attachments, tuple(similar)), drawn, area, pipelines, loads)
+    return PassIdentity((attachments, tuple(exact)), (attachments, tuple(similar)), drawn, area, frozenset(), loads)
 
 
 def _parameters(image: Image | None) -> Hashable:
