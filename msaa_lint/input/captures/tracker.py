@@ -129,7 +129,7 @@ class Tracker(Transfers):
             self.frames.mark(call.kind)
             if call.kind in ("trimmed", "frameless"):
                 self.layouts.initial = readable(None)
-        elif way == RECURS or way == BEGINS_OR_ENDS:
+        elif way in (RECURS, BEGINS_OR_ENDS):
             cached = self._cache.get(id(call.args))
             if cached is not None and cached.args is call.args and cached.generation == self.generation:
                 self._replay(cached, call)

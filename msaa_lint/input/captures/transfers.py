@@ -14,8 +14,7 @@ from .command_tracker import CommandTracker, area_of
 from .objects import Image, freeze
 from .structures import to_tree
 
-
-MAX_MASKS = 4096
+MAX_MASKS = 512
 """Maximum number of cached combinations of stages and accesses."""
 
 _MASKS = ("srcStageMask", "dstStageMask", "srcAccessMask", "dstAccessMask")
@@ -108,12 +107,13 @@ class Transfers(CommandTracker):
                     continue
                 layouts = tuple(values.enum("VkImageLayout", barrier.get(each)) for each in ("oldLayout", "newLayout"))
                 is_whole = image is not None and _is_whole(image, values.record(barrier.get("subresourceRange")))
-                buffer.record(self.commands.command("pipelineBarrier", (self._masks({**barrier, **stages}), image, layouts, is_whole), call))
+                key = (self._masks({**barrier, **stages}), image, layouts, is_whole)
+                buffer.record(self.commands.command("pipelineBarrier", key, call))
 
     def _masks(self, barrier: dict[str, Any]) -> Hashable:
         """The stages and accesses of a barrier, frozen. A program has few different ones."""
         given = tuple(barrier.get(member) for member in _MASKS)
-        key = given if not barrier.get("pNext") and all(type(value) in (str, int) or value is None for value in given) else None
+        key = given if not barrier.get("pNext") and all(map(_is_small, given)) else None
         masks = self._masks_cache.get(key)
         if masks is None:
             # The mask members have the same names in a subpass dependency.
@@ -122,6 +122,11 @@ class Transfers(CommandTracker):
             if key is not None and len(self._masks_cache) < MAX_MASKS:
                 self._masks_cache[key] = masks
         return masks
+
+
+def _is_small(value: object) -> bool:
+    """Whether a value may be kept as a key."""
+    return value is None or type(value) is int or (type(value) is str and len(value) <= values.MAX_TEXT)
 
 
 _ASPECTS = {"color": 1, "depth": 2, "stencil": 4}
