@@ -131,7 +131,7 @@ def print_facts(path: str, output: str, profile: str | None) -> int:
 def _rows(document: Document, source: Source, path: str, profile: str | None, analyses: ShaderAnalyses) -> list[dict[str, object]]:
     """The facts of every subject of a document. UsageError, with a line for each problem, if it has mistakes."""
     from msaa_lint.frame.facts.subjects import subjects
-    from msaa_lint.frame.profiles import Problem, device_for, device_of
+    from msaa_lint.frame.profiles import Problem, device_for, device_of, replace_captured
     from msaa_lint.input.shader_modules import Modules
     from msaa_lint.linter.study_record import studied
 
@@ -140,6 +140,7 @@ def _rows(document: Document, source: Source, path: str, profile: str | None, an
             places = [source.position(problem.span.start) for problem in document.problems]
             lines = zip(document.problems, places, strict=True)
             raise UsageError(*(f"{path}:{place.line}:{place.column}: {problem.message}" for problem, place in lines))
+        replace_captured(document.description, device_of(profile))
         device = device_for(document.description, path, device_of(profile))
         if isinstance(device, Problem):
             raise UsageError(f"{path}: {device.message}")

@@ -83,7 +83,9 @@ _SELECTORS = (
     _SELECT._replace(name="ignore", help="Rules to disable."),
     Option("rules", "text", "Page or folder of custom rules.", "PATH", repeatable=True),
 )
-_PROFILE = Option("profile", "text", "Device, device class, or vendor to assume for inputs that name none.", "NAME", values="profiles")
+_PROFILE = Option(
+    "profile", "text", "Device, device class, or vendor to assume for captures and inputs that name none.", "NAME", values="profiles"
+)
 _STDIN_FILENAME = Option("stdin_filename", "text", "Name to use for standard input.", "NAME")
 _CONFIGURATION = (
     Option("config", "text", "Use this configuration file.", "FILE"),
@@ -189,7 +191,7 @@ COMMANDS = {
             "Frame": (
                 Option("fps", "decimal", "Frames per second, overriding the input.", "FPS"),
                 _SIZE,
-                _PROFILE._replace(help="Device to assume for inputs that name none.", metavar="NAME|PATH"),
+                _PROFILE._replace(help="Device to assume for captures and inputs that name none.", metavar="NAME|PATH"),
                 Option("milliwatts_per_gbps", "decimal", "Power per GB/s of traffic.", "MW", default="the device's, else 100"),
             ),
             "Comparison": (
@@ -266,7 +268,7 @@ COMMANDS = {
                 Option("size", "text", "Size in pixels.", "WxH", default="the description's, else 1920x1080"),
                 Option("bits", "choice", "Sub-pixel precision of vertices, in bits.", "BITS", choices=("4", "8"), default="8"),
                 Option("ssim", "flag", "Also measure structural similarity (extra `ssim`)."),
-                _PROFILE._replace(help="Device whose traffic to estimate for inputs that name none."),
+                _PROFILE._replace(help="Device whose traffic to estimate for captures and inputs that name none."),
             ),
             "Times": (
                 Option("device", "text", "Measure times on this Vulkan device, by part of its name.", "NAME", default="no times"),

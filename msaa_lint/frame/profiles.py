@@ -62,6 +62,23 @@ def known_profiles() -> tuple[str, ...]:
     return (*names(), *WORDS["vendor"])
 
 
+def replace_captured(description: "Description", default: DeviceProfile | None) -> None:
+    """Replaces the device that a frame was captured on by the given one, if any, in memory that the program would choose there.
+
+    A program that prefers lazily allocated memory takes other memory where there is none, so that of its images is then unknown.
+    """
+    from .description.models import Device
+
+    captured = description.device
+    if default is None or not isinstance(captured, Device) or not captured.captured:
+        return
+    description.device = None
+    if any("LAZILY_ALLOCATED" in flags for flags in captured.memoryTypes or ()):
+        return
+    for image in description.images.values():
+        image.memory = None
+
+
 def device_for(description: "Description", file: str, default: DeviceProfile | None) -> DeviceProfile | Problem | None:
     """The device that a description names or describes, or the family of Metal's GPUs that it states, else the given one.
 

@@ -18,7 +18,7 @@ from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import ShaderStage
 from msaa_lint.frame.description.problems import Problem as DocumentProblem
 from msaa_lint.frame.devices import DeviceProfile
-from msaa_lint.frame.profiles import Problem, device_for
+from msaa_lint.frame.profiles import Problem, device_for, replace_captured
 
 from .results import DocumentResult, FileResult, location_order
 from .rules.budget import Budget
@@ -51,7 +51,8 @@ _LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n|\Z)")
 class LintOptions(NamedTuple):
     """How to lint one input.
 
-    `format` forces a reader; None detects the format from content. `device` is the profile for descriptions that do not name a device.
+    `format` forces a reader; None detects the format from content. `device` is the profile for descriptions that do not name a device, or
+    only the one that they were captured on.
     `ignores` applies suppression comments, `prices` computes the prices of findings. `keys` is the number of undecided rules for which a
     key is looked up that they lack (None: of none), and with `all_keys` all such keys.
     """
@@ -113,7 +114,7 @@ class Engine:
             if parsed.problems and document.problems:
                 document = document._replace(problems=_apart(document.problems, parsed.problems))
             if modules is not None:
-                document = _with_modules(document, modules, options.device)
+                document = document._replace(modules=modules)
             prefix = f"documents[{number}]." if len(parsed.documents) > 1 else ""
             verdicts, device = self.lint_document(document, file, options, bool(parsed.problems))
             findings.extend(_prefixed(verdicts.findings, prefix))
@@ -181,6 +182,7 @@ class Engine:
         from msaa_lint.frame.facts.missing_keys import MissingKeys
         from msaa_lint.frame.facts.subjects import FrameAnalysis
 
+        replace_captured(document.description, options.device)
         device = device_for(document.description, file, options.device)
         if isinstance(device, Problem):
             span = document.description.place("device")
@@ -295,13 +297,6 @@ def _with_fixes(results: Iterable[DocumentResult], findings: list[Finding], opti
             for number in by_key.get(finding_key(finding), ()):
                 findings[index] = fixes[number].with_edits(findings[index])
     return findings
-
-
-def _with_modules(document: Document, modules: Mapping[str, bytes], device: DeviceProfile | None) -> Document:
-    """A captured document with the capture's shaders. A requested device replaces the one that the capture was made on."""
-    if device is not None:
-        document.description.device = None
-    return document._replace(modules=modules)
 
 
 def _prefixed(findings: Iterable[Finding], prefix: str) -> Iterable[Finding]:

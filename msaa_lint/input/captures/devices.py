@@ -130,7 +130,7 @@ class Devices:
             types = None
         api = next((version for version in map(values.integer, members.pop("apiVersion", ())) if version), None)
         report_members = Found(members, features, queries.get("extensions"), types, None, "", api, what="capture")
-        return description(Offer(report(report_members)))
+        return description(Offer(report(report_members))) + "  captured: true\n"
 
     def enabled(self) -> dict[str, Any] | None:
         """The `enabled` section of a description, with the extensions and features that matter for multisampling."""

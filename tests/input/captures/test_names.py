@@ -93,6 +93,7 @@ def test_a_pass_has_the_labels_around_it_or_the_one_that_it_begins_with(steps: s
 
 def test_labels_span_the_command_buffers_of_a_submission_and_those_of_the_queue_all() -> None:
     program = Labeled()
+    program.swap(1)
     begun = target(program)
     first, second, third = program.buffer(), program.buffer(), program.buffer()
     run_steps(program, "<Scene", first, begun)
@@ -102,7 +103,6 @@ def test_labels_span_the_command_buffers_of_a_submission_and_those_of_the_queue_
     program.submit_all(first, second)
     program.queue_label("End")
     program.submit_all(third)
-    program.swap(1)
     program.present()
     assert labels(program) == ["Game / Scene", "Game", None]
 
@@ -128,7 +128,7 @@ def test_a_render_pass_is_named_by_its_labels_if_they_are_always_the_same() -> N
     run_steps(program, "<Left ( . ) > <Right ( . ) >", buffer, main)
     run_steps(program, "<Shadow <cascade-1 ( . ) > >", buffer, shadow)
     program.submit(buffer)
-    assert list(tree(program)["renderPasses"]) == ["Shadow / cascade-1", "pass 256x128 4x #5"]
+    assert list(tree(program)["renderPasses"]) == ["Shadow / cascade-1", "pass 256x128 4x #6"]
 
 
 def test_a_finding_begins_with_the_labels_of_its_pass() -> None:

@@ -24,8 +24,12 @@ class SampleCounts(Record):
 
 
 class Device(Record):
-    """What a device supports; an absent member is unknown."""
+    """What a device supports; an absent member is unknown.
 
+    The frame of a `captured` one was captured on it: `--profile` replaces it.
+    """
+
+    captured: bool | None = None
     name: str | None = None
     vendor: Vendor | None = None
     tiler: bool | None = None
