@@ -93,7 +93,7 @@ class _Plan:
             self.images.images,
             tuple(passes),
             tuple(self.steps),
-            tuple(dict.fromkeys(self.notes)),
+            self.notes.lines(),
             self._extensions(),
             tuple(name for name in OPTIONAL if stated is not None and name not in stated),
             self.reversed,

@@ -22,6 +22,7 @@ from .parts import (
     Image,
 )
 from .plan_integers import mask, number
+from .plan_notes import Notes
 
 DEFAULT_SIZE = (256, 256)
 COLOR_FORMAT, DEPTH_FORMAT = "R8G8B8A8_UNORM", "D32_SFLOAT"
@@ -37,6 +38,13 @@ _BY_LAYOUT = {"SHADER_READ_ONLY_OPTIMAL": SAMPLED, "TRANSFER_SRC_OPTIMAL": TRANS
 
 RENDER_TO_SINGLE_SAMPLED = 0x40000
 """VK_IMAGE_CREATE_MULTISAMPLED_RENDER_TO_SINGLE_SAMPLED_BIT_EXT."""
+
+
+USAGES = 0xFF
+"""The bits of VkImageUsageFlagBits of Vulkan 1.0; the others need extensions that confirm does not enable."""
+
+FLAGS = 0x5F8 | RENDER_TO_SINGLE_SAMPLED
+"""The bits of VkImageCreateFlagBits that confirm sets: not those of sparse, disjoint, and protected images, and of other extensions."""
 
 
 class _Used:
@@ -63,7 +71,7 @@ class Images:
 
     def __init__(self, frame: Frame) -> None:
         self.frame = frame
-        self.notes: list[str] = []
+        self.notes = Notes()
         self._used: dict[int, _Used] = {}
         self._numbers: dict[int, int] = {}
         self.base, self._sized = _base(frame)
@@ -182,12 +190,12 @@ class Images:
                 depth = used.usage & DEPTH_ATTACHMENT and not used.usage & COLOR_ATTACHMENT
                 used.format = known or format_of(DEPTH_FORMAT if depth else COLOR_FORMAT)
                 assert used.format is not None
-                self.notes.append(f"the format of {used.name} is not stated: {used.format.name} is assumed")
+                self.notes.append(f"no format is stated for {{}}: {used.format.name} is assumed", used.name)
         for used in self._used.values():
             if used.samples is None:
                 beside = [other.samples for other in used.beside if other.samples is not None]
                 used.samples = 1 if used.resolved_to and not used.source else max(beside) if beside else 4 if used.source else 1
-                self.notes.append(f"the sample count of {used.name} is not stated: {used.samples} is assumed")
+                self.notes.append(f"no sample count is stated for {{}}: {used.samples} is assumed", used.name)
 
     def _image(self, used: _Used) -> Image:
         record = used.target.image
@@ -200,7 +208,7 @@ class Images:
         if record is None and used.single_sampled and used.samples == 1:
             flags = RENDER_TO_SINGLE_SAMPLED
         if record is not None:
-            flags = mask("VkImageCreateFlagBits", record.flags)
+            flags = mask("VkImageCreateFlagBits", record.flags) & FLAGS
             type_name = record.imageType or "2D"
             tiling = number("VkImageTiling", record.tiling) if record.tiling is not None else 0
             levels = record.mipLevels or 1
@@ -208,7 +216,9 @@ class Images:
             layers = record.arrayLayers or (6 if cube else layers)
             lazy = "LAZILY_ALLOCATED" in (record.memory or ())
             if record.usage is not None:
-                usage = mask("VkImageUsageFlagBits", record.usage)
+                usage = mask("VkImageUsageFlagBits", record.usage) & USAGES
+                self._left_out("usage", record.usage, "VkImageUsageFlagBits", USAGES, used.name)
+            self._left_out("flag", record.flags or (), "VkImageCreateFlagBits", FLAGS, used.name)
             if cube:
                 height = width
             if record.extent is not None:
@@ -221,6 +231,12 @@ class Images:
             used.name, number("VkFormat", format.name), used.samples, usage, width, 1 if kind == 0 else height, depth, layers, levels,
             kind, tiling, flags, lazy, aspects, format.numeric, format.bytes,
         )  # fmt: skip
+
+    def _left_out(self, kind: str, names: Iterable[str], enum: str, kept: int, image: str) -> None:
+        ignored = [name for name in names if not mask(enum, [name]) & kept]
+        if ignored:
+            words = f"{kind}s {', '.join(ignored)} of {{}} are" if len(ignored) > 1 else f"{kind} {ignored[0]} of {{}} is"
+            self.notes.append(f"the {words} ignored", image)
 
 
 def image_name(described: Pass, attachment: Attachment, target: Target) -> str:

@@ -11,10 +11,14 @@ from msaa_lint.frame.vulkan.formats import format_of
 
 from .parts import DEPTH, KEPT_DYNAMIC, SCISSOR, STENCIL, VIEWPORT, Blend, Image, Pipeline
 from .plan_integers import mask, number
+from .plan_notes import Notes
 from .plan_shaders import stages
 
 LESS, GREATER = 1, 4
 """VkCompareOp."""
+
+VIEWPORTS = (VIEWPORT, SCISSOR, VALUES["VkDynamicState"]["VIEWPORT_WITH_COUNT"], VALUES["VkDynamicState"]["SCISSOR_WITH_COUNT"])
+"""VkDynamicState: a single viewport and scissor are always dynamic."""
 
 
 def built_in(
@@ -47,7 +51,7 @@ def built_in(
     )
 
 
-def described(record: DescribedPipeline, fitting: Pipeline, folder: str, text: list[str]) -> Pipeline:
+def described(record: DescribedPipeline, fitting: Pipeline, folder: str, text: Notes) -> Pipeline:
     """A described pipeline, based on one that is compatible with its attachments. UnusableShader if a shader of it cannot be used."""
     pipeline = fitting._replace(name=record.key)
     state = record.multisampleState
@@ -105,22 +109,20 @@ def _numeric(name: str | None) -> str:
     return format.numeric if format is not None else ""
 
 
-def _dynamic(record: DescribedPipeline, pipeline: Pipeline, notes: list[str]) -> Pipeline:
-    states = []
-    for name in record.dynamicState:
-        value = VALUES["VkDynamicState"][name]
-        if value in KEPT_DYNAMIC:
-            states.append(value)
-        elif value not in (VIEWPORT, SCISSOR):
-            notes.append(f"the dynamic state {name} of {record.key} is ignored")
-    return pipeline._replace(dynamic=(VIEWPORT, SCISSOR, *states))
+def _dynamic(record: DescribedPipeline, pipeline: Pipeline, notes: Notes) -> Pipeline:
+    values = {name: VALUES["VkDynamicState"][name] for name in record.dynamicState}
+    ignored = [name for name, value in values.items() if value not in (*KEPT_DYNAMIC, *VIEWPORTS)]
+    if ignored:
+        states = f"state {ignored[0]}" if len(ignored) == 1 else f"states {', '.join(ignored)}"
+        notes.append(f"the dynamic {states} of {{}} {'is' if len(ignored) == 1 else 'are'} ignored", record.key)
+    return pipeline._replace(dynamic=(VIEWPORT, SCISSOR, *(value for value in values.values() if value in KEPT_DYNAMIC)))
 
 
-def _shaders(record: DescribedPipeline, pipeline: Pipeline, folder: str, notes: list[str]) -> Pipeline:
+def _shaders(record: DescribedPipeline, pipeline: Pipeline, folder: str, notes: Notes) -> Pipeline:
     """Adds the described SPIR-V of the vertex and fragment stages."""
     described_stages = stages(record, folder, notes)
     if record.vertexInputState is not None and not any(stage.stage == 1 for stage in described_stages):
-        notes.append(f"the vertex input of {record.key} is ignored: the built-in shader has its own vertices")
+        notes.append("the vertex input of {} is ignored: the built-in shader has its own vertices", record.key)
     return pipeline._replace(stages=described_stages)
 
 

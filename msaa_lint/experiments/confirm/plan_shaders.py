@@ -6,7 +6,7 @@ import math
 import os
 import struct
 import sys
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from msaa_lint.core.project import Outside, project_root, real_path
 from msaa_lint.core.quote import quoted_path
@@ -19,7 +19,11 @@ from msaa_lint.frame.spirv.words import SpirvError
 
 from .parts import Stage
 from .plan_integers import number
+from .plan_notes import Notes
 from .shaders.spirv import needs
+
+VERTEX = 1
+"""VK_SHADER_STAGE_VERTEX_BIT."""
 
 _FLOATS = {16: "e", 32: "f", 64: "d"}
 """The formats of `struct` by width in bits."""
@@ -29,39 +33,49 @@ class UnusableShader(Exception):
     """A described shader that must not be replaced by a built-in one; the message is for the user."""
 
 
-def stages(record: Pipeline, folder: str, notes: list[str]) -> tuple[Stage, ...]:
+def stages(record: Pipeline, folder: str, notes: Notes) -> tuple[Stage, ...]:
     """The vertex and fragment stages whose files exist and need nothing that is not described; notes say why others are left out.
 
     The instructions are not validated: the driver runs in its own process. UnusableShader for a file outside the project, one that cannot
     be read, and a constant that does not fit its type.
     """
     found: list[Stage] = []
+    reading: Stage | None = None
     stated_stages = {stage_record.stage for stage_record in record.stages}
     for stage_record in record.stages:
-        title = f"the {(stage_record.stage or 'unnamed').lower()} shader of {record.key}"
+        shader = f"the {(stage_record.stage or 'unnamed').lower()} shader of "
+        title = shader + record.key
         if stage_record.stage is not None and stage_record.stage not in ("VERTEX", "FRAGMENT"):
-            notes.append(f"{title} is ignored: only vertex and fragment shaders are supported")
+            notes.append(f"{shader}{{}} is ignored: only vertex and fragment shaders are supported", record.key)
             continue
         if stage_record.module is None and stage_record.stage is None:
             continue
         path = os.path.join(folder, stage_record.module or "")
         code = _code(path, title, folder) if stage_record.module else None
         if code is None or stage_record.stage is None:
-            notes.append(f"{title} does not exist: a built-in one is used")
+            notes.append(f"{shader}{{}} does not exist: a built-in one is used", record.key)
             continue
         try:
-            reason = _undescribed(code, stage_record.stage, "VERTEX" in stated_stages)
+            inputs = needs(code)
+            reason = _undescribed(inputs, stage_record.stage, "VERTEX" in stated_stages)
             module = Module(code)
         except (SpirvError, ValueError) as error:
             notes.append(f"{title} cannot be read ({error}): a built-in one is used")
             continue
         if reason:
-            notes.append(f"{title} {reason}: a built-in one is used")
+            notes.append(f"{shader}{{}} {reason}: a built-in one is used", record.key)
             continue
         # The child process has another working folder.
         real = real_path(path, project_root(folder))
         stage = number("VkShaderStageFlagBits", stage_record.stage)
         found.append(Stage(stage, real, stage_record.name or "main", _constants(module, stage_record, title)))
+        if stage_record.stage == "FRAGMENT" and "inputs" in inputs:
+            reading = found[-1]
+    if reading is not None and all(stage.stage != VERTEX for stage in found):
+        notes.append(
+            "the fragment shader of {} has inputs that the built-in vertex shader does not write: a built-in one is used", record.key
+        )
+        found.remove(reading)
     return tuple(found)
 
 
@@ -78,9 +92,8 @@ def _code(path: str, title: str, folder: str) -> bytes | None:
         raise UnusableShader(f"{title}, {quoted_path(path)}, cannot be read: {reason}") from None
 
 
-def _undescribed(code: bytes, stage: str, has_vertex_stage: bool) -> str:
-    """What a shader needs that no description states; empty if it needs nothing. ValueError for data that is not SPIR-V."""
-    inputs = needs(code)
+def _undescribed(inputs: Collection[str], stage: str, has_vertex_stage: bool) -> str:
+    """What a shader needs that no description states; empty if it needs nothing."""
     if "descriptors" in inputs:
         return "reads descriptors, which are not described"
     if "inputs" in inputs and (stage == "VERTEX" or not has_vertex_stage):

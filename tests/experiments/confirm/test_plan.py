@@ -516,9 +516,11 @@ renderPasses:
     operations = [(each.load, each.store, each.initial) for each in one(made).attachments]
     assert operations == [(2, 0, UNDEFINED)] * 4
     expected = [
-        f"the format of main.{name} is not stated: {'R8G8B8A8_UNORM' if name in 'co' else 'D32_SFLOAT'} is assumed" for name in "cods"
+        "no format is stated for main.c and main.o: R8G8B8A8_UNORM is assumed",
+        "no format is stated for main.d and main.s: D32_SFLOAT is assumed",
+        "no sample count is stated for main.c and main.d: 4 is assumed",
+        "no sample count is stated for main.o and main.s: 1 is assumed",
     ]
-    expected += [f"the sample count of main.{name} is not stated: {4 if name in 'cd' else 1} is assumed" for name in "cods"]
     expected += ["no size is stated: 256x256 is assumed"]
     for name in "cods":
         expected += [
@@ -555,12 +557,11 @@ commands:
         ("ms", RGBA16F, 8), ("one", RGBA16F, 1), ("beside", D32, 8), ("source", RGBA8, 4), ("target", RGBA8, 1),
     ]  # fmt: skip
     assert list(made.defaults) == [
-        "the format of ms is not stated: R16G16B16A16_SFLOAT is assumed",
-        "the format of target is not stated: R8G8B8A8_UNORM is assumed",
-        "the sample count of one is not stated: 1 is assumed",
-        "the sample count of beside is not stated: 8 is assumed",
-        "the sample count of source is not stated: 4 is assumed",
-        "the sample count of target is not stated: 1 is assumed",
+        "no format is stated for ms: R16G16B16A16_SFLOAT is assumed",
+        "no format is stated for target: R8G8B8A8_UNORM is assumed",
+        "no sample count is stated for one and target: 1 is assumed",
+        "no sample count is stated for beside: 8 is assumed",
+        "no sample count is stated for source: 4 is assumed",
     ]
 
 
@@ -1301,3 +1302,49 @@ def test_any_description_is_planned(description: Any, arguments: dict[str, Any])
 def test_what_is_no_plan_is_refused(data: Any) -> None:
     with pytest.raises((KeyError, TypeError, ValueError)):
         from_json(data)
+
+
+def test_notes_that_differ_in_a_name_are_one() -> None:
+    pipelines = "".join(f"  p{n}: {{dynamicState: [VIEWPORT_WITH_COUNT, LINE_WIDTH, DEPTH_BIAS]}}\n" for n in range(6))
+    made = planned(f"pipelines:\n{pipelines}commands: []\n")
+    assert "the dynamic states LINE_WIDTH, DEPTH_BIAS of p0, p1, p2 and 3 more are ignored" in made.defaults
+
+
+def test_layouts_usages_and_flags_of_extensions_are_replaced() -> None:
+    """A device without these extensions would reject them, whatever the frame is about."""
+    made = planned(
+        """\
+frame: {width: 8, height: 8}
+images:
+  c:
+    format: R8G8B8A8_UNORM
+    samples: 1
+    flags: [SPARSE_BINDING, MUTABLE_FORMAT]
+    usage: [COLOR_ATTACHMENT, HOST_TRANSFER, ATTACHMENT_FEEDBACK_LOOP_EXT]
+renderPasses:
+  p:
+    attachments:
+      c:
+        {image: c, loadOp: CLEAR, storeOp: STORE, initialLayout: PREINITIALIZED, finalLayout: ATTACHMENT_FEEDBACK_LOOP_OPTIMAL_EXT}
+    subpasses: [{colorAttachments: [{attachment: c, layout: RENDERING_LOCAL_READ}]}]
+"""
+    )
+    assert (image(made, "c").usage, image(made, "c").flags) == (parts.COLOR_ATTACHMENT, 0x8)
+    attachment = one(made).attachments[0]
+    assert (attachment.initial, attachment.final, one(made).subpasses[0].colors[0].layout) == (GENERAL,) * 3
+    assert made.defaults == (
+        "the usages HOST_TRANSFER, ATTACHMENT_FEEDBACK_LOOP_EXT of c are ignored",
+        "the flag SPARSE_BINDING of c is ignored",
+    )
+
+
+@pytest.mark.parametrize("stages", [["FRAGMENT", "VERTEX"], ["VERTEX", "FRAGMENT"]])
+def test_fragment_shader_with_inputs_needs_a_vertex_shader_of_its_own(stages: list[str], tmp_path: Path) -> None:
+    """The vertex shader reads vertices that are not described, so that the built-in one draws; nothing writes the inputs."""
+    shaders = ROOT / "msaa_lint" / "experiments" / "confirm" / "shaders"
+    for stage in stages:
+        (tmp_path / f"{stage}.spv").write_bytes((shaders / f"scene.{stage[:4].lower()}.spv").read_bytes())
+    listed = ", ".join(f"{{stage: {stage}, module: {stage}.spv}}" for stage in stages)
+    made = planned(f"pipelines:\n  p: {{stages: [{listed}]}}\n", file=str(tmp_path / "frame.msaa.yaml"))
+    assert one(made).pipelines[0].stages == ()
+    assert "the fragment shader of p has inputs that the built-in vertex shader does not write: a built-in one is used" in made.defaults
