@@ -27,7 +27,8 @@ HEAVY = frozenset({
     "tree_sitter_c", "tree_sitter_cpp", "tree_sitter_glsl", "tree_sitter_swift", "typer", "unicodedata", "urllib", "vulkan", "xml",
     "msaa_lint.cli.app", "msaa_lint.frame.description.pydantic_models",
     "msaa_lint.frame.facts.metal", "msaa_lint.frame.metal", "msaa_lint.frame.spirv",
-    "msaa_lint.input.code", "msaa_lint.input.impeller", "msaa_lint.input.readers.metal",
+    "msaa_lint.input.code", "msaa_lint.input.compression", "msaa_lint.input.converters",
+    "msaa_lint.input.impeller", "msaa_lint.input.readers.metal",
     "msaa_lint.input.shader_modules", "msaa_lint.input.source_file", "msaa_lint.linter.settings.config_keys",
     "msaa_lint.linter.settings.toml_text", "msaa_lint.linter.suppress.baseline",
 })  # fmt: skip
@@ -141,6 +142,7 @@ ONLY_IN = {
     "orjson": {"input.captures.json_stream", "input.readers.fossilize_objects"},
     "vulkan": {"experiments.confirm.binding"},
     "tree_sitter": {"input.code"},
+    "backports": {"input.compression"},
     "matplotlib": {"cli.report"},
     "numpy": {"experiments.study"},
 }

@@ -37,6 +37,7 @@ renderdoc() { # NAME, arguments for forward
     shift
     renderdoccmd capture --wait-for-exit --working-dir . --capture-file "$name" --opt-ref-all-resources ./forward --frames 1 "$@"
     renderdoccmd convert --filename "${name}_capture.rdc" --output "$name.xml" --convert-format xml
+    cp "${name}_capture.rdc" "$to/$name.rdc"
     cp "$name.xml" "$to"
 }
 

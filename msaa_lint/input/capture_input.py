@@ -10,7 +10,8 @@ from msaa_lint.core.finding import CaptureLocation, Finding, Price
 from msaa_lint.core.text.source import Origin, Source
 from msaa_lint.core.text.span import Span
 
-from .captures.call import CaptureError
+from .capture_stream import CaptureStream
+from .captures.call import CaptureError, Place
 from .captures.description_text import describe_capture
 from .captures.tracker import Tracker
 
@@ -41,20 +42,29 @@ class CaptureInput(NamedTuple):
         return self.source.text
 
 
-def read_capture(stream: BinaryIO, format: str, name: str, path: str | None) -> CaptureInput:
+def read_capture(stream: BinaryIO, format: str, name: str, path: str | None, is_binary: bool = False) -> CaptureInput:
     """Reads a capture of a format (one of `readers.CAPTURES`) from a binary stream, in memory that does not grow with its length.
 
-    `name` is the capture's name in findings. `path` locates the files that belong to it; None for a stream. An invalid capture does not
-    raise.
+    `name` is the capture's name in findings. `path` locates the files that belong to it; None for a stream. The lines of the stream are not
+    those of the capture if it `is_binary`. An invalid capture does not raise.
     """
     module = import_module(f".readers.{format.replace('-', '_')}", __package__)
     tracker = Tracker()
     broken: CaptureError | None = None
+    place = Place(1, 1)
     try:
         for call in module.calls(stream, tracker.wanted, path):
             tracker.feed(call)
+            place = call.at
     except CaptureError as error:
         broken = error
+        place = error.place
+    failure = stream.failure if isinstance(stream, CaptureStream) else None
+    if failure is not None:
+        # The reader only saw that the text ended, perhaps between two calls.
+        broken = None if failure.is_limit else CaptureError(str(failure), place)
+        if failure.is_limit:
+            tracker.frames.limits[str(failure)] = place
     tracker.finish()
     text, origins, modules = describe_capture(tracker)
     notes = []
@@ -72,6 +82,8 @@ def read_capture(stream: BinaryIO, format: str, name: str, path: str | None) -> 
     if broken is not None:
         text += "# the capture is readable up to here\n"
         origins.append(Origin(*broken.place, ""))
+    if is_binary:
+        origins = [origin and origin._replace(line=None, column=None) for origin in origins]
     message = broken.message if broken is not None else ""
     return CaptureInput(format, Source(name, text, origins), modules, tracker.frames.total, message, tuple(limits), tuple(notes))
 

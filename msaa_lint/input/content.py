@@ -13,7 +13,7 @@ from msaa_lint.frame.description.bind import Binder
 from msaa_lint.frame.description.models import Command, Description
 from msaa_lint.frame.description.shapes import Shape
 
-from .file_types import HEAD_BYTES, INPUT, NEAR, OTHER
+from .file_types import BINARY, CAPTURES, HEAD_BYTES, INPUT, NEAR, OTHER, binary_capture, compression_of
 from .readers import capture_format
 from .readers.vulkan_sc import STATES
 
@@ -75,16 +75,24 @@ def is_own_output(path: str) -> bool:
 
 
 def kind_of(path: str) -> str:
-    """Whether a data file that was found in a folder is an input: INPUT, NEAR or OTHER.
+    """Whether a data file that was found in a folder is an input: INPUT, NEAR, BINARY or OTHER.
 
     Only what a Vulkan or Metal frame alone has makes an input: a capture of Vulkan calls, a Vulkan SC pipeline, or a description most of
     which fits the format and that states, say, a VkFormat at its place. Raises OSError if the file cannot be read.
     """
     with open_entry(path) as file:
         data = file.read(HEAD_BYTES)
+        if binary_capture(data) is not None:
+            return BINARY
+        compression = compression_of(data)
+        if compression is not None:
+            from .compression import decompressed
+
+            file.seek(0)
+            data = decompressed(file, compression).head()
         if capture_format(data) is not None:
             return INPUT if _VULKAN.search(data) else OTHER
-        if path.lower().endswith((".xml", ".jsonl", ".foz")) or own_output(data) is not None:
+        if path.lower().endswith((".xml", ".jsonl", ".foz", *CAPTURES)) or own_output(data) is not None:
             return OTHER
         kind = _kind_of_text(data)
         if kind == NEAR and len(data) == HEAD_BYTES:

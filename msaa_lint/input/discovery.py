@@ -14,7 +14,7 @@ from msaa_lint.core.globs import Glob, excluding
 from msaa_lint.core.project import is_inside, project_root, shown
 from msaa_lint.core.quote import quoted
 
-from .file_types import DATA, DESCRIPTIONS, INPUT, LANGUAGES, NEAR, OTHER, SOURCES, STDIN, missing_extra
+from .file_types import BINARY, CAPTURES, DATA, DESCRIPTIONS, INPUT, LANGUAGES, NEAR, OTHER, SOURCES, STDIN, missing_extra
 from .ignore_files import IgnoreFiles, above
 
 MAX_DEPTH = 64
@@ -82,6 +82,11 @@ def discover(
         walk.skip(name, "it looks a little like a description")
     if near:
         walk.notes.append(_nearly(near))
+    binary = sorted(walk.binary.keys() - walk.files.keys(), key=_by_folder)
+    for name in binary:
+        walk.skip(name, "a binary capture that is not named")
+    if binary:
+        walk.notes.append(_unconverted(binary))
     projects = {file: project for file, project in walk.files.items() if project is not None}
     return Discovered(sorted(walk.files, key=_by_folder), walk.findings, list(dict.fromkeys(walk.notes)), projects)
 
@@ -97,6 +102,12 @@ def _nearly(names: Sequence[str]) -> str:
         f"{len(names)} files look a little like descriptions and were skipped, the first one {names[0]}: "
         f"to lint them, name them or rename them to *{DESCRIPTIONS[0]}"
     )
+
+
+def _unconverted(names: Sequence[str]) -> str:
+    if len(names) == 1:
+        return f"{names[0]} is a binary capture and was skipped: name it to convert and lint it"
+    return f"{len(names)} binary captures were skipped, the first one {names[0]}: name them to convert and lint them"
 
 
 def _count(number: int, noun: str) -> str:
@@ -126,7 +137,8 @@ class _Search:
 
 
 class _Walk:
-    """The files found so far, with their projects (None for a named file). `near` has the files that are nearly inputs, in order."""
+    """The files found so far, with their projects (None for a named file). `near` has the files that are nearly inputs, and
+    `binary` the binary captures, in order."""
 
     def __init__(self, settings_for: Callable[[str], Scope], sources: bool, log: Callable[[str], None] | None) -> None:
         self.settings_for = settings_for
@@ -135,6 +147,7 @@ class _Walk:
         self.unreadable_sources = 0
         self.files: dict[str, str | None] = {}
         self.near: dict[str, None] = {}
+        self.binary: dict[str, None] = {}
         self.findings: list[Finding] = []
         self.notes: list[str] = []
 
@@ -204,7 +217,7 @@ class _Walk:
         """Whether a file may be an input, by its name."""
         if include:
             return excluding(path, include) is not None
-        return not name.startswith(".") and name.endswith((*DESCRIPTIONS, *DATA, *(SOURCES if self.sources else ())))
+        return not name.startswith(".") and name.endswith((*DESCRIPTIONS, *DATA, *CAPTURES, *(SOURCES if self.sources else ())))
 
     def _add_file(self, entry: os.DirEntry[str], path: str, include: Sequence[Glob], search: _Search) -> None:
         """Adds a candidate if it is an input."""
@@ -217,6 +230,8 @@ class _Walk:
             self.skip(path, "not an input")
         if kind == NEAR:
             self.near[shown(path)] = None
+        elif kind == BINARY:
+            self.binary[shown(path)] = None
         elif kind == INPUT and entry.is_symlink() and not (is_inside(path, search.project) and os.path.isfile(path)):
             self.notes.append(f"{shown(path)} is a link that is broken or leaves the project: name it to lint it")
         elif kind == INPUT and os.path.isfile(path):

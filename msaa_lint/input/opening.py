@@ -6,6 +6,7 @@ import io
 import os
 import re
 import sys
+from itertools import chain
 from typing import TYPE_CHECKING, BinaryIO
 
 from msaa_lint.core.diagnostics import diagnostic
@@ -15,7 +16,7 @@ from msaa_lint.core.text.node import Limits
 from msaa_lint.core.text.source import Unreadable
 
 from .content import own_output
-from .file_types import DATA, HEAD_BYTES, LANGUAGES, STDIN
+from .file_types import DATA, HEAD_BYTES, LANGUAGES, STDIN, BinaryCapture, Compression, binary_capture, compression_of
 from .readers import CAPTURES, FORMATS, capture_format
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from .source_file import SourceFile
 
 _WORDS = (b'"vkFunc"', b'"apiCalls"', b'"gfxrecon-version"', b"<rdc>")
-_COMPRESSED = ((b"\x1f\x8b", "gzip -d"), (b"\x28\xb5\x2f\xfd", "zstd -d"), (b"\xfd7zXZ\0", "xz -d"), (b"\x04\x22\x4d\x18", "lz4 -d"))
+_ARCHIVES = ((b"\x04\x22\x4d\x18", "lz4 -d"), (b"PK\x03\x04", "unzip"))
 
 
 class UnsupportedFormat(Unreadable):
@@ -67,27 +68,30 @@ def load(
     """
     if path == STDIN:
         stream: BinaryIO = sys.stdin.buffer if data is None else io.BytesIO(data)
-        return _load(stream, None, limits, name or "<stdin>", format, None)
+        return _load(stream, None, limits, name or "<stdin>", format, None, False)
     file, size = open_file(path, project)
     with file:
         # Other files belong to a file only: there is no folder beside a pipe.
-        return _load(file, size, limits, name or path, format, None if size is None else os.path.abspath(path))
+        return _load(file, size, limits, name or path, format, None if size is None else os.path.abspath(path), project is None)
 
 
 def _load(
-    stream: BinaryIO, size: int | None, limits: Limits, name: str, format: str | None, path: str | None
+    stream: BinaryIO, size: int | None, limits: Limits, name: str, format: str | None, path: str | None, is_named: bool
 ) -> bytes | CaptureInput | SourceFile:
     # Python allocates as much memory as it is asked to read, so a file is asked for no more than its size.
     head = stream.read(HEAD_BYTES if size is None else min(size, HEAD_BYTES) + 1)
+    compression = compression_of(head)
+    if compression is not None:
+        return _decompress(_from_beginning(head, stream, path), compression, name, format, path)
+    kind = binary_capture(head)
+    if kind is not None and format in (None, kind.format):
+        return _convert(kind, name, path, is_named)
     language = _language(name, head, format)
     capture = format if format in CAPTURES else None if format is not None or language is not None else capture_format(head)
     if capture is not None:
         from .capture_input import read_capture
 
-        if path is not None:
-            stream.seek(0)
-            return read_capture(stream, capture, name, path)
-        return read_capture(io.BufferedReader(_Rejoined(head, stream), HEAD_BYTES), capture, name, path)
+        return read_capture(_from_beginning(head, stream, path), capture, name, path)
     output = own_output(head) if format is None else None
     if output is not None:
         raise NotAnInput(output)
@@ -103,6 +107,50 @@ def _load(
     if too_large or len(data) > limits.bytes:
         raise Unreadable(f"the input is larger than the limit of {limits.bytes} bytes")
     return data if language is None else _source_file(data, name, language)
+
+
+def _from_beginning(head: bytes, stream: BinaryIO, path: str | None) -> BinaryIO:
+    """A stream whose head has been read, from its beginning. A file has a path."""
+    if path is not None:
+        stream.seek(0)
+        return stream
+    from .capture_stream import CaptureStream, pieces_of
+
+    return CaptureStream(chain((head,), pieces_of(stream, HEAD_BYTES)))
+
+
+def _decompress(stream: BinaryIO, compression: Compression, name: str, format: str | None, path: str | None) -> CaptureInput:
+    """Reads a compressed capture."""
+    from .capture_input import read_capture
+    from .compression import decompressed, without_ending
+
+    text = decompressed(stream, compression)
+    head = text.head()
+    capture = format if format in CAPTURES else None if format is not None else capture_format(head)
+    if capture is not None:
+        return read_capture(text, capture, name, path and without_ending(path))
+    kind = binary_capture(head)
+    reason = f" ({text.failure})" if text.failure is not None else ""
+    content = (
+        f"a compressed file that is not a capture{reason}; only captures may be compressed" if kind is None else f"{kind.name}, compressed"
+    )
+    raise UnsupportedFormat(f"{content}: decompress it with `{compression.command} FILE`")
+
+
+def _convert(kind: BinaryCapture, name: str, path: str | None, is_named: bool) -> CaptureInput:
+    """Reads a binary capture through the converter of its tool."""
+    if path is None:
+        raise UnsupportedFormat(f"{kind.name}, which cannot be read from a pipe: name the file, or convert it with {kind.command}")
+    if not is_named:
+        raise UnsupportedFormat(f"{kind.name}, which is only converted if it is named: name it, or convert it with {kind.command}")
+    from .capture_input import read_capture
+    from .converters import converted, is_installed
+
+    if not is_installed(kind):
+        where = f"install it ({kind.source}), or convert the capture elsewhere with {kind.command}"
+        raise UnsupportedFormat(f"{kind.name}, and {kind.program}, which reads it, is not installed: {where}")
+    with converted(kind, path) as capture:
+        return read_capture(capture.stream, kind.format, name, capture.path, is_binary=True)
 
 
 def _language(name: str, head: bytes, format: str | None) -> str | None:
@@ -132,13 +180,6 @@ def _source_file(data: bytes, name: str, language: str) -> SourceFile:
 
 def hint(head: bytes) -> str | None:
     """What an unsupported file is and how to convert it, from its first bytes; None for any other file."""
-    if head.startswith(b"GFXR"):
-        return (
-            "a binary gfxreconstruct capture: convert it with `gfxrecon-convert --format jsonl FILE.gfxr`, "
-            "or `gfxrecon-convert FILE.gfxr` for version 0.9"
-        )
-    if head.startswith(b"RDOC"):
-        return "a binary RenderDoc capture: convert it with `renderdoccmd convert -f FILE.rdc -o FILE.xml -c xml`"
     beginning = head[:4096].lower()
     if beginning.lstrip().startswith(b"<!doctype html") and b"<title>vulkan api dump" in beginning:
         return _dump("HTML")
@@ -146,7 +187,7 @@ def hint(head: bytes) -> str | None:
         return _dump("text")
     if re.match(rb"[=\s]*VULKANINFO\s", head):
         return "a device report of vulkaninfo: use it with `--profile FILE`, or name it as the `device` of a description"
-    for magic, command in _COMPRESSED:
+    for magic, command in _ARCHIVES:
         if head.startswith(magic):
             return f"a compressed file: decompress it with `{command} FILE`"
     if head.startswith((b"\xff\xfe", b"\xfe\xff")) and any(word in head.replace(b"\0", b"") for word in _WORDS):
@@ -156,25 +197,3 @@ def hint(head: bytes) -> str | None:
 
 def _dump(form: str) -> str:
     return f"api_dump output in {form} format: run the program again with VK_APIDUMP_OUTPUT_FORMAT=json in its environment"
-
-
-class _Rejoined(io.RawIOBase):
-    """A stream from its beginning, after its head has been read."""
-
-    def __init__(self, head: bytes, rest: BinaryIO) -> None:
-        self._head = memoryview(head)
-        self._rest = rest
-
-    def readable(self) -> bool:
-        return True
-
-    def readinto(self, buffer: object) -> int:
-        view = memoryview(buffer).cast("B")  # type: ignore[arg-type]
-        if self._head:
-            count = min(len(view), len(self._head))
-            view[:count] = self._head[:count]
-            self._head = self._head[count:]
-            return count
-        data = self._rest.read1(len(view)) if hasattr(self._rest, "read1") else self._rest.read(len(view))
-        view[: len(data)] = data
-        return len(data)

@@ -78,6 +78,7 @@ OTHERS = {
     "frames.json": '[{"frameNumber": 1, "apiCalls": [{"name": "glClear"}]}]',
     "d3d11.xml": '<?xml version="1.0"?>\n<rdc>\n<header><driver id="2">D3D11</driver></header><chunks><chunk name="Draw"/></chunks></rdc>',
     "mapping.xml": '<?xml version="1.0"?>\n<mapping images: commands: metal: PipelineState="x"><rdc>a</rdc></mapping>',
+    "named.xml": '<?xml version="1.0"?><rdc><driver>Vulkan</driver><row name="vkCreateImage">images:</row></rdc>',
     "rdc.xml": "<rdc><row>images:</row></rdc>",
     "line.jsonl": '{"images": {"c": {"format": "R8G8B8A8_UNORM"}}}\n{"images": {}}\n',
     "vulkaninfo.json": '{"device": {"VkPhysicalDeviceProperties": {"limits": {"framebufferColorSampleCounts": 15}}}, "profiles": {}}',

@@ -88,6 +88,14 @@ def test_two_tools_show_the_same(anew: Path) -> None:
     assert findings(anew / "forward.xml") == findings(anew / "forward.jsonl")
 
 
+@pytest.mark.parametrize(("name", "text"), [("forward.gfxr", "forward.jsonl"), ("forward.rdc", "forward.xml")])
+def test_a_binary_capture_has_the_findings_of_the_converted_one(anew: Path, name: str, text: str) -> None:
+    """Through the tools' converters, and with the code of its shaders, which neither text has."""
+    assert findings(anew / name) == findings(anew / text)
+    assert "shaders/" in run(anew, "convert", name).stdout
+    assert "shaders/" not in run(anew, "convert", text).stdout
+
+
 @pytest.mark.parametrize("name", ["forward-fixed.jsonl", "forward-fixed.xml"])
 def test_without_its_mistakes_nothing_is_found(anew: Path, name: str) -> None:
     assert not findings(anew / name)

@@ -28,6 +28,7 @@ HEAD = re.compile(
 )
 # The layer puts the frame range into the file name of a trimmed capture.
 TRIMMED = re.compile(r"_frames?_\d+(?:_through_\d+)?\b|_trim_trigger")
+CONVERTED_ENDING = re.compile(r"(?:\.gfxr)?(?:\.jsonl?)?\Z")
 START = re.compile(rb'\{\s*"index"\s*:\s*(\d{1,18})\s*,\s*"(vkFunc|function|meta|method)"\s*:\s*\{\s*"name"\s*:\s*"(\w{1,100})"')
 PREFIX = b'{"index":'
 LINE_START = re.compile(rb'\{"index":\d{1,18}(,"(vkFunc|function|meta|method)":\{"name":"(\w{2,100}))"')
@@ -44,6 +45,9 @@ CREDIT_PER_HIT = 2
 PAUSE = 16 * CREDIT
 MAX_FILE = 16 << 20
 """Maximum size of a shader file in bytes; larger ones are skipped."""
+
+MAX_CODE = 128 << 20
+"""Maximum total size of the shader files of a capture in bytes; the tracker keeps their contents in memory."""
 
 MAX_PATH = 4096
 
@@ -76,6 +80,12 @@ def _file_beside(capture: str | None, path: str) -> bytes | None:
         return read(os.path.join(folder, path.replace("\\", "/")), MAX_FILE, folder)
     except (OSError, Unreadable):
         return None
+
+
+def _extracted_shaders(capture: str | None, source: str) -> str:
+    """The name of the folder beside a capture with the shaders that gfxrecon-extract writes for a file `source`; empty if there is none."""
+    name = f"{source}.shaders"
+    return name if capture and source and os.path.isdir(os.path.join(os.path.dirname(capture), name)) else ""
 
 
 class LineStart:
@@ -135,6 +145,9 @@ class Reader:
         self.vulkan = False
         self.direct3d = False
         self.trimmed = False
+        self.code_budget = MAX_CODE
+        self.extracted = _extracted_shaders(name, CONVERTED_ENDING.sub(".gfxr", os.path.basename(name or ""), count=1))
+        """The folder of the shaders that gfxrecon-extract wrote, by its name beside the capture; empty without any."""
         self.starts: dict[bytes, LineStart] = {}
         """By the text from the end of the index to the end of the name."""
 
@@ -184,6 +197,8 @@ class Reader:
             raise CaptureError("invalid call: `args` must be an object", place)
         if name.startswith("vkCreate"):
             self._read_shaders(args)
+            if name == "vkCreateShaderModule" and self.extracted:
+                self._read_extracted_shader(args)
             if kind == "vkFunc" and name == "vkCreateGraphicsPipelines":
                 _drop_null_sample_masks(args)
         result = body.get("return")
@@ -194,6 +209,8 @@ class Reader:
         if isinstance(frame, dict) and frame.get("marker_type") == "EndMarker":
             return Mark("frame", place)
         path = header.get("source-path") if isinstance(header, dict) else None
+        if isinstance(path, str):
+            self.extracted = self.extracted or _extracted_shaders(self.file, re.split(r"[/\\]", path)[-1])
         begins = isinstance(state, dict) and state.get("marker_type") == "BeginMarker"
         if self.trimmed or not (begins or (isinstance(path, str) and TRIMMED.search(path))):
             return None
@@ -206,9 +223,25 @@ class Reader:
             for structure in (info, *items(record(info).get("pStages"))):
                 for holder in (holder for holder in chain(structure) if "pCode" in holder):
                     path = holder.pop("pCode")
-                    code = _file_beside(self.file, path) if isinstance(path, str) and not path.startswith(("[", "0x")) else None
+                    code = self._code(path) if isinstance(path, str) and not path.startswith(("[", "0x")) else None
                     if code is not None:
                         holder["pCode"] = code
+
+    def _read_extracted_shader(self, args: dict[str, Any]) -> None:
+        """Adds the code that gfxrecon-extract wrote to a shader module without any."""
+        info, handle = args.get("pCreateInfo"), args.get("pShaderModule")
+        if isinstance(info, dict) and "pCode" not in info and type(handle) is int:
+            code = self._code(f"{self.extracted}/sh{handle}")
+            if code is not None:
+                info["pCode"] = code
+
+    def _code(self, path: str) -> bytes | None:
+        """The contents of a shader file, at a path relative to the capture."""
+        code = _file_beside(self.file, path)
+        if code is None or len(code) > self.code_budget:
+            return None
+        self.code_budget -= len(code)
+        return code
 
 
 def _drop_null_sample_masks(args: dict[str, Any]) -> None:

@@ -31,6 +31,7 @@ MAX_NAMES = 20_000
 
 MAX_DEPTH = 100
 
+_HEAD = re.compile(rb"\s*+(?:<\?xml[^>]{0,200}\?>\s*+)?<rdc>\s*+(?:<header\b|\Z)")
 # References to control characters, which XML 1.0 forbids; two digits each.
 _CONTROL = re.compile(rb"&#(?:0[0-8]|1[124-9]|2\d|3[01]);")
 _PARTIAL_REFERENCE = re.compile(rb"&(?:#(?:\d\d?)?)?\Z")
@@ -38,8 +39,7 @@ _PARTIAL_REFERENCE = re.compile(rb"&(?:#(?:\d\d?)?)?\Z")
 
 def claims(head: bytes) -> bool:
     """Whether a file that starts with `head` is RenderDoc's XML."""
-    start = head[:4096].removeprefix(b"\xef\xbb\xbf").lstrip()
-    return start.startswith(b"<rdc") or (start.startswith(b"<?xml") and b"<rdc>" in start)
+    return _HEAD.match(head.removeprefix(b"\xef\xbb\xbf")) is not None
 
 
 def calls(stream: BinaryIO, wanted: frozenset[str], name: str | None) -> Iterator[Call | Mark]:

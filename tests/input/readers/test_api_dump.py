@@ -294,13 +294,11 @@ class TestSamples:
 
 
 @pytest.mark.parametrize(("head", "says"), [
-    (b"GFXR\0\0\0\0\0\0\0\0\1\0\0\0", "gfxrecon-convert --format jsonl"),
-    (b"RDOC\0\0\0\0\2\1\0\0L\0\0\x001.24", "renderdoccmd convert -f FILE.rdc -o FILE.xml -c xml"),
     (b"<!doctype html><html><head><title>Vulkan API Dump</title>", "VK_APIDUMP_OUTPUT_FORMAT=json"),
     (b"Thread 0, Frame 0:\nvkCreateInstance(pCreateInfo, pAllocator, pInstance) returns VkResult", "VK_APIDUMP_OUTPUT_FORMAT=json"),
     (b"vkCreateInstance(pCreateInfo, pAllocator, pInstance) returns VkResult VK_SUCCESS (0):\n", "VK_APIDUMP_OUTPUT_FORMAT=json"),
-    (b"\x1f\x8b\x08\0", "gzip -d"),
-    (b"\x28\xb5\x2f\xfd", "zstd -d"),
+    (b"\x04\x22\x4d\x18", "lz4 -d"),
+    (b"PK\x03\x04", "unzip"),
     ('[{"frameNumber": "0", "apiCalls": []}]'.encode("utf-16"), "UTF-16"),
 ])  # fmt: skip
 def test_hints(head: bytes, says: str) -> None:
