@@ -6,6 +6,7 @@ tests/integration/test_capture_example.py runs the tools themselves.
 from __future__ import annotations
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -109,7 +110,7 @@ def test_the_places_are_calls(folder: Path, bin: Path) -> None:
     install(bin, gfxrecon_convert=OLD)
     done = run(folder, "check", "--isolated", "--output", "full", "game.gfxr", PATH=str(bin))
     assert "  --> game.gfxr: renderPasses.opaque.attachments[1]\n" in done.stdout
-    assert "from: vkCreateRenderPass, call 98; in 4 of 4 frames" in done.stdout
+    assert re.search(r"from: vkCreateRenderPass, call \d+; in 4 of 4 frames", done.stdout)
 
 
 def test_renderdoc_converts(folder: Path, bin: Path) -> None:
@@ -242,7 +243,7 @@ def test_an_interrupt_leaves_neither_a_process_nor_a_folder(folder: Path, bin: P
     assert list(scratch.iterdir())
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=30)
-    assert b"Traceback" not in errors
+    assert b"Traceback" not in errors and process.returncode == 130
     assert list(scratch.iterdir()) == []
     with pytest.raises(ProcessLookupError):
         os.kill(int(noted.read_text()), 0)
