@@ -231,7 +231,8 @@ def test_a_pipe_is_not_converted(folder: Path, bin: Path) -> None:
 
 def test_an_interrupt_leaves_neither_a_process_nor_a_folder(folder: Path, bin: Path) -> None:
     noted = folder.parent / "pid"
-    install(bin, gfxrecon_convert=f"test \"$1\" = --help && exit\necho $$ > '{noted}'; head -n 500 '{FORWARD}'; sleep 100")
+    # More than a pipe holds, so the process is noted while it is read.
+    install(bin, gfxrecon_convert=f"test \"$1\" = --help && exit\nhead -n 500 '{FORWARD}'; echo $$ > '{noted}'; sleep 100")
     scratch = folder.parent / "scratch"
     scratch.mkdir()
     environment = environment_of({"PATH": str(bin), "TMPDIR": str(scratch)})
